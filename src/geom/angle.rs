@@ -1,0 +1,18 @@
+//! Angles on the circle.
+
+use std::f64::consts::{PI, TAU};
+
+/// The representative of `angle` in (−π, π], radians.
+///
+/// Exact for |angle| ≤ π; beyond that the remainder is taken against the double nearest to 2π, so that the result
+/// is off by about 1.2e-16 · |angle|. NaN and infinities give NaN.
+pub fn wrap_angle(angle: f64) -> f64 {
+    let turned = angle % TAU;
+    if turned > PI {
+        turned - TAU
+    } else if turned <= -PI {
+        turned + TAU
+    } else {
+        turned
+    }
+}

@@ -1,0 +1,5 @@
+//! Plane geometry: angles, poses and their group, circular arcs. No robotics and no randomness.
+
+pub mod angle;
+pub mod arc;
+pub mod se2;

@@ -1,0 +1,196 @@
+//! The odometry motion model: Tables 5.5 and 5.6.
+
+use super::MotionModel;
+use crate::geom::se2::{SE2, wrap_angle};
+use crate::noise::{NoiseKind, Variance, centred_uniform, wrapped_prob};
+use nalgebra::{Matrix3, Vector3};
+use rand::Rng;
+use std::f64::consts::PI;
+
+/// A relative odometry reading as rotate, drive, rotate: `rot1` and `rot2` in (−π, π] rad, `trans` ≥ 0 in m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OdomDelta {
+    pub rot1: f64,
+    pub trans: f64,
+    pub rot2: f64,
+}
+
+/// Below this displacement (m) a reading is a spin on the spot: the direction of travel would be read off the rounding
+/// of two coordinates. No encoder resolves a nanometre; a larger bound would call slow creeping a spin.
+const SPIN_BELOW: f64 = 1e-9;
+
+impl OdomDelta {
+    /// The decomposition of the motion between two poses of the odometry frame (Table 5.5, lines 2–4). A spin on the
+    /// spot is charged to `rot2` alone.
+    pub fn from_poses(prev: &SE2, curr: &SE2) -> Self {
+        let (dx, dy) = (curr.x() - prev.x(), curr.y() - prev.y());
+        let trans = libm::hypot(dx, dy);
+        let turn = curr.theta() - prev.theta();
+        if trans < SPIN_BELOW {
+            return Self { rot1: 0.0, trans: 0.0, rot2: wrap_angle(turn) };
+        }
+        let rot1 = wrap_angle(libm::atan2(dy, dx) - prev.theta());
+        Self { rot1, trans, rot2: wrap_angle(turn - rot1) }
+    }
+
+    /// The pose reached from `x` by exactly this motion.
+    pub fn apply(&self, x: &SE2) -> SE2 {
+        let (sin, cos) = libm::sincos(self.rot1);
+        *x * SE2::new(self.trans * cos, self.trans * sin, self.rot1 + self.rot2)
+    }
+}
+
+/// α₁…α₄: each rotation δ has the variance α₁δ² + α₂δ_trans², the translation α₃δ_trans² + α₄(δ_rot1² + δ_rot2²).
+/// Each is 0 or more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OdomAlphas(pub [f64; 4]);
+
+/// The three legs of the reading, each with independent noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OdometryModel {
+    pub alphas: OdomAlphas,
+    pub noise: NoiseKind,
+}
+
+/// The size of a rotation for which noise is charged.
+type Charge = fn(f64) -> f64;
+
+impl OdometryModel {
+    /// The variances of the three legs of `delta` (rad², m², rad²).
+    pub fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+        self.charged_variances(delta, f64::abs)
+    }
+
+    fn charged_variances(&self, delta: &OdomDelta, charge: Charge) -> [Variance; 3] {
+        let [a1, a2, a3, a4] = self.alphas.0;
+        let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| charge(rotation) * charge(rotation));
+        let trans_sq = delta.trans * delta.trans;
+        [
+            Variance(a1 * rot1_sq + a2 * trans_sq),
+            Variance(a3 * trans_sq + a4 * (rot1_sq + rot2_sq)),
+            Variance(a1 * rot2_sq + a2 * trans_sq),
+        ]
+    }
+
+    /// The pose reached from `x` when the noises of the three legs take the values `unit_noise` times their standard
+    /// deviations: Table 5.6 after its three draws. As in the table, noise is subtracted.
+    pub fn apply_noise(&self, u: &OdomDelta, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
+        apply_noise(u, x, self.variances(u), unit_noise)
+    }
+
+    /// The covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the frame
+    /// of `x` (m², m·rad, rad²).
+    pub fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
+        let (sin, cos) = libm::sincos(x.theta() + u.rot1);
+        let jacobian = Matrix3::new(
+            -u.trans * sin,
+            cos,
+            0.0, //
+            u.trans * cos,
+            sin,
+            0.0, //
+            1.0,
+            0.0,
+            1.0,
+        );
+        let legs = self.variances(u).map(|variance| variance.0);
+        jacobian * Matrix3::from_diagonal(&Vector3::from(legs)) * jacobian.transpose()
+    }
+
+    /// Table 5.5, its variances taken from the hypothesis as the table has it.
+    fn charged_prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2, charge: Charge) -> f64 {
+        let hat = OdomDelta::from_poses(x, x_next);
+        let [rot1_variance, trans_variance, rot2_variance] = self.charged_variances(&hat, charge);
+        self.noise.prob(wrap_angle(u.rot1 - hat.rot1), rot1_variance)
+            * self.noise.prob(u.trans - hat.trans, trans_variance)
+            * self.noise.prob(wrap_angle(u.rot2 - hat.rot2), rot2_variance)
+    }
+
+    /// The map from legs to poses has the determinant δ̂_trans. Noise may turn the translation negative, so that two
+    /// combinations lead to a pose: facing it and driving forward, facing away and driving in reverse.
+    fn charged_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2, charge: Charge) -> Option<f64> {
+        let variances = self.charged_variances(u, charge);
+        if variances.iter().any(|variance| variance.0 == 0.0) {
+            return None;
+        }
+        let [rot1_variance, trans_variance, rot2_variance] = variances;
+        let step = x.inverse() * *x_next;
+        let distance = libm::hypot(step.x(), step.y());
+        let bearing = libm::atan2(step.y(), step.x());
+        let legs: f64 = [(bearing, distance), (bearing + PI, -distance)]
+            .into_iter()
+            .map(|(rot1, trans)| {
+                wrapped_prob(self.noise, rot1 - u.rot1, rot1_variance)
+                    * self.noise.prob(trans - u.trans, trans_variance)
+                    * wrapped_prob(self.noise, step.theta() - rot1 - u.rot2, rot2_variance)
+            })
+            .sum();
+        Some(if legs > 0.0 { legs / distance } else { 0.0 })
+    }
+}
+
+fn apply_noise(u: &OdomDelta, x: &SE2, variances: [Variance; 3], unit_noise: [f64; 3]) -> SE2 {
+    let [rot1, trans, rot2] = variances.map(|variance| variance.0.sqrt());
+    OdomDelta {
+        rot1: u.rot1 - rot1 * unit_noise[0],
+        trans: u.trans - trans * unit_noise[1],
+        rot2: u.rot2 - rot2 * unit_noise[2],
+    }
+    .apply(x)
+}
+
+fn sample<R: Rng + ?Sized>(
+    noise: NoiseKind,
+    u: &OdomDelta,
+    x: &SE2,
+    variances: [Variance; 3],
+    rng: &mut R,
+) -> SE2 {
+    apply_noise(u, x, variances, std::array::from_fn(|_| noise.quantile(centred_uniform(rng))))
+}
+
+impl MotionModel for OdometryModel {
+    /// Built by [`OdomDelta::from_poses`] from two poses of the odometry frame, never of the map's.
+    type Control = OdomDelta;
+
+    fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
+        self.charged_prob(x_next, u, x, f64::abs)
+    }
+
+    fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
+        self.charged_density(x_next, u, x, f64::abs)
+    }
+
+    fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
+        sample(self.noise, u, x, self.variances(u), rng)
+    }
+}
+
+/// The odometry model for robots that reverse: noise is charged for min(|δ|, |π − |δ||) of each rotation.
+///
+/// A robot that backs up decomposes into rot1 ≈ π, drive, rot2 ≈ −π; the tables charge it for two half turns that it
+/// never made. Deployed localizers charge the smaller angle, and so does this.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReverseAware(pub OdometryModel);
+
+/// The turn that a leg took if the robot may have driven it backwards.
+fn turn_either_way(rotation: f64) -> f64 {
+    let turn = rotation.abs();
+    turn.min((PI - turn).abs())
+}
+
+impl MotionModel for ReverseAware {
+    type Control = OdomDelta;
+
+    fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
+        self.0.charged_prob(x_next, u, x, turn_either_way)
+    }
+
+    fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
+        self.0.charged_density(x_next, u, x, turn_either_way)
+    }
+
+    fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
+        sample(self.0.noise, u, x, self.0.charged_variances(u, turn_either_way), rng)
+    }
+}

@@ -1,0 +1,218 @@
+//! Gaussian noise in exponential coordinates, and how it grows along a path.
+
+use super::{VelocityCmd, VelocityModel};
+use crate::geom::arc::{invert_arc, sinc};
+use crate::geom::se2::SE2;
+use crate::noise::{NoiseKind, Variance};
+use nalgebra::{Matrix3, Vector3};
+use rand::Rng;
+use std::f64::consts::PI;
+use std::fmt;
+
+/// x_t = x_{t−1} ⊞ (τ + w), w ~ N(0, R), then, where the model came from [`TangentNoiseModel::from_velocity`], a turn
+/// on the spot by N(0, Δt²(α₅v² + α₆ω²)).
+///
+/// R is 3 × 3 in the order (along, lateral, heading), m², m·rad, rad², in the body frame of x_{t−1} (right
+/// perturbation). It may be singular: a wheelset has no lateral noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentNoiseModel {
+    pub r: Matrix3<f64>,
+    /// Variance (rad²) of the turn after the arc.
+    last_turn: f64,
+    /// L with L·Lᵀ = R.
+    root: Matrix3<f64>,
+}
+
+/// How the covariance of x_k ⊟ x̄_k is carried over one more step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compounding {
+    /// The chapter's recursion A·Σ·Aᵀ + R, A = Ad(exp(τ)⁻¹): takes exp(τ + w) for exp(τ)·exp(w).
+    Chapter,
+    /// A·Σ·Aᵀ + J_r(τ)·R·J_r(τ)ᵀ: right to first order in w.
+    FirstOrder,
+    /// [`Compounding::FirstOrder`] and the fourth-order terms of Barfoot and Furgale (2014), eq. 55.
+    FourthOrder,
+}
+
+/// Why a matrix is no covariance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentNoiseError {
+    /// An entry is NaN or infinite.
+    NotFinite,
+    /// It differs from its transpose by more than rounding.
+    NotSymmetric,
+    /// Some direction would have a negative variance.
+    NotPositiveSemidefinite,
+}
+
+impl fmt::Display for TangentNoiseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotFinite => "R has an entry that is not finite; a covariance is needed",
+            Self::NotSymmetric => "R differs from its transpose; a covariance is symmetric",
+            Self::NotPositiveSemidefinite => {
+                "R has a negative variance in some direction; a covariance has none"
+            }
+        })
+    }
+}
+
+impl std::error::Error for TangentNoiseError {}
+
+/// How far from symmetric or semidefinite R may be, relative to its largest entry: what sums and products of doubles
+/// leave. A smaller bound would refuse computed covariances, a larger one would let mistakes pass.
+const ROUNDING: f64 = 1e-12;
+
+/// What [`TangentNoiseModel::log_prob`] adds to the diagonal of R, in m² and rad², so that an R without lateral noise
+/// has a density to speak of: a lateral standard deviation of a micrometre. More would blur what a robot can measure,
+/// less would leave nothing of a residual that is rounded.
+const PADDING: f64 = 1e-12;
+
+impl TangentNoiseModel {
+    /// The model with all of its noise inside the arc.
+    ///
+    /// # Errors
+    /// [`TangentNoiseError`] where `r` is not a covariance.
+    pub fn new(r: Matrix3<f64>) -> Result<Self, TangentNoiseError> {
+        Self::with_last_turn(r, 0.0)
+    }
+
+    /// The velocity model under one command, its γ̂ kept apart: R = R_u, and a turn of variance Δt²(α₅v² + α₆ω²) after
+    /// the arc. The noise is Gaussian whatever the velocity model's kind: only the variances are taken.
+    ///
+    /// # Errors
+    /// [`TangentNoiseError`] where α's or command make a variance negative or not finite.
+    pub fn from_velocity(model: &VelocityModel, u: &VelocityCmd) -> Result<Self, TangentNoiseError> {
+        let [along, turn, last] = model.variances(u).map(|variance| u.dt * u.dt * variance.0);
+        Self::with_last_turn(Matrix3::from_diagonal(&Vector3::new(along, 0.0, turn)), last)
+    }
+
+    fn with_last_turn(r: Matrix3<f64>, last_turn: f64) -> Result<Self, TangentNoiseError> {
+        if !last_turn.is_finite() {
+            return Err(TangentNoiseError::NotFinite);
+        }
+        if last_turn < 0.0 {
+            return Err(TangentNoiseError::NotPositiveSemidefinite);
+        }
+        Ok(Self { r, last_turn, root: covariance_root(&r)? })
+    }
+
+    /// τ = (vΔt, 0, ωΔt), whose exponential is the arc of the command.
+    pub fn twist(u: &VelocityCmd) -> Vector3<f64> {
+        Vector3::new(u.v * u.dt, 0.0, u.omega * u.dt)
+    }
+
+    /// One draw of x_t.
+    pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
+        let w = self.root * Vector3::from_fn(|_, _| NoiseKind::Normal.sample(Variance(1.0), rng));
+        let last_turn = NoiseKind::Normal.sample(Variance(self.last_turn), rng);
+        x.boxplus(Self::twist(u) + w) * SE2::new(0.0, 0.0, last_turn)
+    }
+
+    /// The logarithm of the density of ξ = x_t ⊟ x_{t−1}, over dξ in the order (along, lateral, heading).
+    ///
+    /// All noise inside the arc: log N(ξ; τ, R + 10⁻¹²·I). Times sinc⁻²(ξ_ω/2) it would be a density over dx dy dθ.
+    /// With a turn after the arc: that of the noises (v̂Δt, ω̂Δt, γ̂Δt) which lead to x_t by the arc of at most half a
+    /// turn, times sinc²(ξ_ω/2) over the determinant v̂Δt·sinc²(ω̂Δt/2)/2 of the map from noises to (x, y, θ).
+    pub fn log_prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
+        if self.last_turn == 0.0 {
+            let padded = self.r + Matrix3::identity() * PADDING;
+            return log_normal(&(x_next.boxminus(x) - Self::twist(u)), &padded);
+        }
+        let executed = invert_arc(x, x_next, u.dt);
+        let (length, turn) = (executed.v_hat * u.dt, executed.omega_hat * u.dt);
+        let residual = Vector3::new(length - u.v * u.dt, turn - u.omega * u.dt, executed.gamma_hat * u.dt);
+        let variances = Vector3::new(self.r[(0, 0)] + PADDING, self.r[(2, 2)] + PADDING, self.last_turn);
+        let chart = sinc(0.5 * (x.inverse() * *x_next).theta());
+        let arc = sinc(0.5 * turn);
+        log_normal(&residual, &Matrix3::from_diagonal(&variances))
+            + libm::log(2.0 * chart * chart / (length.abs() * arc * arc))
+    }
+
+    /// Σ_k from Σ_{k−1} by the chapter's recursion: `propagate` with [`Compounding::Chapter`].
+    pub fn compound(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>) -> Matrix3<f64> {
+        self.propagate(sigma, tau, Compounding::Chapter)
+    }
+
+    /// The covariance of x_k ⊟ x̄_k after a step by the twist `tau`, given `sigma`, that of x_{k−1} ⊟ x̄_{k−1}; both
+    /// 3 × 3 in the body frame of their pose. The turn after the arc adds to the heading alone, unturned by J_r: it
+    /// happens where the arc ends.
+    pub fn propagate(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>, order: Compounding) -> Matrix3<f64> {
+        let back = SE2::exp(tau).inverse().adjoint();
+        let carried = back * sigma * back.transpose();
+        let last_turn = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, self.last_turn));
+        if order == Compounding::Chapter {
+            return carried + self.r + last_turn;
+        }
+        let jacobian = SE2::right_jacobian(tau);
+        let added = jacobian * self.r * jacobian.transpose() + last_turn;
+        let first_order = carried + added;
+        match order {
+            Compounding::FourthOrder => first_order + fourth_order(&carried, &added),
+            _ => first_order,
+        }
+    }
+}
+
+/// The fourth-order part of the covariance of log(exp(a)·exp(b)), a and b independent with covariances `a` and `b`:
+/// (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
+fn fourth_order(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
+    let twice = |cov| expectation(cov, |left, right| left * right);
+    let one_sided = twice(a) * b + twice(b) * a;
+    let two_sided = expectation(a, |left, right| left * b * right.transpose());
+    (one_sided + one_sided.transpose()) / 12.0 + two_sided / 4.0
+}
+
+/// E[f(ad(ξ), ad(ξ))] for a bilinear f and ξ of covariance `cov`: ad is linear, so it is a sum over the basis twists.
+fn expectation(cov: &Matrix3<f64>, f: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>) -> Matrix3<f64> {
+    let generators = [Vector3::x(), Vector3::y(), Vector3::z()].map(|basis| small_adjoint(&basis));
+    let mut sum = Matrix3::zeros();
+    for (i, left) in generators.iter().enumerate() {
+        for (j, right) in generators.iter().enumerate() {
+            sum += f(left, right) * cov[(i, j)];
+        }
+    }
+    sum
+}
+
+/// ad(ξ), 3 × 3: ad(ξ)·ζ = [ξ, ζ].
+fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
+    Matrix3::new(0.0, -twist.z, twist.y, twist.z, 0.0, -twist.x, 0.0, 0.0, 0.0)
+}
+
+/// log N(residual; 0, cov) for a positive definite `cov`; −∞ where rounding left it none.
+fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
+    let Some(cholesky) = cov.cholesky() else { return f64::NEG_INFINITY };
+    let root = cholesky.l_dirty();
+    let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(root[(i, i)])).sum();
+    -0.5 * (residual.dot(&cholesky.solve(residual)) + log_det + 3.0 * libm::log(2.0 * PI))
+}
+
+/// A lower triangular L with L·Lᵀ = cov, zero columns where the covariance has no extent.
+fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
+    if cov.iter().any(|entry| !entry.is_finite()) {
+        return Err(TangentNoiseError::NotFinite);
+    }
+    if (cov - cov.transpose()).amax() > ROUNDING * cov.amax() {
+        return Err(TangentNoiseError::NotSymmetric);
+    }
+    let mut root = Matrix3::zeros();
+    for j in 0..3 {
+        let left_over =
+            |row: usize| cov[(row, j)] - (0..j).map(|k| root[(row, k)] * root[(j, k)]).sum::<f64>();
+        let column = [left_over(0), left_over(1), left_over(2)];
+        let (pivot, rounding) = (column[j], ROUNDING * cov[(j, j)].abs());
+        if pivot > rounding {
+            for row in j..3 {
+                root[(row, j)] = column[row] / pivot.sqrt();
+            }
+            continue;
+        }
+        // A coordinate with no variance left can have no covariance left: |c_ij| ≤ √(c_ii · c_jj).
+        let shares_none = |row: usize| column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
+        if pivot < -rounding || !(j + 1..3).all(shares_none) {
+            return Err(TangentNoiseError::NotPositiveSemidefinite);
+        }
+    }
+    Ok(root)
+}

@@ -1,0 +1,132 @@
+//! The velocity motion model: Tables 5.1 and 5.3.
+
+use super::{MotionModel, TangentNoiseModel};
+use crate::geom::arc::{chord, invert_arc};
+use crate::geom::se2::SE2;
+use crate::noise::{NoiseKind, Variance, centred_uniform, wrapped_prob};
+use nalgebra::{Matrix3, Vector3};
+use rand::Rng;
+use std::f64::consts::TAU;
+
+/// A velocity command: `v` (m/s) and `omega` (rad/s, counter-clockwise) held for `dt` (s, positive).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityCmd {
+    pub v: f64,
+    pub omega: f64,
+    pub dt: f64,
+}
+
+/// α₁…α₆: the variances of v̂, ω̂ and γ̂ are α₁v² + α₂ω², α₃v² + α₄ω² and α₅v² + α₆ω². Each is 0 or more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityAlphas(pub [f64; 6]);
+
+/// The robot executes (v̂, ω̂) instead of (v, ω) along an exact arc, then turns on the spot by γ̂Δt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityModel {
+    pub alphas: VelocityAlphas,
+    pub noise: NoiseKind,
+}
+
+/// Windings summed by [`VelocityModel::pose_density`] at most, either way: noise that could turn the robot more than
+/// 64 times in one step says nothing about where it is, and more would only cost time.
+const MOST_WINDINGS: f64 = 64.0;
+
+impl VelocityModel {
+    /// The variances of v̂ (m²/s²), ω̂ and γ̂ (rad²/s²) under the command.
+    pub fn variances(&self, u: &VelocityCmd) -> [Variance; 3] {
+        let [a1, a2, a3, a4, a5, a6] = self.alphas.0;
+        let (v2, omega2) = (u.v * u.v, u.omega * u.omega);
+        [Variance(a1 * v2 + a2 * omega2), Variance(a3 * v2 + a4 * omega2), Variance(a5 * v2 + a6 * omega2)]
+    }
+
+    /// The pose reached from `x` when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
+    /// deviations: Table 5.3 after its three draws. The same unit noise under another command or other α's is the
+    /// same robot with the same luck.
+    pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
+        let [v_noise, omega_noise, gamma_noise] = self.variances(u).map(|variance| variance.0.sqrt());
+        let v_hat = u.v + v_noise * unit_noise[0];
+        let omega_hat = u.omega + omega_noise * unit_noise[1];
+        let gamma_hat = gamma_noise * unit_noise[2];
+        let (forward, left) = chord(v_hat * u.dt, omega_hat * u.dt);
+        *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
+    }
+
+    /// The covariance of (x, y, θ) that an EKF carries: the arc linearized in (v̂, ω̂, γ̂) at the command, 3 × 3, in
+    /// the frame of `x` (m², m·rad, rad²). Independent of the shape of the noise.
+    ///
+    /// With R the rotation to the final heading, R·(J_r R_u J_rᵀ + diag(0, 0, Δt²(α₅v² + α₆ω²)))·Rᵀ.
+    pub fn cartesian_cov(&self, u: &VelocityCmd, x: &SE2) -> Matrix3<f64> {
+        let [along, turn, last] = self.variances(u).map(|variance| u.dt * u.dt * variance.0);
+        let twist = TangentNoiseModel::twist(u);
+        let jacobian = SE2::right_jacobian(&twist);
+        let arc = jacobian * Matrix3::from_diagonal(&Vector3::new(along, 0.0, turn)) * jacobian.transpose();
+        let body = arc + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last));
+        let rotation = SE2::new(0.0, 0.0, x.theta() + twist.z).adjoint();
+        rotation * body * rotation.transpose()
+    }
+}
+
+impl MotionModel for VelocityModel {
+    type Control = VelocityCmd;
+
+    fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
+        let executed = invert_arc(x, x_next, u.dt);
+        let [v_variance, omega_variance, gamma_variance] = self.variances(u);
+        self.noise.prob(u.v - executed.v_hat, v_variance)
+            * self.noise.prob(u.omega - executed.omega_hat, omega_variance)
+            * self.noise.prob(executed.gamma_hat, gamma_variance)
+    }
+
+    /// With d the distance and φ the turn of the arc, the map (v̂, ω̂, γ̂) → (x, y, θ) has the determinant
+    /// d · sinc(φ/2) · Δt³/2. The circle through both positions can be driven by φ + 2πk for every whole k.
+    fn pose_density(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> Option<f64> {
+        let variances = self.variances(u);
+        if variances.iter().any(|variance| variance.0 == 0.0) {
+            return None;
+        }
+        let [v_variance, omega_variance, gamma_variance] = variances;
+        let executed = invert_arc(x, x_next, u.dt);
+        let step = x.inverse() * *x_next;
+        let distance = libm::hypot(step.x(), step.y());
+        let shortest_turn = executed.omega_hat * u.dt;
+        if distance == 0.0 {
+            return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
+        }
+        // On one circle the length driven is proportional to the turn; a straight line closes no circle.
+        let one_way = |windings: f64| {
+            let (v_hat, turn) = if windings == 0.0 {
+                (executed.v_hat, shortest_turn)
+            } else if executed.omega_hat == 0.0 {
+                return 0.0;
+            } else {
+                let turn = shortest_turn + TAU * windings;
+                (executed.v_hat * (turn / shortest_turn), turn)
+            };
+            // |sinc(φ/2)| = d/|v̂Δt|, which leaves d²Δt/(2|v̂|) of the determinant beside γ̂'s Δt.
+            2.0 * v_hat.abs() / (distance * distance * u.dt)
+                * self.noise.prob(v_hat - u.v, v_variance)
+                * self.noise.prob(turn / u.dt - u.omega, omega_variance)
+        };
+        // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
+        let nearest = ((u.omega * u.dt - shortest_turn) / TAU).round();
+        let reach = (9.0 * omega_variance.0.sqrt() * u.dt / TAU).ceil().min(MOST_WINDINGS) as i32;
+        let arcs: f64 = (-reach..=reach).map(|k| one_way(nearest + f64::from(k))).sum();
+
+        let last_turn = step.theta() - shortest_turn;
+        let dt2 = u.dt * u.dt;
+        Some(arcs * wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0)))
+    }
+
+    fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
+        let unit_noise = std::array::from_fn(|_| self.noise.quantile(centred_uniform(rng)));
+        self.apply_noise(u, x, unit_noise)
+    }
+
+    /// R_u = Δt² · diag(α₁v² + α₂ω², 0, α₃v² + α₄ω²): a wheelset that rolls without slip has no lateral noise. γ̂ is
+    /// not part of it, because it turns the robot after the arc; see [`TangentNoiseModel::from_velocity`].
+    fn tangent_cov(&self, u: &VelocityCmd) -> Option<Matrix3<f64>> {
+        let [v_variance, omega_variance, _] = self.variances(u);
+        let dt2 = u.dt * u.dt;
+        Some(Matrix3::from_diagonal(&Vector3::new(dt2 * v_variance.0, 0.0, dt2 * omega_variance.0)))
+    }
+}

@@ -1,0 +1,130 @@
+//! The two zero-mean noises of the chapter: `sample(b²)` and `prob(a, b²)` of Tables 5.2 and 5.4.
+//!
+//! Both take a variance. Both kinds are drawn by inverting their distribution function, one uniform number a draw: the
+//! same seed then means the same robots under either kind, and no number a user can see depends on a platform's
+//! mathematics library.
+
+mod quantile;
+
+use crate::geom::angle::wrap_angle;
+use rand::Rng;
+use std::f64::consts::{PI, TAU};
+use std::fmt;
+
+/// A variance b², in the square of the unit of what is perturbed; a type so that nobody hands over a standard
+/// deviation. The field is public as in the chapter; [`Variance::new`] is the checked way in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variance(pub f64);
+
+impl Variance {
+    /// A variance that is 0 or more.
+    ///
+    /// # Errors
+    /// [`NegativeVariance`] where `b2` is negative or not a number.
+    pub fn new(b2: f64) -> Result<Self, NegativeVariance> {
+        if b2 >= 0.0 { Ok(Self(b2)) } else { Err(NegativeVariance(b2)) }
+    }
+}
+
+/// What [`Variance::new`] refuses: a negative number or NaN.
+#[derive(Clone, Copy, Debug)]
+pub struct NegativeVariance(pub f64);
+
+impl fmt::Display for NegativeVariance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "variance is {}; a number that is 0 or more is needed", self.0)
+    }
+}
+
+impl std::error::Error for NegativeVariance {}
+
+/// With zero variance a residual up to this size counts as none (m/s or rad/s, or m or rad for odometry legs).
+///
+/// Inverting an arc a kilometre from the origin over a hundredth of a second leaves about 1e-11; a smaller bound would
+/// call such a pose impossible. Nothing drives a robot to a nanometre a second; a larger bound would begin to accept
+/// motions that did not follow the command.
+const ROUNDING: f64 = 1e-9;
+
+/// √6: the triangular density of variance b² lives on ±√6·b.
+const SQRT_6: f64 = 2.449_489_742_783_178;
+
+/// The shape of a zero-mean noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoiseKind {
+    /// Gaussian.
+    Normal,
+    /// Symmetric triangle on ±√6·b: bounded, so that no draw is ever absurd.
+    Triangular,
+}
+
+impl NoiseKind {
+    /// One draw of variance `b2`; 0 where the variance is 0, NaN where it is negative or NaN. Consumes one 64-bit
+    /// number of `rng`.
+    pub fn sample<R: Rng + ?Sized>(self, b2: Variance, rng: &mut R) -> f64 {
+        self.quantile(centred_uniform(rng)) * b2.0.sqrt()
+    }
+
+    /// The density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
+    ///
+    /// Zero variance leaves no density to speak of: the result is then 1 where `a` is 0 to rounding (1e-9) and 0
+    /// elsewhere, so that a product of such factors scores the residuals that do carry noise.
+    pub fn prob(self, a: f64, b2: Variance) -> f64 {
+        let Variance(b2) = b2;
+        if b2 == 0.0 {
+            return if a.abs() <= ROUNDING { 1.0 } else { 0.0 };
+        }
+        match self {
+            Self::Normal => libm::exp(-0.5 * a * a / b2) / (2.0 * PI * b2).sqrt(),
+            Self::Triangular => {
+                let half_width = (6.0 * b2).sqrt();
+                (half_width - a.abs()).max(0.0) / (6.0 * b2)
+            }
+        }
+    }
+
+    /// The unit-variance variate below which lies the probability ½ + `q`, for q in (−½, ½). Odd and increasing in q.
+    ///
+    /// Normal: relative error below 1e-15 (Wichura, Algorithm AS 241, Applied Statistics 37, 1988).
+    pub fn quantile(self, q: f64) -> f64 {
+        match self {
+            Self::Normal => quantile::normal(q),
+            // 1 − √(1 − 2|q|), without its cancellation near the middle.
+            Self::Triangular => SQRT_6 * 2.0 * q / (1.0 + (1.0 - 2.0 * q.abs()).sqrt()),
+        }
+    }
+}
+
+/// The density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per radian.
+/// 1 or 0 as [`NoiseKind::prob`] where the variance is 0.
+pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
+    let a = wrap_angle(a);
+    let sd = b2.0.sqrt();
+    match noise {
+        // From here on the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
+        NoiseKind::Normal if sd > 9.0 => 1.0 / TAU,
+        NoiseKind::Normal => {
+            // Beyond nine standard deviations a term is below the rounding of the sum.
+            let turns = (9.0 * sd / TAU).ceil() as i32;
+            (-turns..=turns).map(|k| noise.prob(a + f64::from(k) * TAU, b2)).sum()
+        }
+        NoiseKind::Triangular if sd == 0.0 => noise.prob(a, b2),
+        NoiseKind::Triangular => {
+            let half_width = SQRT_6 * sd;
+            // The arithmetic series first, first + 2π, … up to the end of the support, on either side.
+            let side = |first: f64| {
+                let count = ((half_width - first) / TAU).ceil().max(0.0);
+                count * (half_width - first) - TAU * count * (count - 1.0) / 2.0
+            };
+            let distance = a.abs();
+            (side(distance) + side(TAU - distance)) / (half_width * half_width)
+        }
+    }
+}
+
+/// A uniform number in (−½, ½): one of the 2⁵³ odd multiples of 2⁻⁵⁴ there, each equally likely, so that 0 and the
+/// ends (where a quantile is infinite) cannot come up and the distribution is exactly symmetric.
+pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
+    const SCALE: f64 = 1.0 / (1u64 << 53) as f64;
+    let signed = rng.next_u64() as i64 >> 11;
+    (signed as f64 + 0.5) * SCALE
+}

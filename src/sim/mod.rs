@@ -1,0 +1,8 @@
+//! The widgets' simulations: parameters in, buffers and figures out, no browser anywhere.
+
+pub mod banana;
+mod draws;
+pub mod settings;
+pub mod views;
+
+pub use views::View;

@@ -1,0 +1,135 @@
+//! Moments of a model itself instead of a cloud of it: one quadrature over the heading noise, everything else closed.
+
+use super::cross_track::NO_SPREAD;
+use super::quadrature::nodes;
+use crate::geom::arc::chord_factors;
+use crate::geom::se2::wrap_angle;
+use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
+use crate::noise::NoiseKind;
+use nalgebra::{Matrix3, Vector3};
+
+/// Mean and covariance of (x, y, θ) and the cross-track skew of the poses that a model draws from the identity pose:
+/// m, m, rad in the frame of the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExactMoments {
+    /// Mean position, and circular mean heading in (−π, π].
+    pub mean: Vector3<f64>,
+    /// Covariance, 3 × 3, of positions and of the turn made (not wrapped).
+    pub cov: Matrix3<f64>,
+    /// The third standardized moment across the mean heading; NaN where there is no spread across it.
+    pub cross_track_skew: f64,
+}
+
+/// One node of the quadrature: given the noise that turns the robot, the position is L·`unit` with a random length L.
+struct Ray {
+    weight: f64,
+    unit: (f64, f64),
+    /// How much further than expected the robot turned by this noise.
+    excess_turn: f64,
+}
+
+impl ExactMoments {
+    /// Of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
+    pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
+        let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
+        let rays = nodes(model.noise).into_iter().map(|node| {
+            let excess_turn = omega_variance.sqrt() * u.dt * node.value;
+            Ray { weight: node.weight, unit: chord_factors(u.omega * u.dt + excess_turn), excess_turn }
+        });
+        let dt2 = u.dt * u.dt;
+        Self::of_rays(rays, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
+    }
+
+    /// Of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
+    pub fn of_odometry(model: &OdometryModel, u: &OdomDelta) -> Self {
+        let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
+        let rays = nodes(model.noise).into_iter().map(|node| {
+            let excess_turn = rot1_variance.sqrt() * node.value;
+            let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
+            Ray { weight: node.weight, unit: (cos, sin), excess_turn }
+        });
+        Self::of_rays(rays, u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
+    }
+
+    /// `length`: mean and variance of L; `turn`: mean of the heading, and the variance it has beside the rays'.
+    fn of_rays(
+        rays: impl Iterator<Item = Ray>,
+        length: f64,
+        length_variance: f64,
+        turn: f64,
+        last_turn_variance: f64,
+    ) -> Self {
+        let rays: Vec<Ray> = rays.collect();
+        let unit_mean = rays
+            .iter()
+            .fold((0.0, 0.0), |(x, y), Ray { weight, unit, .. }| (x + weight * unit.0, y + weight * unit.1));
+        let mut cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last_turn_variance));
+        for Ray { weight, unit, excess_turn } in &rays {
+            let spread =
+                Vector3::new(length * (unit.0 - unit_mean.0), length * (unit.1 - unit_mean.1), *excess_turn);
+            let along = Vector3::new(unit.0, unit.1, 0.0);
+            cov += (spread * spread.transpose() + along * along.transpose() * length_variance) * *weight;
+        }
+        let (sin, cos) = libm::sincos(turn);
+        let across = rays.iter().map(|Ray { weight, unit, .. }| {
+            let lateral = unit.1 * cos - unit.0 * sin;
+            Component {
+                weight: *weight,
+                mean: length * lateral,
+                variance: length_variance * lateral * lateral,
+            }
+        });
+        Self {
+            mean: Vector3::new(length * unit_mean.0, length * unit_mean.1, wrap_angle(turn)),
+            cov,
+            cross_track_skew: mixture_skew(across, length * length + length_variance),
+        }
+    }
+}
+
+/// The cross-track skew of exp(ξ), ξ ~ N(`mean`, `cov`) in the order (along, lateral, heading), about the mean
+/// heading: what a Gaussian in exponential coordinates says of the statistic that is 0 for every Gaussian in (x, y).
+///
+/// By quadrature over the heading: given it, the position is linear in the other two coordinates. `mean` in m, m, rad,
+/// `cov` 3 × 3 positive semidefinite. NaN where there is no spread across the track.
+pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
+    let heading_variance = cov[(2, 2)];
+    let regression = if heading_variance > 0.0 {
+        cov.fixed_view::<2, 1>(0, 2) / heading_variance
+    } else {
+        nalgebra::Vector2::zeros()
+    };
+    let left_over = cov.fixed_view::<2, 2>(0, 0) - regression * regression.transpose() * heading_variance;
+    let (sin, cos) = libm::sincos(mean.z);
+    let across = nodes(NoiseKind::Normal).into_iter().map(|node| {
+        let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
+        let (a, b) = chord_factors(mean.z + excess_turn);
+        // The lateral component of V(ω)·ξ, as a row over (along, lateral).
+        let row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
+        Component {
+            weight: node.weight,
+            mean: (row * (mean.xy() + regression * excess_turn)).x,
+            variance: (row * left_over * row.transpose()).x.max(0.0),
+        }
+    });
+    mixture_skew(across, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])
+}
+
+/// One part of a mixture of symmetric distributions.
+struct Component {
+    weight: f64,
+    mean: f64,
+    variance: f64,
+}
+
+/// Third standardized moment of the mixture; NaN where its spread is rounding beside `extent_squared`.
+fn mixture_skew(components: impl Iterator<Item = Component> + Clone, extent_squared: f64) -> f64 {
+    let centre: f64 = components.clone().map(|part| part.weight * part.mean).sum();
+    let (mut m2, mut m3) = (0.0, 0.0);
+    for Component { weight, mean, variance } in components {
+        let offset = mean - centre;
+        m2 += weight * (offset * offset + variance);
+        m3 += weight * offset * (offset * offset + 3.0 * variance);
+    }
+    if m2 > NO_SPREAD * NO_SPREAD * extent_squared { m3 / (m2 * m2.sqrt()) } else { f64::NAN }
+}

@@ -1,0 +1,12 @@
+//! What a cloud of poses says: moments, cross-track skew, 2σ contours, and the same by quadrature for a model.
+
+mod contour;
+mod cross_track;
+mod exact;
+mod moments;
+pub mod quadrature;
+
+pub use contour::{Ellipse, ExponentialContour};
+pub use cross_track::{CrossTrack, cross_track_skew};
+pub use exact::{ExactMoments, predicted_cross_track_skew};
+pub use moments::{CartesianMoments, ExponentialMoments};

@@ -1,0 +1,80 @@
+//! Means and covariances of a cloud, in Cartesian and in exponential coordinates.
+
+use crate::geom::se2::{SE2, wrap_angle};
+use nalgebra::{Matrix3, Vector3};
+
+/// Mean and covariance of (x, y, θ): m, m, rad, in the frame of the poses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CartesianMoments {
+    /// Arithmetic mean position and circular mean heading in (−π, π].
+    pub mean: Vector3<f64>,
+    /// Sample covariance (over n − 1), headings taken as the shortest turn from the mean heading. 3 × 3.
+    pub cov: Matrix3<f64>,
+}
+
+impl CartesianMoments {
+    /// The moments of `poses`. NaN throughout without poses; a covariance of NaN for a single one.
+    pub fn from_poses(poses: &[SE2]) -> Self {
+        let heading = mean_heading(poses);
+        // Counted from the first pose, equal poses leave residuals of exactly 0.
+        let from_first = |pose: &SE2| {
+            Vector3::new(pose.x() - poses[0].x(), pose.y() - poses[0].y(), wrap_angle(pose.theta() - heading))
+        };
+        let (offset, cov) = mean_and_cov(poses.iter().map(from_first), poses.len());
+        let (x, y) = poses.first().map_or((f64::NAN, f64::NAN), |first| (first.x(), first.y()));
+        Self { mean: Vector3::new(x + offset.x, y + offset.y, heading), cov }
+    }
+}
+
+/// Mean and covariance of ξ = x_t ⊟ x_{t−1} in the order (along, lateral, heading): m, m, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExponentialMoments {
+    pub mean: Vector3<f64>,
+    /// Sample covariance (over n − 1), 3 × 3.
+    pub cov: Matrix3<f64>,
+}
+
+impl ExponentialMoments {
+    /// The moments of `poses` in the chart anchored at `start`, the pose from which all of them were driven. NaN as
+    /// for [`CartesianMoments::from_poses`].
+    ///
+    /// The chart is cut at headings of ±π from `start`: a cloud that spreads across the cut has no useful moments.
+    pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
+        Self::of(poses.iter().map(|pose| pose.boxminus(start)), poses.len())
+    }
+
+    /// The moments of exponential coordinates computed before.
+    pub fn from_twists(twists: &[Vector3<f64>]) -> Self {
+        Self::of(twists.iter().copied(), twists.len())
+    }
+
+    fn of(twists: impl Iterator<Item = Vector3<f64>> + Clone, count: usize) -> Self {
+        let first = twists.clone().next().unwrap_or_else(Vector3::zeros);
+        let (offset, cov) = mean_and_cov(twists.map(|twist| twist - first), count);
+        Self { mean: first + offset, cov }
+    }
+}
+
+/// The circular mean of the headings, atan2(Σ sin θ, Σ cos θ); NaN without poses.
+pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
+    let Some(first) = poses.first() else { return f64::NAN };
+    let (mut sin, mut cos) = (0.0, 0.0);
+    for pose in poses {
+        // Turned so that equal headings sum to exactly 0.
+        let (s, c) = libm::sincos(pose.theta() - first.theta());
+        sin += s;
+        cos += c;
+    }
+    wrap_angle(first.theta() + libm::atan2(sin, cos))
+}
+
+/// Mean and covariance over n − 1, in two passes.
+fn mean_and_cov(
+    vectors: impl Iterator<Item = Vector3<f64>> + Clone,
+    count: usize,
+) -> (Vector3<f64>, Matrix3<f64>) {
+    let count = count as f64;
+    let mean = vectors.clone().sum::<Vector3<f64>>() / count;
+    let scatter = vectors.map(|vector| (vector - mean) * (vector - mean).transpose()).sum::<Matrix3<f64>>();
+    (mean, if count > 1.0 { scatter / (count - 1.0) } else { Matrix3::repeat(f64::NAN) })
+}

@@ -1,0 +1,139 @@
+//! Reading JavaScript values, each checked once. Every refusal is a TypeError or RangeError that names the field, the
+//! value and what is allowed. Nothing here can throw past Rust or run the caller's code unguarded: properties are read
+//! by `Reflect`, whose exceptions come back as values.
+
+use crate::sim::settings::{SettingsError, check_real, check_whole};
+use js_sys::{RangeError, Reflect, TypeError};
+use std::ops::RangeInclusive;
+use wasm_bindgen::prelude::*;
+
+impl From<SettingsError> for JsValue {
+    fn from(error: SettingsError) -> Self {
+        RangeError::new(&error.to_string()).into()
+    }
+}
+
+/// An object of named fields, with no other keys than those it may have.
+pub struct Fields<'a> {
+    object: &'a JsValue,
+    /// Where it stands in what the caller gave: "" at the top, "command." one below.
+    prefix: &'a str,
+}
+
+impl<'a> Fields<'a> {
+    pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, known: &[&str]) -> Result<Self, JsValue> {
+        if !object.is_object() {
+            return Err(type_error(name, object, &format!("an object with keys from {}", known.join(", "))));
+        }
+        let keys = Reflect::own_keys(object).map_err(|_| unreadable(name))?;
+        for key in keys.iter() {
+            let Some(key) = key.as_string() else { continue };
+            if !known.contains(&key.as_str()) {
+                let message = format!("{prefix}{key} is an unknown key; allowed are {}", known.join(", "));
+                return Err(TypeError::new(&message).into());
+            }
+        }
+        Ok(Self { object, prefix })
+    }
+
+    pub fn path(&self, key: &str) -> String {
+        format!("{}{key}", self.prefix)
+    }
+
+    /// The value of a field; undefined where it is missing.
+    pub fn value(&self, key: &str) -> Result<JsValue, JsValue> {
+        Reflect::get(self.object, &key.into()).map_err(|_| unreadable(&self.path(key)))
+    }
+
+    /// What `read` makes of a field, or None where it is missing or undefined.
+    pub fn optional<T>(
+        &self,
+        key: &str,
+        read: impl FnOnce(&str, &JsValue) -> Result<T, JsValue>,
+    ) -> Result<Option<T>, JsValue> {
+        let value = self.value(key)?;
+        if value.is_undefined() { Ok(None) } else { read(&self.path(key), &value).map(Some) }
+    }
+
+    /// A number that must be there; its range is not looked at.
+    pub fn number(&self, key: &str) -> Result<f64, JsValue> {
+        number(&self.path(key), &self.value(key)?)
+    }
+}
+
+/// A number, any number.
+pub fn number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
+    value.as_f64().ok_or_else(|| type_error(field, value, "a number"))
+}
+
+/// A number of the given range.
+pub fn in_range(field: &str, value: &JsValue, allowed: &RangeInclusive<f64>) -> Result<f64, JsValue> {
+    let number = number(field, value)?;
+    check_real(field, number, allowed)?;
+    Ok(number)
+}
+
+/// A whole number of the given range.
+pub fn whole(field: &str, value: &JsValue, least: u64, most: u64) -> Result<u64, JsValue> {
+    Ok(check_whole(field, number(field, value)?, least, most)?)
+}
+
+/// One of a few words.
+pub fn word<T: Copy>(field: &str, value: &JsValue, words: &[(&str, T)]) -> Result<T, JsValue> {
+    let allowed = || words.iter().map(|(word, _)| format!("{word:?}")).collect::<Vec<_>>().join(" or ");
+    let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed()))?;
+    words.iter().find(|(word, _)| *word == text).map(|(_, meaning)| *meaning).ok_or_else(|| {
+        RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed())).into()
+    })
+}
+
+/// An array (or typed array) of exactly N numbers, their ranges not looked at.
+pub fn numbers<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
+    let expected = format!("an array of {N} numbers");
+    if !value.is_object() {
+        return Err(type_error(field, value, &expected));
+    }
+    let length = Reflect::get(value, &"length".into()).map_err(|_| unreadable(field))?;
+    let length = length.as_f64().ok_or_else(|| type_error(field, value, &expected))?;
+    if length != N as f64 {
+        return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
+    }
+    let mut result = [0.0; N];
+    for (i, slot) in result.iter_mut().enumerate() {
+        let path = format!("{field}[{i}]");
+        let item = Reflect::get_u32(value, i as u32).map_err(|_| unreadable(&path))?;
+        *slot = number(&path, &item)?;
+    }
+    Ok(result)
+}
+
+fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
+    TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe(value))).into()
+}
+
+fn unreadable(field: &str) -> JsValue {
+    TypeError::new(&format!("{field} is a property that throws; allowed is a plain value")).into()
+}
+
+/// The value as a sentence can hold it, without running any of the caller's code.
+fn describe(value: &JsValue) -> String {
+    /// Characters of a string that are quoted: enough to recognize it.
+    const MOST_CHARACTERS: usize = 40;
+    if let Some(text) = value.as_string() {
+        let shown: String = text.chars().take(MOST_CHARACTERS).collect();
+        return if shown.len() < text.len() { format!("{shown:?}…") } else { format!("{shown:?}") };
+    }
+    if let Some(number) = value.as_f64() {
+        return number.to_string();
+    }
+    if let Some(truth) = value.as_bool() {
+        return truth.to_string();
+    }
+    match value.js_typeof().as_string().as_deref() {
+        Some("undefined") => "undefined".to_owned(),
+        Some("object") if value.is_null() => "null".to_owned(),
+        Some("object") => "an object".to_owned(),
+        Some(kind) => format!("a {kind}"),
+        None => "a value".to_owned(),
+    }
+}

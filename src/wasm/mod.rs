@@ -1,0 +1,38 @@
+//! The JavaScript face of the crate: nothing but reading arguments, calling the simulation and handing back copies.
+
+mod banana;
+mod fields;
+
+use crate::sim::banana::command_reaching;
+use crate::sim::settings::{DURATION, SPEED};
+use fields::in_range;
+use serde::Serialize;
+use wasm_bindgen::prelude::*;
+
+/// A seed from the platform's entropy source: a whole number below 2³².
+#[wasm_bindgen(js_name = randomSeed)]
+pub fn random_seed() -> Result<f64, JsError> {
+    Ok(f64::from(getrandom::u32()?))
+}
+
+#[derive(Serialize)]
+struct Speeds {
+    v: f64,
+    omega: f64,
+}
+
+/// The { v, omega } whose arc of `dt` seconds from the origin ends at (x, y).
+#[wasm_bindgen(js_name = commandReaching)]
+pub fn speeds_reaching(x: &JsValue, y: &JsValue, dt: &JsValue) -> Result<JsValue, JsValue> {
+    let command = command_reaching(
+        in_range("x", x, &SPEED)?,
+        in_range("y", y, &SPEED)?,
+        in_range("dt", dt, &DURATION)?,
+    );
+    to_js(&Speeds { v: command.v, omega: command.omega })
+}
+
+/// A plain JavaScript value.
+fn to_js(value: &impl Serialize) -> Result<JsValue, JsValue> {
+    Ok(serde_wasm_bindgen::to_value(value)?)
+}

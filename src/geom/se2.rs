@@ -57,9 +57,20 @@ impl SE2 {
     ///
     /// V⁻¹ = [h·cot h, h; −h, h·cot h] with h = θ/2. Discontinuous at heading π, as every logarithm of SE(2) is.
     pub fn log(&self) -> Vector3<f64> {
-        let half = 0.5 * self.theta;
+        self.log_of_turn(self.theta)
+    }
+
+    /// The twist on the branch of the logarithm whose ω lies within half a turn of `turn` (rad): the motion of a body
+    /// known to have turned by about that much. Equal to [`SE2::log`] where both ω agree; grows without bound where
+    /// the body has turned by whole circles and is elsewhere than it began.
+    pub fn log_near(&self, turn: f64) -> Vector3<f64> {
+        self.log_of_turn(turn + wrap_angle(self.theta - turn))
+    }
+
+    fn log_of_turn(&self, turn: f64) -> Vector3<f64> {
+        let half = 0.5 * turn;
         let diagonal = half_cotangent(half);
-        Vector3::new(diagonal * self.x + half * self.y, diagonal * self.y - half * self.x, self.theta)
+        Vector3::new(diagonal * self.x + half * self.y, diagonal * self.y - half * self.x, turn)
     }
 
     /// x ⊞ τ = x · exp(τ): this pose moved by a twist in its own body frame (eq. 25).

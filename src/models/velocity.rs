@@ -1,7 +1,7 @@
 //! The velocity motion model: Tables 5.1 and 5.3.
 
 use super::{MotionModel, TangentNoiseModel};
-use crate::geom::arc::{chord, invert_arc};
+use crate::geom::arc::{ArcInversion, chord, invert_arc};
 use crate::geom::se2::SE2;
 use crate::noise::{NoiseKind, Variance, centred_uniform, wrapped_prob};
 use nalgebra::{Matrix3, Vector3};
@@ -39,14 +39,20 @@ impl VelocityModel {
         [Variance(a1 * v2 + a2 * omega2), Variance(a3 * v2 + a4 * omega2), Variance(a5 * v2 + a6 * omega2)]
     }
 
-    /// The pose reached from `x` when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
-    /// deviations: Table 5.3 after its three draws. The same unit noise under another command or other α's is the
-    /// same robot with the same luck.
-    pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
+    /// What the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
+    /// deviations. The same unit noise under another command or other α's is the same robot with the same luck.
+    pub fn executed(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
         let [v_noise, omega_noise, gamma_noise] = self.variances(u).map(|variance| variance.0.sqrt());
-        let v_hat = u.v + v_noise * unit_noise[0];
-        let omega_hat = u.omega + omega_noise * unit_noise[1];
-        let gamma_hat = gamma_noise * unit_noise[2];
+        ArcInversion {
+            v_hat: u.v + v_noise * unit_noise[0],
+            omega_hat: u.omega + omega_noise * unit_noise[1],
+            gamma_hat: gamma_noise * unit_noise[2],
+        }
+    }
+
+    /// The pose reached from `x` with these unit noises: Table 5.3 after its three draws.
+    pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
+        let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed(u, unit_noise);
         let (forward, left) = chord(v_hat * u.dt, omega_hat * u.dt);
         *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
     }

@@ -203,7 +203,7 @@ pub struct Contours {
 pub struct Sample {
     pub pose: SE2,
     pub twist: Vector3<f64>,
-    /// The arc and last turn that lead to it.
+    /// The arc and last turn that led to it; under the odometry model, which knows no arc, that would lead to it.
     pub executed: ArcInversion,
     /// That arc.
     pub path: Vec<[f64; 2]>,
@@ -218,7 +218,7 @@ pub struct BananaMachine {
     settings: Settings,
     draws: Draws,
     poses: Vec<SE2>,
-    /// ξ = pose ⊟ start, one for each pose.
+    /// ξ = pose ⊟ start, one for each pose, on the branch of the logarithm that belongs to the commanded turn.
     twists: Vec<Vector3<f64>>,
     figures: Figures,
 }
@@ -289,7 +289,8 @@ impl BananaMachine {
         let motion = self.settings.motion(self.settings.command);
         self.poses
             .extend(self.draws.unit_noise()[shown..end].iter().map(|unit_noise| motion.drive(*unit_noise)));
-        self.twists.extend(self.poses[shown..].iter().map(SE2::log));
+        let VelocityCmd { omega, dt, .. } = self.settings.command;
+        self.twists.extend(self.poses[shown..].iter().map(|pose| pose.log_near(omega * dt)));
         self.figures = Figures::of(&self.poses, &self.twists);
         end
     }
@@ -360,7 +361,10 @@ impl BananaMachine {
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let (pose, twist) = (*self.poses.get(index)?, *self.twists.get(index)?);
         let dt = self.settings.command.dt;
-        let executed = invert_arc(&START, &pose, dt);
+        let executed = match self.settings.motion(self.settings.command) {
+            Motion::Velocity(model, command) => model.executed(&command, self.draws.unit_noise()[index]),
+            Motion::Odometry(..) => invert_arc(&START, &pose, dt),
+        };
         Some(Sample { pose, twist, executed, path: arc_points(executed.v_hat * dt, executed.omega_hat * dt) })
     }
 

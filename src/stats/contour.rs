@@ -104,7 +104,7 @@ impl ExponentialContour {
     /// Whether the position of `pose` lies inside the contour.
     pub fn contains(&self, pose: &SE2) -> bool {
         let step = self.start.inverse() * *pose;
-        self.contains_step(&step, &step.log())
+        self.contains_step(&step, &step.log_near(self.mean.z))
     }
 
     /// As [`ExponentialContour::contains`] for a pose given in the frame of the start, with its exponential
@@ -113,9 +113,9 @@ impl ExponentialContour {
     /// Solves exp(m + lift·w) = position for w by Newton's method from the pose's own ξ, which is the solution already
     /// where Σ has rank 2; inside is |w| ≤ 2.
     pub fn contains_step(&self, step: &SE2, twist: &Vector3<f64>) -> bool {
-        /// Residual (m²) at which w is good to far more digits than a share has.
-        const CLOSE_SQUARED: f64 = 1e-24;
-        /// Each step squares the error; from a heading slack of a whole radian four suffice.
+        /// A correction of w below which only rounding is left of it.
+        const ROUNDING: f64 = 1e-9;
+        /// Each step squares the error: from a heading slack of a whole radian four suffice.
         const MOST_STEPS: usize = 6;
         if !self.has_area() {
             return false;
@@ -125,13 +125,15 @@ impl ExponentialContour {
             let guess = self.mean + self.lift * w;
             let reached = SE2::exp(&guess);
             let residual = Vector2::new(step.x() - reached.x(), step.y() - reached.y());
-            if residual.norm_squared() <= CLOSE_SQUARED {
+            let Some(inverse) = (position_jacobian(&guess) * self.lift).try_inverse() else { break };
+            let correction = inverse * residual;
+            w += correction;
+            // The corrections to come are smaller than this one: too small to cross the boundary.
+            if correction.norm() < (w.norm() - SIGMAS).abs().max(ROUNDING) {
                 break;
             }
-            let Some(inverse) = (position_jacobian(&guess) * self.lift).try_inverse() else { break };
-            w += inverse * residual;
         }
-        w.norm_squared() <= SIGMAS * SIGMAS
+        w.norm() <= SIGMAS
     }
 }
 

@@ -38,9 +38,12 @@ impl ExponentialMoments {
     /// The moments of `poses` in the chart anchored at `start`, the pose from which all of them were driven. NaN as
     /// for [`CartesianMoments::from_poses`].
     ///
-    /// The chart is cut at headings of ±π from `start`: a cloud that spreads across the cut has no useful moments.
+    /// Each ξ is taken on the branch of the logarithm within half a turn of the mean heading, so that a cloud around a
+    /// half turn is not torn in two; elsewhere that is x_t ⊟ x_{t−1} itself.
     pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
-        Self::of(poses.iter().map(|pose| pose.boxminus(start)), poses.len())
+        let mean_turn = wrap_angle(mean_heading(poses) - start.theta());
+        let back = start.inverse();
+        Self::of(poses.iter().map(|pose| (back * *pose).log_near(mean_turn)), poses.len())
     }
 
     /// The moments of exponential coordinates computed before.

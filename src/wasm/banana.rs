@@ -33,12 +33,6 @@ struct Command {
     dt: f64,
 }
 
-impl From<VelocityCmd> for Command {
-    fn from(VelocityCmd { v, omega, dt }: VelocityCmd) -> Self {
-        Self { v, omega, dt }
-    }
-}
-
 #[derive(Serialize)]
 struct Config<'a> {
     model: &'static str,
@@ -53,8 +47,9 @@ struct Config<'a> {
 #[derive(Serialize)]
 struct Preset {
     name: &'static str,
-    #[serde(flatten)]
-    command: Command,
+    v: f64,
+    omega: f64,
+    dt: f64,
 }
 
 #[derive(Serialize)]
@@ -99,14 +94,15 @@ struct Table {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct TableColumn {
-    #[serde(flatten)]
-    moments: Moments,
+    mean: [f64; 3],
+    cov: [[f64; 3]; 3],
     cross_track_skew: f64,
 }
 
 impl TableColumn {
     fn new(mean: &Vector3<f64>, cov: &Matrix3<f64>, cross_track_skew: f64) -> Self {
-        Self { moments: Moments::new(mean, cov), cross_track_skew }
+        let Moments { mean, cov } = Moments::new(mean, cov);
+        Self { mean, cov, cross_track_skew }
     }
 }
 
@@ -129,7 +125,7 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter)]
     pub fn presets() -> Result<JsValue, JsValue> {
-        to_js(&PRESETS.map(|(name, command)| Preset { name, command: command.into() }))
+        to_js(&PRESETS.map(|(name, VelocityCmd { v, omega, dt })| Preset { name, v, omega, dt }))
     }
 
     pub fn configure(&mut self, options: &JsValue) -> Result<(), JsValue> {
@@ -139,10 +135,11 @@ impl JsBananaMachine {
     #[wasm_bindgen(getter)]
     pub fn config(&self) -> Result<JsValue, JsValue> {
         let settings = self.0.settings();
+        let VelocityCmd { v, omega, dt } = settings.command;
         to_js(&Config {
             model: name_of(&MODELS, &settings.model),
             noise: name_of(&NOISES, &settings.noise),
-            command: settings.command.into(),
+            command: Command { v, omega, dt },
             alphas: settings.alphas(),
             isolate: settings.isolate,
             samples: settings.samples,

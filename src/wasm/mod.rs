@@ -32,7 +32,7 @@ pub fn speeds_reaching(x: &JsValue, y: &JsValue, dt: &JsValue) -> Result<JsValue
     to_js(&Speeds { v: command.v, omega: command.omega })
 }
 
-/// A plain JavaScript value.
+/// A plain JavaScript value; None becomes null.
 fn to_js(value: &impl Serialize) -> Result<JsValue, JsValue> {
-    Ok(serde_wasm_bindgen::to_value(value)?)
+    Ok(value.serialize(&serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true))?)
 }

@@ -1,0 +1,22 @@
+import js from '@eslint/js';
+import globals from 'globals';
+
+export default [
+  { ignores: ['build/', 'dist/', 'target/', 'test-results/'] },
+  js.configs.recommended,
+  {
+    rules: {
+      eqeqeq: 'error',
+      'no-var': 'error',
+      'object-shorthand': 'error',
+      'prefer-const': 'error',
+      'no-unused-vars': ['error', { argsIgnorePattern: '^_' }],
+    },
+  },
+  { files: ['www/**'], languageOptions: { globals: globals.browser } },
+  // It runs in Node too, and asks whether it does.
+  { files: ['www/core.js'], languageOptions: { globals: { process: 'readonly' } } },
+  { files: ['scripts/**', 'tests/node/**', '*.config.js'], languageOptions: { globals: globals.node } },
+  // Browser tests run in Node and pass functions into the page.
+  { files: ['tests/e2e/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
+];

@@ -1,0 +1,23 @@
+import { defineConfig } from '@playwright/test';
+import { CHROME_ARGUMENTS, findChrome } from './scripts/browser.mjs';
+
+export default defineConfig({
+  testDir: 'tests/e2e',
+  outputDir: 'test-results/e2e',
+  forbidOnly: true,
+  fullyParallel: true,
+  reporter: [['list'], ['json', { outputFile: 'test-results/e2e.json' }]],
+  use: {
+    baseURL: process.env.SERVED_AT,
+    // Without a Chromium of this machine, Playwright's own.
+    launchOptions: { executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS },
+  },
+  webServer: {
+    command: 'node scripts/serve.mjs',
+    env: { PORT: '0' },
+    wait: { stdout: /The widgets are at (?<served_at>\S+)/ },
+    // Enough for a first build.
+    timeout: 900_000,
+    gracefulShutdown: { signal: 'SIGTERM', timeout: 5000 },
+  },
+});

@@ -1,0 +1,108 @@
+// The Chromium and the chromedriver of its version that the tests drive: those of this machine, or installed.
+
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { Missing, ROOT, findProgram, mustRun, progress, run } from './process.mjs';
+import { CACHE, aptInstall } from './toolchain.mjs';
+
+const CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
+const CHROME_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
+const SENTENCE =
+  'Chromium and a chromedriver of the same version are missing: install both ' +
+  '(on Debian `sudo apt-get install chromium chromium-driver`), or set CHROME and CHROMEDRIVER to their paths.';
+
+/** No sandbox inside containers, no graphics card, and nothing asked of the network. */
+export const CHROME_ARGUMENTS = [
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
+
+/** @typedef {{ chrome: string, driver: string, version: string }} Browser */
+
+/** @returns {Promise<Browser>} */
+export async function ensureBrowser() {
+  const { CHROME, CHROMEDRIVER } = process.env;
+  const present = await usablePair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
+  if (present !== undefined) return present;
+  if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new Missing(SENTENCE);
+  // Packages of these names on Ubuntu only point to a snap, which cannot be driven from here.
+  const onDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
+  const installed = onDebian ? await debian() : await chromeForTesting();
+  if (installed === undefined) throw new Missing(SENTENCE);
+  return installed;
+}
+
+/** @returns {string | undefined} */
+export function findChrome() {
+  return (
+    CHROME_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined) ??
+    findProgram('Google Chrome', [CHROME_OF_MACOS])
+  );
+}
+
+/**
+ * @param {string | undefined} chrome
+ * @param {string | undefined} driver
+ * @returns {Promise<Browser | undefined>} undefined unless both run and are of one major version
+ */
+async function usablePair(chrome, driver) {
+  if (chrome === undefined || driver === undefined) return undefined;
+  const [version, ofDriver] = await Promise.all([versionOf(chrome), versionOf(driver)]);
+  if (version === undefined || version.split('.')[0] !== ofDriver?.split('.')[0]) return undefined;
+  return { chrome, driver, version };
+}
+
+/** @param {string} program */
+async function versionOf(program) {
+  const { stdout } = await run(program, ['--version'], { quiet: true, seconds: 30 });
+  return stdout.match(/\d+(\.\d+){3}/)?.[0];
+}
+
+async function debian() {
+  await aptInstall(['chromium', 'chromium-driver'], SENTENCE);
+  return usablePair(findChrome(), findProgram('chromedriver'));
+}
+
+/** Google's builds for automated tests, which come with a chromedriver for each. Downloaded once. */
+async function chromeForTesting() {
+  const directory = join(CACHE, 'browsers');
+  const paths = join(directory, 'paths.json');
+  if (existsSync(paths)) {
+    const { chrome, driver } = JSON.parse(readFileSync(paths, 'utf8'));
+    const present = await usablePair(chrome, driver);
+    if (present !== undefined) return present;
+  }
+  progress('Downloading Chrome for Testing');
+  const chrome = await download(directory, 'chrome@stable');
+  if (chrome === undefined) return undefined;
+  if ((await versionOf(chrome)) === undefined) await installLibraries();
+  const driver = await download(directory, `chromedriver@${await versionOf(chrome)}`);
+  writeFileSync(paths, JSON.stringify({ chrome, driver }));
+  return usablePair(chrome, driver);
+}
+
+/**
+ * @param {string} directory
+ * @param {string} what
+ * @returns {Promise<string | undefined>} the program's path
+ */
+async function download(directory, what) {
+  const tool = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', what];
+  const { ok, stdout } = await run('npm', [...tool, '--path', directory, '--format', '{{path}}'], { seconds: 900 });
+  return ok ? stdout.trim().split('\n').pop() : undefined;
+}
+
+/** A downloaded Chrome does not bring the system's libraries that it is linked with. */
+async function installLibraries() {
+  await mustRun(
+    'Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.',
+    process.execPath,
+    [join(ROOT, 'node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'],
+    { seconds: 600 },
+  );
+}

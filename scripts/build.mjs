@@ -1,0 +1,121 @@
+// `npm run build`: src/ to build/ (WebAssembly and its glue), then www/ to dist/. What is up to date is left alone.
+
+import { createHash } from 'node:crypto';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { dirname, join, relative } from 'node:path';
+import { Missing, ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
+import { ensurePackages, nativeRust, wasmBindgen, wasmRust } from './toolchain.mjs';
+
+const at = (/** @type {string} */ path) => join(ROOT, path);
+
+/** Brings dist/ up to date with the sources. */
+export async function build() {
+  await ensurePackages();
+  const core = digest(['src', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs']);
+  await whenStale('build/core.sha256', core, ['build/motion.js', 'build/motion_bg.wasm'], buildCore);
+  const pages = digest(['www', 'package-lock.json', 'scripts/build.mjs'], core);
+  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/motion-widgets.js'], buildPages);
+}
+
+/**
+ * @param {string[]} paths files and directories
+ * @param {string} [seed]
+ * @returns {string} a digest of their names and contents
+ */
+function digest(paths, seed = '') {
+  const hash = createHash('sha256').update(seed);
+  for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(at(path)));
+  return hash.digest('hex');
+}
+
+/**
+ * @param {string} path of a file or directory, from the root
+ * @returns {string[]} the files there, sorted
+ */
+function filesOf(path) {
+  if (statSync(at(path)).isFile()) return [path];
+  return readdirSync(at(path), { withFileTypes: true, recursive: true })
+    .filter((entry) => entry.isFile())
+    .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
+    .sort();
+}
+
+/**
+ * @param {string} stamp the file that holds the digest of the sources last built from
+ * @param {string} sources
+ * @param {string[]} products
+ * @param {() => Promise<void>} work
+ */
+async function whenStale(stamp, sources, products, work) {
+  const current = [stamp, ...products].every((path) => existsSync(at(path)));
+  if (current && readFileSync(at(stamp), 'utf8') === sources) return;
+  mkdirSync(at('build'), { recursive: true });
+  rmSync(at(stamp), { force: true });
+  await work();
+  writeFileSync(at(stamp), sources);
+}
+
+async function buildCore() {
+  const native = await nativeRust();
+  const rust = await wasmRust(native);
+  const bindgen = await wasmBindgen(native);
+
+  progress(`Compiling the core to WebAssembly (${rust.description})`);
+  const cargo = join(rust.bin, 'cargo');
+  const failed = 'The core does not compile: see the errors above.';
+  await mustRun(failed, cargo, ['build', '--locked', '--release', '--lib', ...rust.target], { env: rust.env });
+  const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
+  const wasm = join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
+
+  progress('Binding and optimizing it');
+  await mustRun('wasm-bindgen failed: see above.', join(bindgen, 'wasm-bindgen'), [
+    wasm, '--target', 'web', '--out-dir', at('build'), '--out-name', 'motion',
+    '--omit-default-module-path', '--remove-name-section', '--remove-producers-section',
+  ]);
+  // What esbuild's loader gives to who imports the file.
+  writeFileSync(at('build/motion_bg.wasm.d.ts'), 'declare const bytes: Uint8Array<ArrayBuffer>;\nexport default bytes;\n');
+  // The features that rustc's default for this target has.
+  const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext'];
+  await mustRun('wasm-opt failed: see above.', process.execPath, [
+    at('node_modules/binaryen/bin/wasm-opt'), '-O3', ...features.map((name) => `--enable-${name}`),
+    at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),
+  ]);
+}
+
+/** Each script at the top of www/ becomes one self-contained module; whatever is not a script is copied. */
+async function buildPages() {
+  progress('Bundling the pages');
+  const esbuild = await import('esbuild');
+  const isScript = (/** @type {string} */ path) => /\.(js|ts)$/.test(path);
+  const files = filesOf('www');
+  const bundles = await esbuild.build({
+    entryPoints: files.filter((path) => path.endsWith('.js') && dirname(path) === 'www'),
+    absWorkingDir: ROOT,
+    outdir: at('dist'),
+    write: false,
+    bundle: true,
+    minify: true,
+    sourcemap: true,
+    format: 'esm',
+    target: 'es2022',
+    loader: { '.wasm': 'binary' },
+    // core.js reads files by it, in Node alone.
+    external: ['node:*'],
+  }).catch(() => {
+    throw new Missing('The pages do not bundle: see the errors above.');
+  });
+  rmSync(at('dist'), { recursive: true, force: true });
+  const write = (/** @type {string} */ path, /** @type {Uint8Array} */ contents) => {
+    mkdirSync(dirname(path), { recursive: true });
+    writeFileSync(path, contents);
+  };
+  for (const { path, contents } of bundles.outputFiles) write(path, contents);
+  for (const path of files.filter((path) => !isScript(path))) {
+    write(at(join('dist', relative('www', path))), readFileSync(at(path)));
+  }
+}
+
+await runAsScript(import.meta.url, async () => {
+  await build();
+  console.log('\ndist/ is up to date.');
+});

@@ -1,0 +1,95 @@
+// `npm start`: builds what is stale and serves dist/ on this machine alone. PORT asks for one port; otherwise it is
+// the first free one from 4173 on.
+
+import { createReadStream, statSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join, normalize, sep } from 'node:path';
+import { build } from './build.mjs';
+import { Missing, ROOT, runAsScript } from './process.mjs';
+
+const TYPES = /** @type {Record<string, string>} */ ({
+  '.css': 'text/css; charset=utf-8',
+  '.html': 'text/html; charset=utf-8',
+  '.ico': 'image/x-icon',
+  '.js': 'text/javascript; charset=utf-8',
+  '.json': 'application/json',
+  '.map': 'application/json',
+  '.png': 'image/png',
+  '.svg': 'image/svg+xml',
+  '.wasm': 'application/wasm',
+  '.woff2': 'font/woff2',
+});
+
+/**
+ * @param {string} directory
+ * @param {string} address the path and query of a request
+ * @returns {{ path: string, size: number } | undefined} the file meant, never one outside the directory
+ */
+function fileAt(directory, address) {
+  try {
+    let path = normalize(join(directory, decodeURIComponent(new URL(address, 'http://localhost').pathname)));
+    if (!path.startsWith(directory + sep)) return undefined;
+    if (statSync(path).isDirectory()) path = join(path, 'index.html');
+    const { size } = statSync(path);
+    return { path, size };
+  } catch {
+    return undefined;
+  }
+}
+
+/**
+ * @param {string} directory
+ * @param {number} [port] the one to take; without it the first free one from 4173 on
+ * @returns {Promise<string>} the address
+ */
+function serve(directory, port) {
+  const server = createServer((request, response) => {
+    const file = fileAt(directory, request.url ?? '/');
+    if (request.method !== 'GET' && request.method !== 'HEAD') {
+      response.writeHead(405, { allow: 'GET, HEAD' }).end();
+    } else if (file === undefined) {
+      response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
+    } else {
+      response.writeHead(200, {
+        'content-type': TYPES[extname(file.path)] ?? 'application/octet-stream',
+        'content-length': file.size,
+        'cache-control': 'no-cache',
+      });
+      if (request.method === 'HEAD') response.end();
+      else createReadStream(file.path).on('error', () => response.destroy()).pipe(response);
+    }
+  });
+  let candidate = port ?? 4173;
+  return new Promise((resolve, reject) => {
+    server.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
+      if (error.code !== 'EADDRINUSE' && error.code !== 'EACCES') {
+        reject(error);
+      } else if (port === undefined) {
+        server.listen(++candidate, 'localhost');
+      } else {
+        reject(new Missing(`Port ${port} is not free: set PORT to another one, or leave it unset.`));
+      }
+    });
+    server.on('listening', () => {
+      const address = server.address();
+      if (address !== null && typeof address === 'object') resolve(`http://localhost:${address.port}/`);
+    });
+    server.listen(candidate, 'localhost');
+  });
+}
+
+/** @returns {number | undefined} */
+function wantedPort() {
+  const text = process.env.PORT;
+  if (text === undefined || text === '') return undefined;
+  if (!/^\d+$/.test(text) || Number(text) > 65535) {
+    throw new Missing(`PORT is "${text}" and must be a number from 0 (any free port) to 65535.`);
+  }
+  return Number(text);
+}
+
+await runAsScript(import.meta.url, async () => {
+  const port = wantedPort();
+  await build();
+  console.log(`\nThe widgets are at ${await serve(join(ROOT, 'dist'), port)} (Ctrl-C stops).`);
+});

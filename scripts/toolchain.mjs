@@ -1,0 +1,246 @@
+// What the build and the tests need, found or installed: npm packages, Rust, its WebAssembly target, wasm-bindgen.
+// Node built-ins only: this runs in a bare clone.
+
+import { createHash } from 'node:crypto';
+import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { homedir, tmpdir } from 'node:os';
+import { delimiter, dirname, join } from 'node:path';
+import { Missing, ROOT, findProgram, isProgram, mustRun, progress, run } from './process.mjs';
+
+const TARGET = 'wasm32-unknown-unknown';
+const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
+const DEBIAN_BIN = '/usr/bin';
+
+/** Where tools that are built or downloaded once stay, for all clones of this user. */
+export const CACHE = join(
+  process.env.XDG_CACHE_HOME ||
+    join(homedir(), process.platform === 'darwin' ? 'Library/Caches' : '.cache'),
+  'motion-widgets',
+);
+
+/** Installs the npm packages unless those of the present package-lock.json are there. */
+export async function ensurePackages() {
+  if (Number(process.versions.node.split('.')[0]) < 20) {
+    throw new Missing(`Node 20 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
+  }
+  const lock = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
+  const stamp = join(ROOT, 'node_modules/.installed-lock');
+  if (existsSync(stamp) && readFileSync(stamp, 'utf8') === lock) return;
+  progress('Installing npm packages');
+  // No package's install script is needed.
+  await mustRun(
+    'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
+    'npm',
+    ['ci', '--ignore-scripts', '--no-audit', '--no-fund'],
+    { seconds: 600 },
+  );
+  writeFileSync(stamp, lock);
+}
+
+/**
+ * Installs packages by apt where that is possible without asking for a password.
+ *
+ * @param {string[]} packages
+ * @param {string} sentence thrown as `Missing` otherwise
+ */
+export async function aptInstall(packages, sentence) {
+  if (findProgram('apt-get') === undefined) throw new Missing(sentence);
+  const asRoot = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
+  if (asRoot.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new Missing(sentence);
+  progress(`Installing ${packages.join(' ')} by apt`);
+  const [command, ...before] = [...asRoot, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
+  await run(command, [...before, 'update', '-qq'], { seconds: 300 });
+  // Nothing that is installed gives way, above all no other Rust.
+  const options = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
+  await mustRun(sentence, command, [...before, 'install', ...options, ...packages], { seconds: 900 });
+}
+
+/**
+ * @typedef {object} Rust
+ * @property {string} bin the directory of cargo, cargo-fmt and cargo-clippy
+ * @property {Record<string, string>} env
+ * @property {string[]} target the arguments that make cargo build for this target
+ * @property {string} description
+ */
+
+/**
+ * Rust for this machine, installed where there is none: by rustup, or from Debian where rustup is out of reach.
+ *
+ * @returns {Promise<Rust>}
+ */
+export async function nativeRust() {
+  let cargo = findProgram('cargo', [RUSTUP_BIN]);
+  if (cargo === undefined) {
+    if (!(await installRustup())) {
+      await aptInstall(['rustc-web', 'cargo-web'], 'Rust is missing: install it as rustup.rs says and start again.');
+    }
+    cargo = findProgram('cargo', [RUSTUP_BIN]) ?? join(DEBIAN_BIN, 'cargo');
+  }
+  if (findProgram('cc') === undefined) {
+    const how = process.platform === 'darwin' ? 'run `xcode-select --install`' : 'install gcc';
+    await aptInstall(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${how} and start again.`);
+  }
+  const bin = dirname(cargo);
+  const env = bin === DEBIAN_BIN ? debianEnvironment() : searchFirst(bin);
+  const version = await requireVersion(bin, env, 'run `rustup update stable`');
+  return { bin, env, target: [], description: version };
+}
+
+/** @returns {Promise<boolean>} */
+async function installRustup() {
+  progress('Installing Rust by rustup');
+  const script = join(tmpdir(), `rustup-init-${process.pid}.sh`);
+  const download = ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', '-o', script, 'https://sh.rustup.rs'];
+  const options = ['-y', '--no-modify-path', '--profile', 'default', '--target', TARGET];
+  const installed =
+    (await run('curl', download)).ok && (await run('sh', [script, ...options], { seconds: 600 })).ok;
+  rmSync(script, { force: true });
+  return installed;
+}
+
+/**
+ * Rust for WebAssembly. The standard library of the target comes from rustup; where that is out of reach it is
+ * compiled from Debian's sources of it, by Debian's compiler.
+ *
+ * @param {Rust} native
+ * @returns {Promise<Rust>}
+ */
+export async function wasmRust(native) {
+  if (native.bin !== DEBIAN_BIN && (await hasTarget(native))) {
+    return { ...native, target: ['--target', TARGET], description: `${native.description}, ${TARGET} of rustup` };
+  }
+  const sentence =
+    `Rust's ${TARGET} target is missing: run \`rustup target add ${TARGET}\`, ` +
+    'or on Debian `sudo apt-get install rustc-web cargo-web rust-web-src lld`, and start again.';
+  const parts = ['rustc', 'cargo', 'wasm-ld'].map((name) => join(DEBIAN_BIN, name));
+  if (![...parts, '/usr/lib/rustlib/src/rust/library/Cargo.lock'].every(existsSync)) {
+    await aptInstall(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], sentence);
+  }
+  // Tests that abort on panic, like what ships, share the library that was compiled for it.
+  const env = { ...debianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
+  const version = await requireVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
+  return {
+    bin: DEBIAN_BIN,
+    env,
+    target: ['--target', TARGET, '-Zbuild-std=std,panic_abort'],
+    description: `${version} of Debian, standard library from source`,
+  };
+}
+
+/**
+ * Whether the target's standard library is there, after asking rustup for it if need be.
+ *
+ * @param {Rust} native
+ * @returns {Promise<boolean>}
+ */
+async function hasTarget({ bin, env }) {
+  const sysroot = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
+  if (existsSync(join(sysroot.stdout.trim(), 'lib/rustlib', TARGET))) return true;
+  const rustup = findProgram('rustup', [bin]);
+  if (rustup === undefined) return false;
+  // Behind some firewalls rustup waits for ever. That is found out once a day, and more patiently where Debian's
+  // packages cannot stand in.
+  const unreachable = join(CACHE, 'rustup-unreachable');
+  const canFallBack = findProgram('apt-get') !== undefined;
+  const aDay = 24 * 3600 * 1000;
+  if (canFallBack && existsSync(unreachable) && Date.now() - statSync(unreachable).mtimeMs < aDay) return false;
+  progress(`Asking rustup for ${TARGET}`);
+  const added = await run(rustup, ['target', 'add', TARGET], { env, seconds: canFallBack ? 60 : 600 });
+  if (added.ok) return true;
+  if (added.timedOut) {
+    console.log('rustup does not answer.');
+    mkdirSync(CACHE, { recursive: true });
+    writeFileSync(unreachable, '');
+  }
+  return false;
+}
+
+/** Debian's stable compiler, with the feature gates open that `-Zbuild-std` stands behind. */
+function debianEnvironment() {
+  return {
+    ...searchFirst(DEBIAN_BIN),
+    RUSTC: join(DEBIAN_BIN, 'rustc'),
+    RUSTC_BOOTSTRAP: '1',
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: 'wasm-ld',
+  };
+}
+
+/**
+ * The environment in which the programs of `bin` find each other first. cargo-clippy runs what CARGO names.
+ *
+ * @param {string} bin
+ */
+function searchFirst(bin) {
+  return { PATH: bin + delimiter + process.env.PATH, CARGO: join(bin, 'cargo') };
+}
+
+/**
+ * @param {string} bin
+ * @param {Record<string, string>} env
+ * @param {string} remedy
+ * @returns {Promise<string>} rustc's description of itself
+ */
+async function requireVersion(bin, env, remedy) {
+  const needed = manifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
+  const { stdout } = await run(join(bin, 'rustc'), ['--version'], { env, quiet: true });
+  const [, major, minor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
+  const [neededMajor, neededMinor] = needed.split('.').map(Number);
+  if (Number(major) < neededMajor || (Number(major) === neededMajor && Number(minor) < neededMinor)) {
+    throw new Missing(`Rust ${needed} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
+  }
+  return stdout.split(' ').slice(0, 2).join(' ');
+}
+
+/**
+ * Makes sure of rustfmt and clippy beside a cargo.
+ *
+ * @param {Rust} rust
+ */
+export async function ensureLints({ bin, env }) {
+  const present = async () => {
+    const versions = ['cargo-fmt', 'cargo-clippy'].map((name) => run(join(bin, name), ['--version'], { env, quiet: true }));
+    return (await Promise.all(versions)).every(({ ok }) => ok);
+  };
+  if (await present()) return;
+  const sentence = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
+  if (bin === DEBIAN_BIN) {
+    await aptInstall(['rustfmt-web', 'rust-web-clippy'], sentence);
+  } else {
+    const rustup = findProgram('rustup', [bin]);
+    if (rustup === undefined) throw new Missing(sentence);
+    await mustRun(sentence, rustup, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 });
+  }
+  if (!(await present())) throw new Missing(sentence);
+}
+
+/**
+ * The wasm-bindgen programs of the version that Cargo.lock names, which has to be met exactly. Built once a version.
+ *
+ * @param {Rust} native
+ * @returns {Promise<string>} their directory
+ */
+export async function wasmBindgen({ bin, env }) {
+  const version = manifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
+  const root = join(CACHE, `wasm-bindgen-${version}`);
+  const programs = ['wasm-bindgen', 'wasm-bindgen-test-runner'];
+  if (programs.every((name) => isProgram(join(root, 'bin', name)))) return join(root, 'bin');
+  progress(`Building wasm-bindgen ${version}, once (some minutes)`);
+  const args = ['install', 'wasm-bindgen-cli', '--version', version, '--root', root, '--force'];
+  args.push(...programs.flatMap((name) => ['--bin', name]));
+  const sentence = `wasm-bindgen ${version} could not be built: check that this machine reaches crates.io and start again.`;
+  // A mirror may lack a crate of the lock file, and a new release of a crate may not fit.
+  const unlocked = await run(join(bin, 'cargo'), args, { env, seconds: 1200 });
+  if (!unlocked.ok) await mustRun(sentence, join(bin, 'cargo'), [...args, '--locked'], { env, seconds: 1200 });
+  return join(root, 'bin');
+}
+
+/**
+ * @param {string} file
+ * @param {RegExp} pattern with one group
+ * @returns {string}
+ */
+function manifestValue(file, pattern) {
+  const found = readFileSync(join(ROOT, file), 'utf8').match(pattern);
+  if (found === null) throw new Error(`${file} has nothing like ${pattern}`);
+  return found[1];
+}

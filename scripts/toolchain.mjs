@@ -227,7 +227,7 @@ export async function wasmBindgen({ bin, env }) {
   progress(`Building wasm-bindgen ${version}, once (some minutes)`);
   const args = ['install', 'wasm-bindgen-cli', '--version', version, '--root', root, '--force'];
   args.push(...programs.flatMap((name) => ['--bin', name]));
-  const sentence = `wasm-bindgen ${version} could not be built: check that this machine reaches crates.io and start again.`;
+  const sentence = `wasm-bindgen ${version} could not be built: check that this machine reaches the registry of Rust packages and start again.`;
   // A mirror may lack a crate of the lock file, and a new release of a crate may not fit.
   const unlocked = await run(join(bin, 'cargo'), args, { env, seconds: 1200 });
   if (!unlocked.ok) await mustRun(sentence, join(bin, 'cargo'), [...args, '--locked'], { env, seconds: 1200 });

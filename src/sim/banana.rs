@@ -13,7 +13,7 @@ use crate::stats::{
     CartesianMoments, CrossTrack, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
     predicted_cross_track_skew,
 };
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// Which of the chapter's models the machine runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,21 +165,18 @@ impl Figures {
     fn of(poses: &[SE2], twists: &[Vector3<f64>]) -> Self {
         let cartesian = CartesianMoments::from_poses(poses);
         let exponential = ExponentialMoments::from_twists(twists);
-        let share = |has_area: bool, inside: usize| {
-            if has_area && poses.len() > 1 { inside as f64 / poses.len() as f64 } else { f64::NAN }
+        let share = |view: View, ellipse: &Ellipse| {
+            let points = poses.iter().zip(twists).map(|(pose, twist)| view.point(pose, twist));
+            let inside = points.filter(|point| ellipse.contains(*point)).count();
+            if ellipse.has_area() { inside as f64 / poses.len() as f64 } else { f64::NAN }
         };
-        let ellipse = Ellipse::from_moments(&cartesian);
-        let in_ellipse = poses.iter().filter(|pose| ellipse.contains(pose)).count();
-        let contour = ExponentialContour::new(&exponential, &START);
-        let in_contour =
-            poses.iter().zip(twists).filter(|(pose, twist)| contour.contains_step(pose, twist)).count();
         Self {
             cartesian,
             exponential,
             cross_track: CrossTrack::from_poses(poses),
             gaussian_skew: predicted_cross_track_skew(&exponential.mean, &exponential.cov),
-            inside_ellipse: share(ellipse.has_area(), in_ellipse),
-            inside_exponential: share(contour.has_area(), in_contour),
+            inside_ellipse: share(View::Plane, &Ellipse::from_moments(&cartesian)),
+            inside_exponential: share(View::Twist, ExponentialContour::new(&exponential, &START).ellipse()),
         }
     }
 }
@@ -340,20 +337,13 @@ impl BananaMachine {
         let Figures { cartesian, exponential, .. } = &self.figures;
         let measured = |outline: Vec<[f64; 2]>| if self.poses.len() > 1 { outline } else { Vec::new() };
         let VelocityCmd { v, omega, dt } = self.settings.command;
-        let twist_cov = exponential.cov;
-        let along_heading = nalgebra::Matrix2::new(
-            twist_cov[(0, 0)],
-            twist_cov[(0, 2)],
-            twist_cov[(2, 0)],
-            twist_cov[(2, 2)],
-        );
-        let twist_ellipse = Ellipse::new(Vector2::new(exponential.mean.x, exponential.mean.z), along_heading);
+        let contour = ExponentialContour::new(exponential, &START);
         Contours {
             command: arc_points(v * dt, omega * dt),
             ellipse: measured(Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
             linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
-            exponential: measured(ExponentialContour::new(exponential, &START).boundary(OUTLINE_SEGMENTS)),
-            twist_ellipse: measured(twist_ellipse.boundary(OUTLINE_SEGMENTS)),
+            exponential: measured(contour.boundary(OUTLINE_SEGMENTS)),
+            twist_ellipse: measured(contour.ellipse().boundary(OUTLINE_SEGMENTS)),
         }
     }
 
@@ -383,9 +373,10 @@ impl BananaMachine {
     }
 }
 
-/// An arc from the start as chords of at most about five degrees, up to two turns of it.
+/// An arc from the start as chords of about a degree, up to two turns of it; a chord of a metre's arc of one radian then
+/// strays by 0.05 mm.
 fn arc_points(length: f64, turn: f64) -> Vec<[f64; 2]> {
-    let chords = (turn.abs() / 0.08).clamp(1.0, 160.0).ceil();
+    let chords = (turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
     (0..=chords as u32)
         .map(|i| {
             let fraction = f64::from(i) / chords;

@@ -1,5 +1,6 @@
 //! 2σ contours: of a Gaussian in the plane, and of one in exponential coordinates, pushed through exp.
 
+use super::cross_track::NO_SPREAD;
 use super::moments::{CartesianMoments, ExponentialMoments};
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3x2, Vector2, Vector3};
@@ -23,10 +24,11 @@ pub struct Ellipse {
 impl Ellipse {
     /// The ellipse around `centre` with covariance `cov` (symmetric, 2 × 2, in the squared units of the coordinates).
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
-        let first = cov[(0, 0)].max(0.0).sqrt();
+        let rounding = NO_SPREAD * NO_SPREAD * (centre.norm_squared() + cov.trace());
+        let root = |variance: f64, least: f64| if variance > least { variance.sqrt() } else { 0.0 };
+        let first = root(cov[(0, 0)], rounding);
         let shared = if first > 0.0 { cov[(1, 0)] / first } else { 0.0 };
-        let left_over = cov[(1, 1)] - shared * shared;
-        let second = if left_over > NO_AREA * cov[(1, 1)] { left_over.sqrt() } else { 0.0 };
+        let second = root(cov[(1, 1)] - shared * shared, rounding.max(NO_AREA * cov[(1, 1)]));
         Self { centre, root: Matrix2::new(first, 0.0, shared, second) }
     }
 
@@ -45,9 +47,9 @@ impl Ellipse {
         unit_circle(segments).map(|direction| (self.centre + self.root * direction * SIGMAS).into()).collect()
     }
 
-    /// Whether the position of `pose` lies inside.
-    pub fn contains(&self, pose: &SE2) -> bool {
-        self.has_area() && self.whiten(Vector2::new(pose.x(), pose.y())).norm_squared() <= SIGMAS * SIGMAS
+    /// Whether a point lies inside.
+    pub fn contains(&self, point: [f64; 2]) -> bool {
+        self.has_area() && self.whiten(point.into()).norm_squared() <= SIGMAS * SIGMAS
     }
 
     /// L⁻¹·(point − centre), with 0 for a coordinate in which the Gaussian has no extent.
@@ -59,19 +61,18 @@ impl Ellipse {
     }
 }
 
-/// The 2σ contour in the plane of a Gaussian N(m, Σ) in exponential coordinates.
+/// The 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
-/// Three coordinates lead to two, so the contour is drawn through the most probable ξ for each direction of
-/// displacement: with H the 2 × 3 Jacobian of position by ξ at m and L·Lᵀ = HΣHᵀ, it is the image under exp of
-/// m + 2ΣHᵀL⁻ᵀ·(cos t, sin t). Where Σ has rank 2, as without γ̂, that is the 2σ ellipse of Σ itself, exactly.
+/// In (along, heading) it is an ellipse, and there its content is counted. Its outline in the plane draws three
+/// coordinates in two: through the most probable ξ for each direction of displacement. With H the 2 × 3 Jacobian of
+/// position by ξ at m and L·Lᵀ = HΣHᵀ, it is the image under exp of m + 2ΣHᵀL⁻ᵀ·(cos t, sin t). Where Σ has rank 2, as
+/// without γ̂, that is the image of the ellipse, exactly; with γ̂ its content differs from the ellipse's by third decimals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
     start: SE2,
     mean: Vector3<f64>,
-    /// The 2σ ellipse of the linearized displacement H(ξ − m), around 0.
-    displacement: Ellipse,
-    /// H.
-    jacobian: Matrix2x3<f64>,
+    /// In (along, heading).
+    ellipse: Ellipse,
     /// ΣHᵀL⁻ᵀ: from the whitened displacement to ξ − m.
     lift: Matrix3x2<f64>,
 }
@@ -79,20 +80,26 @@ pub struct ExponentialContour {
 impl ExponentialContour {
     /// The contour of `moments`, whose chart is anchored at `start`; drawn in the frame of `start`'s coordinates.
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
-        let jacobian = position_jacobian(&moments.mean);
-        let crossed = moments.cov * jacobian.transpose();
+        let ExponentialMoments { mean, cov } = *moments;
+        let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
+        let jacobian = position_jacobian(&mean);
+        let crossed = cov * jacobian.transpose();
         let displacement = Ellipse::new(Vector2::zeros(), jacobian * crossed);
         let rows = crossed.row_iter().map(|row| displacement.whiten(row.transpose()).transpose());
-        let lift = Matrix3x2::from_rows(&rows.collect::<Vec<_>>());
-        Self { start: *start, mean: moments.mean, displacement, jacobian, lift }
+        Self {
+            start: *start,
+            mean,
+            ellipse: Ellipse::new(Vector2::new(mean.x, mean.z), along_heading),
+            lift: Matrix3x2::from_rows(&rows.collect::<Vec<_>>()),
+        }
     }
 
-    /// False where the positions have no extent in some direction: a line or a point. Nothing is then inside.
-    pub fn has_area(&self) -> bool {
-        self.displacement.has_area()
+    /// The contour in (along, heading): m, rad.
+    pub fn ellipse(&self) -> &Ellipse {
+        &self.ellipse
     }
 
-    /// The closed outline as `segments` chords: `segments` + 1 points, the last equal to the first.
+    /// The closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the first.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
         let outline = |direction: Vector2<f64>| {
             let pose = self.start.boxplus(self.mean + self.lift * direction * SIGMAS);
@@ -101,39 +108,10 @@ impl ExponentialContour {
         unit_circle(segments).map(outline).collect()
     }
 
-    /// Whether the position of `pose` lies inside the contour.
+    /// Whether the exponential coordinates of `pose` lie inside the ellipse.
     pub fn contains(&self, pose: &SE2) -> bool {
-        let step = self.start.inverse() * *pose;
-        self.contains_step(&step, &step.log_near(self.mean.z))
-    }
-
-    /// As [`ExponentialContour::contains`] for a pose given in the frame of the start, with its exponential
-    /// coordinates.
-    ///
-    /// Solves exp(m + lift·w) = position for w by Newton's method from the pose's own ξ, which is the solution already
-    /// where Σ has rank 2; inside is |w| ≤ 2.
-    pub fn contains_step(&self, step: &SE2, twist: &Vector3<f64>) -> bool {
-        /// A correction of w below which only rounding is left of it.
-        const ROUNDING: f64 = 1e-9;
-        /// Each step squares the error: from a heading slack of a whole radian four suffice.
-        const MOST_STEPS: usize = 6;
-        if !self.has_area() {
-            return false;
-        }
-        let mut w = self.displacement.whiten(self.jacobian * (twist - self.mean));
-        for _ in 0..MOST_STEPS {
-            let guess = self.mean + self.lift * w;
-            let reached = SE2::exp(&guess);
-            let residual = Vector2::new(step.x() - reached.x(), step.y() - reached.y());
-            let Some(inverse) = (position_jacobian(&guess) * self.lift).try_inverse() else { break };
-            let correction = inverse * residual;
-            w += correction;
-            // The corrections to come are smaller than this one: too small to cross the boundary.
-            if correction.norm() < (w.norm() - SIGMAS).abs().max(ROUNDING) {
-                break;
-            }
-        }
-        w.norm() <= SIGMAS
+        let twist = (self.start.inverse() * *pose).log_near(self.mean.z);
+        self.ellipse.contains([twist.x, twist.z])
     }
 }
 

@@ -1,0 +1,338 @@
+//! The Banana Machine's simulation: common random numbers, settings, and what it reports.
+#![allow(clippy::disallowed_methods, reason = "an expected value may come from the platform's own mathematics")]
+
+mod common;
+
+use common::{KINDS, SIGMAS, golden, pose_distance, seeded};
+use motion::geom::se2::SE2;
+use motion::sim::View;
+use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Settings, command_reaching};
+use motion::sim::settings::{MAX_SAMPLES, MAX_SEED};
+use motion::sim::views::Grid;
+use motion::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
+use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd, VelocityModel};
+use std::f64::consts::PI;
+
+fn machine(settings: Settings) -> BananaMachine {
+    BananaMachine::new(settings).expect("a valid setting")
+}
+
+fn models() -> [Settings; 2] {
+    [Settings::default(), Settings { model: ModelKind::Odometry, ..Settings::default() }]
+}
+
+/// Everything that the machine shows.
+fn picture(machine: &BananaMachine) -> String {
+    format!("{:?} {:?} {:?} {:?}", machine.settings(), machine.poses(), machine.figures(), machine.contours())
+}
+
+#[test]
+fn the_opening_state_is_the_designs() {
+    let opening = machine(Settings::default());
+    let settings = opening.settings();
+    assert_eq!(settings.command, VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 });
+    assert_eq!(settings.velocity_alphas, [0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+    assert_eq!((settings.model, settings.noise), (ModelKind::Velocity, NoiseKind::Normal));
+    assert_eq!((settings.samples, settings.seed, settings.isolate), (2000, 7, None));
+    assert_eq!(opening.poses().len(), 2000, "the cloud is complete");
+    assert!((opening.exact().cross_track_skew - -0.43093).abs() < 5e-6);
+    let presets = PRESETS.map(|(name, VelocityCmd { v, omega, dt })| (name, [v, omega, dt]));
+    let expected = [
+        ("straight", [1.0, 0.0, 2.0]),
+        ("gentle", [1.0, 0.5, 1.0]),
+        ("hard", [1.0, 1.2, 1.4]),
+        ("pivot", [0.06, 1.5, 1.0]),
+    ];
+    assert_eq!(presets, expected);
+    assert!(MAX_SAMPLES >= 100_000);
+}
+
+/// The same bits on every machine; tests/web.rs runs the same in a browser.
+#[test]
+fn seeded_clouds_are_golden() {
+    let fingerprints = golden::settings().map(golden::fingerprint);
+    assert_eq!(fingerprints, golden::FINGERPRINTS, "{fingerprints:#018x?}");
+}
+
+/// The cloud is the model's own, in the model's own order of draws.
+#[test]
+fn the_cloud_is_what_the_model_samples() {
+    for noise in KINDS {
+        let start = SE2::identity();
+        let settings = Settings { noise, samples: 500, seed: 2005, ..Settings::default() };
+        let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise };
+        let mut rng = seeded(2005);
+        for pose in machine(settings).poses() {
+            assert_eq!(*pose, model.sample(&settings.command, &start, &mut rng));
+        }
+        let settings = Settings { model: ModelKind::Odometry, ..settings };
+        let model = OdometryModel { alphas: OdomAlphas(settings.odometry_alphas), noise };
+        let end = start.boxplus(nalgebra::Vector3::new(1.0, 0.0, 0.5));
+        let reading = OdomDelta::from_poses(&start, &end);
+        let mut rng = seeded(2005);
+        for pose in machine(settings).poses() {
+            assert_eq!(*pose, model.sample(&reading, &start, &mut rng));
+        }
+    }
+}
+
+#[test]
+fn a_larger_cloud_begins_with_the_smaller_one() {
+    for settings in models() {
+        let mut grown = machine(Settings { samples: 100, ..settings });
+        let small = grown.poses().to_vec();
+        grown.configure(Settings { samples: 5000, ..settings }).unwrap();
+        assert_eq!(grown.poses().len(), 5000);
+        assert_eq!(grown.poses()[..100], small);
+        assert_eq!(grown.poses(), machine(Settings { samples: 5000, ..settings }).poses());
+        grown.configure(Settings { samples: 100, ..settings }).unwrap();
+        assert_eq!(grown.poses(), small);
+    }
+}
+
+/// A slider moves the same robots: each keeps its own luck, read off here as (v̂ − v)/σ and so on.
+#[test]
+fn a_slider_moves_the_same_robots() {
+    let opening = Settings { samples: 300, ..Settings::default() };
+    let mut machine = machine(opening);
+    let luck = |machine: &BananaMachine| -> Vec<[f64; 3]> {
+        let settings = machine.settings();
+        let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
+        let [v, omega, gamma] = model.variances(&settings.command).map(|b2| b2.0.sqrt());
+        (0..300)
+            .map(|i| {
+                let executed = machine.inspect(i).unwrap().executed;
+                [
+                    (executed.v_hat - settings.command.v) / v,
+                    (executed.omega_hat - settings.command.omega) / omega,
+                    executed.gamma_hat / gamma,
+                ]
+            })
+            .collect()
+    };
+    let before = luck(&machine);
+    let command = VelocityCmd { v: -0.6, omega: 1.1, dt: 0.7 };
+    for settings in [
+        Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..opening },
+        Settings { command, ..opening },
+    ] {
+        machine.configure(settings).unwrap();
+        for (a, b) in luck(&machine).iter().zip(&before) {
+            assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} was {b:?}");
+        }
+    }
+    machine.configure(opening).unwrap();
+    assert_eq!(luck(&machine), before, "and back again to the bit");
+    machine.configure(Settings { seed: 8, ..opening }).unwrap();
+    assert!(luck(&machine).iter().zip(&before).all(|(a, b)| a != b), "a new seed is new luck");
+}
+
+#[test]
+fn the_cloud_grows_in_batches() {
+    for settings in models() {
+        let whole = machine(settings);
+        let mut growing = machine(settings);
+        growing.restart();
+        assert_eq!(growing.poses().len(), 0);
+        assert!(growing.figures().cartesian.mean.x.is_nan());
+        assert!(growing.contours().ellipse.is_empty() && !growing.contours().command.is_empty());
+        assert!(growing.inspect(0).is_none());
+        assert_eq!(growing.grow(0), 0);
+        assert_eq!(growing.grow(1), 1);
+        assert_eq!(growing.grow(700), 701);
+        // A cloud that is growing keeps its count under a slider, a complete one stays complete.
+        growing.configure(Settings { command: VelocityCmd { v: 0.5, omega: 0.1, dt: 1.0 }, ..settings }).unwrap();
+        assert_eq!(growing.poses().len(), 701);
+        growing.configure(settings).unwrap();
+        assert_eq!(growing.poses(), &whole.poses()[..701]);
+        assert_eq!(growing.grow(usize::MAX), 2000);
+        assert_eq!(growing.grow(5), 2000);
+        assert_eq!(picture(&growing), picture(&whole));
+        growing.configure(Settings { samples: 2500, ..settings }).unwrap();
+        assert_eq!(growing.poses().len(), 2500);
+    }
+}
+
+#[test]
+fn a_bad_setting_changes_nothing() {
+    let opening = Settings { samples: 200, ..Settings::default() };
+    let mut machine = machine(opening);
+    machine.restart();
+    machine.grow(50);
+    let before = picture(&machine);
+    let command = opening.command;
+    let alphas = opening.velocity_alphas;
+    let bad = [
+        ("command.v", Settings { command: VelocityCmd { v: f64::NAN, ..command }, ..opening }),
+        ("command.omega", Settings { command: VelocityCmd { omega: f64::INFINITY, ..command }, ..opening }),
+        ("command.dt", Settings { command: VelocityCmd { dt: 0.0, ..command }, ..opening }),
+        ("command.dt", Settings { command: VelocityCmd { dt: -1.0, ..command }, ..opening }),
+        ("alphas[3]", Settings { velocity_alphas: [0.1, 0.1, 0.1, -0.1, 0.1, 0.1], ..opening }),
+        ("alphas[0]", Settings { velocity_alphas: [f64::NAN, 0.1, 0.1, 0.1, 0.1, 0.1], ..opening }),
+        ("samples", Settings { samples: 0, ..opening }),
+        ("samples", Settings { samples: MAX_SAMPLES + 1, ..opening }),
+        ("isolate", Settings { isolate: Some(0), ..opening }),
+        ("isolate", Settings { isolate: Some(7), ..opening }),
+        ("isolate", Settings { model: ModelKind::Odometry, isolate: Some(5), ..opening }),
+        ("seed", Settings { seed: MAX_SEED + 1, ..opening }),
+    ];
+    for (field, settings) in bad {
+        let error = machine.configure(settings).expect_err(field);
+        assert_eq!(error.field, field);
+        let message = error.to_string();
+        assert!(message.starts_with(&format!("{field} is {}", error.value)), "{message}");
+        assert!(message.contains(&error.allowed), "{message}");
+        assert_eq!(picture(&machine), before, "{field}");
+        assert!(BananaMachine::new(settings).is_err());
+    }
+    machine.configure(Settings { velocity_alphas: alphas.map(|a| 2.0 * a), ..opening }).unwrap();
+    assert_eq!(machine.grow(1000), 200, "and it goes on working");
+}
+
+/// The extremes of what may be set: no panic, and no infinity where a number is due.
+#[test]
+fn extreme_settings_are_survived() {
+    let opening = Settings { samples: 50, ..Settings::default() };
+    for model in [ModelKind::Velocity, ModelKind::Odometry] {
+        for noise in KINDS {
+            for (v, omega) in [(1e6, 1e6), (-1e6, 0.0), (0.0, -1e6), (0.0, 0.0), (1e-300, 1e-300)] {
+                for dt in [1e-6, 1.0, 1e6] {
+                    for alpha in [0.0, 1e-300, 1.0, 1e6] {
+                        let mut machine = machine(Settings {
+                            model,
+                            noise,
+                            command: VelocityCmd { v, omega, dt },
+                            velocity_alphas: [alpha; 6],
+                            odometry_alphas: [alpha; 4],
+                            ..opening
+                        });
+                        for pose in machine.poses() {
+                            assert!(pose.x().is_finite() && pose.y().is_finite(), "{:?}", machine.settings());
+                            assert!(pose.theta().abs() <= PI, "{:?}", machine.settings());
+                        }
+                        let figures = machine.figures();
+                        assert!(figures.cartesian.mean.iter().all(|m| m.is_finite()), "{:?}", machine.settings());
+                        for share in [figures.inside_ellipse, figures.inside_exponential] {
+                            assert!(share.is_nan() || (0.0..=1.0).contains(&share));
+                        }
+                        for curve in [machine.contours().ellipse, machine.contours().exponential] {
+                            assert!(curve.is_empty() || curve.first() == curve.last() || curve[0][0].is_nan());
+                        }
+                        machine.exact();
+                        machine.skew_curve(-1e6, 1e6, 3);
+                        machine.restart();
+                        machine.grow(1);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn figures_are_those_of_the_shown_samples() {
+    for settings in models() {
+        let mut machine = machine(settings);
+        machine.restart();
+        machine.grow(1234);
+        let (poses, figures) = (machine.poses(), machine.figures());
+        let start = SE2::identity();
+        assert_eq!(figures.cartesian, CartesianMoments::from_poses(poses));
+        assert_eq!(figures.cross_track, CrossTrack::from_poses(poses));
+        let exponential = ExponentialMoments::from_poses(poses, &start);
+        assert!((figures.exponential.mean - exponential.mean).amax() < 1e-14);
+        assert!((figures.exponential.cov - exponential.cov).amax() < 1e-14);
+        let predicted = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
+        assert!((figures.gaussian_skew - predicted).abs() < 1e-12);
+        for (pose, twist) in poses.iter().zip(machine.twists()) {
+            assert!((pose.boxminus(&start) - twist).amax() < 1e-14);
+        }
+    }
+}
+
+/// The students' exercise: straight ahead, one α at a time.
+#[test]
+fn isolating_an_alpha_silences_the_others() {
+    let straight = Settings { command: PRESETS[0].1, isolate: Some(4), ..Settings::default() };
+    let mut machine = machine(straight);
+    let end = SE2::new(2.0, 0.0, 0.0);
+    assert!(machine.poses().iter().all(|pose| *pose == end), "α₄ is silent where nothing is turned");
+    assert!(machine.figures().cross_track.skew.is_nan());
+    machine.configure(Settings { isolate: Some(6), ..straight }).unwrap();
+    assert!(machine.poses().iter().all(|pose| *pose == end), "and so is α₆");
+    machine.configure(Settings { isolate: Some(5), ..straight }).unwrap();
+    assert!(machine.poses().iter().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)));
+    assert!(machine.poses().iter().any(|pose| pose.theta().abs() > 0.1), "α₅ turns and moves nothing");
+    machine.configure(Settings { isolate: Some(3), ..straight }).unwrap();
+    assert!(machine.poses().iter().all(|pose| (pose.log().x - 2.0).abs() < 1e-14), "α₃ fans arcs of one length");
+    assert_eq!(machine.settings().velocity_alphas, straight.velocity_alphas, "the sliders stay where they are");
+    machine.configure(Settings { isolate: None, ..straight }).unwrap();
+    assert_eq!(picture(&machine), picture(&self::machine(Settings { isolate: None, ..straight })));
+}
+
+/// The exact column is what the measured one tends to, and the curve of skews passes through it.
+#[test]
+fn exact_and_measured_figures_agree() {
+    for settings in models() {
+        for noise in KINDS {
+            let machine = machine(Settings { noise, samples: 200_000, ..settings });
+            let (exact, figures) = (machine.exact(), machine.figures());
+            let off = figures.cross_track.skew - exact.cross_track_skew;
+            assert!(off.abs() < SIGMAS * figures.cross_track.skew_error, "{settings:?}: {off}");
+            for i in 0..3 {
+                let error = (exact.cov[(i, i)] / 200_000.0).sqrt();
+                assert!((figures.cartesian.mean[i] - exact.mean[i]).abs() < SIGMAS * error);
+            }
+            let curve = machine.skew_curve(-1.5, 2.5, 9);
+            assert_eq!(curve.len(), 9);
+            assert!((curve[4] - exact.cross_track_skew).abs() < 1e-12, "the fifth point is the command's ω");
+            assert!((machine.linearized().mean.x - 2.0 * 0.5f64.sin()).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn a_dragged_end_is_reached() {
+    for (x, y) in [(1.0, 0.2), (1.0, -2.0), (-1.0, 0.3), (-0.5, -0.5), (2.0, 0.0), (-2.0, 0.0), (0.0, 1.0)] {
+        for dt in [0.5, 2.0] {
+            let command = command_reaching(x, y, dt);
+            let settings = Settings { command, ..Settings::default() };
+            let end = machine(settings).linearized().mean;
+            let reached = SE2::new(end.x, end.y, 0.0);
+            assert!(pose_distance(&reached, &SE2::new(x, y, 0.0)) < 1e-14, "({x}, {y}): {end}");
+            assert!((command.omega * dt).abs() <= PI + 1e-15);
+        }
+    }
+    assert_eq!(command_reaching(0.0, 0.0, 1.0), VelocityCmd { v: 0.0, omega: 0.0, dt: 1.0 });
+}
+
+#[test]
+fn both_views_find_the_nearest_sample_and_count_all() {
+    let machine = machine(Settings { samples: 3000, ..Settings::default() });
+    for view in [View::Plane, View::Twist] {
+        let points: Vec<[f64; 2]> =
+            machine.poses().iter().zip(machine.twists()).map(|(pose, twist)| view.point(pose, twist)).collect();
+        for target in [[0.9, 0.3], [1.2, 0.1], [0.2, 0.9]] {
+            let distance = |[x, y]: [f64; 2]| ((x - target[0]) / 0.1).powi(2) + ((y - target[1]) / 0.3).powi(2);
+            let best = (0..points.len()).min_by(|&a, &b| distance(points[a]).total_cmp(&distance(points[b])));
+            let expected = best.filter(|&index| distance(points[index]) <= 1.0);
+            assert_eq!(machine.nearest(view, target, [0.1, 0.3]), expected);
+        }
+        assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
+        assert_eq!(machine.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
+        // A grid over the whole cloud counts every sample once, in the cell where it lies, the top row first.
+        let grid = Grid { min: [-4.0, -4.0], max: [4.0, 4.0], columns: 16, rows: 8 };
+        let counts = machine.density(view, &grid);
+        assert_eq!(counts.iter().sum::<u32>(), 3000);
+        for (cell, count) in counts.iter().enumerate() {
+            let (column, row) = (cell % 16, cell / 16);
+            let inside = points.iter().filter(|[x, y]| {
+                (x + 4.0) * 2.0 >= column as f64
+                    && (x + 4.0) * 2.0 < (column + 1) as f64
+                    && 4.0 - y >= row as f64
+                    && 4.0 - y < (row + 1) as f64
+            });
+            assert_eq!(*count as usize, inside.count(), "column {column}, row {row}");
+        }
+    }
+}

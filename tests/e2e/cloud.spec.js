@@ -1,0 +1,216 @@
+import { expect } from '@playwright/test';
+import { STILL, boxOf, centreOf, frames, numberIn, open, pictureOf, pixelsOf, readout, state, test } from './support.js';
+
+/** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
+
+/** Steps in which a cloud grows. */
+const BATCHES = 150;
+
+test.describe('growth', () => {
+  test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
+    const widget = await open(page);
+    await widget.getByRole('button', { name: 'Pause' }).click();
+    const paused = await state(widget);
+    expect(paused.shown).toBeGreaterThan(0);
+    expect(paused.shown).toBeLessThan(paused.config.samples);
+    await frames(page);
+    expect((await state(widget)).shown).toBe(paused.shown);
+    await expect(readout(widget, 'robots')).toHaveText(String(paused.shown));
+
+    await widget.getByRole('button', { name: 'Play' }).click();
+    await expect.poll(async () => (await state(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
+    await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
+    // The robots of the paused cloud are the first of the complete one.
+    const { poses } = await state(widget);
+    expect(poses.slice(0, paused.poses.length)).toEqual(paused.poses);
+  });
+
+  test.describe('from a complete cloud', () => {
+    test.use(STILL);
+
+    test('Reset empties it, Step adds a batch of the same robots', async ({ page }) => {
+      const widget = await open(page);
+      const whole = await state(widget);
+      await widget.getByRole('button', { name: 'Reset' }).click();
+      expect((await state(widget)).shown).toBe(0);
+      await expect(readout(widget, 'measured')).toHaveText('—');
+      await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
+
+      const batch = Math.ceil(whole.config.samples / BATCHES);
+      for (const shown of [batch, 2 * batch]) {
+        await widget.getByRole('button', { name: 'Step' }).click();
+        const { shown: now, poses } = await state(widget);
+        expect(now).toBe(shown);
+        expect(poses).toEqual(whole.poses.slice(0, 3 * shown));
+      }
+    });
+
+    test('Play sends a complete cloud again', async ({ page }) => {
+      const widget = await open(page);
+      await widget.getByRole('button', { name: 'Play' }).click();
+      await expect(widget.getByRole('button', { name: 'Pause' })).toBeVisible();
+      const { shown, config } = await state(widget);
+      expect(shown).toBeLessThan(config.samples);
+    });
+
+    test('New seed sends other robots, and no other control does', async ({ page }) => {
+      const widget = await open(page);
+      const before = await state(widget);
+      await widget.getByRole('button', { name: 'New seed' }).click();
+      const after = await state(widget);
+      expect(after.config).toEqual({ ...before.config, seed: after.config.seed });
+      expect(after.config.seed).not.toBe(before.config.seed);
+      expect(after.shown).toBe(before.shown);
+      expect(after.poses).not.toEqual(before.poses);
+      await expect(widget.getByText(`seed ${after.config.seed}`)).toBeVisible();
+    });
+
+    test('100 000 robots are drawn as a density and agree with the exact figures', async ({ page }) => {
+      const widget = await open(page);
+      await widget.evaluate((element) => {
+        const { machine } = /** @type {BananaMachineElement} */ (element);
+        Object.assign(window, { densities: 0 });
+        Object.defineProperty(machine, 'density', {
+          value(/** @type {unknown[]} */ ...grid) {
+            Object.assign(window, { densities: Reflect.get(window, 'densities') + 1 });
+            return Object.getPrototypeOf(machine).density.apply(machine, grid);
+          },
+        });
+      });
+      const densities = () => page.evaluate(() => Reflect.get(window, 'densities'));
+      await widget.getByRole('checkbox', { name: 'linearized' }).check();
+      await frames(page);
+      expect(await densities()).toBe(0);
+
+      const slider = widget.getByRole('slider', { name: 'robots in the whole cloud' });
+      await slider.focus();
+      await expect(async () => {
+        await slider.press('ArrowRight');
+        await expect(slider).toHaveAttribute('aria-valuetext', '100\u202f000', { timeout: 200 });
+      }).toPass();
+      const { shown, stats, table } = await state(widget);
+      expect(shown).toBe(100_000);
+      expect(await densities()).toBeGreaterThanOrEqual(2);
+      await expect(readout(widget, 'robots')).toHaveText('100\u202f000');
+      expect(Math.abs(stats.crossTrackSkew - table.exact.crossTrackSkew)).toBeLessThan(5 * stats.crossTrackSkewError);
+      for (const i of [0, 1, 2]) {
+        const error = Math.sqrt(table.exact.cov[i][i] / stats.n);
+        expect(Math.abs(stats.cartesian.mean[i] - table.exact.mean[i])).toBeLessThan(5 * error);
+      }
+    });
+  });
+});
+
+test.describe('figures', () => {
+  test.use(STILL);
+
+  test('every number shown is the machine’s', async ({ page }) => {
+    const widget = await open(page);
+    const { stats, table } = await state(widget);
+    const shown = async (/** @type {string | RegExp} */ name) => (await readout(widget, name).textContent()) ?? '';
+
+    const [skew, error] = (await shown('measured')).split(' ± ').map(numberIn);
+    expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
+    expect(error).toBeCloseTo(stats.crossTrackSkewError, 3);
+    expect(numberIn(await shown('exponential-coordinate Gaussian'))).toBeCloseTo(stats.gaussianSkew, 3);
+    expect(numberIn(await shown('any Gaussian'))).toBe(0);
+    expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
+    expect(numberIn(await shown('robots'))).toBe(stats.n);
+    expect(numberIn(await shown('exponential coordinates'))).toBeCloseTo(100 * stats.coverage.exponential, 1);
+    expect(numberIn(await shown('2σ, Gaussian'))).toBeCloseTo(100 * stats.coverage.ellipse, 1);
+    expect(await shown('nominal')).toBe('86.5\u202f%');
+
+    /** @type {[string, (column: typeof table.exact) => number][]} */
+    const rows = [
+      ['mean x', ({ mean }) => mean[0]],
+      ['mean y', ({ mean }) => mean[1]],
+      ['Σxx', ({ cov }) => cov[0][0]],
+      ['Σyy', ({ cov }) => cov[1][1]],
+      ['Σxy', ({ cov }) => cov[0][1]],
+      ['Σxθ', ({ cov }) => cov[0][2]],
+      ['Σyθ', ({ cov }) => cov[1][2]],
+      ['Σθθ', ({ cov }) => cov[2][2]],
+      ['cross-track skew', ({ crossTrackSkew }) => crossTrackSkew],
+    ];
+    for (const [name, of] of rows) {
+      const cells = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name, exact: true }) }).getByRole('cell');
+      const printed = (await cells.allTextContents()).map(numberIn);
+      for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) {
+        expect(printed[i], name).toBeCloseTo(of(column), 6);
+      }
+    }
+  });
+
+  test('each overlay has a toggle', async ({ page }) => {
+    const widget = await open(page);
+    const plane = widget.locator('canvas.plane');
+    const twist = widget.locator('canvas.twist');
+    const first = await pictureOf(plane);
+    for (const [label, role] of [
+      ['commanded arc', 'prior'],
+      ['2σ Gaussian in (x, y)', 'prediction'],
+      ['linearized (EKF) ellipse', 'prior'],
+      ['2σ Gaussian in exponential coordinates', 'posterior'],
+    ]) {
+      const box = widget.getByRole('checkbox', { name: label });
+      const shown = await box.isChecked();
+      const before = await pixelsOf(plane, role);
+      await box.setChecked(!shown);
+      const change = (await pixelsOf(plane, role)) - before;
+      expect(shown ? -change : change, label).toBeGreaterThan(100);
+      await box.setChecked(shown);
+      expect(await pictureOf(plane)).toBe(first);
+    }
+    await widget.getByRole('checkbox', { name: 'exponential coordinates' }).uncheck();
+    expect(await pixelsOf(twist, 'posterior')).toBe(0);
+  });
+
+  test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
+    const widget = await open(page);
+    const plane = widget.locator('canvas.plane');
+    const twist = widget.locator('canvas.twist');
+    const field = widget.getByRole('spinbutton', { name: 'Robot' });
+    const marks = async () => [await pixelsOf(plane, 'accent'), await pixelsOf(twist, 'accent')];
+    expect(await marks()).toEqual([0, 0]);
+
+    const executed = async () => {
+      const index = Number(await field.inputValue()) - 1;
+      const { vHat, omegaHat, gammaHat } = await widget.evaluate(
+        (element, i) => /** @type {BananaMachineElement} */ (element).machine.inspect(i),
+        index,
+      );
+      const text = (await widget.locator('.marked output').textContent()) ?? '';
+      const printed = [...text.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
+      expect(printed).toHaveLength(3);
+      for (const [i, value] of [vHat, omegaHat, gammaHat].entries()) expect(printed[i]).toBeCloseTo(value, 3);
+      return index;
+    };
+
+    const handle = await centreOf(widget.locator('.handle'));
+    await page.mouse.move(handle.x + 30, handle.y + 20);
+    for (const count of await marks()) expect(count).toBeGreaterThan(20);
+    const inPlane = await executed();
+
+    await twist.scrollIntoViewIfNeeded();
+    const { x, y, width, height } = await boxOf(twist);
+    await page.mouse.move(x + width * 0.45, y + height * 0.45);
+    for (const count of await marks()) expect(count).toBeGreaterThan(20);
+    expect(await executed()).not.toBe(inPlane);
+
+    await field.fill('5');
+    await frames(page);
+    expect(await executed()).toBe(4);
+    await field.fill('');
+    expect(await marks()).toEqual([0, 0]);
+  });
+
+  test('the pictures have a text equivalent that follows the state', async ({ page }) => {
+    const widget = await open(page);
+    const plane = widget.locator('canvas.plane');
+    const { stats } = await state(widget);
+    await expect(plane).toHaveAttribute('aria-label', new RegExp(`end around x ${stats.cartesian.mean[0].toFixed(2)} m`));
+    await widget.getByRole('button', { name: 'Hard arc' }).click();
+    await expect(plane).toHaveAttribute('aria-label', /ω = 1\.20 rad\/s/);
+    await expect(widget.locator('p[role=status]')).toContainText('ω = 1.20 rad/s');
+  });
+});

@@ -1,0 +1,181 @@
+/**
+ * What the browser tests share: the widget on its page, what its machine says, and a hand on its
+ * controls.
+ *
+ * @module
+ */
+
+import { expect, test as base } from '@playwright/test';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('../../www/types.d.ts').BananaMachine} BananaMachine
+ * @typedef {import('../../www/types.d.ts').Motion} Motion
+ * @typedef {HTMLElement & { machine: BananaMachine, motion: Motion }} BananaMachineElement
+ */
+
+/** A test that fails on anything the page complains of. */
+export const test = base.extend({
+  page: async ({ page }, use) => {
+    /** @type {string[]} */
+    const complaints = [];
+    page.on('console', (message) => {
+      if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+    });
+    page.on('pageerror', (error) => complaints.push(String(error)));
+    await use(page);
+    expect(complaints).toEqual([]);
+  },
+});
+
+/** For tests of a complete cloud: a reader who asked for less motion gets it at once. */
+export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
+
+/**
+ * The page, with its widget running.
+ *
+ * @param {Page} page
+ * @returns {Promise<Locator>} the widget
+ */
+export async function open(page) {
+  await page.goto('/');
+  const widget = page.locator('banana-machine');
+  await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
+  await frames(page);
+  return widget;
+}
+
+/**
+ * Waits until what was asked for has been drawn.
+ *
+ * @param {Page} page
+ */
+export async function frames(page) {
+  await page.evaluate(async () => {
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+  });
+}
+
+/**
+ * What the machine behind the widget says now.
+ *
+ * @param {Locator} widget
+ */
+export async function state(widget) {
+  await frames(widget.page());
+  return widget.evaluate((element) => {
+    const { machine } = /** @type {BananaMachineElement} */ (element);
+    const { config, shown, stats, table, contours } = machine;
+    const end = [...contours.command.slice(-2)];
+    return { config, shown, stats, table, end, poses: [...machine.poses] };
+  });
+}
+
+/**
+ * @param {Locator} widget
+ * @param {number} count
+ * @returns {Promise<{ vHat: number, omegaHat: number, gammaHat: number }[]>} the first robots
+ */
+export function inspectFirst(widget, count) {
+  return widget.evaluate((element, length) => {
+    const { machine } = /** @type {BananaMachineElement} */ (element);
+    return Array.from({ length }, (_, i) => {
+      const { vHat, omegaHat, gammaHat } = machine.inspect(i);
+      return { vHat, omegaHat, gammaHat };
+    });
+  }, count);
+}
+
+/**
+ * Drags a slider's thumb with the mouse.
+ *
+ * @param {Locator} slider
+ * @param {number} to where the thumb is let go, as a share of the range
+ */
+export async function dragSlider(slider, to) {
+  const page = slider.page();
+  await slider.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await boxOf(slider);
+  const from = await slider.evaluate((element) => {
+    const { value, min, max } = /** @type {HTMLInputElement} */ (element);
+    return (Number(value) - Number(min)) / (Number(max) - Number(min));
+  });
+  // The thumb's centre travels the width of the input less its own.
+  const at = (/** @type {number} */ share) => x + height * 0.3 + share * (width - height * 0.6);
+  await page.mouse.move(at(from), y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(at((from + to) / 2), y + height / 2, { steps: 4 });
+  await page.mouse.move(at(to), y + height / 2, { steps: 4 });
+  await page.mouse.up();
+}
+
+/** @param {Locator} locator */
+export async function boxOf(locator) {
+  const box = await locator.boundingBox();
+  if (!box) throw new Error('It is not on the page.');
+  return box;
+}
+
+/** @param {Locator} locator */
+export async function centreOf(locator) {
+  const { x, y, width, height } = await boxOf(locator);
+  return { x: x + width / 2, y: y + height / 2 };
+}
+
+/**
+ * @param {Locator} canvas
+ * @returns {Promise<string>} its pixels
+ */
+export async function pictureOf(canvas) {
+  await frames(canvas.page());
+  return canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
+}
+
+/**
+ * How many pixels of a canvas have a role's colour.
+ *
+ * @param {Locator} canvas
+ * @param {string} role name of the custom property
+ */
+export async function pixelsOf(canvas, role) {
+  await frames(canvas.page());
+  return canvas.evaluate((element, name) => {
+    const target = /** @type {HTMLCanvasElement} */ (element);
+    const probe = document.createElement('span');
+    probe.style.color = `var(--${name})`;
+    target.after(probe);
+    const wanted = (getComputedStyle(probe).color.match(/\d+/g) ?? []).map(Number);
+    probe.remove();
+    const copy = document.createElement('canvas');
+    copy.width = target.width;
+    copy.height = target.height;
+    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+    context.drawImage(target, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const off = Math.max(...wanted.map((channel, k) => Math.abs(channel - data[i + k])));
+      if (data[i + 3] > 250 && off < 8) count++;
+    }
+    return count;
+  }, role);
+}
+
+/**
+ * The text of a readout.
+ *
+ * @param {Locator} widget
+ * @param {string | RegExp} name
+ */
+export function readout(widget, name) {
+  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd');
+}
+
+/**
+ * @param {string | null} text as the widget prints numbers
+ * @returns {number}
+ */
+export function numberIn(text) {
+  return Number((text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, ''));
+}

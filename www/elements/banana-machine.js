@@ -1,0 +1,446 @@
+/**
+ * <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are an
+ * ordinary Gaussian.
+ *
+ * @module
+ */
+
+import { html, nothing } from 'lit';
+import { skewChart } from '../ui/chart.js';
+import { toggle } from '../ui/controls.js';
+import { DASHES } from '../ui/draw.js';
+import { fixed } from '../ui/format.js';
+import { theme } from '../ui/theme.js';
+import { cloudControls, commandControls, noiseControls } from './banana-controls.js';
+import { PlanePicture, TwistPicture } from './banana-pictures.js';
+import { markedRobot, readoutStyles, readouts, workedExample } from './banana-readouts.js';
+import { bananaStyles } from './banana-styles.js';
+import {
+  COMMAND_SLIDERS,
+  OVERLAY_LABELS,
+  announcementOf,
+  noteOn,
+  planeText,
+  twistText,
+} from './banana-words.js';
+import { WidgetElement } from './base.js';
+
+/**
+ * @typedef {import('../types.d.ts').BananaMachine} BananaMachine
+ * @typedef {import('../types.d.ts').Motion} Motion
+ * @typedef {import('../types.d.ts').Settings} Settings
+ * @typedef {keyof typeof DASHES} Overlay
+ */
+
+/** Steps that a cloud grows in. */
+const BATCHES = 150;
+
+/** How near to a sample the pointer must be to mark it, CSS pixels. */
+const REACH = 14;
+
+/** What an arrow key moves the end of the arc by, metres; with Shift the longer way. */
+const KEY_STEP = 0.02;
+const LONG_KEY_STEP = 0.1;
+
+/** Points of the chart's curve. */
+const CURVE_POINTS = 81;
+
+const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(OVERLAY_LABELS));
+const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
+
+/** @extends {WidgetElement<BananaMachine>} */
+export class BananaMachineElement extends WidgetElement {
+  static styles = [theme, readoutStyles, ...bananaStyles];
+
+  #playing = false;
+  /** The α that Isolate leaves, from 0; remembered while Isolate is off. */
+  #chosen = 3;
+  /** The robot that is marked in both views; −1 for none. */
+  #marked = -1;
+  /** @type {Record<Overlay, boolean>} */
+  #overlays = { command: true, ellipse: true, linearized: false, exponential: true };
+  /** Whether the handle is held: the views keep still under it. */
+  #holding = false;
+  /** @type {Partial<Settings>} changes that wait for the next frame */
+  #pending = {};
+  /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
+  #figures;
+  #stale = true;
+  #toAnnounce = false;
+  #announcement = '';
+  #plane = new PlanePicture();
+  #twist = new TwistPicture();
+
+  #actions = {
+    change: (/** @type {import('./banana-controls.js').Change} */ change) => this.#change(change),
+    commit: () => this.#commit(),
+    isolate: (/** @type {number} */ index) => {
+      this.#chosen = index;
+      this.#change({ isolate: index + 1 });
+      this.#commit();
+    },
+  };
+
+  /**
+   * @param {Motion} motion
+   * @param {Partial<Settings>} [settings]
+   */
+  createMachine(motion, settings) {
+    return new motion.BananaMachine(settings);
+  }
+
+  machineReady() {
+    this.#stale = true;
+    this.#pending = {};
+    if (!this.calm) {
+      this.machine?.restart();
+      this.#playing = true;
+    }
+    this.#read();
+  }
+
+  /** @param {number} elapsed milliseconds */
+  draw(elapsed) {
+    const { machine, palette } = this;
+    if (!machine || !palette) return;
+    this.#configure();
+    if (this.#playing) this.#grow();
+    if (this.#stale) this.#read();
+
+    const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
+    const marked = this.#inspection();
+    const scene = { ...figures, machine, overlays: this.#overlays, marked };
+    let moving = false;
+    for (const picture of [this.#plane, this.#twist]) {
+      const canvas = this.#canvas(picture.name);
+      picture.prepare(canvas);
+      if (!this.#holding) picture.fit(scene);
+      moving = picture.view.ease(elapsed, this.calm) || moving;
+      picture.draw(canvas, scene, palette);
+    }
+    this.#placeHandle();
+    this.requestUpdate();
+    if (moving || this.#playing) this.wake();
+  }
+
+  /**
+   * Wants other settings from the next frame on: a drag costs one configuration a frame.
+   *
+   * @param {import('./banana-controls.js').Change} change
+   */
+  #change(change) {
+    if (!this.machine) return;
+    const wanted = { ...this.machine.config, ...this.#pending };
+    Object.assign(this.#pending, typeof change === 'function' ? change(wanted) : change);
+    this.wake();
+  }
+
+  #configure() {
+    if (Object.keys(this.#pending).length === 0) return;
+    const pending = this.#pending;
+    this.#pending = {};
+    this.machine?.configure(pending);
+    this.#stale = true;
+  }
+
+  /** What was changed has come to rest: put it into effect and say what it led to. */
+  #commit() {
+    this.#configure();
+    this.#toAnnounce = true;
+    this.#stale = true;
+    this.wake();
+  }
+
+  #read() {
+    if (!this.machine) return;
+    this.#figures = read(this.machine);
+    this.#stale = false;
+    if (this.#toAnnounce) {
+      const { config, stats, note } = this.#figures;
+      this.#announcement = announcementOf(config, stats, note);
+      this.#toAnnounce = false;
+    }
+  }
+
+  get #batch() {
+    return Math.ceil((this.machine?.config.samples ?? 0) / BATCHES);
+  }
+
+  #grow() {
+    const { machine } = this;
+    if (!machine) return;
+    const { samples } = machine.config;
+    this.#stale = true;
+    if (machine.grow(this.#batch) < samples) return;
+    this.#playing = false;
+    this.#toAnnounce = true;
+  }
+
+  #play() {
+    const { machine } = this;
+    if (!machine) return;
+    if (!this.#playing && machine.shown === machine.config.samples) machine.restart();
+    this.#playing = !this.#playing;
+    this.#commit();
+  }
+
+  #step() {
+    this.#playing = false;
+    this.machine?.grow(this.#batch);
+    this.#commit();
+  }
+
+  #reset() {
+    this.#playing = false;
+    this.machine?.restart();
+    this.#commit();
+  }
+
+  #reseed() {
+    if (!this.motion) return;
+    this.#change({ seed: this.motion.randomSeed() });
+    this.#commit();
+  }
+
+  /** @param {number} index −1 for none */
+  #mark(index) {
+    if (index === this.#marked) return;
+    this.#marked = index;
+    this.wake();
+  }
+
+  /** The marked robot, if it is among those shown. */
+  #inspection() {
+    const { machine } = this;
+    const there = machine && this.#marked >= 0 && this.#marked < machine.shown;
+    return there ? machine.inspect(this.#marked) : undefined;
+  }
+
+  /**
+   * Sets the command to the arc that ends at a point, as far as the sliders go.
+   *
+   * @param {number} x metres
+   * @param {number} y
+   */
+  #reach(x, y) {
+    if (!this.motion || !this.#figures) return;
+    const { dt } = this.#figures.config.command;
+    const { v, omega } = this.motion.commandReaching(x, y, dt);
+    const command = { v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE), dt };
+    this.#change({ command });
+  }
+
+  /** @param {PointerEvent} event */
+  #dragHandle(event) {
+    if (!this.#holding) return;
+    const box = this.#canvas('plane').getBoundingClientRect();
+    const { view } = this.#plane;
+    this.#reach(view.toWorldX(event.clientX - box.left), view.toWorldY(event.clientY - box.top));
+  }
+
+  /** @param {PointerEvent} event */
+  #holdHandle(event) {
+    const handle = /** @type {HTMLElement} */ (event.currentTarget);
+    handle.setPointerCapture(event.pointerId);
+    this.#holding = true;
+  }
+
+  #releaseHandle() {
+    if (!this.#holding) return;
+    this.#holding = false;
+    this.#commit();
+  }
+
+  /** @param {KeyboardEvent} event */
+  #keyHandle(event) {
+    const step = event.shiftKey ? LONG_KEY_STEP : KEY_STEP;
+    const ways = /** @type {Record<string, [number, number]>} */ ({
+      ArrowRight: [step, 0],
+      ArrowLeft: [-step, 0],
+      ArrowUp: [0, step],
+      ArrowDown: [0, -step],
+    });
+    const way = ways[event.key];
+    if (!way || !this.#figures) return;
+    event.preventDefault();
+    const [x, y] = this.#figures.end;
+    this.#reach(x + way[0], y + way[1]);
+    this.#commit();
+  }
+
+  #placeHandle() {
+    const handle = /** @type {HTMLElement | null} */ (this.renderRoot.querySelector('.handle'));
+    if (!handle || !this.#figures) return;
+    const [x, y] = this.#figures.end;
+    const { view } = this.#plane;
+    handle.style.translate = `${view.toPixelX(x)}px ${view.toPixelY(y)}px`;
+  }
+
+  /** @param {'plane' | 'twist'} name */
+  #canvas(name) {
+    return /** @type {HTMLCanvasElement} */ (this.renderRoot.querySelector(`canvas.${name}`));
+  }
+
+  /**
+   * @param {PlanePicture | TwistPicture} picture
+   * @param {PointerEvent} event
+   */
+  #point(picture, event) {
+    if (!this.machine || this.#holding) return;
+    const index = picture.nearest(this.machine, event.offsetX, event.offsetY, REACH);
+    if (index >= 0 || event.type === 'pointerdown') this.#mark(index);
+  }
+
+  renderWidget() {
+    const { machine, motion } = this;
+    if (!machine || !motion || !this.#figures) return nothing;
+    const { config, stats, table, curve, note, exactSkew } = this.#figures;
+    const overlays = OVERLAYS.filter((name) => this.#overlays[name]);
+    return html`
+      <section class="machine" aria-label="The Banana Machine">
+        <div class="floor">
+          ${this.#stage(planeText(config, stats, note, overlays.map(String)))}
+          <p class="note" ?hidden=${note === ''}>${note}</p>
+          ${this.#legend()} ${readouts(stats)}
+          ${markedRobot({
+            index: this.#marked,
+            shown: stats.n,
+            inspection: this.#inspection(),
+            mark: (index) => this.#mark(index),
+          })}
+          ${cloudControls(
+            {
+              config,
+              playing: this.#playing,
+              batch: this.#batch,
+              play: () => this.#play(),
+              step: () => this.#step(),
+              reset: () => this.#reset(),
+              reseed: () => this.#reseed(),
+            },
+            this.#actions,
+          )}
+        </div>
+        <div class="controls">
+          ${commandControls(config, motion.BananaMachine.presets, this.#actions)}
+          ${noiseControls(config, Math.min(this.#chosen, config.alphas.length - 1), this.#actions)}
+        </div>
+        <div class="figures">
+        <figure>
+          <canvas
+            class="twist"
+            role="img"
+            aria-label=${twistText(stats)}
+            @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
+            @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
+          ></canvas>
+          <figcaption>The same robots in exponential coordinates: the banana is an ellipse.</figcaption>
+        </figure>
+        <figure>
+          ${skewChart({
+            label: 'Exact cross-track skew against commanded ω, for the present noise',
+            curve,
+            min: OMEGA_RANGE.min,
+            max: OMEGA_RANGE.max,
+            step: OMEGA_RANGE.step,
+            x: config.command.omega,
+            y: exactSkew,
+            measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
+            valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, exact skew ${fixed(exactSkew, 3)}`,
+            move: (omega) => this.#change({ command: { ...config.command, omega } }),
+            commit: () => this.#commit(),
+          })}
+          <figcaption>
+            Exact skew against commanded <i>ω</i>, and the robots’ own with its standard error.
+            The dashed line is any Gaussian in <i>(x, y)</i>.
+          </figcaption>
+        </figure>
+        ${workedExample(table)}
+        </div>
+        <p class="visually-hidden" role="status">${this.#announcement}</p>
+      </section>
+    `;
+  }
+
+  /** @param {string} description */
+  #stage(description) {
+    const { v, omega } = this.#figures?.config.command ?? { v: 0, omega: 0 };
+    return html`<div class="stage">
+      <canvas
+        class="plane"
+        role="img"
+        aria-label=${description}
+        @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
+        @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
+      ></canvas>
+      <div
+        class="handle"
+        role="slider"
+        tabindex="0"
+        aria-label="End of the commanded arc"
+        aria-description="Arrow keys move it over the floor"
+        aria-valuemin=${OMEGA_RANGE.min}
+        aria-valuemax=${OMEGA_RANGE.max}
+        aria-valuenow=${omega}
+        aria-valuetext="v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s"
+        title="Drag the end of the arc"
+        @pointerdown=${this.#holdHandle}
+        @pointermove=${this.#dragHandle}
+        @pointerup=${this.#releaseHandle}
+        @pointercancel=${this.#releaseHandle}
+        @keydown=${this.#keyHandle}
+      ></div>
+    </div>`;
+  }
+
+  #legend() {
+    return html`<div class="legend" role="group" aria-label="Overlays">
+      ${OVERLAYS.map((name) =>
+        toggle({
+          label: html`<svg class="swatch ${name}" viewBox="0 0 30 8" aria-hidden="true">
+              <line x1="1" x2="29" y1="4" y2="4" stroke-dasharray=${DASHES[name].join(' ')} />
+            </svg>
+            <span>${OVERLAY_LABELS[name]}</span>`,
+          checked: this.#overlays[name],
+          change: (checked) => {
+            this.#overlays[name] = checked;
+            this.wake();
+          },
+        }),
+      )}
+    </div>`;
+  }
+}
+
+/**
+ * Everything that the pictures and figures need of the machine, asked once a change.
+ *
+ * @param {BananaMachine} machine
+ */
+function read(machine) {
+  const { config, stats, contours, table } = machine;
+  return {
+    config,
+    stats,
+    contours,
+    table,
+    note: noteOn(config, table),
+    exactSkew: table.exact.crossTrackSkew,
+    curve: machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS),
+    /** The end of the commanded arc, metres. */
+    end: /** @type {[number, number]} */ ([...contours.command.slice(-2)]),
+  };
+}
+
+/**
+ * @param {number} value
+ * @param {{ min: number, max: number }} range
+ */
+function clamp(value, { min, max }) {
+  return Math.min(max, Math.max(min, value));
+}
+
+// A page may carry the script twice.
+if (!customElements.get('banana-machine')) {
+  customElements.define('banana-machine', BananaMachineElement);
+}

@@ -1,0 +1,252 @@
+/**
+ * The Banana Machine's two pictures of the same robots: the floor from above, and exponential
+ * coordinates.
+ *
+ * @module
+ */
+
+import {
+  DASHES,
+  clipped,
+  drawAxes,
+  drawDensity,
+  drawDots,
+  drawHeap,
+  drawMark,
+  drawOutline,
+  drawRobot,
+} from '../ui/draw.js';
+import { whole } from '../ui/format.js';
+import { View, extentOf } from '../ui/view.js';
+
+/**
+ * @typedef {import('../types.d.ts').BananaMachine} BananaMachine
+ * @typedef {import('../types.d.ts').Contours} Contours
+ * @typedef {import('../types.d.ts').Inspection} Inspection
+ * @typedef {import('../types.d.ts').Palette} Palette
+ * @typedef {import('../types.d.ts').Settings} Settings
+ * @typedef {import('../types.d.ts').Table} Table
+ * @typedef {import('../types.d.ts').ViewName} ViewName
+ *
+ * @typedef {object} Scene what both pictures are of
+ * @property {BananaMachine} machine
+ * @property {Settings} config
+ * @property {Contours} contours
+ * @property {Table} table
+ * @property {Record<keyof typeof DASHES, boolean>} overlays
+ * @property {Inspection | undefined} marked
+ */
+
+/** From here on the cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
+const DOTS_AT_MOST = 2500;
+
+/** Rays of a fan of headings: more look no different. */
+const RAYS_AT_MOST = 400;
+
+/** A cloud whose standard deviation is below this many pixels is drawn as one place. */
+const ONE_PLACE = 0.6;
+
+/** Standard deviations around the mean that a view makes room for. */
+const ROOM = 3.2;
+
+/** A picture: a canvas and its view. */
+class Picture {
+  /**
+   * @param {ViewName} name
+   * @param {View} view
+   */
+  constructor(name, view) {
+    this.name = name;
+    this.view = view;
+  }
+
+  /**
+   * Prepares a canvas for drawing in CSS pixels.
+   *
+   * @param {HTMLCanvasElement} canvas
+   */
+  prepare(canvas) {
+    const ratio = canvas.width / Math.max(1, canvas.clientWidth);
+    this.ratio = ratio;
+    this.view.resize(canvas.width / ratio, canvas.height / ratio);
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, this.view.width, this.view.height);
+    const { fontFamily, fontSize } = getComputedStyle(canvas);
+    this.font = `${fontSize} ${fontFamily}`;
+    return context;
+  }
+
+  /**
+   * The sample nearest to the pointer.
+   *
+   * @param {BananaMachine} machine
+   * @param {number} x CSS pixels in the canvas
+   * @param {number} y
+   * @param {number} reach CSS pixels
+   */
+  nearest(machine, x, y, reach) {
+    const { view } = this;
+    const [worldX, worldY] = [view.toWorldX(x), view.toWorldY(y)];
+    return machine.nearest(this.name, worldX, worldY, reach / view.scaleX, reach / view.scaleY);
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Scene} scene
+   * @param {Palette} palette
+   * @param {number} cell CSS pixels
+   */
+  drawCloud(context, { machine }, palette, cell) {
+    const { view, name } = this;
+    if (machine.shown > DOTS_AT_MOST) {
+      const { left, right, top, bottom } = view.frame;
+      const { xMin, yMin, xMax, yMax } = view.extent;
+      const columns = Math.max(1, Math.round((right - left) / cell));
+      const rows = Math.max(1, Math.round((bottom - top) / cell));
+      const counts = machine.density(name, xMin, yMin, xMax, yMax, columns, rows);
+      drawDensity(context, view, palette, counts, columns);
+    } else if (name === 'plane') {
+      drawDots(context, view, palette, machine.poses, { x: 0, y: 1, heading: 2, ratio: this.ratio ?? 1 });
+    } else {
+      drawDots(context, view, palette, machine.twists, { x: 0, y: 2, heading: null, ratio: this.ratio ?? 1 });
+    }
+  }
+}
+
+/**
+ * Cells of the density, CSS pixels: fine when there are robots enough to fill them.
+ *
+ * @param {number} area that the cloud covers, square pixels
+ * @param {number} count
+ */
+function cellSize(area, count) {
+  return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
+}
+
+/** The floor from above. */
+export class PlanePicture extends Picture {
+  constructor() {
+    super('plane', new View({ equal: true, inset: { left: 42, right: 8, top: 24, bottom: 30 } }));
+  }
+
+  /** @param {Scene} scene */
+  fit({ contours, table }) {
+    const { mean, cov } = table.exact;
+    const [sx, sy] = [ROOM * Math.sqrt(Math.max(0, cov[0][0])), ROOM * Math.sqrt(Math.max(0, cov[1][1]))];
+    /** @type {[number, number][]} */
+    const points = [[mean[0] - sx, mean[1] - sy], [mean[0] + sx, mean[1] + sy]];
+    const { command } = contours;
+    for (let i = 0; i < command.length; i += 2) points.push([command[i], command[i + 1]]);
+    const box = extentOf(points, 0.4);
+    // Around the end there is room for a fan of headings, which may be all there is to see.
+    const fan = 0.2 * (box.xMax - box.xMin);
+    const [x, y] = command.slice(-2);
+    points.push([x - fan, y - fan], [x + fan, y + fan]);
+    this.view.fit(extentOf(points, 0.4));
+  }
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Scene} scene
+   * @param {Palette} palette
+   */
+  draw(canvas, scene, palette) {
+    const context = this.prepare(canvas);
+    const { view } = this;
+    const { contours, overlays, table, marked } = scene;
+    drawAxes(context, view, palette, { x: 'x (m)', y: 'y (m)', font: this.font ?? '' });
+    clipped(context, view, () => {
+      const { cov } = table.exact;
+      const [sx, sy] = [cov[0][0], cov[1][1]].map((variance) => Math.sqrt(Math.max(0, variance)) * view.scaleX);
+      const heaped = Math.hypot(sx, sy) < ONE_PLACE;
+      if (!heaped) {
+        const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
+        const area = 4 * Math.PI * Math.sqrt(determinant) * view.scaleX * view.scaleY;
+        this.drawCloud(context, scene, palette, cellSize(area, scene.machine.shown));
+      }
+      drawRobot(context, view, palette, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      const styles = /** @type {const} */ ([
+        ['linearized', palette.prior, 1.75],
+        ['ellipse', palette.prediction, 2],
+        ['exponential', palette.posterior, 2.25],
+        ['command', palette.prior, 2.5],
+      ]);
+      for (const [name, colour, width] of styles) {
+        if (!overlays[name]) continue;
+        drawOutline(context, view, palette, contours[name], { colour, width, dash: DASHES[name] });
+      }
+      if (heaped && scene.machine.shown > 0) this.#drawHeap(context, scene, palette);
+      if (marked) {
+        const { pose, path } = marked;
+        drawOutline(context, view, palette, path, { colour: palette.accent, width: 1.25, dash: [2, 3] });
+        drawMark(context, view, palette, { x: pose[0], y: pose[1], heading: pose[2] });
+      }
+    });
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Scene} scene
+   * @param {Palette} palette
+   */
+  #drawHeap(context, { machine }, palette) {
+    const poses = machine.poses;
+    const stride = Math.ceil(machine.shown / RAYS_AT_MOST);
+    const headings = [];
+    for (let i = 0; i < machine.shown; i += stride) headings.push(poses[3 * i + 2]);
+    const label = machine.shown === 1 ? '1 robot here' : `${whole(machine.shown)} robots here`;
+    drawHeap(context, this.view, palette, { x: poses[0], y: poses[1], headings, label, font: this.font ?? '' });
+  }
+}
+
+/** The same robots in exponential coordinates. */
+export class TwistPicture extends Picture {
+  constructor() {
+    super('twist', new View({ equal: false, inset: { left: 46, right: 10, top: 24, bottom: 30 } }));
+  }
+
+  /** @param {Scene} scene */
+  fit({ config, table }) {
+    const { v, omega, dt } = config.command;
+    const { cov } = table.exact;
+    // Along-track spread is at most the spread in the plane; that much room needs no samples.
+    const along = ROOM * Math.sqrt(Math.max(0, cov[0][0] + cov[1][1]));
+    const heading = ROOM * Math.sqrt(Math.max(0, cov[2][2]));
+    const [x, y] = [v * dt, omega * dt];
+    this.view.fit(extentOf([[x - along, y - heading], [x + along, y + heading]], 0.1));
+  }
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Scene} scene
+   * @param {Palette} palette
+   */
+  draw(canvas, scene, palette) {
+    const context = this.prepare(canvas);
+    const { view } = this;
+    const { machine, config, contours, overlays, table, marked } = scene;
+    drawAxes(context, view, palette, { x: 'ξ along (m)', y: 'ξ heading (rad)', font: this.font ?? '' });
+    clipped(context, view, () => {
+      const { cov } = table.exact;
+      const along = Math.sqrt(Math.max(0, cov[0][0])) * view.scaleX;
+      const heading = Math.sqrt(Math.max(0, cov[2][2])) * view.scaleY;
+      this.drawCloud(context, scene, palette, cellSize(4 * Math.PI * along * heading, machine.shown));
+      if (overlays.exponential) {
+        const style = { colour: palette.posterior, width: 2.25, dash: DASHES.exponential };
+        drawOutline(context, view, palette, contours.twistEllipse, style);
+      }
+      if (overlays.command) {
+        const { v, omega, dt } = config.command;
+        context.beginPath();
+        context.arc(view.toPixelX(v * dt), view.toPixelY(omega * dt), 5, 0, 2 * Math.PI);
+        context.fillStyle = palette.paper;
+        context.fill();
+        context.strokeStyle = palette.prior;
+        context.lineWidth = 2.5;
+        context.stroke();
+      }
+      if (marked) drawMark(context, view, palette, { x: marked.twist[0], y: marked.twist[2], heading: null });
+    });
+  }
+}

@@ -1,0 +1,237 @@
+/**
+ * What the Banana Machine says: captions of its parameters, sentences about degenerate clouds,
+ * and the text that stands for the pictures.
+ *
+ * @module
+ */
+
+import { html } from 'lit';
+import { fixed, percent, whole, withError } from '../ui/format.js';
+
+/**
+ * @typedef {import('../types.d.ts').Settings} Settings
+ * @typedef {import('../types.d.ts').Stats} Stats
+ * @typedef {import('../types.d.ts').Table} Table
+ * @typedef {import('../types.d.ts').Inspection} Inspection
+ */
+
+export const PRESET_LABELS = {
+  straight: 'Straight',
+  gentle: 'Gentle arc',
+  hard: 'Hard arc',
+  pivot: 'Pivot',
+};
+
+export const OVERLAY_LABELS = {
+  command: 'commanded arc',
+  ellipse: html`2σ Gaussian in <i>(x, y)</i>`,
+  linearized: 'linearized (EKF) ellipse',
+  exponential: html`2σ Gaussian in exponential coordinates`,
+};
+
+/** The sliders of the command, with the range that the handle and the chart keep to as well. */
+export const COMMAND_SLIDERS = /** @type {const} */ ([
+  {
+    key: 'v',
+    symbol: 'v',
+    name: 'v, commanded speed',
+    unit: 'm/s',
+    min: -1.5,
+    max: 1.5,
+    step: 0.01,
+    effect: 'How far along the arc; below zero the robot backs up.',
+  },
+  {
+    key: 'omega',
+    symbol: 'ω',
+    name: 'ω, commanded turn rate',
+    unit: 'rad/s',
+    min: -2,
+    max: 2,
+    step: 0.01,
+    effect: 'How sharply the arc bends; positive turns left.',
+  },
+  {
+    key: 'dt',
+    symbol: 'Δt',
+    name: 'Δt, duration',
+    unit: 's',
+    min: 0.1,
+    max: 3,
+    step: 0.05,
+    effect: 'How long it drives: errors spread on the way.',
+  },
+]);
+
+/** One line for each α: the noise it feeds, and what that does to the picture. */
+const EFFECTS = {
+  velocity: [
+    ['v² into v̂', 'smears the cloud along the arc'],
+    ['ω² into v̂', 'smears it too, but only in turns'],
+    ['v² into ω̂', 'fans the cloud open and bends it'],
+    ['ω² into ω̂', 'fans it too, but only in turns'],
+    ['v² into γ̂', 'turns each robot where it stopped'],
+    ['ω² into γ̂', 'turns it too, but only in turns'],
+  ],
+  odometry: [
+    ['rotation into rotation', 'swings the cloud about the start'],
+    ['distance into rotation', 'fans the cloud, even on a straight'],
+    ['distance into distance', 'smears it along the line of travel'],
+    ['rotation into distance', 'smears it too, but only in turns'],
+  ],
+};
+
+/** What feeds each α, and what turning that up would show. */
+const DRIVERS = {
+  velocity: [
+    ['v²', 'v', 'smear along the arc'],
+    ['ω²', 'ω', 'smear along the arc'],
+    ['v²', 'v', 'fan'],
+    ['ω²', 'ω', 'fan'],
+    ['v²', 'v', 'turn in place'],
+    ['ω²', 'ω', 'blur its headings'],
+  ],
+  odometry: [
+    ['the squared rotations', 'ω', 'swing'],
+    ['the squared distance', 'v', 'fan'],
+    ['the squared distance', 'v', 'smear'],
+    ['the squared rotations', 'ω', 'smear'],
+  ],
+};
+
+/** Below this, metres or radians, a spread is none: rounding of the quadrature, not noise. */
+const NO_SPREAD = 1e-9;
+
+/**
+ * @param {Settings['model']} model
+ * @param {number} index from 0
+ */
+export function effectOf(model, index) {
+  const [path, picture] = EFFECTS[model][index];
+  return html`<span class="path">${path}:</span> ${picture}.`;
+}
+
+/** @param {number} index from 0 */
+export function alphaSymbol(index) {
+  return html`<i>α</i><sub>${index + 1}</sub>`;
+}
+
+/** @param {number} index from 0 */
+export function alphaName(index) {
+  return `α${String.fromCharCode(0x2081 + index)}`;
+}
+
+/**
+ * What kind of spread the cloud has, by the exact covariance.
+ *
+ * @param {Table} table
+ * @returns {'point' | 'headings' | 'cloud'} one pose; one place but many headings; or a spread
+ */
+export function spreadOf(table) {
+  const { cov } = table.exact;
+  if (Math.sqrt(Math.max(0, cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
+  return Math.sqrt(Math.max(0, cov[2][2])) > NO_SPREAD ? 'headings' : 'point';
+}
+
+/**
+ * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
+ *
+ * @param {Settings} config
+ * @param {Table} table
+ * @returns {string} empty for an ordinary cloud
+ */
+export function noteOn(config, table) {
+  const spread = spreadOf(table);
+  const { v, omega } = config.command;
+  if (spread === 'point') {
+    if (v === 0 && omega === 0) return 'The command is to stand still, and a robot at rest has no motion noise.';
+    if (config.isolate !== null) return noteOnSilentAlpha(config, config.isolate - 1);
+    if (config.alphas.every((alpha) => alpha === 0)) {
+      return 'Every α is 0: no noise at all, so every robot stops exactly where it was told to.';
+    }
+    return 'No α that is above 0 has anything to multiply in this command: no noise at all.';
+  }
+  if (spread === 'headings') {
+    return 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.';
+  }
+  return '';
+}
+
+/**
+ * @param {Settings} config
+ * @param {number} index of the isolated α, from 0
+ */
+function noteOnSilentAlpha({ model, alphas }, index) {
+  const name = alphaName(index);
+  if (alphas[index] === 0) return `${name} is alone and 0: no noise at all. Turn it up.`;
+  const [driver, cause, picture] = DRIVERS[model][index];
+  const verb = driver.startsWith('the') ? 'are' : 'is';
+  const zero = driver.startsWith('the') ? `${driver} ${verb} 0` : `${cause} is 0`;
+  return `${name} multiplies ${driver}, and ${zero}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`;
+}
+
+/**
+ * The command in words.
+ *
+ * @param {Settings['command']} command
+ */
+export function commandText({ v, omega, dt }) {
+  return `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s, Δt = ${fixed(dt, 2)} s`;
+}
+
+/**
+ * What is announced after a change has come to rest.
+ *
+ * @param {Settings} config
+ * @param {Stats} stats
+ * @param {string} note
+ */
+export function announcementOf(config, stats, note) {
+  const skew = Number.isNaN(stats.crossTrackSkew)
+    ? 'Cross-track skew undefined.'
+    : `Cross-track skew ${withError(stats.crossTrackSkew, stats.crossTrackSkewError, 2)}.`;
+  return `${whole(stats.n)} robots, ${commandText(config.command)}. ${note || skew}`;
+}
+
+/**
+ * The text equivalent of the view of the floor.
+ *
+ * @param {Settings} config
+ * @param {Stats} stats
+ * @param {string} note
+ * @param {string[]} overlays names of the outlines that are shown
+ */
+export function planeText(config, stats, note, overlays) {
+  const start = `View of the floor from above, x to the right and y up. Commanded: ${commandText(config.command)}.`;
+  const drawn = overlays.length ? ` Drawn over it: ${overlays.join(', ')}.` : '';
+  if (stats.n === 0) return `${start} No robots yet.${drawn}`;
+  const [x, y] = stats.cartesian.mean;
+  const mean = `${whole(stats.n)} robots end around x ${fixed(x, 2)} m, y ${fixed(y, 2)} m.`;
+  if (note) return `${start} ${mean} ${note}${drawn}`;
+  const { cov } = stats.cartesian;
+  const spread = `Standard deviations ${fixed(Math.sqrt(cov[0][0]), 2)} m in x and ${fixed(Math.sqrt(cov[1][1]), 2)} m in y.`;
+  return `${start} ${mean} ${spread} ${bendText(stats.crossTrackSkew)}${drawn}`;
+}
+
+/** @param {number} skew */
+function bendText(skew) {
+  if (Number.isNaN(skew)) return '';
+  if (Math.abs(skew) < 0.05) return 'The cloud hardly leans to either side.';
+  return `The cloud is bent, with its tail to the ${skew < 0 ? 'right' : 'left'} of the mean heading: skew ${fixed(skew, 2)}.`;
+}
+
+/**
+ * The text equivalent of the view in exponential coordinates.
+ *
+ * @param {Stats} stats
+ */
+export function twistText(stats) {
+  const start = 'The same robots in exponential coordinates, ξ along to the right and ξ heading up.';
+  if (stats.n < 2) return `${start} ${stats.n === 0 ? 'No robots yet.' : 'One robot.'}`;
+  const { mean, cov } = stats.exponential;
+  return (
+    `${start} Mean ${fixed(mean[0], 2)} m and ${fixed(mean[2], 2)} rad, standard deviations ` +
+    `${fixed(Math.sqrt(cov[0][0]), 2)} m and ${fixed(Math.sqrt(cov[2][2]), 2)} rad. ` +
+    `${percent(stats.coverage.exponential)} lie inside the 2σ ellipse.`
+  );
+}

@@ -1,0 +1,45 @@
+/**
+ * One animation-frame loop for every element of the page. It runs while some element has asked for
+ * a frame and stops when none has.
+ *
+ * @module
+ */
+
+/** @typedef {{ frame(elapsed: number): void }} Animated */
+
+/** Longest step that an animation is told of, milliseconds: a page left for a while does not leap. */
+const LONGEST_STEP = 100;
+
+/** @type {Set<Animated>} */
+const waiting = new Set();
+let previous = 0;
+let running = false;
+
+/**
+ * Calls `element.frame` at the next animation frame, once however often it is asked.
+ *
+ * @param {Animated} element
+ */
+export function wake(element) {
+  waiting.add(element);
+  if (running) return;
+  running = true;
+  previous = performance.now();
+  requestAnimationFrame(run);
+}
+
+/** @param {Animated} element */
+export function sleep(element) {
+  waiting.delete(element);
+}
+
+/** @param {number} now */
+function run(now) {
+  const elapsed = Math.min(LONGEST_STEP, Math.max(0, now - previous));
+  previous = now;
+  const due = [...waiting];
+  waiting.clear();
+  for (const element of due) element.frame(elapsed);
+  running = waiting.size > 0;
+  if (running) requestAnimationFrame(run);
+}

@@ -1,0 +1,2 @@
+/** Registers the custom elements. */
+import './elements/banana-machine.js';

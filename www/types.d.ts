@@ -1,0 +1,140 @@
+/** The JavaScript face of the core, as `load()` returns it. Metres, radians, seconds throughout. */
+
+export type ModelName = 'velocity' | 'odometry';
+export type NoiseName = 'normal' | 'triangular';
+/** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
+export type ViewName = 'plane' | 'twist';
+
+export interface Command {
+  v: number;
+  omega: number;
+  dt: number;
+}
+
+export interface Settings {
+  model: ModelName;
+  noise: NoiseName;
+  command: Command;
+  /** The present model's: six for the velocity model, four for the odometry model. */
+  alphas: number[];
+  /** Index, from 1, of the only α that is in effect; null for all of them. */
+  isolate: number | null;
+  samples: number;
+  seed: number;
+}
+
+export interface Preset extends Command {
+  name: 'straight' | 'gentle' | 'hard' | 'pivot';
+}
+
+export interface Moments {
+  mean: number[];
+  cov: number[][];
+}
+
+/** All over the samples shown; NaN where undefined. */
+export interface Stats {
+  n: number;
+  cartesian: Moments;
+  exponential: Moments;
+  crossTrackSkew: number;
+  crossTrackSkewError: number;
+  /** The skew that the fitted Gaussian in exponential coordinates predicts. */
+  gaussianSkew: number;
+  rhoCrossHeading: number;
+  coverage: { ellipse: number; exponential: number };
+}
+
+/** Outlines as x, y pairs; empty where undefined. */
+export interface Contours {
+  command: Float64Array;
+  ellipse: Float64Array;
+  linearized: Float64Array;
+  exponential: Float64Array;
+  /** In (ξ along, ξ heading). */
+  twistEllipse: Float64Array;
+}
+
+export interface TableColumn extends Moments {
+  crossTrackSkew: number;
+}
+
+export interface Table {
+  linearized: TableColumn;
+  exact: TableColumn;
+  measured: TableColumn;
+}
+
+/** One sample, and the arc that reaches its place. */
+export interface Inspection {
+  pose: ArrayLike<number>;
+  twist: ArrayLike<number>;
+  vHat: number;
+  omegaHat: number;
+  gammaHat: number;
+  /** That arc as x, y pairs from the start. */
+  path: Float64Array;
+}
+
+export interface BananaMachine extends Disposable {
+  readonly config: Settings;
+  readonly shown: number;
+  readonly poses: Float64Array;
+  readonly twists: Float64Array;
+  readonly stats: Stats;
+  readonly contours: Contours;
+  readonly table: Table;
+  configure(settings: Partial<Settings>): void;
+  grow(count: number): number;
+  restart(): void;
+  skewCurve(omegaMin: number, omegaMax: number, points: number): Float64Array;
+  inspect(index: number): Inspection;
+  nearest(view: ViewName, x: number, y: number, radiusX: number, radiusY: number): number;
+  density(
+    view: ViewName,
+    xMin: number,
+    yMin: number,
+    xMax: number,
+    yMax: number,
+    columns: number,
+    rows: number,
+  ): Uint32Array;
+  free(): void;
+}
+
+export interface BananaMachineClass {
+  readonly presets: Preset[];
+  readonly maxSamples: number;
+  new (options?: Partial<Settings>): BananaMachine;
+}
+
+export interface Motion {
+  BananaMachine: BananaMachineClass;
+  /** A whole number, 0 to 2³² − 1. */
+  randomSeed(): number;
+  /** The arc from the origin, heading along x, that ends at (x, y) after `dt` seconds. */
+  commandReaching(x: number, y: number, dt: number): { v: number; omega: number };
+}
+
+/** Axis-aligned part of a view's world. */
+export interface Extent {
+  xMin: number;
+  yMin: number;
+  xMax: number;
+  yMax: number;
+}
+
+/** Resolved CSS colours, one a role. */
+export interface Palette {
+  paper: string;
+  ink: string;
+  muted: string;
+  rule: string;
+  prior: string;
+  prediction: string;
+  /** Prediction, where it is a mass of dots rather than a line or text. */
+  cloud: string;
+  truth: string;
+  posterior: string;
+  accent: string;
+}

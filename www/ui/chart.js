@@ -1,0 +1,186 @@
+/**
+ * A line chart in SVG whose marker can be moved along x, by pointer and by keyboard.
+ *
+ * @module
+ */
+
+import { scaleLinear } from 'd3-scale';
+import { line } from 'd3-shape';
+import { css, html, nothing, svg } from 'lit';
+import { fixed, tick } from './format.js';
+
+const WIDTH = 380;
+const HEIGHT = 250;
+const INSET = { left: 40, right: 10, top: 22, bottom: 34 };
+
+/** Half-heights that the y axis may have, so that it holds still while a slider is dragged. */
+const HALF_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
+
+export const chartStyles = css`
+  .chart {
+    display: block;
+    width: 100%;
+    max-width: 34rem;
+    overflow: visible;
+    cursor: crosshair;
+    touch-action: pan-y;
+  }
+
+  .chart text {
+    fill: var(--muted);
+    font-size: 13px;
+  }
+
+  .chart .name {
+    font-style: italic;
+  }
+
+  .chart .axis {
+    stroke: var(--rule);
+  }
+
+  .chart .zero {
+    stroke: var(--prediction);
+    stroke-width: 1.5;
+    stroke-dasharray: 7 4;
+  }
+
+  .chart .curve {
+    fill: none;
+    stroke: var(--ink);
+    stroke-width: 1.75;
+  }
+
+  .chart .measured {
+    stroke: var(--prediction);
+    stroke-width: 2;
+  }
+
+  .chart .now {
+    stroke: var(--prior);
+    stroke-dasharray: 2 3;
+  }
+
+  .chart-marker circle {
+    fill: var(--paper);
+    stroke: var(--prior);
+    stroke-width: 2.5;
+  }
+`;
+
+/**
+ * @param {object} chart
+ * @param {string} chart.label what a screen reader says of the chart
+ * @param {Float64Array} chart.curve values at even steps from `min` to `max`; NaN leaves a gap
+ * @param {number} chart.min
+ * @param {number} chart.max
+ * @param {number} chart.step of the keyboard
+ * @param {number} chart.x where the marker is
+ * @param {number} chart.y NaN when there is none
+ * @param {{ value: number, error: number }} chart.measured
+ * @param {string} chart.valueText
+ * @param {(x: number) => void} chart.move
+ * @param {() => void} chart.commit
+ */
+export function skewChart(chart) {
+  const { min, max, curve } = chart;
+  const steps = Math.max(1, curve.length - 1);
+  const points = Array.from(
+    curve,
+    (value, i) => /** @type {[number, number]} */ ([min + (i * (max - min)) / steps, value]),
+  );
+  const peak = points.reduce((most, [, value]) => Math.max(most, Math.abs(value) || 0), 0.1);
+  const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;
+  const x = scaleLinear([min, max], [INSET.left, WIDTH - INSET.right]);
+  const y = scaleLinear([-half, half], [HEIGHT - INSET.bottom, INSET.top]);
+  const path = line(([at]) => x(at), ([, value]) => y(value)).defined(([, value]) => !Number.isNaN(value));
+  const bottom = HEIGHT - INSET.bottom;
+  const at = Math.min(max, Math.max(min, chart.x));
+  const markerY = y(Number.isNaN(chart.y) ? 0 : chart.y);
+
+  /** @param {PointerEvent} event */
+  const follow = (event) => {
+    const box = /** @type {Element} */ (event.currentTarget).getBoundingClientRect();
+    const pixel = ((event.clientX - box.left) / box.width) * WIDTH;
+    const value = Math.min(max, Math.max(min, x.invert(pixel)));
+    chart.move(Math.round(value / chart.step) * chart.step);
+  };
+  /** @param {KeyboardEvent} event */
+  const key = (event) => {
+    const ways = /** @type {Record<string, number>} */ ({
+      ArrowRight: at + chart.step,
+      ArrowUp: at + chart.step,
+      ArrowLeft: at - chart.step,
+      ArrowDown: at - chart.step,
+      PageUp: at + 10 * chart.step,
+      PageDown: at - 10 * chart.step,
+      Home: min,
+      End: max,
+    });
+    const value = ways[event.key];
+    if (value === undefined) return;
+    event.preventDefault();
+    chart.move(Math.min(max, Math.max(min, Math.round(value / chart.step) * chart.step)));
+    chart.commit();
+  };
+
+  return html`
+    <svg
+      class="chart"
+      viewBox="0 0 ${WIDTH} ${HEIGHT}"
+      role="group"
+      aria-label=${chart.label}
+      @pointerdown=${(/** @type {PointerEvent} */ event) => {
+        /** @type {Element} */ (event.currentTarget).setPointerCapture(event.pointerId);
+        follow(event);
+      }}
+      @pointermove=${(/** @type {PointerEvent} */ event) => event.buttons & 1 && follow(event)}
+      @pointerup=${chart.commit}
+    >
+      <g aria-hidden="true">
+        ${x.ticks(5).map(
+          (value) => svg`
+            <line class="axis" x1=${x(value)} x2=${x(value)} y1=${bottom} y2=${bottom + 4} />
+            <text x=${x(value)} y=${bottom + 18} text-anchor="middle">${tick(value, 1)}</text>`,
+        )}
+        ${y.ticks(5).map(
+          (value) => svg`
+            <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(value)} y2=${y(value)} opacity="0.5" />
+            <text x=${INSET.left - 6} y=${y(value) + 4} text-anchor="end">${fixed(value, half < 1 ? 2 : 1)}</text>`,
+        )}
+        <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${bottom} y2=${bottom} />
+        <text class="name" x=${WIDTH - INSET.right} y=${bottom + 31} text-anchor="end">ω (rad/s)</text>
+        <text class="name" x="0" y="12">cross-track skew</text>
+        <line class="zero" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(0)} y2=${y(0)} />
+        <path class="curve" d=${path(points) ?? ''} />
+        <line class="now" x1=${x(at)} x2=${x(at)} y1=${INSET.top} y2=${bottom} />
+        ${Number.isNaN(chart.measured.value) ? nothing : measuredBar(x(at), chart.measured, y)}
+      </g>
+      <g
+        class="chart-marker"
+        role="slider"
+        tabindex="0"
+        aria-label="Commanded ω on the chart"
+        aria-valuemin=${min}
+        aria-valuemax=${max}
+        aria-valuenow=${at}
+        aria-valuetext=${chart.valueText}
+        @keydown=${key}
+      >
+        <circle cx=${x(at)} cy=${markerY} r="6" />
+      </g>
+    </svg>
+  `;
+}
+
+/**
+ * The measured value, one standard error either way.
+ *
+ * @param {number} x pixels
+ * @param {{ value: number, error: number }} measured
+ * @param {(value: number) => number} y
+ */
+function measuredBar(x, { value, error }, y) {
+  const [low, high] = [y(value - error), y(value + error)];
+  return svg`<path class="measured" d="M${x - 7},${low}h14M${x - 7},${high}h14M${x},${low}V${high}" />`;
+}

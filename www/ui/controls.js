@@ -1,0 +1,253 @@
+/**
+ * Native inputs with a label, the value with its unit, and one line that says what the parameter
+ * does to the picture.
+ *
+ * @module
+ */
+
+import { css, html, nothing } from 'lit';
+import { live } from 'lit/directives/live.js';
+
+export const controlStyles = css`
+  .slider {
+    display: grid;
+    grid-template-columns: 2.2rem minmax(5rem, 1fr) 5.2rem;
+    align-items: center;
+    column-gap: 0.6rem;
+    margin-bottom: 0.45rem;
+  }
+
+  .slider.picking {
+    grid-template-columns: 1.5rem 2.2rem minmax(4rem, 1fr) 5.2rem;
+  }
+
+  .slider label {
+    font-size: 1.1rem;
+  }
+
+  .slider .value {
+    text-align: right;
+    white-space: nowrap;
+  }
+
+  .slider .effect {
+    grid-column: 2 / -1;
+    margin: -0.15rem 0 0;
+    color: var(--muted);
+    font-size: 0.84rem;
+    line-height: 1.25;
+  }
+
+  .slider.picking .effect {
+    grid-column: 3 / -1;
+  }
+
+  .slider.off :is(label, .value) {
+    color: var(--muted);
+  }
+
+  .slider.off input[type='range'] {
+    --thumb: var(--paper);
+    --thumb-edge: var(--muted);
+  }
+
+  input[type='range'] {
+    --thumb-edge: var(--thumb);
+    appearance: none;
+    width: 100%;
+    height: 1.75rem;
+    margin: 0;
+    background: none;
+    cursor: pointer;
+    touch-action: pan-y;
+  }
+
+  input[type='range']::-webkit-slider-runnable-track {
+    height: 2px;
+    background: var(--muted);
+    border-radius: 1px;
+  }
+
+  input[type='range']::-moz-range-track {
+    height: 2px;
+    background: var(--muted);
+    border-radius: 1px;
+  }
+
+  input[type='range']::-webkit-slider-thumb {
+    appearance: none;
+    width: 1.05rem;
+    height: 1.05rem;
+    margin-top: calc(1px - 0.525rem);
+    background: var(--thumb);
+    border: 2px solid var(--thumb-edge);
+    border-radius: 50%;
+    box-shadow: 0 0 0 3px var(--paper);
+  }
+
+  input[type='range']::-moz-range-thumb {
+    box-sizing: border-box;
+    width: 1.05rem;
+    height: 1.05rem;
+    background: var(--thumb);
+    border: 2px solid var(--thumb-edge);
+    border-radius: 50%;
+    box-shadow: 0 0 0 3px var(--paper);
+  }
+
+  :is(button, input, .handle, .chart-marker):focus-visible {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  button {
+    min-height: 2rem;
+    padding: 0.15rem 0.65rem 0.25rem;
+    background: none;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+    color: var(--ink);
+    font: inherit;
+    cursor: pointer;
+  }
+
+  button:hover {
+    border-color: var(--ink);
+    box-shadow: inset 0 0 0 1px var(--ink);
+  }
+
+  button[aria-pressed='true'] {
+    background: var(--ink);
+    border-color: var(--ink);
+    color: var(--paper);
+  }
+
+  fieldset {
+    min-width: 0;
+    margin: 0 0 1.4rem;
+    padding: 0;
+    border: 0;
+  }
+
+  legend {
+    width: 100%;
+    margin-bottom: 0.5rem;
+    padding: 0 0 0.2rem;
+    border-bottom: 1px solid var(--rule);
+    font-style: italic;
+    font-size: 1.05rem;
+  }
+
+  .choice,
+  .toggle {
+    display: inline-flex;
+    align-items: center;
+    gap: 0.45rem;
+    min-height: 1.75rem;
+    cursor: pointer;
+  }
+
+  input:is([type='radio'], [type='checkbox']) {
+    width: 1rem;
+    height: 1rem;
+    margin: 0.25rem;
+    accent-color: var(--ink);
+    cursor: pointer;
+  }
+`;
+
+/**
+ * A slider row.
+ *
+ * @param {object} row
+ * @param {string} row.id unique in the widget
+ * @param {unknown} row.symbol
+ * @param {string} [row.name] what a screen reader says where the symbol says too little
+ * @param {number} row.value
+ * @param {number} row.min
+ * @param {number} row.max
+ * @param {number} row.step
+ * @param {string} row.shown the value with its unit
+ * @param {unknown} row.effect what the parameter does to the picture
+ * @param {'prior' | 'prediction' | 'truth'} row.role
+ * @param {boolean} [row.off] its value has no effect at present
+ * @param {unknown} [row.pick] a control in front of the label
+ * @param {(value: number) => void} row.input while it moves
+ * @param {() => void} row.commit when it comes to rest
+ */
+export function sliderRow(row) {
+  const classes = `slider${row.pick ? ' picking' : ''}${row.off ? ' off' : ''}`;
+  return html`
+    <div class=${classes} style="--thumb: var(--${row.role})">
+      ${row.pick ?? nothing}
+      <label for=${row.id}>${row.symbol}</label>
+      <input
+        id=${row.id}
+        type="range"
+        min=${row.min}
+        max=${row.max}
+        step=${row.step}
+        .value=${live(String(row.value))}
+        aria-label=${row.name ?? nothing}
+        aria-valuetext=${row.shown}
+        aria-describedby="${row.id}-effect"
+        @input=${(/** @type {Event} */ event) => row.input(numberOf(event))}
+        @change=${row.commit}
+      />
+      <span class="value">${row.shown}</span>
+      <p class="effect" id="${row.id}-effect">${row.effect}</p>
+    </div>
+  `;
+}
+
+/**
+ * One of a group of radio buttons.
+ *
+ * @param {{ group: string, label: unknown, checked: boolean, choose: () => void }} option
+ */
+export function choice({ group, label, checked, choose }) {
+  return html`<label class="choice">
+    <input type="radio" name=${group} .checked=${live(checked)} @change=${choose} />
+    <span>${label}</span>
+  </label>`;
+}
+
+/**
+ * @param {{ label: unknown, checked: boolean, change: (checked: boolean) => void }} option
+ */
+export function toggle({ label, checked, change }) {
+  return html`<label class="toggle">
+    <input
+      type="checkbox"
+      .checked=${live(checked)}
+      @change=${(/** @type {Event} */ event) => change(inputOf(event).checked)}
+    />
+    ${label}
+  </label>`;
+}
+
+/**
+ * @param {string} label
+ * @param {() => void} press
+ * @param {{ pressed?: boolean, title?: string }} [state]
+ */
+export function button(label, press, { pressed, title } = {}) {
+  return html`<button
+    type="button"
+    title=${title ?? nothing}
+    aria-pressed=${pressed ?? nothing}
+    @click=${press}
+  >
+    ${label}
+  </button>`;
+}
+
+/** @param {Event} event */
+export function inputOf(event) {
+  return /** @type {HTMLInputElement} */ (event.target);
+}
+
+/** @param {Event} event */
+function numberOf(event) {
+  return inputOf(event).valueAsNumber;
+}

@@ -1,0 +1,215 @@
+/**
+ * The transform between a view's world (metres, radians; y up) and its canvas (CSS pixels; y down),
+ * and the choice of the part of the world that a view shows. The only place where y flips.
+ *
+ * @module
+ */
+
+/** @typedef {import('../types.d.ts').Extent} Extent */
+
+/**
+ * Share of the view that what is shown may shrink to before the view closes in on it. Larger makes
+ * the picture jump more often while a slider is dragged, smaller leaves it swimming in paper.
+ */
+const LOOSEST_FIT = 0.45;
+
+/** Room left around what is shown when a view is chosen, as a share of its size. */
+const MARGIN = 0.06;
+
+/** Time constant of the eased change from one extent to the next, in milliseconds. */
+const EASING = 90;
+
+/** Widths that a view may have, times powers of ten. */
+const LADDER = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.4, 7.2, 8, 9];
+
+/** One view's window on the world. */
+export class View {
+  /** @type {Extent} what is shown now, possibly on its way to `#target` */
+  extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
+  /** @type {Extent | undefined} */
+  #target;
+  /** Whether a metre is as long in y as in x. */
+  #equal;
+  /** Canvas size and the room that axes take of it, CSS pixels. */
+  width = 1;
+  height = 1;
+  #inset;
+
+  /**
+   * @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options
+   */
+  constructor({ equal, inset }) {
+    this.#equal = equal;
+    this.#inset = inset;
+  }
+
+  /** The part of the canvas inside the axes, CSS pixels. */
+  get frame() {
+    const { left, right, top, bottom } = this.#inset;
+    return {
+      left,
+      top,
+      right: Math.max(left + 1, this.width - right),
+      bottom: Math.max(top + 1, this.height - bottom),
+    };
+  }
+
+  /**
+   * @param {number} width CSS pixels
+   * @param {number} height
+   */
+  resize(width, height) {
+    if (width === this.width && height === this.height) return;
+    this.width = width;
+    this.height = height;
+    this.#target = undefined;
+  }
+
+  /** Pixels a unit of x; with equal aspect also of y. */
+  get scaleX() {
+    return (this.frame.right - this.frame.left) / (this.extent.xMax - this.extent.xMin);
+  }
+
+  get scaleY() {
+    return (this.frame.bottom - this.frame.top) / (this.extent.yMax - this.extent.yMin);
+  }
+
+  /** @param {number} x */
+  toPixelX(x) {
+    return this.frame.left + (x - this.extent.xMin) * this.scaleX;
+  }
+
+  /** @param {number} y */
+  toPixelY(y) {
+    return this.frame.bottom - (y - this.extent.yMin) * this.scaleY;
+  }
+
+  /** @param {number} pixel */
+  toWorldX(pixel) {
+    return this.extent.xMin + (pixel - this.frame.left) / this.scaleX;
+  }
+
+  /** @param {number} pixel */
+  toWorldY(pixel) {
+    return this.extent.yMin + (this.frame.bottom - pixel) / this.scaleY;
+  }
+
+  /**
+   * @param {number} heading radians, in a view of equal aspect
+   * @returns {{ x: number, y: number }} a step of one pixel that way
+   */
+  direction(heading) {
+    return { x: Math.cos(heading), y: -Math.sin(heading) };
+  }
+
+  /**
+   * Aims the view at `needed`. It stays where it is while that fits and does not look lost in it, so
+   * that the picture holds still under a slider.
+   *
+   * @param {Extent} needed
+   */
+  fit(needed) {
+    if (this.#target && this.#suits(this.#target, needed)) return;
+    const first = this.#target === undefined;
+    this.#target = this.#around(needed);
+    if (first) this.extent = this.#target;
+  }
+
+  /**
+   * Moves the extent towards its aim.
+   *
+   * @param {number} elapsed milliseconds since the last call
+   * @param {boolean} atOnce without easing
+   * @returns {boolean} whether there is still a way to go
+   */
+  ease(elapsed, atOnce) {
+    const target = this.#target;
+    if (!target || target === this.extent) return false;
+    const share = atOnce ? 1 : 1 - Math.exp(-elapsed / EASING);
+    const next = { ...this.extent };
+    for (const key of /** @type {(keyof Extent)[]} */ (Object.keys(next))) {
+      next[key] += share * (target[key] - next[key]);
+    }
+    const pixels = Math.abs(next.xMin - target.xMin) + Math.abs(next.xMax - target.xMax);
+    const arrived = pixels * this.scaleX < 0.5;
+    this.extent = arrived || atOnce ? target : next;
+    return this.extent !== target;
+  }
+
+  /**
+   * @param {Extent} shown
+   * @param {Extent} needed
+   */
+  #suits(shown, needed) {
+    const inside =
+      needed.xMin >= shown.xMin &&
+      needed.xMax <= shown.xMax &&
+      needed.yMin >= shown.yMin &&
+      needed.yMax <= shown.yMax;
+    const fillX = (needed.xMax - needed.xMin) / (shown.xMax - shown.xMin);
+    const fillY = (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin);
+    const fill = this.#equal ? Math.max(fillX, fillY) : Math.min(fillX, fillY);
+    return inside && fill >= LOOSEST_FIT;
+  }
+
+  /**
+   * @param {Extent} needed
+   * @returns {Extent}
+   */
+  #around(needed) {
+    const { left, right, top, bottom } = this.frame;
+    let width = (needed.xMax - needed.xMin) * (1 + 2 * MARGIN);
+    let height = (needed.yMax - needed.yMin) * (1 + 2 * MARGIN);
+    if (this.#equal) {
+      const aspect = (bottom - top) / (right - left);
+      width = niceSize(Math.max(width, height / aspect));
+      height = width * aspect;
+    } else {
+      width = niceSize(width);
+      height = niceSize(height);
+    }
+    const x = (needed.xMin + needed.xMax) / 2;
+    const y = (needed.yMin + needed.yMax) / 2;
+    return {
+      xMin: x - width / 2,
+      xMax: x + width / 2,
+      yMin: y - height / 2,
+      yMax: y + height / 2,
+    };
+  }
+}
+
+/**
+ * @param {number} size
+ * @returns {number} the next size of the ladder
+ */
+function niceSize(size) {
+  const decade = 10 ** Math.floor(Math.log10(size));
+  const step = LADDER.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;
+  return step * decade;
+}
+
+/**
+ * The smallest extent around points and boxes.
+ *
+ * @param {Iterable<[number, number]>} points
+ * @param {number} smallest least width and height, so that a single point still has surroundings
+ * @returns {Extent}
+ */
+export function extentOf(points, smallest) {
+  const box = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
+  for (const [x, y] of points) {
+    box.xMin = Math.min(box.xMin, x);
+    box.xMax = Math.max(box.xMax, x);
+    box.yMin = Math.min(box.yMin, y);
+    box.yMax = Math.max(box.yMax, y);
+  }
+  const growX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;
+  const growY = Math.max(0, smallest - (box.yMax - box.yMin)) / 2;
+  return {
+    xMin: box.xMin - growX,
+    xMax: box.xMax + growX,
+    yMin: box.yMin - growY,
+    yMax: box.yMax + growY,
+  };
+}

@@ -47,6 +47,11 @@ pub mod stats;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
+/// The README's example must run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use geom::arc::{ArcInversion, invert_arc};
 pub use models::{
     Compounding, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseError,

@@ -1,5 +1,8 @@
 //! The Banana Machine's simulation: common random numbers, settings, and what it reports.
-#![allow(clippy::disallowed_methods, reason = "an expected value may come from the platform's own mathematics")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "an expected value may come from the platform's own mathematics"
+)]
 
 mod common;
 
@@ -10,7 +13,9 @@ use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Settings, command_r
 use motion::sim::settings::{MAX_SAMPLES, MAX_SEED};
 use motion::sim::views::Grid;
 use motion::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
-use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd, VelocityModel};
+use motion::{
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd, VelocityModel,
+};
 use std::f64::consts::PI;
 
 fn machine(settings: Settings) -> BananaMachine {
@@ -141,7 +146,9 @@ fn the_cloud_grows_in_batches() {
         assert_eq!(growing.grow(1), 1);
         assert_eq!(growing.grow(700), 701);
         // A cloud that is growing keeps its count under a slider, a complete one stays complete.
-        growing.configure(Settings { command: VelocityCmd { v: 0.5, omega: 0.1, dt: 1.0 }, ..settings }).unwrap();
+        growing
+            .configure(Settings { command: VelocityCmd { v: 0.5, omega: 0.1, dt: 1.0 }, ..settings })
+            .unwrap();
         assert_eq!(growing.poses().len(), 701);
         growing.configure(settings).unwrap();
         assert_eq!(growing.poses(), &whole.poses()[..701]);
@@ -211,12 +218,18 @@ fn extreme_settings_are_survived() {
                             assert!(pose.theta().abs() <= PI, "{:?}", machine.settings());
                         }
                         let figures = machine.figures();
-                        assert!(figures.cartesian.mean.iter().all(|m| m.is_finite()), "{:?}", machine.settings());
+                        assert!(
+                            figures.cartesian.mean.iter().all(|m| m.is_finite()),
+                            "{:?}",
+                            machine.settings()
+                        );
                         for share in [figures.inside_ellipse, figures.inside_exponential] {
                             assert!(share.is_nan() || (0.0..=1.0).contains(&share));
                         }
                         for curve in [machine.contours().ellipse, machine.contours().exponential] {
-                            assert!(curve.is_empty() || curve.first() == curve.last() || curve[0][0].is_nan());
+                            assert!(
+                                curve.is_empty() || curve.first() == curve.last() || curve[0][0].is_nan()
+                            );
                         }
                         machine.exact();
                         machine.skew_curve(-1e6, 1e6, 3);
@@ -264,8 +277,15 @@ fn isolating_an_alpha_silences_the_others() {
     assert!(machine.poses().iter().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)));
     assert!(machine.poses().iter().any(|pose| pose.theta().abs() > 0.1), "α₅ turns and moves nothing");
     machine.configure(Settings { isolate: Some(3), ..straight }).unwrap();
-    assert!(machine.poses().iter().all(|pose| (pose.log().x - 2.0).abs() < 1e-14), "α₃ fans arcs of one length");
-    assert_eq!(machine.settings().velocity_alphas, straight.velocity_alphas, "the sliders stay where they are");
+    assert!(
+        machine.poses().iter().all(|pose| (pose.log().x - 2.0).abs() < 1e-14),
+        "α₃ fans arcs of one length"
+    );
+    assert_eq!(
+        machine.settings().velocity_alphas,
+        straight.velocity_alphas,
+        "the sliders stay where they are"
+    );
     machine.configure(Settings { isolate: None, ..straight }).unwrap();
     assert_eq!(picture(&machine), picture(&self::machine(Settings { isolate: None, ..straight })));
 }
@@ -310,10 +330,15 @@ fn a_dragged_end_is_reached() {
 fn both_views_find_the_nearest_sample_and_count_all() {
     let machine = machine(Settings { samples: 3000, ..Settings::default() });
     for view in [View::Plane, View::Twist] {
-        let points: Vec<[f64; 2]> =
-            machine.poses().iter().zip(machine.twists()).map(|(pose, twist)| view.point(pose, twist)).collect();
+        let points: Vec<[f64; 2]> = machine
+            .poses()
+            .iter()
+            .zip(machine.twists())
+            .map(|(pose, twist)| view.point(pose, twist))
+            .collect();
         for target in [[0.9, 0.3], [1.2, 0.1], [0.2, 0.9]] {
-            let distance = |[x, y]: [f64; 2]| ((x - target[0]) / 0.1).powi(2) + ((y - target[1]) / 0.3).powi(2);
+            let distance =
+                |[x, y]: [f64; 2]| ((x - target[0]) / 0.1).powi(2) + ((y - target[1]) / 0.3).powi(2);
             let best = (0..points.len()).min_by(|&a, &b| distance(points[a]).total_cmp(&distance(points[b])));
             let expected = best.filter(|&index| distance(points[index]) <= 1.0);
             assert_eq!(machine.nearest(view, target, [0.1, 0.3]), expected);

@@ -13,9 +13,18 @@ pub fn settings() -> [Settings; 6] {
         opening,
         Settings { noise: NoiseKind::Triangular, seed: (1 << 53) - 1, ..opening },
         Settings { model: ModelKind::Odometry, seed: 0, ..opening },
-        Settings { model: ModelKind::Odometry, noise: NoiseKind::Triangular, command: command(-0.7, 1.3, 1.1), ..opening },
+        Settings {
+            model: ModelKind::Odometry,
+            noise: NoiseKind::Triangular,
+            command: command(-0.7, 1.3, 1.1),
+            ..opening
+        },
         Settings { command: command(0.0, -2.0, 0.9), isolate: Some(6), ..opening },
-        Settings { command: command(-1.2, 0.0, 2.0), velocity_alphas: [0.2, 0.1, 0.3, 0.2, 0.0, 0.0], ..opening },
+        Settings {
+            command: command(-1.2, 0.0, 2.0),
+            velocity_alphas: [0.2, 0.1, 0.3, 0.2, 0.0, 0.0],
+            ..opening
+        },
     ]
 }
 
@@ -59,9 +68,13 @@ pub fn fingerprint(settings: Settings) -> [u64; 2] {
     hash.numbers(&[figures.inside_ellipse, figures.inside_exponential, machine.exact().cross_track_skew]);
     hash.numbers(&machine.skew_curve(-3.0, 3.0, 25));
     let contours = machine.contours();
-    for outline in
-        [&contours.command, &contours.ellipse, &contours.linearized, &contours.exponential, &contours.twist_ellipse]
-    {
+    for outline in [
+        &contours.command,
+        &contours.ellipse,
+        &contours.linearized,
+        &contours.exponential,
+        &contours.twist_ellipse,
+    ] {
         hash.numbers(outline.as_flattened());
     }
     let grid = Grid { min: [-3.0, -2.0], max: [3.0, 2.0], columns: 60, rows: 40 };

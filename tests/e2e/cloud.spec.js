@@ -209,6 +209,7 @@ test.describe('figures', () => {
     const plane = widget.locator('canvas.plane');
     const { stats } = await state(widget);
     await expect(plane).toHaveAttribute('aria-label', new RegExp(`end around x ${stats.cartesian.mean[0].toFixed(2)} m`));
+    await expect(plane).toHaveAttribute('aria-label', /Drawn over it: commanded arc, 2σ Gaussian in \(x, y\), 2σ/);
     await widget.getByRole('button', { name: 'Hard arc' }).click();
     await expect(plane).toHaveAttribute('aria-label', /ω = 1\.20 rad\/s/);
     await expect(widget.locator('p[role=status]')).toContainText('ω = 1.20 rad/s');

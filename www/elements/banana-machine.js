@@ -17,7 +17,7 @@ import { markedRobot, readoutStyles, readouts, workedExample } from './banana-re
 import { bananaStyles } from './banana-styles.js';
 import {
   COMMAND_SLIDERS,
-  OVERLAY_LABELS,
+  OVERLAY_NAMES,
   announcementOf,
   noteOn,
   planeText,
@@ -45,7 +45,7 @@ const LONG_KEY_STEP = 0.1;
 /** Points of the chart's curve. */
 const CURVE_POINTS = 81;
 
-const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(OVERLAY_LABELS));
+const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(OVERLAY_NAMES));
 const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
 
 /** @extends {WidgetElement<BananaMachine>} */
@@ -66,6 +66,8 @@ export class BananaMachineElement extends WidgetElement {
   /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
   #figures;
   #stale = true;
+  /** @type {Float64Array | undefined} skew against ω, which only a change of settings alters */
+  #curve;
   #toAnnounce = false;
   #announcement = '';
   #plane = new PlanePicture();
@@ -92,6 +94,7 @@ export class BananaMachineElement extends WidgetElement {
   machineReady() {
     this.#stale = true;
     this.#pending = {};
+    this.#curve = undefined;
     if (!this.calm) {
       this.machine?.restart();
       this.#playing = true;
@@ -140,6 +143,7 @@ export class BananaMachineElement extends WidgetElement {
     const pending = this.#pending;
     this.#pending = {};
     this.machine?.configure(pending);
+    this.#curve = undefined;
     this.#stale = true;
   }
 
@@ -153,6 +157,7 @@ export class BananaMachineElement extends WidgetElement {
 
   #read() {
     if (!this.machine) return;
+    this.#curve ??= this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
     this.#figures = read(this.machine);
     this.#stale = false;
     if (this.#toAnnounce) {
@@ -293,13 +298,13 @@ export class BananaMachineElement extends WidgetElement {
 
   renderWidget() {
     const { machine, motion } = this;
-    if (!machine || !motion || !this.#figures) return nothing;
-    const { config, stats, table, curve, note, exactSkew } = this.#figures;
-    const overlays = OVERLAYS.filter((name) => this.#overlays[name]);
+    if (!machine || !motion || !this.#figures || !this.#curve) return nothing;
+    const { config, stats, table, note, exactSkew } = this.#figures;
+    const overlays = OVERLAYS.filter((name) => this.#overlays[name]).map((name) => OVERLAY_NAMES[name]);
     return html`
       <section class="machine" aria-label="The Banana Machine">
         <div class="floor">
-          ${this.#stage(planeText(config, stats, note, overlays.map(String)))}
+          ${this.#stage(planeText(config, stats, note, overlays))}
           <p class="note" ?hidden=${note === ''}>${note}</p>
           ${this.#legend()} ${readouts(stats)}
           ${markedRobot({
@@ -326,36 +331,36 @@ export class BananaMachineElement extends WidgetElement {
           ${noiseControls(config, Math.min(this.#chosen, config.alphas.length - 1), this.#actions)}
         </div>
         <div class="figures">
-        <figure>
-          <canvas
-            class="twist"
-            role="img"
-            aria-label=${twistText(stats)}
-            @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
-            @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
-          ></canvas>
-          <figcaption>The same robots in exponential coordinates: the banana is an ellipse.</figcaption>
-        </figure>
-        <figure>
-          ${skewChart({
-            label: 'Exact cross-track skew against commanded ω, for the present noise',
-            curve,
-            min: OMEGA_RANGE.min,
-            max: OMEGA_RANGE.max,
-            step: OMEGA_RANGE.step,
-            x: config.command.omega,
-            y: exactSkew,
-            measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
-            valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, exact skew ${fixed(exactSkew, 3)}`,
-            move: (omega) => this.#change({ command: { ...config.command, omega } }),
-            commit: () => this.#commit(),
-          })}
-          <figcaption>
-            Exact skew against commanded <i>ω</i>, and the robots’ own with its standard error.
-            The dashed line is any Gaussian in <i>(x, y)</i>.
-          </figcaption>
-        </figure>
-        ${workedExample(table)}
+          <figure>
+            <canvas
+              class="twist"
+              role="img"
+              aria-label=${twistText(stats)}
+              @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
+              @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
+            ></canvas>
+            <figcaption>The same robots in exponential coordinates: the banana is an ellipse.</figcaption>
+          </figure>
+          <figure>
+            ${skewChart({
+              label: 'Exact cross-track skew against commanded ω, for the present noise',
+              curve: this.#curve,
+              min: OMEGA_RANGE.min,
+              max: OMEGA_RANGE.max,
+              step: OMEGA_RANGE.step,
+              x: config.command.omega,
+              y: exactSkew,
+              measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
+              valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, exact skew ${fixed(exactSkew, 3)}`,
+              move: (omega) => this.#change({ command: { ...config.command, omega } }),
+              commit: () => this.#commit(),
+            })}
+            <figcaption>
+              Exact skew against commanded <i>ω</i>, and the robots’ own with its standard error.
+              The dashed line is any Gaussian in <i>(x, y)</i>.
+            </figcaption>
+          </figure>
+          ${workedExample(table)}
         </div>
         <p class="visually-hidden" role="status">${this.#announcement}</p>
       </section>
@@ -400,7 +405,7 @@ export class BananaMachineElement extends WidgetElement {
           label: html`<svg class="swatch ${name}" viewBox="0 0 30 8" aria-hidden="true">
               <line x1="1" x2="29" y1="4" y2="4" stroke-dasharray=${DASHES[name].join(' ')} />
             </svg>
-            <span>${OVERLAY_LABELS[name]}</span>`,
+            <span>${OVERLAY_NAMES[name]}</span>`,
           checked: this.#overlays[name],
           change: (checked) => {
             this.#overlays[name] = checked;
@@ -426,7 +431,6 @@ function read(machine) {
     table,
     note: noteOn(config, table),
     exactSkew: table.exact.crossTrackSkew,
-    curve: machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS),
     /** The end of the commanded arc, metres. */
     end: /** @type {[number, number]} */ ([...contours.command.slice(-2)]),
   };

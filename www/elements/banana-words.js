@@ -22,11 +22,11 @@ export const PRESET_LABELS = {
   pivot: 'Pivot',
 };
 
-export const OVERLAY_LABELS = {
+export const OVERLAY_NAMES = {
   command: 'commanded arc',
-  ellipse: html`2σ Gaussian in <i>(x, y)</i>`,
+  ellipse: '2σ Gaussian in (x, y)',
   linearized: 'linearized (EKF) ellipse',
-  exponential: html`2σ Gaussian in exponential coordinates`,
+  exponential: '2σ Gaussian in exponential coordinates',
 };
 
 /** The sliders of the command, with the range that the handle and the chart keep to as well. */

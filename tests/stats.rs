@@ -53,9 +53,8 @@ fn moments_are_what_their_definitions_say() {
         poses.iter().map(SE2::theta).collect(),
     ];
     let moments = CartesianMoments::from_poses(&poses);
-    for i in 0..2 {
-        assert!((moments.mean[i] - mean(&columns[i])).abs() < 1e-14);
-    }
+    assert!((moments.mean.x - mean(&columns[0])).abs() < 1e-14);
+    assert!((moments.mean.y - mean(&columns[1])).abs() < 1e-14);
     let (sin, cos) = columns[2].iter().fold((0.0, 0.0), |(s, c), t| (s + t.sin(), c + t.cos()));
     assert!((moments.mean.z - f64::atan2(sin, cos)).abs() < 1e-14);
     for i in 0..3 {

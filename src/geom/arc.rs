@@ -6,24 +6,13 @@
 
 use super::angle::wrap_angle;
 use super::se2::SE2;
-
-/// sinc(t) = sin(t)/t, with sinc(0) = 1. Correct to about 1.5 units in the last place for every t.
-pub fn sinc(t: f64) -> f64 {
-    // At the smallest t the quotient is already exactly 1; only 0 itself cannot be divided by.
-    if t == 0.0 { 1.0 } else { libm::sin(t) / t }
-}
+use super::sinc::{chord_factors, sinc};
 
 /// The end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start:
 /// x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
 pub fn chord(length: f64, turn: f64) -> (f64, f64) {
     let (forward, left) = chord_factors(turn);
     (length * forward, length * left)
-}
-
-/// (sin φ/φ, (1 − cos φ)/φ): where an arc of unit length that turns by φ ends. Without cancellation.
-pub(crate) fn chord_factors(turn: f64) -> (f64, f64) {
-    let half = 0.5 * turn;
-    (sinc(turn), libm::sin(half) * sinc(half))
 }
 
 /// The controls that one pose pair implies: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.

@@ -3,3 +3,4 @@
 pub mod angle;
 pub mod arc;
 pub mod se2;
+pub mod sinc;

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::ops::Mul;
 
 pub use super::angle::wrap_angle;
-use super::arc::chord_factors;
+use super::sinc::{chord_factors, sinc};
 
 /// A pose: position (x, y) in metres and heading θ in (−π, π] radians, of a body frame in a reference frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,7 +150,7 @@ fn half_cotangent(half: f64) -> f64 {
 
 /// sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
 fn sinc_squared_half(turn: f64) -> f64 {
-    let root = super::arc::sinc(0.5 * turn);
+    let root = sinc(0.5 * turn);
     root * root
 }
 

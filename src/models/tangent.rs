@@ -1,8 +1,9 @@
 //! Gaussian noise in exponential coordinates, and how it grows along a path.
 
 use super::{VelocityCmd, VelocityModel};
-use crate::geom::arc::{invert_arc, sinc};
+use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
+use crate::geom::sinc::sinc;
 use crate::noise::{NoiseKind, Variance};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;

@@ -2,8 +2,8 @@
 
 use super::cross_track::NO_SPREAD;
 use super::quadrature::nodes;
-use crate::geom::arc::chord_factors;
 use crate::geom::se2::wrap_angle;
+use crate::geom::sinc::chord_factors;
 use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};

@@ -40,10 +40,10 @@ impl std::error::Error for NegativeVariance {}
 
 /// With zero variance a residual up to this size counts as none (m/s or rad/s, or m or rad for odometry legs).
 ///
-/// Inverting an arc a kilometre from the origin over a hundredth of a second leaves about 1e-11; a smaller bound would
-/// call such a pose impossible. Nothing drives a robot to a nanometre a second; a larger bound would begin to accept
-/// motions that did not follow the command.
-const ROUNDING: f64 = 1e-9;
+/// Inverting the arc of a hundredth of a second at 1 m/s, a kilometre from the origin, leaves up to 4e-9 of γ̂, more at
+/// lower speeds; a smaller bound would call a sampler's own poses impossible. No robot is driven to a tenth of a
+/// micrometre a second; a larger bound would begin to accept motions that did not follow the command.
+const ROUNDING: f64 = 1e-7;
 
 /// √6: the triangular density of variance b² lives on ±√6·b.
 const SQRT_6: f64 = 2.449_489_742_783_178;
@@ -66,7 +66,7 @@ impl NoiseKind {
 
     /// The density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
     ///
-    /// Zero variance leaves no density to speak of: the result is then 1 where `a` is 0 to rounding (1e-9) and 0
+    /// Zero variance leaves no density to speak of: the result is then 1 where `a` is 0 to rounding (1e-7) and 0
     /// elsewhere, so that a product of such factors scores the residuals that do carry noise.
     pub fn prob(self, a: f64, b2: Variance) -> f64 {
         let Variance(b2) = b2;

@@ -263,6 +263,28 @@ fn figures_are_those_of_the_shown_samples() {
     }
 }
 
+/// A command may turn further than half a circle: its samples are one cloud in exponential coordinates, around τ.
+#[test]
+fn long_turns_stay_on_the_branch_of_the_command() {
+    for omega in [3.1, -4.5, 5.0] {
+        let command = VelocityCmd { v: 1.0, omega, dt: 1.0 };
+        let velocity_alphas = [0.01, 0.0, 0.0, 0.001, 0.0, 0.0];
+        let machine = machine(Settings { command, velocity_alphas, samples: 20_000, ..Settings::default() });
+        let ExponentialMoments { mean, cov } = machine.figures().exponential;
+        let turn_variance = 0.001 * omega * omega;
+        assert!((mean.x - 1.0).abs() < SIGMAS * 0.1 / 20_000f64.sqrt(), "{omega}: {mean}");
+        assert!((mean.z - omega).abs() < SIGMAS * (turn_variance / 20_000.0).sqrt(), "{omega}: {mean}");
+        assert!(
+            (cov[(2, 2)] / turn_variance - 1.0).abs() < SIGMAS * (2.0f64 / 20_000.0).sqrt(),
+            "{omega}: {cov}"
+        );
+        for (pose, twist) in machine.poses().iter().zip(machine.twists()) {
+            assert!((twist.z - omega).abs() <= PI);
+            assert!(pose_distance(&SE2::exp(twist), pose) < 1e-12);
+        }
+    }
+}
+
 /// The students' exercise: straight ahead, one α at a time.
 #[test]
 fn isolating_an_alpha_silences_the_others() {
@@ -345,6 +367,11 @@ fn both_views_find_the_nearest_sample_and_count_all() {
         }
         assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
         assert_eq!(machine.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
+        // The radii are where it ends: beyond the outermost sample, a little more and a little less than one away.
+        let outermost = (0..points.len()).max_by(|&a, &b| points[a][0].total_cmp(&points[b][0])).unwrap();
+        let beside = |distance| [points[outermost][0] + distance, points[outermost][1]];
+        assert_eq!(machine.nearest(view, beside(0.0099), [0.01, 1e-9]), Some(outermost));
+        assert_eq!(machine.nearest(view, beside(0.0101), [0.01, 1e-9]), None);
         // A grid over the whole cloud counts every sample once, in the cell where it lies, the top row first.
         let grid = Grid { min: [-4.0, -4.0], max: [4.0, 4.0], columns: 16, rows: 8 };
         let counts = machine.density(view, &grid);

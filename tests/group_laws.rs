@@ -122,6 +122,27 @@ fn exp_and_log_undo_each_other() {
     assert_same(&SE2::exp(&half_turn.log()), &half_turn, LAW * 4.0, "exp(log x) at π");
 }
 
+/// On the branch of a known turn the logarithm undoes exp beyond half a turn; its coordinates grow towards a whole one.
+#[test]
+fn the_logarithm_near_a_turn_is_on_its_branch() {
+    let mut rng = seeded(6);
+    for _ in 0..2000 {
+        let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
+        let twist = Vector3::new(draw(3.0), draw(3.0), draw(2.0 * PI - 0.3));
+        let pose = SE2::exp(&twist);
+        let turn = twist.z + draw(3.0);
+        let back = pose.log_near(turn);
+        // 1/sinc(ω/2) magnifies the rounding of the pose, up to 20 times at 0.3 rad from a whole turn.
+        assert!(
+            (back - twist).amax() < 20.0 * LAW * size(&[twist]),
+            "log_near({turn}) of exp({twist}) = {back}"
+        );
+        assert_eq!(pose.log_near(pose.theta()), pose.log());
+        let elsewhere = pose.log_near(twist.z + TAU);
+        assert!((elsewhere.z - twist.z - TAU).abs() < LAW, "{}", elsewhere.z);
+    }
+}
+
 #[test]
 fn scaling_a_twist_moves_along_one_subgroup() {
     for [a, _, _] in triples() {

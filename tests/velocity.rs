@@ -175,6 +175,30 @@ fn without_noise_there_is_certainty_and_no_density() {
     }
 }
 
+/// Certainty is "0 to rounding", and what rounding leaves of γ̂ grows with the distance from the origin over |v|Δt².
+#[test]
+fn the_samplers_own_poses_are_possible_far_from_the_origin() {
+    let mut rng = seeded(56);
+    for (far, u) in [
+        (1000.0, command(1.0, 0.5, 0.01)),
+        (100.0, command(-0.05, 0.05, 0.01)),
+        (10.0, command(0.01, 0.0, 0.02)),
+    ] {
+        for alphas in [CANONICAL, VelocityAlphas([0.0; 6])] {
+            for _ in 0..1000 {
+                let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
+                let x = SE2::new(draw(far), draw(far), draw(PI));
+                let unit = [draw(2.0), draw(2.0), 0.0];
+                let end = model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit);
+                assert!(
+                    model(alphas, NoiseKind::Normal).prob(&end, &u, &x) > 0.0,
+                    "{u:?} from {x:?} to {end:?}"
+                );
+            }
+        }
+    }
+}
+
 /// The scoring function is the density without the determinant of (v̂, ω̂, γ̂) → (x, y, θ), here differentiated
 /// numerically.
 #[test]
@@ -253,14 +277,16 @@ fn pose_density_integrates_to_one_however_large_the_noise() {
     }
 }
 
-/// χ² over a grid of poses: sampler and density are the same distribution.
+/// χ² over a grid of poses: sampler and density are the same distribution, also where the turn exceeds half a circle.
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
-    for (seed, (v, omega)) in (60..).zip([(1.0, 0.5), (-1.0, 0.5), (0.8, -1.1), (-0.9, -0.2)]) {
+    let narrow = VelocityAlphas(OPENING.0.map(|alpha| 0.1 * alpha));
+    let cases = [(OPENING, 1.0, 0.5), (OPENING, -1.0, 0.5), (OPENING, 0.8, -1.1), (narrow, 0.9, 3.6)];
+    for (seed, (alphas, v, omega)) in (60..).zip(cases) {
         let u = command(v, omega, 1.0);
         for kind in KINDS {
-            let model = model(OPENING, kind);
+            let model = model(alphas, kind);
             let mut rng = seeded(seed);
             let poses: Vec<SE2> = (0..MILLION).map(|_| model.sample(&u, &x, &mut rng)).collect();
             let (value, limit) = box_around(&model, &u, &x)

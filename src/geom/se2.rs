@@ -68,8 +68,7 @@ impl SE2 {
     }
 
     fn log_of_turn(&self, turn: f64) -> Vector3<f64> {
-        let half = 0.5 * turn;
-        let diagonal = half_cotangent(half);
+        let (half, diagonal) = (0.5 * turn, half_cotangent(turn));
         Vector3::new(diagonal * self.x + half * self.y, diagonal * self.y - half * self.x, turn)
     }
 
@@ -110,7 +109,7 @@ impl SE2 {
     /// Same accuracy as [`SE2::right_jacobian`] for |ω| ≤ π; it grows without bound towards |ω| = 2π.
     pub fn right_jacobian_inverse(twist: &Vector3<f64>) -> Matrix3<f64> {
         let half = 0.5 * twist.z;
-        let (k, g) = (half_cotangent(half), cotangent_defect(twist.z));
+        let (k, g) = (half_cotangent(twist.z), cotangent_defect(twist.z));
         Matrix3::new(
             k,
             -half,
@@ -139,13 +138,13 @@ impl Mul for SE2 {
     }
 }
 
-/// h·cot h, 1 at h = 0.
-fn half_cotangent(half: f64) -> f64 {
-    if half == 0.0 {
-        return 1.0;
+/// h·cot h with h = ω/2. By series near 0, where the three roundings of the closed form would be the largest in log.
+fn half_cotangent(turn: f64) -> f64 {
+    if turn.abs() < SERIES_BELOW {
+        return 1.0 - turn * cotangent_defect(turn);
     }
-    let (sin, cos) = libm::sincos(half);
-    half * cos / sin
+    let (sin, cos) = libm::sincos(0.5 * turn);
+    0.5 * turn * cos / sin
 }
 
 /// sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
@@ -176,7 +175,7 @@ fn sine_defect(turn: f64) -> f64 {
 /// (1 − h·cot h)/ω with h = ω/2, = ω/12 + ω³/720 + ω⁵/30240 + …, coefficients |B₂ₖ|/(2k)!.
 fn cotangent_defect(turn: f64) -> f64 {
     if turn.abs() >= SERIES_BELOW {
-        return (1.0 - half_cotangent(0.5 * turn)) / turn;
+        return (1.0 - half_cotangent(turn)) / turn;
     }
     /// |B₂ₖ|/(2k)! for k = 1, 2, …; they fall by (2π)² each, so that at |ω| = 1 the first omitted one is 1e-18.
     const COEFFICIENTS: [f64; 10] = [

@@ -31,12 +31,12 @@ pub fn settings() -> [Settings; 6] {
 /// [`fingerprint`] of each of [`settings`]: of the cloud and of what is said about it. A change of the first means that a
 /// reader's seed no longer shows the reader's cloud.
 pub const FINGERPRINTS: [[u64; 2]; 6] = [
-    [0x47ad_6e13_fd87_274e, 0x4d4b_2557_7162_d8b6],
-    [0x365a_8548_2ae6_efcd, 0xef5f_0c7f_0422_6046],
-    [0xe3dc_7da6_67d2_5c47, 0xaa17_4809_b699_161e],
-    [0xa82b_f67c_8db0_ff0a, 0xb672_a9ea_e74f_3b6c],
+    [0x47ad_6e13_fd87_274e, 0xb12e_cd76_af22_5d44],
+    [0x365a_8548_2ae6_efcd, 0x086c_44fc_7ac0_46c0],
+    [0xe3dc_7da6_67d2_5c47, 0x0eb1_68cb_90ea_344d],
+    [0xa82b_f67c_8db0_ff0a, 0xb9ed_4a4b_66a1_b67a],
     [0x674c_5de0_7920_f878, 0xf7b2_04d4_42fe_aafb],
-    [0x63e0_4c22_712f_9b6b, 0x3884_33ef_8271_a07c],
+    [0x63e0_4c22_712f_9b6b, 0x8eb3_1e57_0ccd_9bdf],
 ];
 
 fn command(v: f64, omega: f64, dt: f64) -> VelocityCmd {

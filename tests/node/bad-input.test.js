@@ -3,6 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { inspect } from 'node:util';
 import { freshModule } from './support.js';
 
 const { BananaMachine, commandReaching } = await (await freshModule()).load();
@@ -275,6 +276,70 @@ test('arguments of the other methods', () => {
   }
   machine.restart();
   assertRefused(() => machine.inspect(0), RangeError, 'index', '0', 'inspect of an empty cloud');
+});
+
+/** A small generator (mulberry32): the same inputs on every run. @param {number} seed */
+function generator(seed) {
+  let state = seed;
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+test('thousands of arbitrary settings: refused whole or taken whole, and nothing traps', () => {
+  const random = generator(2005);
+  /** @type {<T>(values: T[]) => T} */
+  const pick = (values) => values[Math.floor(random() * values.length)];
+  const NUMBERS = [0, -0, 1, -1, 0.5, 3.2, 1e-300, 5e-324, 1e-6, 1e6, -1e6, 1e7, 1e308, NaN, Infinity, -Infinity, 2 ** 31, 2 ** 32, 2 ** 53];
+  const OTHERS = [undefined, null, '', '1', true, 1n, {}, [], () => 1, Symbol('x'), new Date(0), new Float64Array(4), Object.create(null)];
+  /** Mostly a number that may pass. @returns {unknown} */
+  const value = () => (random() < 0.9 ? pick(random() < 0.7 ? [0, 0.01, 0.3, 1, -2, 1e-6, 1e6] : NUMBERS) : pick(OTHERS));
+  const list = () => Array.from({ length: pick([4, 6, 6, 6, 5]) }, () => (random() < 0.9 ? Math.abs(random()) : value()));
+  /** @type {Record<string, () => unknown>} */
+  const keys = {
+    model: () => pick(['velocity', 'odometry', 'velocity', value()]),
+    noise: () => pick(['normal', 'triangular', 'normal', value()]),
+    command: () => (random() < 0.95 ? { v: value(), omega: value(), dt: value() } : value()),
+    alphas: () => (random() < 0.95 ? list() : value()),
+    isolate: () => pick([null, 1, 2, 4, 6, value()]),
+    samples: () => pick([1, 2, 3, 17, 40, value()]),
+    seed: () => pick([0, 1, 2 ** 53 - 1, value()]),
+    extra: () => 1,
+  };
+  let machine = new BananaMachine({ samples: 20 });
+  const tally = { taken: 0, refused: 0 };
+  for (let round = 0; round < 4000; round += 1) {
+    const chosen = Object.keys(keys).filter((key) => random() < (key === 'extra' ? 0.02 : 0.25));
+    const options = Object.fromEntries(chosen.map((key) => [key, keys[key]()]));
+    const before = state(machine);
+    const doing = () => `round ${round}: ${inspect(options)}`;
+    try {
+      machine.configure(options);
+      tally.taken += 1;
+    } catch (error) {
+      tally.refused += 1;
+      assert.ok(error instanceof TypeError || error instanceof RangeError, `${doing()}: ${error}`);
+      assert.match(error.message, /allowed/, doing());
+      assert.deepEqual(state(machine), before, doing());
+    }
+    const { stats, contours, table, config } = machine;
+    assert.equal(stats.n, machine.poses.length / 3, doing());
+    assert.equal(stats.n, config.samples, doing());
+    assert.ok(machine.poses.every(Number.isFinite), doing());
+    assert.ok(contours.command.length >= 4 && table.exact.cov.length === 3, doing());
+    assert.equal(machine.skewCurve(-1e6, 1e6, 3).length, 3);
+    assert.ok(machine.density(pick(['plane', 'twist']), -1, -1, 1, 1, 3, 3).length === 9);
+    machine.inspect(0);
+    if (config.samples > 1000) {
+      machine.free();
+      machine = new BananaMachine({ samples: 20 });
+    }
+  }
+  assert.ok(tally.taken > 400 && tally.refused > 400, JSON.stringify(tally));
+  machine.free();
 });
 
 test('methods on what is no machine throw', () => {

@@ -20,8 +20,9 @@ export const CACHE = join(
 
 /** Installs the npm packages unless those of the present package-lock.json are there. */
 export async function ensurePackages() {
-  if (Number(process.versions.node.split('.')[0]) < 20) {
-    throw new Missing(`Node 20 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
+  const [major, minor] = process.versions.node.split('.').map(Number);
+  if (major < 20 || (major === 20 && minor < 19)) {
+    throw new Missing(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
   }
   const lock = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
   const stamp = join(ROOT, 'node_modules/.installed-lock');

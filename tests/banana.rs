@@ -16,6 +16,7 @@ use motion::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd, VelocityModel,
 };
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 fn machine(settings: Settings) -> BananaMachine {
@@ -336,16 +337,70 @@ fn exact_and_measured_figures_agree() {
 #[test]
 fn a_dragged_end_is_reached() {
     for (x, y) in [(1.0, 0.2), (1.0, -2.0), (-1.0, 0.3), (-0.5, -0.5), (2.0, 0.0), (-2.0, 0.0), (0.0, 1.0)] {
-        for dt in [0.5, 2.0] {
-            let command = command_reaching(x, y, dt);
+        for (omega, dt) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
+            let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt });
             let settings = Settings { command, ..Settings::default() };
             let end = machine(settings).linearized().mean;
             let reached = SE2::new(end.x, end.y, 0.0);
-            assert!(pose_distance(&reached, &SE2::new(x, y, 0.0)) < 1e-14, "({x}, {y}): {end}");
-            assert!((command.omega * dt).abs() <= PI + 1e-15);
+            // A chord d on an arc of length s = |v|Δt carries the rounding of s.
+            let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
+            assert!(pose_distance(&reached, &SE2::new(x, y, 0.0)) < rounding, "({x}, {y}): {end}");
+            // No other arc to that end (a straight one has none) turns by an amount nearer to the present one.
+            assert!(((command.omega - omega) * dt).abs() <= PI + 1e-14 || command.omega == 0.0);
         }
     }
-    assert_eq!(command_reaching(0.0, 0.0, 1.0), VelocityCmd { v: 0.0, omega: 0.0, dt: 1.0 });
+    let present = VelocityCmd { v: 1.0, omega: 1.2, dt: 3.0 };
+    assert_eq!(command_reaching(0.0, 0.0, &present), VelocityCmd { v: 0.0, omega: 0.0, dt: 3.0 });
+}
+
+/// Where a command ends, dragging begins: without a jump, however far it turns and whichever way it drives.
+#[test]
+fn the_end_of_a_command_gives_the_command_back() {
+    for v in [1.0, -0.7, 0.06] {
+        for omega in [0.0, 0.5, -1.2, 2.0, -2.0] {
+            for dt in [0.1, 1.0, 1.4, 3.0] {
+                let command = VelocityCmd { v, omega, dt };
+                let end = machine(Settings { command, ..Settings::default() }).linearized().mean;
+                let back = command_reaching(end.x, end.y, &command);
+                assert!(
+                    (back.v - v).abs() < 1e-13 && (back.omega - omega).abs() < 1e-13,
+                    "{command:?}, {back:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Exponential coordinates run to infinity where robots turn by a whole circle: the figures in them are then undefined,
+/// all others not.
+#[test]
+fn without_a_chart_exponential_figures_are_undefined() {
+    let turning = |omega: f64| {
+        let command = VelocityCmd { v: 1.0, omega, dt: 3.0 };
+        machine(Settings { command, velocity_alphas: [0.01; 6], samples: 500, ..Settings::default() })
+    };
+    // sd of the turn: 3·√(0.02·(1 + ω²)), 0.7 and 0.9 rad.
+    for (omega, holds) in [(0.9, true), (2.0, false), (-2.0, false)] {
+        let machine = turning(omega);
+        assert_eq!(machine.chart_holds(), holds, "ω = {omega}");
+        let (figures, contours) = (machine.figures(), machine.contours());
+        let exponential = [figures.gaussian_skew, figures.inside_exponential, figures.exponential.mean.x];
+        assert!(exponential.iter().all(|value| value.is_nan() != holds), "ω = {omega}: {figures:?}");
+        assert_eq!(contours.exponential.is_empty(), !holds);
+        assert_eq!(contours.twist_ellipse.is_empty(), !holds);
+        assert!(figures.cross_track.skew.is_finite() && figures.inside_ellipse.is_finite());
+        assert_eq!(contours.ellipse.len(), contours.linearized.len());
+    }
+}
+
+#[test]
+fn the_model_in_exponential_coordinates_is_its_command_and_noise() {
+    let velocity = machine(Settings::default()).tangent().unwrap();
+    assert_eq!(velocity.mean, Vector3::new(1.0, 0.0, 0.5));
+    // 0.05 + 0.05/4, and 0.05 + 0.09/4 with 0.01 + 0.01/4 of the turn after the arc.
+    let expected = Matrix3::from_diagonal(&Vector3::new(0.0625, 0.0, 0.085));
+    assert!((velocity.cov - expected).amax() < 1e-15);
+    assert!(machine(Settings { model: ModelKind::Odometry, ..Settings::default() }).tangent().is_none());
 }
 
 #[test]
@@ -374,7 +429,7 @@ fn both_views_find_the_nearest_sample_and_count_all() {
         assert_eq!(machine.nearest(view, beside(0.0101), [0.01, 1e-9]), None);
         // A grid over the whole cloud counts every sample once, in the cell where it lies, the top row first.
         let grid = Grid { min: [-4.0, -4.0], max: [4.0, 4.0], columns: 16, rows: 8 };
-        let counts = machine.density(view, &grid);
+        let counts = machine.density(view, &grid).unwrap();
         assert_eq!(counts.iter().sum::<u32>(), 3000);
         for (cell, count) in counts.iter().enumerate() {
             let (column, row) = (cell % 16, cell / 16);

@@ -239,6 +239,36 @@ fn the_exponential_contour_covers_two_deviations() {
     assert!((share - TWO_SIGMA_SHARE).abs() > SIGMAS * error, "{share}");
 }
 
+/// The outline of a full ellipsoid's shadow: of all ξ that lead to a point of it, whatever their heading, the nearest to
+/// the mean is two deviations away. The nearest is found by brute force over headings.
+#[test]
+fn the_outline_is_the_shadow_of_the_ellipsoid() {
+    let cases = [
+        (
+            Vector3::new(1.0, 0.0, 0.5),
+            Matrix3::new(0.06, 0.001, 0.002, 0.001, 0.003, -0.006, 0.002, -0.006, 0.08),
+        ),
+        (Vector3::new(1.4, 0.1, -1.2), Matrix3::new(0.05, 0.0, 0.01, 0.0, 0.02, 0.01, 0.01, 0.01, 0.1)),
+    ];
+    for (mean, cov) in cases {
+        let start = SE2::new(2.0, -1.0, 0.7);
+        let precision = cov.try_inverse().unwrap();
+        let spread = f64::sqrt(cov[(2, 2)]);
+        for [x, y] in ExponentialContour::new(&ExponentialMoments { mean, cov }, &start).boundary(48) {
+            let distance = |heading: f64| {
+                let step = start.inverse() * SE2::new(x, y, start.theta() + heading);
+                let offset = step.log_near(heading) - mean;
+                offset.dot(&(precision * offset)).sqrt()
+            };
+            // 4001 headings over three deviations either way: near the least, the distance is off by its curvature times
+            // half a step squared, below 1e-5.
+            let headings = (0..=4000).map(|i| mean.z + spread * 3.0 * (f64::from(i) / 2000.0 - 1.0));
+            let least = headings.map(distance).fold(f64::INFINITY, f64::min);
+            assert!((least - 2.0).abs() < 1e-5, "({x}, {y}) is {least} deviations away");
+        }
+    }
+}
+
 /// With γ̂ the coordinates are still inside the contour about as often as they should be.
 #[test]
 fn the_exponential_contour_of_a_full_rank_cloud_is_close_to_nominal() {
@@ -417,9 +447,10 @@ fn degenerate_clouds_give_nan() {
             assert!(predicted_cross_track_skew(&exponential.mean, &exponential.cov).is_nan(), "{what}");
         }
     }
-    // Two different poses have a spread, and by symmetry no skew.
-    let pair = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0)];
-    assert!(cross_track_skew(&pair).abs() < 1e-12);
+    // Two poses have a spread, and the shape of any two; three can be told apart.
+    let three = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
+    assert!(cross_track_skew(&three[..2]).is_nan());
+    assert!((cross_track_skew(&three) - 0.5f64.sqrt()).abs() < 1e-12, "two at −1, one at 2");
     assert!(predicted_cross_track_skew(&Vector3::zeros(), &Matrix3::zeros()).is_nan());
     let still = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
     assert!(ExactMoments::of_velocity(&still, &U).cross_track_skew.is_nan());

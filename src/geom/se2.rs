@@ -153,8 +153,9 @@ fn sinc_squared_half(turn: f64) -> f64 {
     root * root
 }
 
-/// Below this |ω| the series is used for the two quotients that cancel. At 1 the closed forms still lose no more than
-/// one bit; a smaller bound would let them lose 1/|ω| of their digits, a larger one would need more terms.
+/// Below this |ω| the series is used for the two quotients that cancel. From 1 on the closed forms lose up to four bits of
+/// quotients that are a sixth or less, which leaves the sums they enter exact to rounding; a smaller bound would let the
+/// loss grow with 1/|ω|, a larger one would need more terms.
 const SERIES_BELOW: f64 = 1.0;
 
 /// (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …

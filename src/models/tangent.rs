@@ -17,6 +17,7 @@ use std::fmt;
 /// perturbation). It may be singular: a wheelset has no lateral noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentNoiseModel {
+    /// R, to be read: a model with another R is made by [`TangentNoiseModel::new`], which factors it.
     pub r: Matrix3<f64>,
     /// Variance (rad²) of the turn after the arc.
     last_turn: f64,
@@ -190,7 +191,7 @@ fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
 }
 
 /// A lower triangular L with L·Lᵀ = cov, zero columns where the covariance has no extent.
-fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
+pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
     if cov.iter().any(|entry| !entry.is_finite()) {
         return Err(TangentNoiseError::NotFinite);
     }

@@ -6,7 +6,8 @@ use super::views::{Grid, View, density, nearest};
 use crate::geom::arc::{ArcInversion, chord, invert_arc};
 use crate::geom::se2::SE2;
 use crate::models::{
-    OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
+    MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd,
+    VelocityModel,
 };
 use crate::noise::NoiseKind;
 use crate::stats::{
@@ -14,6 +15,8 @@ use crate::stats::{
     predicted_cross_track_skew,
 };
 use nalgebra::{Matrix3, Vector3};
+use std::collections::TryReserveError;
+use std::f64::consts::TAU;
 
 /// Which of the chapter's models the machine runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,10 +140,18 @@ pub const PRESETS: [(&str, VelocityCmd); 4] = [
     ("pivot", VelocityCmd { v: 0.06, omega: 1.5, dt: 1.0 }),
 ];
 
-/// The command whose arc of `dt` seconds ends at (x, y), turning by half a circle at most.
-pub fn command_reaching(x: f64, y: f64, dt: f64) -> VelocityCmd {
+/// The command whose arc ends at (x, y), with the duration of `near` and, of the arcs that lead there (forward or in
+/// reverse, round the circle or not), the one whose turn is nearest to that of `near`.
+pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
+    let dt = near.dt;
     let ArcInversion { v_hat, omega_hat, .. } = invert_arc(&START, &SE2::new(x, y, 0.0), dt);
-    VelocityCmd { v: v_hat, omega: omega_hat, dt }
+    let windings = ((near.omega - omega_hat) * dt / TAU).round();
+    if windings == 0.0 || omega_hat == 0.0 {
+        return VelocityCmd { v: v_hat, omega: omega_hat, dt };
+    }
+    // On one circle the length driven is proportional to the turn.
+    let omega = omega_hat + windings * TAU / dt;
+    VelocityCmd { v: v_hat * (omega / omega_hat), omega, dt }
 }
 
 fn command_end(command: &VelocityCmd) -> SE2 {
@@ -161,10 +172,14 @@ pub struct Figures {
     pub inside_exponential: f64,
 }
 
+/// Standard deviations of the turn that must keep short of a whole circle for exponential coordinates to make sense.
+/// There ξ runs to infinity; with fewer, single samples of a large cloud would already spoil its moments.
+const CHART_SIGMAS: f64 = 4.0;
+
 impl Figures {
-    fn of(poses: &[SE2], twists: &[Vector3<f64>]) -> Self {
+    fn of(poses: &[SE2], twists: &[Vector3<f64>], chart_holds: bool) -> Self {
         let cartesian = CartesianMoments::from_poses(poses);
-        let exponential = ExponentialMoments::from_twists(twists);
+        let exponential = ExponentialMoments::from_twists(if chart_holds { twists } else { &[] });
         let share = |view: View, ellipse: &Ellipse| {
             let points = poses.iter().zip(twists).map(|(pose, twist)| view.point(pose, twist));
             let inside = points.filter(|point| ellipse.contains(*point)).count();
@@ -182,7 +197,7 @@ impl Figures {
 }
 
 /// The curves drawn over the cloud, as (x, y) in m but for `twist_ellipse`, (m, rad). Outlines are closed; empty
-/// where fewer than two samples are shown.
+/// where fewer than two samples are shown, or without a chart to be drawn in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contours {
     /// The arc of the command, open.
@@ -231,7 +246,7 @@ impl BananaMachine {
             draws: Draws::new(settings.seed, settings.noise),
             poses: Vec::new(),
             twists: Vec::new(),
-            figures: Figures::of(&[], &[]),
+            figures: Figures::of(&[], &[], true),
         };
         machine.configure(settings)?;
         Ok(machine)
@@ -276,7 +291,7 @@ impl BananaMachine {
     pub fn restart(&mut self) {
         self.poses.clear();
         self.twists.clear();
-        self.figures = Figures::of(&[], &[]);
+        self.figures = Figures::of(&[], &[], true);
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
@@ -288,7 +303,7 @@ impl BananaMachine {
             .extend(self.draws.unit_noise()[shown..end].iter().map(|unit_noise| motion.drive(*unit_noise)));
         let VelocityCmd { omega, dt, .. } = self.settings.command;
         self.twists.extend(self.poses[shown..].iter().map(|pose| pose.log_near(omega * dt)));
-        self.figures = Figures::of(&self.poses, &self.twists);
+        self.figures = Figures::of(&self.poses, &self.twists, self.chart_holds());
         end
     }
 
@@ -304,6 +319,28 @@ impl BananaMachine {
 
     pub fn figures(&self) -> &Figures {
         &self.figures
+    }
+
+    /// Whether the robots keep short of turning a whole circle, where exponential coordinates end. Where not, every
+    /// figure and contour in them is undefined.
+    pub fn chart_holds(&self) -> bool {
+        let VelocityCmd { omega, dt, .. } = self.settings.command;
+        let turn_variance = self.exact().cov[(2, 2)];
+        (omega * dt).abs() + CHART_SIGMAS * turn_variance.sqrt() < TAU
+    }
+
+    /// R_u and τ: mean and covariance in exponential coordinates as the model has them, the variance of the turn after
+    /// the arc added to the heading. None for the odometry model, whose noise is not additive there.
+    pub fn tangent(&self) -> Option<ExponentialMoments> {
+        match self.settings.motion(self.settings.command) {
+            Motion::Velocity(model, command) => {
+                let [.., last] = model.variances(&command);
+                let mut cov = model.tangent_cov(&command)?;
+                cov[(2, 2)] += command.dt * command.dt * last.0;
+                Some(ExponentialMoments { mean: TangentNoiseModel::twist(&command), cov })
+            }
+            Motion::Odometry(..) => None,
+        }
     }
 
     /// Mean and covariance by the linearization that an EKF uses: the noise-free end, and J·Σ·Jᵀ.
@@ -335,15 +372,17 @@ impl BananaMachine {
     /// The curves over the cloud.
     pub fn contours(&self) -> Contours {
         let Figures { cartesian, exponential, .. } = &self.figures;
-        let measured = |outline: Vec<[f64; 2]>| if self.poses.len() > 1 { outline } else { Vec::new() };
+        let if_any = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
+        let enough = self.poses.len() > 1;
+        let charted = enough && self.chart_holds();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START);
         Contours {
             command: arc_points(v * dt, omega * dt),
-            ellipse: measured(Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
+            ellipse: if_any(enough, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
             linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
-            exponential: measured(contour.boundary(OUTLINE_SEGMENTS)),
-            twist_ellipse: measured(contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            exponential: if_any(charted, contour.boundary(OUTLINE_SEGMENTS)),
+            twist_ellipse: if_any(charted, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
         }
     }
 
@@ -359,7 +398,10 @@ impl BananaMachine {
     }
 
     /// How many of the shown samples lie in each cell of a grid over a view: see [`density`].
-    pub fn density(&self, view: View, grid: &Grid) -> Vec<u32> {
+    ///
+    /// # Errors
+    /// As [`density`].
+    pub fn density(&self, view: View, grid: &Grid) -> Result<Vec<u32>, TryReserveError> {
         density(self.points(view), grid)
     }
 

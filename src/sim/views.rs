@@ -2,6 +2,7 @@
 
 use crate::geom::se2::SE2;
 use nalgebra::Vector3;
+use std::collections::TryReserveError;
 
 /// A picture of the cloud.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +34,14 @@ pub struct Grid {
 }
 
 /// How many points lie in each cell, row by row from the top (greatest second coordinate). Points outside count nowhere.
-pub fn density(points: impl Iterator<Item = [f64; 2]>, grid: &Grid) -> Vec<u32> {
-    let mut counts = vec![0; grid.columns * grid.rows];
+///
+/// # Errors
+/// Where memory does not suffice for the cells.
+pub fn density(points: impl Iterator<Item = [f64; 2]>, grid: &Grid) -> Result<Vec<u32>, TryReserveError> {
+    let cells = grid.columns * grid.rows;
+    let mut counts = Vec::new();
+    counts.try_reserve_exact(cells)?;
+    counts.resize(cells, 0);
     let columns_per_unit = grid.columns as f64 / (grid.max[0] - grid.min[0]);
     let rows_per_unit = grid.rows as f64 / (grid.max[1] - grid.min[1]);
     for [x, y] in points {
@@ -44,7 +51,7 @@ pub fn density(points: impl Iterator<Item = [f64; 2]>, grid: &Grid) -> Vec<u32> 
             counts[row as usize * grid.columns + column as usize] += 1;
         }
     }
-    counts
+    Ok(counts)
 }
 
 /// The index of the point nearest to `target` among those inside the ellipse of the given radii around it, distances

@@ -3,7 +3,8 @@
 use super::cross_track::NO_SPREAD;
 use super::moments::{CartesianMoments, ExponentialMoments};
 use crate::geom::se2::SE2;
-use nalgebra::{Matrix2, Matrix2x3, Matrix3x2, Vector2, Vector3};
+use crate::models::covariance_root;
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
 /// The contours are at two standard deviations: a Gaussian of the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
@@ -63,18 +64,17 @@ impl Ellipse {
 
 /// The 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
-/// In (along, heading) it is an ellipse, and there its content is counted. Its outline in the plane draws three
-/// coordinates in two: through the most probable ξ for each direction of displacement. With H the 2 × 3 Jacobian of
-/// position by ξ at m and L·Lᵀ = HΣHᵀ, it is the image under exp of m + 2ΣHᵀL⁻ᵀ·(cos t, sin t). Where Σ has rank 2, as
-/// without γ̂, that is the image of the ellipse, exactly; with γ̂ its content differs from the ellipse's by third decimals.
+/// In (along, heading) it is an ellipse, and there its content is counted. In the plane it is the shadow of the 2σ
+/// ellipsoid: the outline of the positions exp(ξ) of all ξ within Mahalanobis distance 2 of m. Without γ̂ the ellipsoid
+/// is flat, and the outline is the image of its rim, which is that ellipse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
     start: SE2,
     mean: Vector3<f64>,
     /// In (along, heading).
     ellipse: Ellipse,
-    /// ΣHᵀL⁻ᵀ: from the whitened displacement to ξ − m.
-    lift: Matrix3x2<f64>,
+    /// G with G·Gᵀ = Σ.
+    root: Matrix3<f64>,
 }
 
 impl ExponentialContour {
@@ -82,15 +82,11 @@ impl ExponentialContour {
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
-        let jacobian = position_jacobian(&mean);
-        let crossed = cov * jacobian.transpose();
-        let displacement = Ellipse::new(Vector2::zeros(), jacobian * crossed);
-        let rows = crossed.row_iter().map(|row| displacement.whiten(row.transpose()).transpose());
         Self {
             start: *start,
             mean,
             ellipse: Ellipse::new(Vector2::new(mean.x, mean.z), along_heading),
-            lift: Matrix3x2::from_rows(&rows.collect::<Vec<_>>()),
+            root: covariance_root(&cov).unwrap_or_else(|_| Matrix3::zeros()),
         }
     }
 
@@ -100,9 +96,31 @@ impl ExponentialContour {
     }
 
     /// The closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the first.
+    ///
+    /// On ξ = m + 2·G·u, |u| = 1, the outline is where the displacements that leave the position alone are tangent to
+    /// the ellipsoid: u ⊥ k with H(ξ)·G·k = 0, H the Jacobian of position by ξ. Solved by iteration from the great
+    /// circle of the ellipsoid that is right at m.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
+        /// Each iteration shrinks the error by about the heading's spread in radians.
+        const ITERATIONS: usize = 12;
+        let at = |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
+        let idle = |twist: &Vector3<f64>| {
+            let shift = position_jacobian(twist) * self.root;
+            shift.row(0).transpose().cross(&shift.row(1).transpose()).try_normalize(0.0)
+        };
+        let first_idle = idle(&self.mean).unwrap_or_else(Vector3::y);
+        // Any two directions that span the circle; the one furthest from the idle direction keeps well off it.
+        let aside = if first_idle.x.abs() < 0.9 { Vector3::x() } else { Vector3::z() };
+        let first = (aside - first_idle * aside.dot(&first_idle)).normalize();
+        let second = first_idle.cross(&first);
         let outline = |direction: Vector2<f64>| {
-            let pose = self.start.boxplus(self.mean + self.lift * direction * SIGMAS);
+            let on_circle = first * direction.x + second * direction.y;
+            let mut u = on_circle;
+            for _ in 0..ITERATIONS {
+                let Some(idle) = idle(&at(&u)) else { break };
+                u = (on_circle - idle * on_circle.dot(&idle)).try_normalize(1e-6).unwrap_or(u);
+            }
+            let pose = self.start.boxplus(at(&u));
             [pose.x(), pose.y()]
         };
         unit_circle(segments).map(outline).collect()

@@ -1,14 +1,14 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{Fields, in_range, number, numbers, whole, word};
-use super::to_js;
+use super::fields::{Fields, in_range, no_memory, number, numbers, read_command, whole, word};
+use super::values::{Command, doubles, object, to_js};
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
 use crate::sim::View;
 use crate::sim::banana::{BananaMachine, Contours, ModelKind, PRESETS, Sample, Settings};
 use crate::sim::settings::{MAX_SAMPLES, MAX_SEED, SPEED};
 use crate::sim::views::Grid;
-use js_sys::{Float64Array, Uint32Array};
+use js_sys::{Float64Array, RangeError, Uint32Array};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
@@ -24,13 +24,6 @@ const MAX_CURVE_POINTS: u64 = 10_000;
 
 fn name_of<T: PartialEq>(words: &[(&'static str, T)], meaning: &T) -> &'static str {
     words.iter().find(|(_, candidate)| candidate == meaning).map_or("", |(word, _)| *word)
-}
-
-#[derive(Serialize)]
-struct Command {
-    v: f64,
-    omega: f64,
-    dt: f64,
 }
 
 #[derive(Serialize)]
@@ -89,6 +82,7 @@ struct Table {
     linearized: TableColumn,
     exact: TableColumn,
     measured: TableColumn,
+    tangent: Option<Moments>,
 }
 
 #[derive(Serialize)]
@@ -135,11 +129,10 @@ impl JsBananaMachine {
     #[wasm_bindgen(getter)]
     pub fn config(&self) -> Result<JsValue, JsValue> {
         let settings = self.0.settings();
-        let VelocityCmd { v, omega, dt } = settings.command;
         to_js(&Config {
             model: name_of(&MODELS, &settings.model),
             noise: name_of(&NOISES, &settings.noise),
-            command: Command { v, omega, dt },
+            command: settings.command.into(),
             alphas: settings.alphas(),
             isolate: settings.isolate,
             samples: settings.samples,
@@ -150,6 +143,12 @@ impl JsBananaMachine {
     #[wasm_bindgen(getter)]
     pub fn shown(&self) -> usize {
         self.0.poses().len()
+    }
+
+    /// Whether figures and contours in exponential coordinates are defined: no robot to speak of turns a whole circle.
+    #[wasm_bindgen(getter, js_name = chartHolds)]
+    pub fn chart_holds(&self) -> bool {
+        self.0.chart_holds()
     }
 
     pub fn grow(&mut self, count: &JsValue) -> Result<usize, JsValue> {
@@ -163,14 +162,14 @@ impl JsBananaMachine {
 
     /// x, y, θ of each sample shown.
     #[wasm_bindgen(getter)]
-    pub fn poses(&self) -> Float64Array {
-        triples(self.0.poses().iter().map(|pose| [pose.x(), pose.y(), pose.theta()]))
+    pub fn poses(&self) -> Result<Float64Array, JsValue> {
+        doubles(self.0.poses().iter().map(|pose| [pose.x(), pose.y(), pose.theta()]))
     }
 
     /// ξ along, lateral, heading of each sample shown.
     #[wasm_bindgen(getter)]
-    pub fn twists(&self) -> Float64Array {
-        triples(self.0.twists().iter().map(|twist| (*twist).into()))
+    pub fn twists(&self) -> Result<Float64Array, JsValue> {
+        doubles(self.0.twists().iter().map(|twist| <[f64; 3]>::from(*twist)))
     }
 
     #[wasm_bindgen(getter)]
@@ -200,6 +199,7 @@ impl JsBananaMachine {
                 &figures.cartesian.cov,
                 figures.cross_track.skew,
             ),
+            tangent: self.0.tangent().map(|tangent| Moments::new(&tangent.mean, &tangent.cov)),
         })
     }
 
@@ -207,11 +207,11 @@ impl JsBananaMachine {
     pub fn contours(&self) -> Result<JsValue, JsValue> {
         let Contours { command, ellipse, linearized, exponential, twist_ellipse } = self.0.contours();
         object(&[
-            ("command", pairs(&command).into()),
-            ("ellipse", pairs(&ellipse).into()),
-            ("linearized", pairs(&linearized).into()),
-            ("exponential", pairs(&exponential).into()),
-            ("twistEllipse", pairs(&twist_ellipse).into()),
+            ("command", doubles(command.into_iter())?.into()),
+            ("ellipse", doubles(ellipse.into_iter())?.into()),
+            ("linearized", doubles(linearized.into_iter())?.into()),
+            ("exponential", doubles(exponential.into_iter())?.into()),
+            ("twistEllipse", doubles(twist_ellipse.into_iter())?.into()),
         ])
     }
 
@@ -224,18 +224,20 @@ impl JsBananaMachine {
     }
 
     pub fn inspect(&self, index: &JsValue) -> Result<JsValue, JsValue> {
-        let last = (self.0.poses().len() as u64).saturating_sub(1);
-        let index = whole("index", index, 0, last)?;
-        let Some(Sample { pose, twist, executed, path }) = self.0.inspect(index as usize) else {
-            return Err(js_sys::RangeError::new("index is 0; allowed is none: no sample is shown").into());
+        let index = whole("index", index, 0, MAX_SAMPLES as u64)? as usize;
+        let Some(Sample { pose, twist, executed, path }) = self.0.inspect(index) else {
+            let shown = self.0.poses().len();
+            let message =
+                format!("index is {index}; allowed is one of the {shown} samples shown, counted from 0");
+            return Err(RangeError::new(&message).into());
         };
         object(&[
-            ("pose", triples([[pose.x(), pose.y(), pose.theta()]].into_iter()).into()),
-            ("twist", triples([twist.into()].into_iter()).into()),
+            ("pose", doubles([[pose.x(), pose.y(), pose.theta()]].into_iter())?.into()),
+            ("twist", doubles([<[f64; 3]>::from(twist)].into_iter())?.into()),
             ("vHat", executed.v_hat.into()),
             ("omegaHat", executed.omega_hat.into()),
             ("gammaHat", executed.gamma_hat.into()),
-            ("path", pairs(&path).into()),
+            ("path", doubles(path.into_iter())?.into()),
         ])
     }
 
@@ -275,7 +277,8 @@ impl JsBananaMachine {
         let columns = whole("columns", columns, 1, MAX_CELLS)?;
         let rows = whole("rows", rows, 1, MAX_CELLS / columns)?;
         let grid = Grid { min, max, columns: columns as usize, rows: rows as usize };
-        Ok(Uint32Array::from(self.0.density(view, &grid).as_slice()))
+        let counts = self.0.density(view, &grid).map_err(|_| no_memory("columns"))?;
+        Ok(Uint32Array::from(counts.as_slice()))
     }
 }
 
@@ -327,26 +330,4 @@ fn read_settings(present: Settings, options: &JsValue) -> Result<Settings, JsVal
         settings.seed = seed;
     }
     Ok(settings)
-}
-
-/// A whole command: speeds without their duration would mean another motion.
-fn read_command(field: &str, value: &JsValue) -> Result<VelocityCmd, JsValue> {
-    let fields = Fields::new(field, "command.", value, &["v", "omega", "dt"])?;
-    Ok(VelocityCmd { v: fields.number("v")?, omega: fields.number("omega")?, dt: fields.number("dt")? })
-}
-
-fn pairs(points: &[[f64; 2]]) -> Float64Array {
-    Float64Array::from(points.as_flattened())
-}
-
-fn triples(items: impl Iterator<Item = [f64; 3]>) -> Float64Array {
-    Float64Array::from(items.collect::<Vec<_>>().as_flattened())
-}
-
-fn object(entries: &[(&str, JsValue)]) -> Result<JsValue, JsValue> {
-    let object = js_sys::Object::new();
-    for (key, value) in entries {
-        js_sys::Reflect::set(&object, &(*key).into(), value)?;
-    }
-    Ok(object.into())
 }

@@ -2,6 +2,7 @@
 //! value and what is allowed. Nothing here can throw past Rust or run the caller's code unguarded: properties are read
 //! by `Reflect`, whose exceptions come back as values.
 
+use crate::models::VelocityCmd;
 use crate::sim::settings::{SettingsError, check_real, check_whole};
 use js_sys::{RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
@@ -26,6 +27,11 @@ impl<'a> Fields<'a> {
             return Err(type_error(name, object, &format!("an object with keys from {}", known.join(", "))));
         }
         let keys = Reflect::own_keys(object).map_err(|_| unreadable(name))?;
+        if object.is_array() {
+            let message =
+                format!("{name} is an array; allowed is an object with keys from {}", known.join(", "));
+            return Err(TypeError::new(&message).into());
+        }
         for key in keys.iter() {
             let Some(key) = key.as_string() else { continue };
             if !known.contains(&key.as_str()) {
@@ -105,6 +111,18 @@ pub fn numbers<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N],
         *slot = number(&path, &item)?;
     }
     Ok(result)
+}
+
+/// A whole command: speeds without their duration would mean another motion.
+pub fn read_command(field: &str, value: &JsValue) -> Result<VelocityCmd, JsValue> {
+    let fields = Fields::new(field, "command.", value, &["v", "omega", "dt"])?;
+    Ok(VelocityCmd { v: fields.number("v")?, omega: fields.number("omega")?, dt: fields.number("dt")? })
+}
+
+/// What a caller is told who asks for more than there is memory for.
+pub fn no_memory(field: &str) -> JsValue {
+    RangeError::new(&format!("{field} is a number for which there is no memory; allowed is a smaller one"))
+        .into()
 }
 
 fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {

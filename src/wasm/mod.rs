@@ -2,11 +2,13 @@
 
 mod banana;
 mod fields;
+mod values;
 
 use crate::sim::banana::command_reaching;
-use crate::sim::settings::{DURATION, SPEED};
-use fields::in_range;
+use crate::sim::settings::{SPEED, check_command};
+use fields::{in_range, read_command};
 use serde::Serialize;
+use values::to_js;
 use wasm_bindgen::prelude::*;
 
 /// A seed from the platform's entropy source: a whole number below 2³².
@@ -21,18 +23,13 @@ struct Speeds {
     omega: f64,
 }
 
-/// The { v, omega } whose arc of `dt` seconds from the origin ends at (x, y).
+/// The { v, omega } whose arc from the origin ends at (x, y): of those that do in the time of the command { v, omega,
+/// dt }, the one nearest to it.
 #[wasm_bindgen(js_name = commandReaching)]
-pub fn speeds_reaching(x: &JsValue, y: &JsValue, dt: &JsValue) -> Result<JsValue, JsValue> {
-    let command = command_reaching(
-        in_range("x", x, &SPEED)?,
-        in_range("y", y, &SPEED)?,
-        in_range("dt", dt, &DURATION)?,
-    );
+pub fn speeds_reaching(x: &JsValue, y: &JsValue, command: &JsValue) -> Result<JsValue, JsValue> {
+    let (x, y) = (in_range("x", x, &SPEED)?, in_range("y", y, &SPEED)?);
+    let near = read_command("command", command)?;
+    check_command(&near)?;
+    let command = command_reaching(x, y, &near);
     to_js(&Speeds { v: command.v, omega: command.omega })
-}
-
-/// A plain JavaScript value; None becomes null.
-fn to_js(value: &impl Serialize) -> Result<JsValue, JsValue> {
-    Ok(value.serialize(&serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true))?)
 }

@@ -50,7 +50,7 @@ const BAD = [
   [{ command: null }, TypeError, 'command', 'null'],
   [{ command: 1 }, TypeError, 'command', '1'],
   [{ command: 'forward' }, TypeError, 'command', '"forward"'],
-  [{ command: [1, 0.5, 1] }, TypeError, 'command.0', 'unknown'],
+  [{ command: [1, 0.5, 1] }, TypeError, 'command', 'an array'],
 
   [{ alphas: alphasWith(0, NaN) }, RangeError, 'alphas[0]', 'NaN'],
   [{ alphas: alphasWith(5, Infinity) }, RangeError, 'alphas[5]', 'Infinity'],
@@ -263,10 +263,11 @@ test('arguments of the other methods', () => {
     [() => machine.density('plane', 0, 0, 1, 1, 1e5, 1e5), RangeError, 'rows', '100000'],
     [() => machine.density('plane', 0, 0, 1, 1, 1e12, 1), RangeError, 'columns', '1000000000000'],
     [() => machine.density(null, 0, 0, 1, 1, 1, 1), TypeError, 'view', 'null'],
-    [() => commandReaching(NaN, 0, 1), RangeError, 'x', 'NaN'],
-    [() => commandReaching(1, '0', 1), TypeError, 'y', '"0"'],
-    [() => commandReaching(1, 0, 0), RangeError, 'dt', '0'],
-    [() => commandReaching(1, 0), TypeError, 'dt', 'undefined'],
+    [() => commandReaching(NaN, 0, { v: 1, omega: 1, dt: 1 }), RangeError, 'x', 'NaN'],
+    [() => commandReaching(1, '0', { v: 1, omega: 1, dt: 1 }), TypeError, 'y', '"0"'],
+    [() => commandReaching(1, 0, { v: 1, omega: 1, dt: 0 }), RangeError, 'command.dt', '0'],
+    [() => commandReaching(1, 0, { v: 1, omega: 1 }), TypeError, 'command.dt', 'undefined'],
+    [() => commandReaching(1, 0), TypeError, 'command', 'undefined'],
   ];
   for (const [act, type, field, value] of bad) assertRefused(act, type, field, value, `${act}`);
   assert.deepEqual(state(machine), before);

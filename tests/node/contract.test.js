@@ -256,7 +256,7 @@ test('contours, curve, inspection and views', async () => {
   const upper = Array.from({ length: 4000 }, (_, i) => poses[3 * i + 1]).filter((y) => y > 0).length;
   near(counts.slice(0, 100).reduce((sum, count) => sum + count, 0), upper, 0, 'row 0 is at the top');
 
-  const { v, omega } = commandReaching(1, -0.4, 2);
+  const { v, omega } = commandReaching(1, -0.4, { v: 1, omega: 0.2, dt: 2 });
   machine.configure({ command: { v, omega, dt: 2 } });
   near(machine.contours.command.at(-2), 1, 1e-12);
   near(machine.contours.command.at(-1), -0.4, 1e-12);

@@ -121,7 +121,7 @@ const BAD = [
   [true, TypeError, 'options', 'true'],
   [7n, TypeError, 'options', 'bigint'],
   [Symbol('s'), TypeError, 'options', 'symbol'],
-  [[1, 2], TypeError, '0', 'unknown'],
+  [[1, 2], TypeError, 'options', 'an array'],
 
   // Code of the caller's that runs while it is read.
   [throwing('samples'), TypeError, 'samples', 'throws'],

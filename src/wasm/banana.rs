@@ -1,7 +1,7 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{Fields, in_range, number, numbers, whole, word};
-use super::to_js;
+use super::fields::{Fields, in_range, number, numbers, read_command, whole, word};
+use super::values::{Command, object, pairs, to_js, triples};
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
 use crate::sim::View;
@@ -24,13 +24,6 @@ const MAX_CURVE_POINTS: u64 = 10_000;
 
 fn name_of<T: PartialEq>(words: &[(&'static str, T)], meaning: &T) -> &'static str {
     words.iter().find(|(_, candidate)| candidate == meaning).map_or("", |(word, _)| *word)
-}
-
-#[derive(Serialize)]
-struct Command {
-    v: f64,
-    omega: f64,
-    dt: f64,
 }
 
 #[derive(Serialize)]
@@ -135,11 +128,10 @@ impl JsBananaMachine {
     #[wasm_bindgen(getter)]
     pub fn config(&self) -> Result<JsValue, JsValue> {
         let settings = self.0.settings();
-        let VelocityCmd { v, omega, dt } = settings.command;
         to_js(&Config {
             model: name_of(&MODELS, &settings.model),
             noise: name_of(&NOISES, &settings.noise),
-            command: Command { v, omega, dt },
+            command: settings.command.into(),
             alphas: settings.alphas(),
             isolate: settings.isolate,
             samples: settings.samples,
@@ -327,26 +319,4 @@ fn read_settings(present: Settings, options: &JsValue) -> Result<Settings, JsVal
         settings.seed = seed;
     }
     Ok(settings)
-}
-
-/// A whole command: speeds without their duration would mean another motion.
-fn read_command(field: &str, value: &JsValue) -> Result<VelocityCmd, JsValue> {
-    let fields = Fields::new(field, "command.", value, &["v", "omega", "dt"])?;
-    Ok(VelocityCmd { v: fields.number("v")?, omega: fields.number("omega")?, dt: fields.number("dt")? })
-}
-
-fn pairs(points: &[[f64; 2]]) -> Float64Array {
-    Float64Array::from(points.as_flattened())
-}
-
-fn triples(items: impl Iterator<Item = [f64; 3]>) -> Float64Array {
-    Float64Array::from(items.collect::<Vec<_>>().as_flattened())
-}
-
-fn object(entries: &[(&str, JsValue)]) -> Result<JsValue, JsValue> {
-    let object = js_sys::Object::new();
-    for (key, value) in entries {
-        js_sys::Reflect::set(&object, &(*key).into(), value)?;
-    }
-    Ok(object.into())
 }

@@ -2,11 +2,14 @@
 
 mod banana;
 mod fields;
+mod squeeze;
+mod values;
 
 use crate::sim::banana::command_reaching;
 use crate::sim::settings::{DURATION, SPEED};
 use fields::in_range;
 use serde::Serialize;
+use values::to_js;
 use wasm_bindgen::prelude::*;
 
 /// A seed from the platform's entropy source: a whole number below 2³².
@@ -30,9 +33,4 @@ pub fn speeds_reaching(x: &JsValue, y: &JsValue, dt: &JsValue) -> Result<JsValue
         in_range("dt", dt, &DURATION)?,
     );
     to_js(&Speeds { v: command.v, omega: command.omega })
-}
-
-/// A plain JavaScript value; None becomes null.
-fn to_js(value: &impl Serialize) -> Result<JsValue, JsValue> {
-    Ok(value.serialize(&serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true))?)
 }

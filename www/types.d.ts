@@ -158,6 +158,8 @@ export interface Plan {
 export interface MapSqueeze extends Disposable {
   readonly config: SqueezeSettings;
   readonly plan: Plan;
+  /** The way that the command drives without noise, as x, y pairs. */
+  readonly commanded: Float64Array;
   /** Whether the robot fits where it starts. */
   readonly startFree: boolean;
   /** Where it fits, near the origin of the map; null where nowhere. */

@@ -205,6 +205,12 @@ impl JsMapSqueeze {
         self.machine.start_free()
     }
 
+    /// The way that the command drives without noise as x, y of one point after the other.
+    #[wasm_bindgen(getter)]
+    pub fn commanded(&self) -> Float64Array {
+        Float64Array::from(self.machine.commanded().points().as_flattened())
+    }
+
     #[wasm_bindgen(getter)]
     pub fn shown(&self) -> usize {
         self.machine.attempts().len()

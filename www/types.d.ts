@@ -155,9 +155,22 @@ export interface Plan {
   walls: Float64Array;
 }
 
+/** Square cells, row by row from the bottom, 1 where occupied. */
+export interface Grid {
+  columns: number;
+  rows: number;
+  /** Side of a cell. */
+  resolution: number;
+  /** x, y and yaw of the lower left corner. */
+  origin: Float64Array;
+  occupied: Uint8Array;
+}
+
 export interface MapSqueeze extends Disposable {
   readonly config: SqueezeSettings;
   readonly plan: Plan;
+  /** The cells that the walls of the plan outline; null for a plan of walls alone. */
+  readonly grid: Grid | null;
   /** The way that the command drives without noise, as x, y pairs. */
   readonly commanded: Float64Array;
   /** Whether the robot fits where it starts. */

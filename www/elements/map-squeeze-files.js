@@ -11,7 +11,6 @@ import { YAMLException, load as parseYaml } from 'js-yaml';
  *
  * @typedef {object} OwnMap
  * @property {string} name
- * @property {boolean} solid whether its walls are the outlines of solid cells
  * @property {(machine: MapSqueeze) => void} apply puts it into a machine; throws a MapFileError, with
  *   the machine's present map left as it is
  */
@@ -68,7 +67,6 @@ export function readPlan(name, text) {
   const plan = parsed(name, text, 'JSON', PLAN_FORM);
   return {
     name,
-    solid: false,
     apply: (machine) => {
       try {
         machine.setPlan(plan ?? null);
@@ -121,7 +119,6 @@ async function readGrid(file, images) {
     : await readPng(image);
   return {
     name: file.name,
-    solid: true,
     apply: (machine) => {
       try {
         machine.setGrid(description, pixels);

@@ -16,8 +16,6 @@ import { WallLayer } from '../ui/walls.js';
  *
  * @typedef {object} Scene
  * @property {Settings} config
- * @property {Plan} plan
- * @property {boolean} solid whether the walls are the outlines of solid cells
  * @property {Float64Array} commanded
  * @property {Sorted} sorted
  * @property {Float64Array[]} paths of those through a wall
@@ -71,18 +69,28 @@ export function sort(poses, verdicts) {
 export class FloorPicture {
   /** Whether the view is of the robot's surroundings only. */
   close = false;
+  #plan;
   #near = newView();
   #whole = newView();
-  #walls = new WallLayer();
+  #walls;
+
+  /**
+   * @param {Plan} plan
+   * @param {import('../types.d.ts').Grid | null} grid
+   */
+  constructor(plan, grid) {
+    this.#plan = plan;
+    this.#walls = new WallLayer(plan, grid);
+  }
 
   get view() {
     return this.close ? this.#near : this.#whole;
   }
 
   /** @param {Scene} scene */
-  #fit({ plan, commanded, config }) {
+  #fit({ commanded, config }) {
     if (!this.close) {
-      this.#whole.fit(mapped(plan, config.start));
+      this.#whole.fit(mapped(this.#plan, config.start));
       return;
     }
     const length = Math.abs(config.command.v * config.command.dt);
@@ -113,7 +121,7 @@ export class FloorPicture {
     drawAxes(context, view, palette, { x: 'x (m)', y: 'y (m)', font });
     clipped(context, view, () => {
       const { sorted, commanded, config, marked } = scene;
-      this.#walls.draw(context, view, palette, scene.plan, { solid: scene.solid, ratio });
+      this.#walls.draw(context, view, palette, ratio);
       drawCrosses(context, view, palette, sorted.rejected);
       drawPaths(context, view, palette, scene.paths);
       drawDots(context, view, palette, sorted.accepted, { x: 0, y: 1, heading: 2, ratio });

@@ -56,7 +56,7 @@ export class MapSqueezeElement extends WidgetElement {
   /** The latest attempt to read files: an earlier one that ends later is void. */
   #reading = 0;
   #close = false;
-  #picture = new FloorPicture();
+  #picture = new FloorPicture(this.#plan, null);
   #meter = new CostMeter();
   #handles = new RobotHandles({
     view: () => this.#picture.view,
@@ -85,8 +85,7 @@ export class MapSqueezeElement extends WidgetElement {
     const { machine } = this;
     if (!machine) return;
     this.#map?.apply(machine);
-    this.#plan = machine.plan;
-    this.#picture = new FloorPicture();
+    this.#takePlan(machine);
     if (!this.calm) {
       machine.restart();
       this.#playing = true;
@@ -107,7 +106,7 @@ export class MapSqueezeElement extends WidgetElement {
       ? { pose: figures.poses.subarray(3 * this.#marked), path: machine.path(this.#marked) }
       : undefined;
     this.#picture.close = this.#close;
-    const scene = { ...figures, plan: this.#plan, solid: this.#map?.solid ?? false, marked };
+    const scene = { ...figures, marked };
     const moving = this.#picture.draw(this.#canvas, scene, palette, elapsed, {
       still: this.#handles.held !== undefined,
       atOnce: this.calm,
@@ -231,9 +230,14 @@ export class MapSqueezeElement extends WidgetElement {
     this.#complaint = '';
     if (map === this.#map) return;
     this.#map = map;
-    this.#plan = machine.plan;
-    this.#picture = new FloorPicture();
+    this.#takePlan(machine);
     this.#marked = -1;
+  }
+
+  /** @param {MapSqueeze} machine */
+  #takePlan(machine) {
+    this.#plan = machine.plan;
+    this.#picture = new FloorPicture(this.#plan, machine.grid);
   }
 
   /**
@@ -264,7 +268,7 @@ export class MapSqueezeElement extends WidgetElement {
    */
   #findRoom() {
     const { machine } = this;
-    if (!machine || (machine.startFree && !this.#map?.solid)) return;
+    if (!machine || (machine.startFree && machine.grid === null)) return;
     const { freePoint, config, plan } = machine;
     const [left, bottom, right, top] = plan.bounds;
     const [x, y] = freePoint ?? [(left + right) / 2, (bottom + top) / 2];

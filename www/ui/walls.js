@@ -7,6 +7,7 @@
 
 /**
  * @typedef {import('./view.js').View} View
+ * @typedef {import('../types.d.ts').Grid} Grid
  * @typedef {import('../types.d.ts').Palette} Palette
  * @typedef {import('../types.d.ts').Plan} Plan
  */
@@ -17,82 +18,125 @@ const WALL = 2.5;
 /** Width of the outline of cells: enough to keep a cell visible in a view of a whole building. */
 const OUTLINE = 0.75;
 
+/** Walls that are stroked at once: browsers take far longer for one path of many. */
+const WALLS_A_STROKE = 500;
+
+/** Longest side of a canvas in every browser; cells of a longer grid are outlined only. */
+const LONGEST_SIDE = 16_384;
+
 export class WallLayer {
-  #canvas = new OffscreenCanvas(1, 1);
+  #plan;
+  /** @type {{ canvas: OffscreenCanvas, grid: Grid } | undefined} */
+  #cells;
+  #layer = new OffscreenCanvas(1, 1);
   /** What the layer shows. */
   #shown = '';
-  /** @type {Plan | undefined} */
-  #plan;
+
+  /**
+   * @param {Plan} plan
+   * @param {Grid | null} grid the cells that the walls outline, if they do
+   */
+  constructor(plan, grid) {
+    this.#plan = plan;
+    if (grid && Math.max(grid.columns, grid.rows) <= LONGEST_SIDE) {
+      this.#cells = { canvas: maskOf(grid), grid };
+    }
+    this.solid = grid !== null;
+  }
 
   /**
    * @param {CanvasRenderingContext2D} context
    * @param {View} view
    * @param {Palette} palette
-   * @param {Plan} plan
-   * @param {{ solid: boolean, ratio: number }} style whether the walls are the outlines of solid
-   *   cells, and device pixels a CSS pixel
+   * @param {number} ratio device pixels a CSS pixel
    */
-  draw(context, view, palette, plan, style) {
+  draw(context, view, palette, ratio) {
     const { extent, width, height } = view;
-    const wanted = JSON.stringify([extent, width, height, palette.truth, palette.rule, style]);
-    if (plan !== this.#plan || wanted !== this.#shown) {
-      this.#plan = plan;
+    const wanted = JSON.stringify([extent, width, height, palette.truth, palette.rule, ratio]);
+    if (wanted !== this.#shown) {
       this.#shown = wanted;
-      this.#paint(view, palette, plan, style);
+      this.#paint(view, palette, ratio);
     }
-    context.drawImage(this.#canvas, 0, 0, width, height);
+    context.drawImage(this.#layer, 0, 0, width, height);
   }
 
   /**
    * @param {View} view
    * @param {Palette} palette
-   * @param {Plan} plan
-   * @param {{ solid: boolean, ratio: number }} style
+   * @param {number} ratio
    */
-  #paint(view, palette, { bounds, walls }, { solid, ratio }) {
+  #paint(view, palette, ratio) {
     // A new size clears it.
-    this.#canvas.width = Math.round(view.width * ratio);
-    this.#canvas.height = Math.round(view.height * ratio);
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#canvas.getContext('2d'));
+    this.#layer.width = Math.round(view.width * ratio);
+    this.#layer.height = Math.round(view.height * ratio);
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#layer.getContext('2d'));
     context.scale(ratio, ratio);
-    const [left, bottom, right, top] = bounds;
-    const corner = [view.toPixelX(left), view.toPixelY(top)];
-    context.strokeStyle = palette.rule;
-    context.strokeRect(corner[0], corner[1], view.toPixelX(right) - corner[0], view.toPixelY(bottom) - corner[1]);
-    context.fillStyle = palette.truth;
-    if (solid) fillCells(context, view, walls);
-    context.strokeStyle = palette.truth;
-    context.lineWidth = solid ? OUTLINE : WALL;
-    context.lineCap = solid ? 'butt' : 'round';
-    context.beginPath();
-    for (let i = 0; i < walls.length; i += 4) {
-      context.moveTo(view.toPixelX(walls[i]), view.toPixelY(walls[i + 1]));
-      context.lineTo(view.toPixelX(walls[i + 2]), view.toPixelY(walls[i + 3]));
+    if (this.#cells) {
+      context.save();
+      fillCells(context, view, this.#cells);
+      context.restore();
+      // The mask says where, the colour is the palette's.
+      context.globalCompositeOperation = 'source-in';
+      context.fillStyle = palette.truth;
+      context.fillRect(0, 0, view.width, view.height);
+      context.globalCompositeOperation = 'source-over';
     }
-    context.stroke();
+    const { bounds, walls } = this.#plan;
+    const [left, top] = [view.toPixelX(bounds[0]), view.toPixelY(bounds[3])];
+    context.strokeStyle = palette.rule;
+    context.strokeRect(left, top, view.toPixelX(bounds[2]) - left, view.toPixelY(bounds[1]) - top);
+
+    context.strokeStyle = palette.truth;
+    context.lineWidth = this.solid ? OUTLINE : WALL;
+    context.lineCap = this.solid ? 'butt' : 'round';
+    for (let first = 0; first < walls.length; first += 4 * WALLS_A_STROKE) {
+      const last = Math.min(walls.length, first + 4 * WALLS_A_STROKE);
+      context.beginPath();
+      for (let i = first; i < last; i += 4) {
+        context.moveTo(view.toPixelX(walls[i]), view.toPixelY(walls[i + 1]));
+        context.lineTo(view.toPixelX(walls[i + 2]), view.toPixelY(walls[i + 3]));
+      }
+      context.stroke();
+    }
   }
 }
 
 /**
- * Fills what the outlines enclose. From a point outside, a ray to the left crosses an even number of
- * outlines, from one inside an odd one: so does it lie in that many of the strips that reach from
- * each outline to beyond the right edge.
+ * A pixel a cell, the lowest row first, opaque where it is occupied.
  *
+ * @param {Grid} grid
+ */
+function maskOf({ columns, rows, occupied }) {
+  const image = new ImageData(columns, rows);
+  for (let i = 0; i < occupied.length; i++) image.data[4 * i + 3] = 255 * occupied[i];
+  const canvas = new OffscreenCanvas(columns, rows);
+  /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d')).putImageData(image, 0, 0);
+  return canvas;
+}
+
+/**
  * @param {OffscreenCanvasRenderingContext2D} context
  * @param {View} view
- * @param {Float64Array} walls
+ * @param {{ canvas: OffscreenCanvas, grid: Grid }} cells
  */
-function fillCells(context, view, walls) {
-  const beyond = view.width + 1;
-  context.beginPath();
-  for (let i = 0; i < walls.length; i += 4) {
-    const [from, to] = [view.toPixelY(walls[i + 1]), view.toPixelY(walls[i + 3])];
-    if (from === to) continue;
-    context.moveTo(view.toPixelX(walls[i]), from);
-    context.lineTo(view.toPixelX(walls[i + 2]), to);
-    context.lineTo(beyond, to);
-    context.lineTo(beyond, from);
-    context.closePath();
-  }
-  context.fill('evenodd');
+function fillCells(context, view, { canvas, grid }) {
+  const [x, y, yaw] = grid.origin;
+  const [along, up] = [grid.resolution * Math.cos(yaw), grid.resolution * Math.sin(yaw)];
+  /** Where a corner of a cell is drawn. */
+  const corner = (/** @type {number} */ column, /** @type {number} */ row) => [
+    view.toPixelX(x + column * along - row * up),
+    view.toPixelY(y + column * up + row * along),
+  ];
+  const [from, right, above] = [corner(0, 0), corner(1, 0), corner(0, 1)];
+  context.transform(
+    right[0] - from[0],
+    right[1] - from[1],
+    above[0] - from[0],
+    above[1] - from[1],
+    from[0],
+    from[1],
+  );
+  // Cells that are large on the screen have edges.
+  context.imageSmoothingEnabled = Math.hypot(right[0] - from[0], right[1] - from[1]) < 2;
+  context.drawImage(canvas, 0, 0);
 }

@@ -38,7 +38,7 @@ const RING = { metres: 0.085, least: 3.5, most: 6 };
 const SMALLEST_ROBOT = 3;
 
 /** Surroundings shown around the commanded way: this many times its length, and at least so many metres. */
-const SURROUNDINGS = 0.6;
+const SURROUNDINGS = 0.7;
 const LEAST_SURROUNDINGS = 0.8;
 
 /**

@@ -1,5 +1,6 @@
 /**
- * Map Squeeze's figures: the tally of the draws, the marked one, and what each sampler costs.
+ * Map Squeeze's figures: the key to the picture, the tally of the draws, the marked one, and what each
+ * sampler costs.
  *
  * @module
  */
@@ -15,6 +16,35 @@ import { SAMPLERS, SAMPLER_LABELS, shareText } from './map-squeeze-words.js';
  * @typedef {import('../types.d.ts').SqueezeStats} Stats
  * @typedef {import('./map-squeeze-cost.js').CostMeter} CostMeter
  */
+
+/** What the marks in the picture mean. */
+export function key() {
+  return html`<ul class="key">
+    <li>
+      <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
+      rejected
+    </li>
+    <li>
+      <svg class="accepted" viewBox="0 0 36 20" aria-hidden="true">
+        <circle cx="14" cy="10" r="2" /><path d="M14 10h12" />
+      </svg>
+      accepted, with its heading
+    </li>
+    <li>
+      <svg class="through" viewBox="0 0 36 20" aria-hidden="true">
+        <path d="M1 18Q14 16 26 8" opacity="0.5" />
+        <circle class="dot" cx="26" cy="8" r="2.5" /><circle cx="26" cy="8" r="6" />
+      </svg>
+      accepted through a wall, and the way it took
+    </li>
+    <li>
+      <svg class="commanded" viewBox="0 0 36 20" aria-hidden="true">
+        <path d="M2 10h24" /><circle cx="26" cy="10" r="7" stroke-width="1.5" stroke-dasharray="3 3" />
+      </svg>
+      the command without noise
+    </li>
+  </ul>`;
+}
 
 /**
  * @param {Stats} stats

@@ -56,8 +56,8 @@ const layout = css`
   }
 
   .handle.turn::after {
-    inset: 0.5rem;
-    border-width: 2px;
+    inset: 0.45rem;
+    border-width: 2.5px;
   }
 
   .key {

@@ -43,8 +43,8 @@ export const NOISE_SLIDER = {
   min: 0,
   max: 0.4,
   step: 0.005,
-  effect: html`Spreads the cloud: <i>α</i><sub>1</sub> to <i>α</i><sub>4</sub> are <i>n</i>,
-    <i>α</i><sub>5</sub> and <i>α</i><sub>6</sub> a quarter of it.`,
+  effect: html`Spreads the cloud: <i>α</i><sub>1</sub> to <i>α</i><sub>4</sub> are <i>n</i>, the others
+    <i>n</i>/4.`,
 };
 
 export const COMMAND_SLIDERS = /** @type {const} */ ([

@@ -12,7 +12,7 @@ import { CostMeter } from './map-squeeze-cost.js';
 import { MapFileError, readMapFiles, readPlan } from './map-squeeze-files.js';
 import { RobotHandles } from './map-squeeze-handles.js';
 import { FloorPicture, sort } from './map-squeeze-picture.js';
-import { costTable, markedDraw, tally } from './map-squeeze-readouts.js';
+import { costTable, key, markedDraw, tally } from './map-squeeze-readouts.js';
 import { squeezeStyles } from './map-squeeze-styles.js';
 import { SAMPLERS, announcementOf, mapText, noteOn, pictureText, verdictText } from './map-squeeze-words.js';
 
@@ -397,35 +397,6 @@ export class MapSqueezeElement extends WidgetElement {
       ${this.#handles.render(this.#wanted().start)}
     </div>`;
   }
-}
-
-/** What the marks in the picture mean. */
-function key() {
-  return html`<ul class="key">
-    <li>
-      <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
-      rejected
-    </li>
-    <li>
-      <svg class="accepted" viewBox="0 0 36 20" aria-hidden="true">
-        <circle cx="14" cy="10" r="2" /><path d="M14 10h12" />
-      </svg>
-      accepted, with its heading
-    </li>
-    <li>
-      <svg class="through" viewBox="0 0 36 20" aria-hidden="true">
-        <path d="M1 18Q14 16 26 8" opacity="0.5" />
-        <circle class="dot" cx="26" cy="8" r="2.5" /><circle cx="26" cy="8" r="6" />
-      </svg>
-      accepted through a wall, and the way it took
-    </li>
-    <li>
-      <svg class="commanded" viewBox="0 0 36 20" aria-hidden="true">
-        <path d="M2 10h24" /><circle cx="26" cy="10" r="7" stroke-width="1.5" stroke-dasharray="3 3" />
-      </svg>
-      the command without noise
-    </li>
-  </ul>`;
 }
 
 /**

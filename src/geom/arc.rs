@@ -157,8 +157,8 @@ impl Unrolled {
         if !self.passes(point) {
             return to_ends;
         }
-        // |p − c| − 1/κ with the centre c rationalized away.
-        let g = self.circle(point);
-        (2.0 * g / (1.0 + (1.0 + 2.0 * self.curvature * g).max(0.0).sqrt())).abs().min(to_ends)
+        // |p − c| − 1/κ = (|p − c|² − 1/κ²)/(|p − c| + 1/κ), times κ above and below: the centre c may be far away.
+        let from_centre = libm::hypot(self.curvature * point[0], 1.0 - self.curvature * point[1]);
+        (2.0 * self.circle(point) / (1.0 + from_centre)).abs().min(to_ends)
     }
 }

@@ -35,7 +35,9 @@ impl Segment {
         let a = 0.5 * local.curvature * squared;
         let b = local.curvature * dot(from, along) - along[1];
         let c = local.circle(from);
-        let discriminant = b * b - 4.0 * a * c;
+        // b² − 4ac, rearranged: a wall much longer than the radius would lose the difference.
+        let offset = local.curvature * (from[0] * along[1] - from[1] * along[0]);
+        let discriminant = along[1] * along[1] - offset * (offset + 2.0 * along[0]);
         if discriminant >= 0.0 {
             let q = -0.5 * (b + discriminant.sqrt().copysign(b));
             let crosses = |t: f64| {
@@ -57,10 +59,8 @@ impl Segment {
         if local.curvature > 0.0 && squared > 0.0 {
             let t = (along[1] / local.curvature - dot(from, along)) / squared;
             if (0.0..=1.0).contains(&t) {
-                let foot = [from[0] + t * along[0], from[1] + t * along[1]];
-                if local.circle(foot) > 0.0 {
-                    least = least.min(local.distance(foot));
-                }
+                // Inside the circle it is no minimum, unless rounding has put a line there that touches it.
+                least = least.min(local.distance([from[0] + t * along[0], from[1] + t * along[1]]));
             }
         }
         least

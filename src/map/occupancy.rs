@@ -40,11 +40,13 @@ pub struct Pixel {
 
 impl Interpretation {
     pub fn occupied(&self, pixel: Pixel) -> bool {
-        let shade = f64::from(pixel.shade);
+        let Pixel { shade, opaque } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
+        // Rounded as the shade is, so that a pixel at the threshold is not above it.
+        let threshold = self.occupied_thresh as f32;
         match self.mode {
-            Mode::Trinary => occupancy > self.occupied_thresh,
-            Mode::Scale => pixel.opaque && occupancy > self.occupied_thresh,
+            Mode::Trinary => occupancy > threshold,
+            Mode::Scale => opaque && occupancy > threshold,
             Mode::Raw => (shade * 255.0).round() == 100.0,
         }
     }

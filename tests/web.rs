@@ -5,7 +5,10 @@
 mod golden;
 
 use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::FloorPlan;
 use motion::sim::banana::{BananaMachine, Settings};
+use motion::sim::squeeze::{self, MapSqueeze};
 use motion::stats::{CrossTrack, ExactMoments};
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use rand::SeedableRng;
@@ -48,6 +51,29 @@ fn the_machine_holds_its_largest_cloud_and_survives_bad_settings() {
     assert_eq!(*machine.figures(), figures);
     machine.configure(Settings { samples: 10, ..largest }).expect("a valid setting");
     assert_eq!(machine.poses().len(), 10);
+}
+
+#[wasm_bindgen_test]
+fn a_seed_means_the_same_attempts_as_on_a_native_machine() {
+    let fingerprints = golden::squeeze_settings().map(golden::squeeze_fingerprint);
+    assert_eq!(fingerprints, golden::SQUEEZE_FINGERPRINTS, "{fingerprints:#018x?}");
+}
+
+/// The largest cloud and the largest plan fit into the module's memory, and a refused setting leaves the machine as it
+/// was.
+#[wasm_bindgen_test]
+fn map_squeeze_holds_its_largest_cloud_in_its_largest_plan() {
+    let settings = squeeze::Settings { samples: motion::sim::settings::MAX_SAMPLES, ..Default::default() };
+    let mut machine = MapSqueeze::new(settings).expect("memory for the largest cloud");
+    let tally = *machine.tally();
+    assert_eq!(tally.draws, settings.samples);
+    assert!(machine.configure(squeeze::Settings { clearance: -1.0, ..settings }).is_err());
+    assert_eq!((*machine.settings(), *machine.tally()), (settings, tally));
+    let blocked = Segment { from: [0.0, 0.0], to: [12.0, 0.0] };
+    let plan =
+        FloorPlan::new(vec![blocked; FloorPlan::MOST_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
+    machine.set_plan(plan);
+    assert!(machine.tally().accepted > tally.accepted, "the other walls are gone");
 }
 
 #[wasm_bindgen_test]

@@ -163,13 +163,13 @@ impl JsBananaMachine {
     /// x, y, θ of each sample shown.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Result<Float64Array, JsValue> {
-        doubles(self.0.poses().iter().map(|pose| [pose.x(), pose.y(), pose.theta()]))
+        doubles("samples", self.0.poses().iter().map(|pose| [pose.x(), pose.y(), pose.theta()]))
     }
 
     /// ξ along, lateral, heading of each sample shown.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Result<Float64Array, JsValue> {
-        doubles(self.0.twists().iter().map(|twist| <[f64; 3]>::from(*twist)))
+        doubles("samples", self.0.twists().iter().map(|twist| <[f64; 3]>::from(*twist)))
     }
 
     #[wasm_bindgen(getter)]
@@ -207,11 +207,11 @@ impl JsBananaMachine {
     pub fn contours(&self) -> Result<JsValue, JsValue> {
         let Contours { command, ellipse, linearized, exponential, twist_ellipse } = self.0.contours();
         object(&[
-            ("command", doubles(command.into_iter())?.into()),
-            ("ellipse", doubles(ellipse.into_iter())?.into()),
-            ("linearized", doubles(linearized.into_iter())?.into()),
-            ("exponential", doubles(exponential.into_iter())?.into()),
-            ("twistEllipse", doubles(twist_ellipse.into_iter())?.into()),
+            ("command", doubles("samples", command.into_iter())?.into()),
+            ("ellipse", doubles("samples", ellipse.into_iter())?.into()),
+            ("linearized", doubles("samples", linearized.into_iter())?.into()),
+            ("exponential", doubles("samples", exponential.into_iter())?.into()),
+            ("twistEllipse", doubles("samples", twist_ellipse.into_iter())?.into()),
         ])
     }
 
@@ -232,12 +232,12 @@ impl JsBananaMachine {
             return Err(RangeError::new(&message).into());
         };
         object(&[
-            ("pose", doubles([[pose.x(), pose.y(), pose.theta()]].into_iter())?.into()),
-            ("twist", doubles([<[f64; 3]>::from(twist)].into_iter())?.into()),
+            ("pose", doubles("samples", [[pose.x(), pose.y(), pose.theta()]].into_iter())?.into()),
+            ("twist", doubles("samples", [<[f64; 3]>::from(twist)].into_iter())?.into()),
             ("vHat", executed.v_hat.into()),
             ("omegaHat", executed.omega_hat.into()),
             ("gammaHat", executed.gamma_hat.into()),
-            ("path", doubles(path.into_iter())?.into()),
+            ("path", doubles("samples", path.into_iter())?.into()),
         ])
     }
 

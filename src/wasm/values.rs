@@ -2,7 +2,7 @@
 
 use super::fields::no_memory;
 use crate::models::VelocityCmd;
-use js_sys::{Array, Float64Array, Object, Reflect};
+use js_sys::{Array, Float64Array, Object, Reflect, Uint8Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
@@ -24,21 +24,34 @@ impl From<VelocityCmd> for Command {
     }
 }
 
-/// The numbers of one item after the other. A RangeError where memory does not suffice, on either side: an array of a
-/// million poses may be the one that is too much.
+/// The numbers of one item after the other. A RangeError that names `field` where memory does not suffice, on either
+/// side: an array of a million poses may be the one that is too much.
 pub fn doubles<const N: usize>(
+    field: &str,
     items: impl ExactSizeIterator<Item = [f64; N]>,
 ) -> Result<Float64Array, JsValue> {
-    let count = items.len() * N;
     let mut numbers = Vec::new();
-    numbers.try_reserve_exact(count).map_err(|_| no_memory("samples"))?;
+    numbers.try_reserve_exact(items.len() * N).map_err(|_| no_memory(field))?;
     numbers.extend(items.flatten());
-    // By `Reflect`, so that a failed allocation comes back as a value.
-    let constructor = Reflect::get(&js_sys::global(), &"Float64Array".into())?;
-    let array = Reflect::construct(&constructor.into(), &Array::of1(&(count as f64).into()))?;
-    let array: Float64Array = array.into();
+    let array: Float64Array = typed_array("Float64Array", numbers.len())?.into();
     array.copy_from(&numbers);
     Ok(array)
+}
+
+/// As [`doubles`] for single bytes.
+pub fn bytes(field: &str, items: impl ExactSizeIterator<Item = u8>) -> Result<Uint8Array, JsValue> {
+    let mut numbers = Vec::new();
+    numbers.try_reserve_exact(items.len()).map_err(|_| no_memory(field))?;
+    numbers.extend(items);
+    let array: Uint8Array = typed_array("Uint8Array", numbers.len())?.into();
+    array.copy_from(&numbers);
+    Ok(array)
+}
+
+/// By `Reflect`, so that a failed allocation comes back as a value.
+fn typed_array(kind: &str, length: usize) -> Result<JsValue, JsValue> {
+    let constructor = Reflect::get(&js_sys::global(), &kind.into())?;
+    Reflect::construct(&constructor.into(), &Array::of1(&(length as f64).into()))
 }
 
 /// An object whose values are not all plain.

@@ -1,9 +1,12 @@
-//! What the simulation computes, to the last bit, condensed to two numbers a setting: the same native and in a browser.
+//! What the simulations compute, to the last bit, condensed to a number or two a setting: the same native and in a
+//! browser.
 
 use motion::NoiseKind;
 use motion::VelocityCmd;
+use motion::map::Sampler;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
+use motion::sim::squeeze::{self, MapSqueeze};
 use motion::sim::views::Grid;
 
 /// Both models, both kinds of noise, spins, reverse, an isolated α, and a cloud grown in batches.
@@ -87,6 +90,48 @@ pub fn fingerprint(settings: Settings) -> [u64; 2] {
         hash.numbers(&[executed.v_hat, executed.omega_hat, executed.gamma_hat]);
     }
     [cloud.0, hash.0]
+}
+
+/// Map Squeeze under each sampler, in a curve, in reverse, and where nothing is judged.
+pub fn squeeze_settings() -> [squeeze::Settings; 5] {
+    let opening = squeeze::Settings { samples: 3000, ..squeeze::Settings::default() };
+    let [_, (_, wall), (_, corridor)] = squeeze::PRESETS;
+    [
+        opening,
+        squeeze::Settings { sampler: Sampler::WholeArc, start: wall, seed: (1 << 53) - 1, ..opening },
+        squeeze::Settings { sampler: Sampler::SubStepped(5), start: corridor, seed: 0, ..opening },
+        squeeze::Settings { command: command(-0.8, 1.1, 1.7), clearance: 0.2, ..opening },
+        squeeze::Settings { command: command(0.4, -2.5, 3.0), conditioned: false, ..opening },
+    ]
+}
+
+/// [`squeeze_fingerprint`] of each of [`squeeze_settings`].
+pub const SQUEEZE_FINGERPRINTS: [u64; 5] = [
+    0x42f0_997c_ed8c_b5be,
+    0xa81e_dabb_7e45_8d39,
+    0x1c5f_5524_778c_897a,
+    0xc0ac_10f4_d497_145f,
+    0xc9f4_7f6c_0839_0e5d,
+];
+
+/// A hash of every pose, verdict and count, and of some of the paths.
+pub fn squeeze_fingerprint(settings: squeeze::Settings) -> u64 {
+    let machine = MapSqueeze::new(settings).expect("a valid setting");
+    let mut hash = Fnv::new();
+    for attempt in machine.attempts() {
+        let (pose, verdicts) = (attempt.pose, [attempt.accepted, attempt.end_free, attempt.path_free]);
+        hash.numbers(&[pose.x(), pose.y(), pose.theta()]);
+        hash.numbers(&verdicts.map(f64::from));
+    }
+    let tally = machine.tally();
+    [tally.draws, tally.wall_tests, tally.accepted, tally.through_wall]
+        .into_iter()
+        .for_each(|count| hash.bytes(count as u64));
+    hash.numbers(&tally.through_wall_interval());
+    for index in (0..settings.samples).step_by(101) {
+        machine.arcs(index).iter().for_each(|arc| hash.numbers(arc.points().as_flattened()));
+    }
+    hash.0
 }
 
 struct Fnv(u64);

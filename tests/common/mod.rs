@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test file compiles this module and uses its own part")]
 
 pub mod density;
+pub mod distance;
 pub mod golden;
 
 use motion::NoiseKind;

@@ -1,0 +1,95 @@
+//! The distance between an arc and a wall by halving: a reference that knows nothing of circles' equations.
+
+use motion::geom::arc::Arc;
+use motion::geom::segment::Segment;
+
+pub type Point = [f64; 2];
+
+/// Where the arc is after the share `f` of it, relative to its start.
+pub fn along(arc: &Arc, f: f64) -> Point {
+    let (length, turn) = (f * arc.length, f * arc.turn);
+    let (forward, left) = if turn == 0.0 {
+        (length, 0.0)
+    } else {
+        (length * (turn.sin() / turn), length * (0.5 * turn).sin() * ((0.5 * turn).sin() / (0.5 * turn)))
+    };
+    let (sin, cos) = arc.start.theta().sin_cos();
+    [cos * forward - sin * left, sin * forward + cos * left]
+}
+
+pub fn minus(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+pub fn cross(a: Point, b: Point) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+pub fn norm(a: Point) -> f64 {
+    a[0].hypot(a[1])
+}
+
+pub fn point_to_line(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let (d, r) = (minus(b, a), minus(p, a));
+    let length = norm(d);
+    if length == 0.0 {
+        return norm(r);
+    }
+    let unit = [d[0] / length, d[1] / length];
+    let reach = unit[0] * r[0] + unit[1] * r[1];
+    if reach <= 0.0 {
+        norm(r)
+    } else if reach >= length {
+        norm(minus(p, b))
+    } else {
+        cross(unit, r).abs()
+    }
+}
+
+pub fn line_to_line(p: [Point; 2], q: [Point; 2]) -> f64 {
+    let sides = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
+        cross(minus(b, a), minus(c, a)) * cross(minus(b, a), minus(d, a)) < 0.0
+    };
+    if sides(p, q) && sides(q, p) {
+        return 0.0;
+    }
+    [point_to_line(p[0], q), point_to_line(p[1], q), point_to_line(q[0], p), point_to_line(q[1], p)]
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Bounds of the distance by halving: a piece of arc of length l that turns by t strays from its chord by at most
+/// l·t/8, so that the distance to the chord brackets the distance to the piece. Pieces that cannot hold the least
+/// distance are dropped, the others halved until rounding is all that is left, or (about the centre of the circle, where
+/// no piece is nearer than another) until there are too many.
+pub fn by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
+    let start = [arc.start.x(), arc.start.y()];
+    let ends = [minus(wall.from, start), minus(wall.to, start)];
+    let pieces = (arc.turn.abs() / 0.5).ceil().max(1.0) as u32;
+    let mut size = 1.0 / f64::from(pieces);
+    let mut candidates: Vec<f64> = (0..pieces).map(|i| f64::from(i) * size).collect();
+    loop {
+        let stray = (arc.length * size).abs() * (arc.turn * size).abs() / 8.0;
+        let measured: Vec<(f64, f64)> = candidates
+            .iter()
+            .map(|&f| (f, line_to_line([along(arc, f), along(arc, (f + size).min(1.0))], ends)))
+            .collect();
+        let least = measured.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance));
+        if stray <= 0.1 * f64::EPSILON * scale(arc, wall) || measured.len() > 1000 {
+            return [least - stray, least + stray];
+        }
+        size *= 0.5;
+        candidates = measured
+            .into_iter()
+            .filter(|(_, distance)| *distance <= least + 2.0 * stray)
+            .flat_map(|(f, _)| [f, f + size])
+            .collect();
+    }
+}
+
+/// The size of the figure that a distance is a part of, m: rounding is relative to it. The walls of a random figure are
+/// made up to 15 m from the origin, whatever their distance.
+pub fn scale(arc: &Arc, wall: &Segment) -> f64 {
+    let start = [arc.start.x(), arc.start.y()];
+    norm(minus(wall.from, start)).max(norm(minus(wall.to, start))).max(arc.length.abs()).max(15.0)
+}

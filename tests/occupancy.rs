@@ -1,0 +1,393 @@
+//! Occupancy grids: exact distances to their cells, `map_server`'s reading of pixels, and PGM files good and bad.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "an expected value may come from the platform's own mathematics"
+)]
+
+mod common;
+
+use common::{seeded, uniform};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{
+    FloorPlanError, Image, Interpretation, MOST_PIXELS, Mode, OccupancyGrid, PgmError, Pixel, read_pgm,
+};
+use rand::Rng;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+const TRINARY: Interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 };
+const BLACK: Pixel = Pixel { shade: 0.0, opaque: true };
+const WHITE: Pixel = Pixel { shade: 1.0, opaque: true };
+
+/// A grid of which the tests know every cell.
+struct Cells {
+    width: usize,
+    height: usize,
+    /// Row by row from the top, as in the image.
+    occupied: Vec<bool>,
+    resolution: f64,
+    /// x, y and yaw of the lower left corner.
+    origin: [f64; 3],
+}
+
+impl Cells {
+    fn random(rng: &mut impl Rng) -> Self {
+        let (width, height) = (1 + (rng.next_u32() % 12) as usize, 1 + (rng.next_u32() % 12) as usize);
+        let density = uniform(rng, 0.05, 0.9);
+        let occupied = (0..width * height).map(|_| uniform(rng, 0.0, 1.0) < density).collect();
+        let yaw = if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { uniform(rng, -PI, PI) };
+        let origin = [uniform(rng, -50.0, 50.0), uniform(rng, -50.0, 50.0), yaw];
+        Self { width, height, occupied, resolution: uniform(rng, 0.02, 0.5), origin }
+    }
+
+    fn grid(&self) -> OccupancyGrid {
+        let pixels = self.occupied.iter().map(|occupied| if *occupied { BLACK } else { WHITE }).collect();
+        let image = Image { width: self.width, height: self.height, pixels };
+        let [x, y, yaw] = self.origin;
+        OccupancyGrid::new(&image, &TRINARY, self.resolution, SE2::new(x, y, yaw))
+    }
+
+    /// Where a point of the grid's own axes, in cells, stands in the map.
+    fn in_map(&self, column: f64, row: f64) -> [f64; 2] {
+        let ([x, y, yaw], (u, v)) = (self.origin, (column * self.resolution, row * self.resolution));
+        [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
+    }
+
+    /// The distance to the nearest occupied cell, each measured as a square; 0 inside of one.
+    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
+        let ([x0, y0, yaw], size) = (self.origin, self.resolution);
+        let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
+        let v = (y - y0) * yaw.cos() - (x - x0) * yaw.sin();
+        let outside = |at: f64, cell: usize| {
+            let low = cell as f64 * size;
+            (low - at).max(at - low - size).max(0.0)
+        };
+        let occupied = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
+        occupied
+            .map(|i| outside(u, i % self.width).hypot(outside(v, self.height - 1 - i / self.width)))
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+// ----------------------------------------------------------------------------------------------------- distances
+
+/// The walls made of a grid are as far from everyone outside the occupied cells as the cells themselves.
+#[test]
+fn the_walls_are_as_far_as_the_cells() {
+    let mut rng = seeded(9900);
+    let (mut inside, mut outside) = (0, 0);
+    for _ in 0..400 {
+        let cells = Cells::random(&mut rng);
+        let plan = cells.grid().into_floor_plan().expect("a small grid");
+        let [left, bottom, right, top] = plan.bounds();
+        for _ in 0..50 {
+            let column = uniform(&mut rng, 0.0, cells.width as f64);
+            let row = uniform(&mut rng, 0.0, cells.height as f64);
+            let point = cells.in_map(column, row);
+            assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
+            let distance = cells.distance(point);
+            if distance == 0.0 {
+                assert!(cells.grid().holds(point) && !plan.point_free(point, 0.0).free, "inside a cell");
+                inside += 1;
+                continue;
+            }
+            let nearest =
+                plan.walls().iter().map(|wall| wall.distance_to_point(point)).fold(f64::INFINITY, f64::min);
+            // Fifty metres from the origin the corners are rounded by 1e-14 m.
+            assert!(nearest == distance || (nearest - distance).abs() < 1e-13, "{nearest}, {distance}");
+            let clearance = uniform(&mut rng, 0.0, 1.0);
+            if (clearance - distance).abs() > 1e-12 {
+                assert_eq!(plan.point_free(point, clearance).free, distance > clearance);
+            }
+            outside += 1;
+        }
+    }
+    assert!(inside > 4000 && outside > 4000, "{inside} {outside}");
+}
+
+/// Arcs through a grid, judged by looking at 200 points of each.
+#[test]
+fn arcs_are_judged_by_the_cells() {
+    let mut rng = seeded(9901);
+    let (mut free, mut blocked, mut buried) = (0, 0, 0);
+    for _ in 0..300 {
+        let cells = Cells::random(&mut rng);
+        let plan = cells.grid().into_floor_plan().expect("a small grid");
+        let [left, bottom, right, top] = plan.bounds();
+        for _ in 0..30 {
+            let at = cells.in_map(
+                uniform(&mut rng, 0.0, cells.width as f64),
+                uniform(&mut rng, 0.0, cells.height as f64),
+            );
+            let length = uniform(&mut rng, -2.0, 2.0) * cells.resolution;
+            let start = SE2::new(at[0], at[1], uniform(&mut rng, -PI, PI));
+            let arc = Arc { start, length, turn: uniform(&mut rng, -TAU, TAU) };
+            let clearance = uniform(&mut rng, 0.0, 0.7) * cells.resolution;
+            let mut least = f64::INFINITY;
+            for i in 0..=200 {
+                let f = f64::from(i) / 200.0;
+                let end = Arc { length: f * arc.length, turn: f * arc.turn, ..arc }.end();
+                let depth = (end.x() - left).min(right - end.x()).min(end.y() - bottom).min(top - end.y());
+                let room = cells.distance([end.x(), end.y()]) - clearance;
+                least = least.min(room).min(if depth < 0.0 { -1.0 } else { f64::INFINITY });
+            }
+            // Between two of the points the distance falls by half their spacing at most; an arc that only just leaves
+            // the bounds may do so between two points.
+            let [x0, y0, x1, y1] = arc.bounding_box();
+            let by_the_bounds = x0 < left || y0 < bottom || x1 > right || y1 > top;
+            let verdict = plan.arc_free(&arc, clearance).free;
+            if least <= -1e-12 {
+                assert!(!verdict, "{arc:?}");
+                blocked += 1;
+                buried += u32::from(cells.distance(at) == 0.0);
+            } else if least > 0.5 * length.abs() / 200.0 && !by_the_bounds {
+                assert!(verdict, "{arc:?}");
+                free += 1;
+            }
+        }
+    }
+    assert!(free > 500 && blocked > 500 && buried > 500, "{free} {blocked} {buried}");
+}
+
+/// Deep inside a block there is no wall within reach, and yet nobody is free there.
+#[test]
+fn a_block_is_solid() {
+    let side = 40;
+    let cells = Cells {
+        width: side,
+        height: side,
+        occupied: vec![true; side * side],
+        resolution: 1.0,
+        origin: [-20.0, -20.0, 0.0],
+    };
+    let plan = cells.grid().into_floor_plan().expect("four walls");
+    assert_eq!(plan.walls().len(), 4, "{:?}", plan.walls());
+    assert!(!plan.point_free([0.0, 0.0], 0.1).free);
+    let inside = Arc { start: SE2::new(0.0, 0.0, 0.5), length: 3.0, turn: 1.0 };
+    assert!(!plan.arc_free(&inside, 0.1).free);
+    assert_eq!(plan.free_point(0.1), None);
+}
+
+/// Neighbouring sides are one wall, sides between two occupied cells are none, and corners touch.
+#[test]
+fn outlines_are_joined() {
+    let picture = ["##.", "#..", "..#"];
+    let occupied = picture.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
+    let cells = Cells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
+    let plan = cells.grid().into_floor_plan().expect("a small grid");
+    let mut walls: Vec<[f64; 4]> =
+        plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
+    walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    let expected = [
+        [1.0, 2.5, 1.5, 2.5],
+        [1.0, 2.5, 1.0, 3.5],
+        [1.0, 3.5, 2.0, 3.5],
+        [1.5, 2.5, 1.5, 3.0],
+        [1.5, 3.0, 2.0, 3.0],
+        [2.0, 2.0, 2.5, 2.0],
+        [2.0, 2.0, 2.0, 2.5],
+        [2.0, 2.5, 2.5, 2.5],
+        [2.0, 3.0, 2.0, 3.5],
+        [2.5, 2.0, 2.5, 2.5],
+    ];
+    let mut expected = expected.to_vec();
+    expected.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    assert_eq!(walls, expected);
+    assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
+    let turned = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
+    let bounds = turned.grid().into_floor_plan().expect("a small grid").bounds();
+    for (bound, expected) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
+        assert!((bound - expected).abs() < 1e-15, "{bounds:?}");
+    }
+}
+
+#[test]
+fn a_grid_of_too_many_walls_is_refused() {
+    let side = 320;
+    let occupied = (0..side * side).map(|i| i / side % 2 == 0 && i % side % 2 == 0).collect();
+    let dots = Cells { width: side, height: side, occupied, resolution: 0.05, origin: [0.0; 3] };
+    // 160 · 160 cells that stand alone, with four sides each.
+    let error = dots.grid().into_floor_plan().err();
+    assert_eq!(error, Some(FloorPlanError::TooManyWalls(102_400)));
+}
+
+// -------------------------------------------------------------------------------------------- map_server's pixels
+
+/// As `map_server` reads them: occupied where the occupancy is above the threshold, not where it is at it.
+#[test]
+fn pixels_are_read_as_map_server_reads_them() {
+    let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opaque: true };
+    let clear = |value: u8| Pixel { opaque: false, ..pixel(value) };
+    let scale = Interpretation { mode: Mode::Scale, ..TRINARY };
+    let raw = Interpretation { mode: Mode::Raw, ..TRINARY };
+    let negated = |occupied_thresh| Interpretation { negate: true, occupied_thresh, ..TRINARY };
+    let at = |occupied_thresh| Interpretation { occupied_thresh, ..TRINARY };
+    let cases = [
+        ("black", TRINARY, pixel(0), true),
+        ("white", TRINARY, pixel(255), false),
+        ("unknown grey", TRINARY, pixel(205), false),
+        ("occupancy 0.651", TRINARY, pixel(89), true),
+        ("occupancy 0.647", TRINARY, pixel(90), false),
+        ("transparent black", TRINARY, clear(0), true),
+        ("black, negated", negated(0.65), pixel(0), false),
+        ("white, negated", negated(0.65), pixel(255), true),
+        ("occupancy 0.651, negated", negated(0.65), pixel(166), true),
+        ("occupancy 0.647, negated", negated(0.65), pixel(165), false),
+        ("at the threshold", at(0.6), pixel(102), false),
+        ("past it", at(0.6), pixel(101), true),
+        ("at the threshold of 0.2", at(0.2), pixel(204), false),
+        ("at the threshold, negated", negated(0.6), pixel(153), false),
+        ("past it, negated", negated(0.6), pixel(154), true),
+        ("at the threshold of 0.2, negated", negated(0.2), pixel(51), false),
+        ("nothing is above 1", at(1.0), pixel(0), false),
+        ("scale, black", scale, pixel(0), true),
+        ("scale, transparent black is unknown", scale, clear(0), false),
+        ("scale, white", scale, pixel(255), false),
+        ("raw, 100", raw, pixel(100), true),
+        ("raw, 99", raw, pixel(99), false),
+        ("raw, 101 is unknown", raw, pixel(101), false),
+        ("raw, 0 is free", raw, pixel(0), false),
+        ("raw, 255 is unknown", raw, pixel(255), false),
+        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(100), true),
+        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(155), false),
+    ];
+    for (name, interpretation, pixel, occupied) in cases {
+        assert_eq!(interpretation.occupied(pixel), occupied, "{name}: {interpretation:?} {pixel:?}");
+    }
+}
+
+// ----------------------------------------------------------------------------------------------------------- PGM
+
+fn shades(image: &Image) -> Vec<f32> {
+    assert!(image.pixels.iter().all(|pixel| pixel.opaque));
+    image.pixels.iter().map(|pixel| pixel.shade).collect()
+}
+
+#[test]
+fn pgm_files_are_read() {
+    let expected = [0.0, 1.0, 0.2, 0.4, 0.6, 0.8];
+    let mut wide = b"P5 3 2 65535\n".to_vec();
+    wide.extend([0u16, 65535, 13107, 26214, 39321, 52428].into_iter().flat_map(u16::to_be_bytes));
+    let mut after = b"P5\n# made by hand\n3 2\n255\n\x00\xff\x33\x66\x99\xcc".to_vec();
+    after.extend(b"anything that follows");
+    let files: [&[u8]; 7] = [
+        b"P2\n3 2\n255\n0 255 51\n102 153 204\n",
+        b"P2 3 2 5 0 5 1 2 3 4",
+        b"P2 # plain\n#comment\n 3 # width\n\t2\r\n#\n255\n0 255 #51\n51 102 153 204#end",
+        b"P5 3 2 255\n\x00\xff\x33\x66\x99\xcc",
+        b"P5\n3\n2\n5\n\x00\x05\x01\x02\x03\x04",
+        &after,
+        &wide,
+    ];
+    for file in files {
+        let image = read_pgm(file).expect("a valid file");
+        assert_eq!((image.width, image.height), (3, 2));
+        for (shade, expected) in shades(&image).into_iter().zip(expected) {
+            assert!((shade - expected).abs() < 1e-7, "{file:?}: {:?}", shades(&image));
+        }
+    }
+    // The first byte of the raster may look like white space or a comment.
+    assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
+    assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
+}
+
+/// The first row of the file is the top of the map.
+#[test]
+fn the_image_stands_upright() {
+    let image = read_pgm(b"P2 2 3 1  0 1  1 1  1 1").expect("a valid file");
+    let plan = OccupancyGrid::new(&image, &TRINARY, 0.5, SE2::new(10.0, 20.0, 0.0)).into_floor_plan();
+    let plan = plan.expect("one cell");
+    assert!(!plan.point_free([10.25, 21.25], 0.0).free, "the cell at the upper left");
+    assert!(plan.point_free([10.25, 20.25], 0.7).free && plan.point_free([10.75, 21.25], 0.2).free);
+    assert_eq!((plan.walls().len(), plan.bounds()), (4, [10.0, 20.0, 11.0, 21.5]));
+}
+
+/// A sentence that names the line, the field and what was expected.
+#[test]
+fn malformed_pgm_files_are_explained() {
+    let cases: [(&[u8], &str, usize, &str); 22] = [
+        (b"", "the magic number", 1, "P5 or P2"),
+        (b"P6 1 1 255 abc", "the magic number", 1, "P5 or P2"),
+        (b"\x89PNG\r\n\x1a\n", "the magic number", 1, "P5 or P2"),
+        (b"# only\n# comments", "the magic number", 2, "P5 or P2"),
+        (b"P5", "the width", 1, "from 1 to 16777216"),
+        (b"P5\n#384\n", "the width", 3, "a whole number"),
+        (b"P5\n0 3\n255\n", "the width", 2, "from 1"),
+        (b"P5\n-3 3\n255\n", "the width", 2, "from 1"),
+        (b"P5\n3.5 3\n255\n", "the width", 2, "a whole number"),
+        (b"P5\nwide 3\n255\n", "the width", 2, "a whole number"),
+        (b"P5\n\xff\xfe 3\n255\n", "the width", 2, "a whole number"),
+        (b"P5\n99999999999999999999999 3\n255\n", "the width", 2, "to 16777216"),
+        (b"P5\n3\n", "the height", 3, "a whole number"),
+        (b"P5\n8192\n8192\n255\n", "the height", 3, "to 2048"),
+        (b"P5\n3 2\n", "the greatest value", 3, "from 1 to 65535"),
+        (b"P5\n3 2\n0\n", "the greatest value", 3, "from 1 to 65535"),
+        (b"P5\n3 2\n65536\n", "the greatest value", 3, "from 1 to 65535"),
+        (b"P5\n3 2\n255", "the raster", 3, "6 bytes after the header, and there are 0"),
+        (b"P5\n3 2\n255\n12345", "the raster", 3, "6 bytes after the header, and there are 5"),
+        (b"P5\n3 2\n256\n12345678901", "the raster", 3, "12 bytes after the header, and there are 11"),
+        (b"P2\n3 2\n255\n1 2 3\n4 5\n", "a pixel", 6, "a whole number from 0 to 255"),
+        (b"P2\n3 2\n255\n1 2 3\n4 256 6\n", "a pixel", 5, "a whole number from 0 to 255"),
+    ];
+    for (file, field, line, expected) in cases {
+        let error = read_pgm(file).expect_err("malformed");
+        assert_eq!((error.field, error.line), (field, line), "{}: {error}", file.escape_ascii());
+        assert!(error.expected.contains(expected), "{}: {error}", file.escape_ascii());
+        let message = error.to_string();
+        assert!(message.starts_with(&format!("line {line}: {field} ")) && message.ends_with(&error.expected));
+    }
+    let huge = format!("P2\n{MOST_PIXELS} 1\n255\n");
+    assert_eq!(read_pgm(huge.as_bytes()).expect_err("no pixels").field, "a pixel");
+}
+
+/// Whatever the bytes, there is an image of the announced size or an explanation, and no panic.
+#[test]
+fn no_bytes_break_the_reader() {
+    let mut rng = seeded(9902);
+    let mut valid: Vec<Vec<u8>> = [
+        b"P2\n# a comment\n4 3\n255\n0 255 51 7\n102 153 204 8\n1 2 3 4\n".as_slice(),
+        b"P5\n# CREATOR: by hand\n4 3\n255\n\x00\xff\x33\x66\x99\xcc\x01\x02\x03\x04\x05\x06",
+        b"P5 2 2 65535\n\x00\x01\x02\x03\x04\x05\x06\x07",
+    ]
+    .map(<[u8]>::to_vec)
+    .to_vec();
+    valid.push(b"P5 ".to_vec());
+    let words: [&[u8]; 8] =
+        [b"P5", b"P2", b"\n", b"#", b" 16777216 ", b" 65535 ", b" 18446744073709551616 ", b" -1 "];
+    let (mut read, mut refused) = (0, 0);
+    for _ in 0..100_000 {
+        let mut bytes = if rng.next_u32().is_multiple_of(4) {
+            let mut bytes: Vec<u8> =
+                (0..rng.next_u32() % 40).map(|_| (rng.next_u32() & 0xff) as u8).collect();
+            bytes.splice(0..0, *b"P5 ");
+            bytes
+        } else {
+            valid[(rng.next_u32() % 4) as usize].clone()
+        };
+        for _ in 0..rng.next_u32() % 4 {
+            let at = (rng.next_u32() as usize) % (bytes.len() + 1);
+            match rng.next_u32() % 4 {
+                0 => bytes.truncate(at),
+                1 if at < bytes.len() => bytes[at] = (rng.next_u32() & 0xff) as u8,
+                2 if at < bytes.len() => drop(bytes.remove(at)),
+                _ => drop(bytes.splice(at..at, words[(rng.next_u32() % 8) as usize].iter().copied())),
+            }
+        }
+        match read_pgm(&bytes) {
+            Ok(image) => {
+                assert_eq!(image.pixels.len(), image.width * image.height);
+                assert!(image.pixels.iter().all(|pixel| (0.0..=1.0).contains(&pixel.shade)));
+                let grid = OccupancyGrid::new(&image, &TRINARY, 0.05, SE2::identity());
+                assert!(grid.into_floor_plan().is_ok());
+                read += 1;
+            }
+            Err(PgmError { field, line, expected }) => {
+                let lines = 1 + bytes.iter().filter(|byte| **byte == b'\n').count();
+                assert!(!field.is_empty() && !expected.is_empty() && (1..=lines).contains(&line));
+                refused += 1;
+            }
+        }
+    }
+    assert!(read > 10_000 && refused > 10_000, "{read} {refused}");
+}

@@ -39,6 +39,7 @@
 //! in a browser.
 
 pub mod geom;
+pub mod map;
 pub mod models;
 pub mod noise;
 pub mod sim;

@@ -7,6 +7,7 @@
 use super::angle::wrap_angle;
 use super::se2::SE2;
 use super::sinc::{chord_factors, sinc};
+use std::f64::consts::TAU;
 
 /// The end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start:
 /// x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
@@ -50,5 +51,114 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
         v_hat: direction * distance / sinc(bearing) / dt,
         omega_hat: turn / dt,
         gamma_hat: wrap_angle(step.theta() - turn) / dt,
+    }
+}
+
+/// The path of a point that leaves `start` along its heading, driving the signed `length` (m) while turning by `turn`
+/// (rad, any number of circles).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    pub start: SE2,
+    pub length: f64,
+    pub turn: f64,
+}
+
+impl Arc {
+    /// The pose where it ends.
+    pub fn end(&self) -> SE2 {
+        let (forward, left) = chord(self.length, self.turn);
+        self.start * SE2::new(forward, left, self.turn)
+    }
+
+    /// The arc as chords of about a degree, up to two turns of it; the chords of a metre's arc of one radian then stray
+    /// by 0.05 mm.
+    pub fn points(&self) -> Vec<[f64; 2]> {
+        let chords = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
+        (0..=chords as u32)
+            .map(|i| {
+                let fraction = f64::from(i) / chords;
+                let end = Self { length: self.length * fraction, turn: self.turn * fraction, ..*self }.end();
+                [end.x(), end.y()]
+            })
+            .collect()
+    }
+
+    /// A box that holds the arc: least x, least y, greatest x, greatest y.
+    pub fn bounding_box(&self) -> [f64; 4] {
+        // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
+        let middle = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
+        let diameter = if self.turn == 0.0 { f64::INFINITY } else { 2.0 * (self.length / self.turn).abs() };
+        let reach = (0.5 * self.length.abs()).min(diameter);
+        [middle.x() - reach, middle.y() - reach, middle.x() + reach, middle.y() + reach]
+    }
+
+    pub(crate) fn unrolled(&self) -> Unrolled {
+        let (sin, cos) = libm::sincos(self.start.theta());
+        let ahead = if self.length < 0.0 { -1.0 } else { 1.0 };
+        let length = self.length.abs();
+        // Driving backwards is driving forwards in the mirror, with the turn reversed; then turn left likewise.
+        let turn = self.turn * ahead;
+        let side = if turn < 0.0 { -1.0 } else { 1.0 };
+        let turn = turn.abs();
+        let curvature = if length > 0.0 && turn > LEAST_TURN { turn / length } else { 0.0 };
+        Unrolled {
+            origin: [self.start.x(), self.start.y()],
+            forward: [ahead * cos, ahead * sin],
+            left: [-side * sin, side * cos],
+            length,
+            turn,
+            curvature,
+            end: chord(length, turn).into(),
+        }
+    }
+}
+
+/// Turns below this (rad) count as straight: the arc then leaves the line by less than any double of its length can
+/// tell. Far larger values would show, far smaller ones would underflow in the curvature.
+const LEAST_TURN: f64 = 1e-30;
+
+/// An arc in the frame of its start, mirrored so that it leads forward and to the left: from the origin along x with
+/// length ≥ 0, turn ≥ 0, curvature κ ≥ 0 (0: straight). All of it works without the centre, which is far away or
+/// nowhere where κ is small.
+pub(crate) struct Unrolled {
+    origin: [f64; 2],
+    forward: [f64; 2],
+    left: [f64; 2],
+    pub length: f64,
+    pub turn: f64,
+    pub curvature: f64,
+    pub end: [f64; 2],
+}
+
+impl Unrolled {
+    pub fn transform(&self, point: [f64; 2]) -> [f64; 2] {
+        let (dx, dy) = (point[0] - self.origin[0], point[1] - self.origin[1]);
+        [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
+    }
+
+    /// κ|p|²/2 − y: 0 on the circle (or line), positive outside (or to the right).
+    pub fn circle(&self, [x, y]: [f64; 2]) -> f64 {
+        0.5 * self.curvature * (x * x + y * y) - y
+    }
+
+    /// Whether the point of the circle nearest to `point` belongs to the arc.
+    pub fn passes(&self, [x, y]: [f64; 2]) -> bool {
+        if self.curvature == 0.0 {
+            return (0.0..=self.length).contains(&x);
+        }
+        let bearing = libm::atan2(self.curvature * x, 1.0 - self.curvature * y);
+        (if bearing < 0.0 { bearing + TAU } else { bearing }) <= self.turn
+    }
+
+    /// The distance from a point to the arc.
+    pub fn distance(&self, point: [f64; 2]) -> f64 {
+        let to_ends =
+            libm::hypot(point[0], point[1]).min(libm::hypot(point[0] - self.end[0], point[1] - self.end[1]));
+        if !self.passes(point) {
+            return to_ends;
+        }
+        // |p − c| − 1/κ with the centre c rationalized away.
+        let g = self.circle(point);
+        (2.0 * g / (1.0 + (1.0 + 2.0 * self.curvature * g).max(0.0).sqrt())).abs().min(to_ends)
     }
 }

@@ -3,4 +3,5 @@
 pub mod angle;
 pub mod arc;
 pub mod se2;
+pub mod segment;
 pub mod sinc;

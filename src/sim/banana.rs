@@ -3,7 +3,7 @@
 use super::draws::Draws;
 use super::settings::{MAX_SAMPLES, SettingsError, check_alphas, check_command, check_whole};
 use super::views::{Grid, View, density, nearest};
-use crate::geom::arc::{ArcInversion, chord, invert_arc};
+use crate::geom::arc::{Arc, ArcInversion, invert_arc};
 use crate::geom::se2::SE2;
 use crate::models::{
     MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd,
@@ -265,22 +265,12 @@ impl BananaMachine {
         settings.check()?;
         let complete = self.poses.len() == self.settings.samples;
         let shown = if complete { settings.samples } else { self.poses.len().min(settings.samples) };
-        let no_memory = |_| SettingsError {
-            field: "samples".to_owned(),
-            value: settings.samples.to_string(),
-            allowed: "a number for which there is memory".to_owned(),
-        };
+        let no_memory = |_| SettingsError::no_memory(settings.samples);
         self.poses.try_reserve_exact(settings.samples.saturating_sub(self.poses.len())).map_err(no_memory)?;
         self.twists
             .try_reserve_exact(settings.samples.saturating_sub(self.twists.len()))
             .map_err(no_memory)?;
-        if self.draws.is_for(settings.seed, settings.noise) {
-            self.draws.extend_to(settings.samples).map_err(no_memory)?;
-        } else {
-            let mut draws = Draws::new(settings.seed, settings.noise);
-            draws.extend_to(settings.samples).map_err(no_memory)?;
-            self.draws = draws;
-        }
+        self.draws.prepare(settings.seed, settings.noise, settings.samples).map_err(no_memory)?;
         self.settings = settings;
         self.restart();
         self.grow(shown);
@@ -415,14 +405,7 @@ impl BananaMachine {
     }
 }
 
-/// An arc from the start as chords of about a degree, up to two turns of it; a chord of a metre's arc of one radian then
-/// strays by 0.05 mm.
+/// The points of an arc from the start.
 fn arc_points(length: f64, turn: f64) -> Vec<[f64; 2]> {
-    let chords = (turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
-    (0..=chords as u32)
-        .map(|i| {
-            let fraction = f64::from(i) / chords;
-            chord(length * fraction, turn * fraction).into()
-        })
-        .collect()
+    Arc { start: START, length, turn }.points()
 }

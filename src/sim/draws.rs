@@ -21,12 +21,18 @@ impl Draws {
         Self { seed, noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
     }
 
-    pub fn is_for(&self, seed: u64, noise: NoiseKind) -> bool {
-        self.seed == seed && self.noise == noise
+    /// Makes these the draws of a seed and kind, at least `count` of them. Nothing has changed where memory is short.
+    pub fn prepare(&mut self, seed: u64, noise: NoiseKind, count: usize) -> Result<(), TryReserveError> {
+        if self.seed == seed && self.noise == noise {
+            return self.extend_to(count);
+        }
+        let mut draws = Self::new(seed, noise);
+        draws.extend_to(count)?;
+        *self = draws;
+        Ok(())
     }
 
-    /// Makes sure that there are at least `count` draws.
-    pub fn extend_to(&mut self, count: usize) -> Result<(), TryReserveError> {
+    fn extend_to(&mut self, count: usize) -> Result<(), TryReserveError> {
         let missing = count.saturating_sub(self.unit_noise.len());
         self.unit_noise.try_reserve_exact(missing)?;
         let Self { noise, rng, unit_noise, .. } = self;

@@ -3,6 +3,7 @@
 pub mod banana;
 mod draws;
 pub mod settings;
+pub mod squeeze;
 pub mod views;
 
 pub use views::View;

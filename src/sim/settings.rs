@@ -12,6 +12,17 @@ pub struct SettingsError {
     pub allowed: String,
 }
 
+impl SettingsError {
+    /// A sample count for which memory does not suffice.
+    pub(crate) fn no_memory(samples: usize) -> Self {
+        Self {
+            field: "samples".to_owned(),
+            value: samples.to_string(),
+            allowed: "a number for which there is memory".to_owned(),
+        }
+    }
+}
+
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} is {}; allowed is {}", self.field, self.value, self.allowed)

@@ -42,6 +42,15 @@ impl<'a> Fields<'a> {
         Ok(Self { object, prefix })
     }
 
+    /// An object that may have other keys too.
+    pub fn open(name: &str, prefix: &'a str, object: &'a JsValue) -> Result<Self, JsValue> {
+        if object.is_object() {
+            Ok(Self { object, prefix })
+        } else {
+            Err(type_error(name, object, "an object"))
+        }
+    }
+
     pub fn path(&self, key: &str) -> String {
         format!("{}{key}", self.prefix)
     }
@@ -96,19 +105,13 @@ pub fn word<T: Copy>(field: &str, value: &JsValue, words: &[(&str, T)]) -> Resul
 /// An array (or typed array) of exactly N numbers, their ranges not looked at.
 pub fn numbers<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
     let expected = format!("an array of {N} numbers");
-    if !value.is_object() {
-        return Err(type_error(field, value, &expected));
-    }
-    let length = Reflect::get(value, &"length".into()).map_err(|_| unreadable(field))?;
-    let length = length.as_f64().ok_or_else(|| type_error(field, value, &expected))?;
-    if length != N as f64 {
+    let length = length(field, value, &expected)?;
+    if length != N {
         return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
     }
     let mut result = [0.0; N];
     for (i, slot) in result.iter_mut().enumerate() {
-        let path = format!("{field}[{i}]");
-        let item = Reflect::get_u32(value, i as u32).map_err(|_| unreadable(&path))?;
-        *slot = number(&path, &item)?;
+        *slot = number(&format!("{field}[{i}]"), &item(field, value, i)?)?;
     }
     Ok(result)
 }
@@ -125,7 +128,26 @@ pub fn no_memory(field: &str) -> JsValue {
         .into()
 }
 
-fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
+pub fn boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
+    value.as_bool().ok_or_else(|| type_error(field, value, "true or false"))
+}
+
+/// The length of an array or typed array.
+pub fn length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsValue> {
+    if !value.is_object() {
+        return Err(type_error(field, value, expected));
+    }
+    let length = Reflect::get(value, &"length".into()).map_err(|_| unreadable(field))?;
+    let length = length.as_f64().ok_or_else(|| type_error(field, value, expected))?;
+    Ok(check_whole(&format!("{field}.length"), length, 0, u64::from(u32::MAX))? as usize)
+}
+
+/// Item `index` of an array.
+pub fn item(field: &str, value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
+    Reflect::get_u32(value, index as u32).map_err(|_| unreadable(&format!("{field}[{index}]")))
+}
+
+pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
     TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe(value))).into()
 }
 

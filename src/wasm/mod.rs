@@ -2,6 +2,7 @@
 
 mod banana;
 mod fields;
+mod squeeze;
 mod values;
 
 use crate::sim::banana::command_reaching;

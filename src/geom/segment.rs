@@ -1,0 +1,72 @@
+//! Line segments, and their exact distance to points and to arcs.
+
+use super::arc::Arc;
+
+/// A straight line between two points, m. It may have no length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    pub from: [f64; 2],
+    pub to: [f64; 2],
+}
+
+impl Segment {
+    /// The distance (m) from a point to the nearest point of the segment.
+    pub fn distance_to_point(&self, point: [f64; 2]) -> f64 {
+        let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
+        let offset = [point[0] - self.from[0], point[1] - self.from[1]];
+        let squared = dot(along, along);
+        let t = if squared > 0.0 { (dot(offset, along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        libm::hypot(offset[0] - t * along[0], offset[1] - t * along[1])
+    }
+
+    /// The distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
+    ///
+    /// The nearest points are a crossing, or an end of one with the nearest point of the other, or a point inside both
+    /// where the segment is parallel to the arc and outside its circle. Nothing else can be a minimum: from within the
+    /// circle the distance to it is concave along a line.
+    pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
+        let local = arc.unrolled();
+        let (from, to) = (local.transform(self.from), local.transform(self.to));
+        let mirrored = Segment { from, to };
+        let along = [to[0] - from[0], to[1] - from[1]];
+
+        // Points of the segment on the circle: the circle's equation is quadratic along it.
+        let squared = dot(along, along);
+        let a = 0.5 * local.curvature * squared;
+        let b = local.curvature * dot(from, along) - along[1];
+        let c = local.circle(from);
+        let discriminant = b * b - 4.0 * a * c;
+        if discriminant >= 0.0 {
+            let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+            let crosses = |t: f64| {
+                (0.0..=1.0).contains(&t) && local.passes([from[0] + t * along[0], from[1] + t * along[1]])
+            };
+            if crosses(q / a) || crosses(c / q) {
+                return 0.0;
+            }
+        }
+        let mut least = [
+            local.distance(from),
+            local.distance(to),
+            mirrored.distance_to_point([0.0, 0.0]),
+            mirrored.distance_to_point(local.end),
+        ]
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+        // The foot of the centre on the segment; a straight path has no centre and needs none.
+        if local.curvature > 0.0 && squared > 0.0 {
+            let t = (along[1] / local.curvature - dot(from, along)) / squared;
+            if (0.0..=1.0).contains(&t) {
+                let foot = [from[0] + t * along[0], from[1] + t * along[1]];
+                if local.circle(foot) > 0.0 {
+                    least = least.min(local.distance(foot));
+                }
+            }
+        }
+        least
+    }
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}

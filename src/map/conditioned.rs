@@ -1,0 +1,144 @@
+//! Motion conditioned on a map by rejection (Table 5.7), and what the condition looks at.
+
+use super::floor_plan::{FloorPlan, Verdict};
+use crate::geom::arc::Arc;
+use crate::geom::se2::SE2;
+use crate::models::{VelocityCmd, VelocityModel};
+use crate::noise::centred_uniform;
+use rand::Rng;
+use std::fmt;
+
+/// What a draw must satisfy to be accepted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampler {
+    /// Its last pose is free: Table 5.7, which cannot see how the robot got there.
+    Endpoint,
+    /// The whole arc driven is free.
+    WholeArc,
+    /// The command is split into this many shorter ones (1 or more), each drawn until its last pose is free. As the
+    /// model has it, each part has noise of its own, so that the spread of the whole shrinks with √steps.
+    SubStepped(u32),
+}
+
+/// The velocity model in a floor plan, for a round robot of radius `clearance` (m).
+#[derive(Clone, Copy, Debug)]
+pub struct MapConditioned<'a> {
+    pub model: VelocityModel,
+    pub plan: &'a FloorPlan,
+    pub clearance: f64,
+    pub sampler: Sampler,
+}
+
+/// One draw of the model that knows no map, and both verdicts on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Draw {
+    pub pose: SE2,
+    /// The arc driven, (v̂, ω̂); `pose` is its end turned by γ̂Δt.
+    pub arc: Arc,
+    /// Whether the robot fits where it ends.
+    pub end: Verdict,
+    /// Whether it fits all along the arc.
+    pub path: Verdict,
+}
+
+/// An accepted motion and what it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accepted {
+    pub pose: SE2,
+    /// Whether the way there was free too: never false with [`Sampler::WholeArc`].
+    pub path_free: bool,
+    pub cost: Cost,
+}
+
+/// What rejection costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Draws of the model, accepted or not.
+    pub draws: usize,
+    /// Walls measured to decide on them.
+    pub wall_tests: usize,
+}
+
+/// No draw was accepted: the robot is wedged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wedged(pub Cost);
+
+impl fmt::Display for Wedged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the robot is wedged: none of {} draws was accepted", self.0.draws)
+    }
+}
+
+impl std::error::Error for Wedged {}
+
+/// Draws before a robot counts as wedged: a tenth of a second's worth. An acceptance below one in ten thousand is no
+/// use to a filter; more draws would freeze a page.
+pub const MOST_DRAWS: usize = 10_000;
+
+impl MapConditioned<'_> {
+    /// One accepted motion from `x`.
+    ///
+    /// # Errors
+    /// [`Wedged`] after [`MOST_DRAWS`] draws in vain.
+    pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Accepted, Wedged> {
+        self.sample_along(u, x, rng, |_| ())
+    }
+
+    /// As [`MapConditioned::sample`], showing each arc of the accepted motion to `along`.
+    pub fn sample_along<R: Rng + ?Sized>(
+        &self,
+        u: &VelocityCmd,
+        x: &SE2,
+        rng: &mut R,
+        mut along: impl FnMut(&Arc),
+    ) -> Result<Accepted, Wedged> {
+        let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
+        let step = VelocityCmd { dt: u.dt / f64::from(steps), ..*u };
+        let mut accepted = Accepted { pose: *x, path_free: true, cost: Cost::default() };
+        for _ in 0..steps {
+            let draw = self.one_step(&step, &accepted.pose, rng, &mut accepted.cost)?;
+            along(&draw.arc);
+            accepted.pose = draw.pose;
+            accepted.path_free &= draw.path.free;
+        }
+        Ok(accepted)
+    }
+
+    fn one_step<R: Rng + ?Sized>(
+        &self,
+        u: &VelocityCmd,
+        x: &SE2,
+        rng: &mut R,
+        cost: &mut Cost,
+    ) -> Result<Draw, Wedged> {
+        for _ in 0..MOST_DRAWS {
+            let unit_noise = std::array::from_fn(|_| self.model.noise.quantile(centred_uniform(rng)));
+            let draw = self.judge(u, x, unit_noise);
+            let deciding = self.deciding(&draw);
+            cost.draws += 1;
+            cost.wall_tests += deciding.wall_tests;
+            if deciding.free {
+                return Ok(draw);
+            }
+        }
+        Err(Wedged(*cost))
+    }
+
+    /// The motion under these unit noises, with both verdicts.
+    pub fn judge(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> Draw {
+        let executed = self.model.executed(u, unit_noise);
+        let arc = Arc { start: *x, length: executed.v_hat * u.dt, turn: executed.omega_hat * u.dt };
+        let end = arc.end();
+        Draw {
+            pose: SE2::new(end.x(), end.y(), end.theta() + executed.gamma_hat * u.dt),
+            arc,
+            end: self.plan.point_free([end.x(), end.y()], self.clearance),
+            path: self.plan.arc_free(&arc, self.clearance),
+        }
+    }
+
+    /// The verdict that decides on a draw.
+    pub fn deciding(&self, draw: &Draw) -> Verdict {
+        if self.sampler == Sampler::WholeArc { draw.path } else { draw.end }
+    }
+}

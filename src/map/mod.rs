@@ -1,0 +1,12 @@
+//! Maps, exact collision of a driven arc with them, and motion conditioned on them.
+
+mod apartment;
+mod conditioned;
+mod floor_plan;
+mod occupancy;
+mod pgm;
+
+pub use conditioned::{Accepted, Cost, Draw, MOST_DRAWS, MapConditioned, Sampler, Wedged};
+pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
+pub use occupancy::{Image, Interpretation, Mode, OccupancyGrid, Pixel};
+pub use pgm::{MOST_PIXELS, PgmError, read_pgm};

@@ -1,0 +1,136 @@
+//! Occupancy grids as ROS `map_server` stores them, made into floor plans.
+
+use super::floor_plan::{FloorPlan, FloorPlanError};
+use crate::geom::se2::SE2;
+use crate::geom::segment::Segment;
+
+/// How pixels become cells, as `map_server` reads its YAML file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interpretation {
+    pub mode: Mode,
+    /// Dark pixels are free instead of occupied.
+    pub negate: bool,
+    /// A cell is occupied where its occupancy, 0 (white) to 1 (black), exceeds this.
+    pub occupied_thresh: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    Trinary,
+    /// As trinary, and transparent pixels are unknown.
+    Scale,
+    /// Pixel values are occupancies from 0 to 100; 100 is occupied.
+    Raw,
+}
+
+/// A picture of shades from 0 (black) to 1 (white), row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    pub width: usize,
+    pub height: usize,
+    /// width · height of them.
+    pub pixels: Vec<Pixel>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pixel {
+    pub shade: f32,
+    pub opaque: bool,
+}
+
+impl Interpretation {
+    pub fn occupied(&self, pixel: Pixel) -> bool {
+        let shade = f64::from(pixel.shade);
+        let occupancy = if self.negate { shade } else { 1.0 - shade };
+        match self.mode {
+            Mode::Trinary => occupancy > self.occupied_thresh,
+            Mode::Scale => pixel.opaque && occupancy > self.occupied_thresh,
+            Mode::Raw => (shade * 255.0).round() == 100.0,
+        }
+    }
+}
+
+/// Square cells, occupied or not. Cells that are free and cells of which nothing is known are alike: only occupied ones
+/// are in a robot's way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OccupancyGrid {
+    width: usize,
+    height: usize,
+    /// Side of a cell, m.
+    resolution: f64,
+    /// The lower left corner of the lower left cell, rows and columns along its axes.
+    origin: SE2,
+    /// Row by row from the bottom.
+    occupied: Vec<bool>,
+}
+
+impl OccupancyGrid {
+    /// The grid of an image whose lower left corner is at `origin`, with cells of `resolution` (m, positive).
+    pub fn new(image: &Image, interpretation: &Interpretation, resolution: f64, origin: SE2) -> Self {
+        let Image { width, height, ref pixels } = *image;
+        let occupied = pixels
+            .chunks(width.max(1))
+            .rev()
+            .flat_map(|row| row.iter().map(|pixel| interpretation.occupied(*pixel)))
+            .collect();
+        Self { width, height, resolution, origin, occupied }
+    }
+
+    /// Whether a point of the plane lies in an occupied cell.
+    pub fn holds(&self, point: [f64; 2]) -> bool {
+        let local = self.origin.inverse() * SE2::new(point[0], point[1], 0.0);
+        let (column, row) = ((local.x() / self.resolution).floor(), (local.y() / self.resolution).floor());
+        column >= 0.0 && row >= 0.0 && self.cell(column as usize, row as usize)
+    }
+
+    fn cell(&self, column: usize, row: usize) -> bool {
+        column < self.width && row < self.height && self.occupied[row * self.width + column]
+    }
+
+    /// The floor plan whose walls are the outlines of the occupied cells, neighbouring sides joined: the distance to
+    /// them is the distance to the cells for everyone outside of one.
+    ///
+    /// # Errors
+    /// [`FloorPlanError`] where there are too many walls.
+    pub fn into_floor_plan(self) -> Result<FloorPlan, FloorPlanError> {
+        let mut walls = Vec::new();
+        let corner = |column: usize, row: usize| {
+            let (x, y) = (column as f64 * self.resolution, row as f64 * self.resolution);
+            let point = self.origin * SE2::new(x, y, 0.0);
+            [point.x(), point.y()]
+        };
+        // Between cells on either side of a grid line there is an outline where just one is occupied.
+        let before = |i: usize| i.wrapping_sub(1);
+        for row in 0..=self.height {
+            let edge = |column: usize| self.cell(column, row) != self.cell(column, before(row));
+            for (from, to) in runs(self.width, edge) {
+                walls.push(Segment { from: corner(from, row), to: corner(to, row) });
+            }
+        }
+        for column in 0..=self.width {
+            let edge = |row: usize| self.cell(column, row) != self.cell(before(column), row);
+            for (from, to) in runs(self.height, edge) {
+                walls.push(Segment { from: corner(column, from), to: corner(column, to) });
+            }
+        }
+        let corners = [(0, 0), (self.width, 0), (0, self.height), (self.width, self.height)]
+            .map(|(column, row)| corner(column, row));
+        let extreme = |axis: usize, pick: fn(f64, f64) -> f64| {
+            corners.iter().map(|corner| corner[axis]).reduce(pick).unwrap_or(0.0)
+        };
+        let bounds = [extreme(0, f64::min), extreme(1, f64::min), extreme(0, f64::max), extreme(1, f64::max)];
+        FloorPlan::with_solid(walls, bounds, Some(self))
+    }
+}
+
+/// The maximal runs from..to of consecutive indices below `count` for which `holds`.
+fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for i in (0..count).filter(|i| holds(*i)) {
+        match runs.last_mut() {
+            Some((_, end)) if *end == i => *end += 1,
+            _ => runs.push((i, i + 1)),
+        }
+    }
+    runs
+}

@@ -5,7 +5,7 @@
  * @module
  */
 
-import initialize, { BananaMachine, commandReaching, randomSeed } from '../build/motion.js';
+import initialize, { BananaMachine, MapSqueeze, commandReaching, randomSeed } from '../build/motion.js';
 import inlined from '../build/motion_bg.wasm';
 
 /** @type {Promise<import('./types.d.ts').Motion> | undefined} */
@@ -37,8 +37,9 @@ async function start(source) {
   }
   await initialize({ module_or_path: await moduleFrom(source) });
   makeDisposable(BananaMachine);
+  makeDisposable(MapSqueeze);
   return /** @type {import('./types.d.ts').Motion} */ (
-    /** @type {unknown} */ ({ BananaMachine, commandReaching, randomSeed })
+    /** @type {unknown} */ ({ BananaMachine, MapSqueeze, commandReaching, randomSeed })
   );
 }
 

@@ -92,16 +92,39 @@ impl MapConditioned<'_> {
         rng: &mut R,
         mut along: impl FnMut(&Arc),
     ) -> Result<Accepted, Wedged> {
+        let mut path_free = true;
+        let mut cost = Cost::default();
+        let pose = self.drive(u, x, rng, &mut cost, |arc| {
+            along(arc);
+            path_free &= self.plan.arc_free(arc, self.clearance).free;
+        })?;
+        Ok(Accepted { pose, path_free, cost })
+    }
+
+    /// What one accepted motion costs a filter that deploys the sampler: of each draw, just the verdict that decides.
+    pub fn cost<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Cost, Wedged> {
+        let mut cost = Cost::default();
+        self.drive(u, x, rng, &mut cost, |_| ())?;
+        Ok(cost)
+    }
+
+    fn drive<R: Rng + ?Sized>(
+        &self,
+        u: &VelocityCmd,
+        x: &SE2,
+        rng: &mut R,
+        cost: &mut Cost,
+        mut along: impl FnMut(&Arc),
+    ) -> Result<SE2, Wedged> {
         let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
         let step = VelocityCmd { dt: u.dt / f64::from(steps), ..*u };
-        let mut accepted = Accepted { pose: *x, path_free: true, cost: Cost::default() };
+        let mut pose = *x;
         for _ in 0..steps {
-            let draw = self.one_step(&step, &accepted.pose, rng, &mut accepted.cost)?;
-            along(&draw.arc);
-            accepted.pose = draw.pose;
-            accepted.path_free &= draw.path.free;
+            let arc;
+            (pose, arc) = self.one_step(&step, &pose, rng, cost)?;
+            along(&arc);
         }
-        Ok(accepted)
+        Ok(pose)
     }
 
     fn one_step<R: Rng + ?Sized>(
@@ -110,29 +133,39 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
         cost: &mut Cost,
-    ) -> Result<Draw, Wedged> {
+    ) -> Result<(SE2, Arc), Wedged> {
         for _ in 0..MOST_DRAWS {
             let unit_noise = std::array::from_fn(|_| self.model.noise.quantile(centred_uniform(rng)));
-            let draw = self.judge(u, x, unit_noise);
-            let deciding = self.deciding(&draw);
+            let (pose, arc) = self.motion(u, x, unit_noise);
+            let deciding = if self.sampler == Sampler::WholeArc {
+                self.plan.arc_free(&arc, self.clearance)
+            } else {
+                self.plan.point_free([pose.x(), pose.y()], self.clearance)
+            };
             cost.draws += 1;
             cost.wall_tests += deciding.wall_tests;
             if deciding.free {
-                return Ok(draw);
+                return Ok((pose, arc));
             }
         }
         Err(Wedged(*cost))
     }
 
-    /// The motion under these unit noises, with both verdicts.
-    pub fn judge(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> Draw {
+    /// The pose under these unit noises, and the arc driven there.
+    fn motion(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> (SE2, Arc) {
         let executed = self.model.executed(u, unit_noise);
         let arc = Arc { start: *x, length: executed.v_hat * u.dt, turn: executed.omega_hat * u.dt };
         let end = arc.end();
+        (SE2::new(end.x(), end.y(), end.theta() + executed.gamma_hat * u.dt), arc)
+    }
+
+    /// The motion under these unit noises, with both verdicts.
+    pub fn judge(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> Draw {
+        let (pose, arc) = self.motion(u, x, unit_noise);
         Draw {
-            pose: SE2::new(end.x(), end.y(), end.theta() + executed.gamma_hat * u.dt),
+            pose,
             arc,
-            end: self.plan.point_free([end.x(), end.y()], self.clearance),
+            end: self.plan.point_free([pose.x(), pose.y()], self.clearance),
             path: self.plan.arc_free(&arc, self.clearance),
         }
     }

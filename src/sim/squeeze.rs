@@ -270,11 +270,17 @@ impl MapSqueeze {
         let mut total = Cost::default();
         for _ in 0..count {
             let Cost { draws, wall_tests } =
-                conditioned.sample(&self.settings.command, &self.settings.start(), &mut rng)?.cost;
+                conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total.draws += draws;
             total.wall_tests += wall_tests;
         }
         Ok(total)
+    }
+
+    /// Whether the robot fits where it starts.
+    pub fn start_free(&self) -> bool {
+        let [x, y, _] = self.settings.start;
+        self.plan.point_free([x, y], self.settings.clearance).free
     }
 
     fn conditioned(&self, sampler: Sampler) -> MapConditioned<'_> {

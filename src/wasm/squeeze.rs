@@ -199,6 +199,12 @@ impl JsMapSqueeze {
         to_js(&self.machine.plan().free_point(self.machine.settings().clearance))
     }
 
+    /// Whether the robot fits where it starts.
+    #[wasm_bindgen(getter, js_name = startFree)]
+    pub fn start_free(&self) -> bool {
+        self.machine.start_free()
+    }
+
     #[wasm_bindgen(getter)]
     pub fn shown(&self) -> usize {
         self.machine.attempts().len()

@@ -1,2 +1,3 @@
 /** Registers the custom elements. */
 import './elements/banana-machine.js';
+import './elements/map-squeeze.js';

@@ -108,8 +108,105 @@ export interface BananaMachineClass {
   new (options?: Partial<Settings>): BananaMachine;
 }
 
+export type SamplerName = 'endpoint' | 'whole-arc' | 'sub-stepped';
+
+export interface Pose {
+  x: number;
+  y: number;
+  theta: number;
+}
+
+export interface SqueezeSettings {
+  start: Pose;
+  command: Command;
+  /** Six, of the velocity model. */
+  alphas: number[];
+  /** Radius of the robot. */
+  clearance: number;
+  /** Whether draws are judged at all; where not, all of them are accepted. */
+  conditioned: boolean;
+  sampler: SamplerName;
+  /** Parts of the command, for the sub-stepped sampler. */
+  steps: number;
+  samples: number;
+  seed: number;
+}
+
+/** All over the attempts shown; NaN where undefined. */
+export interface SqueezeStats {
+  attempts: number;
+  /** Draws of the model; of its shorter motions, for the sub-stepped sampler. */
+  drawn: number;
+  accepted: number;
+  acceptanceRate: number;
+  throughWall: number;
+  throughWallRate: number;
+  /** 95 %. */
+  throughWallInterval: [number, number];
+  drawsPerAccepted: number;
+  wallTestsPerAccepted: number;
+  /** Whether the machine stopped short of its samples. */
+  gaveUp: boolean;
+}
+
+/** As read: least x, least y, greatest x, greatest y; x0, y0, x1, y1 of one wall after the other. */
+export interface Plan {
+  bounds: Float64Array;
+  walls: Float64Array;
+}
+
+/** Square cells, row by row from the bottom, 1 where occupied. */
+export interface Grid {
+  columns: number;
+  rows: number;
+  /** Side of a cell. */
+  resolution: number;
+  /** x, y and yaw of the lower left corner. */
+  origin: Float64Array;
+  occupied: Uint8Array;
+}
+
+export interface MapSqueeze extends Disposable {
+  readonly config: SqueezeSettings;
+  readonly plan: Plan;
+  /** The cells that the walls of the plan outline; null for a plan of walls alone. */
+  readonly grid: Grid | null;
+  /** The way that the command drives without noise, as x, y pairs. */
+  readonly commanded: Float64Array;
+  /** Whether the robot fits where it starts. */
+  readonly startFree: boolean;
+  /** Where it fits, near the origin of the map; null where nowhere. */
+  readonly freePoint: [number, number] | null;
+  readonly shown: number;
+  readonly poses: Float64Array;
+  /** A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted. */
+  readonly verdicts: Uint8Array;
+  readonly stats: SqueezeStats;
+  configure(settings: Partial<SqueezeSettings>): void;
+  /** { bounds, walls } as a JSON floor plan has them; undefined for the apartment. */
+  setPlan(plan?: unknown): void;
+  /** What the YAML file of map_server says, and the bytes of a PGM file or the pixels of another. */
+  setGrid(description: unknown, image: Uint8Array | ImageData): void;
+  grow(count: number): number;
+  restart(): void;
+  /** The path driven in an attempt, as x, y pairs. */
+  path(index: number): Float64Array;
+  nearest(x: number, y: number, radius: number): number;
+  /** Draws `count` accepted samples and forgets them; throws where the robot is wedged. */
+  trial(sampler: SamplerName, steps: number, count: number): { draws: number; wallTests: number };
+  free(): void;
+}
+
+export interface MapSqueezeClass {
+  readonly presets: { name: 'doorway' | 'wall' | 'corridor'; start: Pose }[];
+  readonly maxSamples: number;
+  new (options?: Partial<SqueezeSettings>): MapSqueeze;
+  alphasOfNoise(n: number): Float64Array;
+}
+
 export interface Motion {
   BananaMachine: BananaMachineClass;
+  MapSqueeze: MapSqueezeClass;
   /** A whole number, 0 to 2³² − 1. */
   randomSeed(): number;
   /** The arc from the origin, heading along x, that ends at (x, y) after `dt` seconds. */

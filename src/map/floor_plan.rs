@@ -113,6 +113,11 @@ impl FloorPlan {
         self.bounds
     }
 
+    /// The cells that the walls outline, where they do.
+    pub fn grid(&self) -> Option<&OccupancyGrid> {
+        self.solid.as_ref()
+    }
+
     /// Whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
     pub fn point_free(&self, point: [f64; 2], clearance: f64) -> Verdict {
         if !self.holds(point) || self.buried(point) {

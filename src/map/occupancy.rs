@@ -76,6 +76,26 @@ impl OccupancyGrid {
         Self { width, height, resolution, origin, occupied }
     }
 
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// Side of a cell, m.
+    pub fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
+    /// The lower left corner of the lower left cell, rows and columns along its axes.
+    pub fn origin(&self) -> SE2 {
+        self.origin
+    }
+
+    /// Whether each cell is occupied, row by row from the bottom.
+    pub fn occupied(&self) -> &[bool] {
+        &self.occupied
+    }
+
     /// Whether a point of the plane lies in an occupied cell.
     pub fn holds(&self, point: [f64; 2]) -> bool {
         let local = self.origin.inverse() * SE2::new(point[0], point[1], 0.0);

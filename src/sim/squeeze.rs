@@ -283,6 +283,12 @@ impl MapSqueeze {
         self.plan.point_free([x, y], self.settings.clearance).free
     }
 
+    /// The arc that the command drives without noise.
+    pub fn commanded(&self) -> Arc {
+        let VelocityCmd { v, omega, dt } = self.settings.command;
+        Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
+    }
+
     fn conditioned(&self, sampler: Sampler) -> MapConditioned<'_> {
         let model = VelocityModel { alphas: VelocityAlphas(self.settings.alphas), noise: NoiseKind::Normal };
         MapConditioned { model, plan: &self.plan, clearance: self.settings.clearance, sampler }

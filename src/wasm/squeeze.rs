@@ -177,6 +177,23 @@ impl JsMapSqueeze {
         ])
     }
 
+    /// The cells of an occupancy grid, row by row from the bottom, 1 where occupied: { columns, rows, resolution (m),
+    /// origin: x, y, yaw of the lower left corner; occupied }. Null for a plan of walls.
+    #[wasm_bindgen(getter)]
+    pub fn grid(&self) -> Result<JsValue, JsValue> {
+        let Some(grid) = self.machine.plan().grid() else { return Ok(JsValue::NULL) };
+        let [columns, rows] = grid.size();
+        let origin = grid.origin();
+        let occupied: Vec<u8> = grid.occupied().iter().map(|occupied| u8::from(*occupied)).collect();
+        object(&[
+            ("columns", (columns as f64).into()),
+            ("rows", (rows as f64).into()),
+            ("resolution", grid.resolution().into()),
+            ("origin", Float64Array::from([origin.x(), origin.y(), origin.theta()].as_slice()).into()),
+            ("occupied", Uint8Array::from(occupied.as_slice()).into()),
+        ])
+    }
+
     /// Another floor plan: { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }; undefined for the apartment.
     #[wasm_bindgen(js_name = setPlan)]
     pub fn set_plan(&mut self, plan: &JsValue) -> Result<(), JsValue> {
@@ -203,6 +220,12 @@ impl JsMapSqueeze {
     #[wasm_bindgen(getter, js_name = startFree)]
     pub fn start_free(&self) -> bool {
         self.machine.start_free()
+    }
+
+    /// The way that the command drives without noise as x, y of one point after the other.
+    #[wasm_bindgen(getter)]
+    pub fn commanded(&self) -> Float64Array {
+        Float64Array::from(self.machine.commanded().points().as_flattened())
     }
 
     #[wasm_bindgen(getter)]

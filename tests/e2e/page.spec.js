@@ -176,7 +176,7 @@ plain('a browser that cannot run the module shows a sentence and tells the page'
       /** @type {Element} */ (event.target).localName,
     ]),
   );
-  expect(heard).toEqual([['ErrorEvent', 'banana-machine']]);
+  expect(heard).toEqual([['ErrorEvent', 'banana-machine'], ['ErrorEvent', 'map-squeeze']]);
 });
 
 plain('without JavaScript the page says what is missing', async ({ browser, baseURL }) => {

@@ -156,7 +156,7 @@ function isolateButton(index, checked, isolate) {
  * @param {Name} current
  * @param {(name: Name) => void} choose
  */
-function radioGroup(label, group, names, current, choose) {
+export function radioGroup(label, group, names, current, choose) {
   return html`<div class="choices" role="radiogroup" aria-label=${label}>
     <span aria-hidden="true">${label}</span>
     ${names.map((name) =>

@@ -5,6 +5,7 @@
  * @module
  */
 
+import { prepare } from '../ui/canvas.js';
 import {
   DASHES,
   clipped,
@@ -66,14 +67,9 @@ class Picture {
    * @param {HTMLCanvasElement} canvas
    */
   prepare(canvas) {
-    const ratio = canvas.width / Math.max(1, canvas.clientWidth);
+    const { context, ratio, font } = prepare(canvas, this.view);
     this.ratio = ratio;
-    this.view.resize(canvas.width / ratio, canvas.height / ratio);
-    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, this.view.width, this.view.height);
-    const { fontFamily, fontSize } = getComputedStyle(canvas);
-    this.font = `${fontSize} ${fontFamily}`;
+    this.font = font;
     return context;
   }
 

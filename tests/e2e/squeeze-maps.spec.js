@@ -1,0 +1,305 @@
+import AxeBuilder from '@axe-core/playwright';
+import { expect } from '@playwright/test';
+import { file, openSqueeze, pgm, png, squeezed, yaml } from './squeeze-support.js';
+import { STILL, boxOf, frames, pictureOf, pixelsOf, test } from './support.js';
+
+/**
+ * @typedef {import('./squeeze-support.js').MapFile} MapFile
+ * @typedef {import('./squeeze-support.js').MapSqueezeElement} MapSqueezeElement
+ * @typedef {import('@playwright/test').Locator} Locator
+ */
+
+test.use(STILL);
+
+const ROOM = {
+  bounds: [0, 0, 6, 4],
+  walls: [[0, 0, 6, 0], [6, 0, 6, 4], [6, 4, 0, 4], [0, 4, 0, 0], [3, 0, 3, 1.5]],
+};
+
+/** A room of 60 × 40 cells whose border is occupied. */
+const COLUMNS = 60;
+const ROWS = 40;
+const border = (/** @type {number} */ column, /** @type {number} */ row) =>
+  column === 0 || row === 0 || column === COLUMNS - 1 || row === ROWS - 1;
+
+const FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
+
+const complaint = (/** @type {Locator} */ widget) => widget.locator('.own-map .note');
+const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
+
+/**
+ * @param {Locator} widget
+ * @param {MapFile[]} files
+ */
+function choose(widget, files) {
+  return widget.getByLabel('Map files').setInputFiles(files);
+}
+
+test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await pictureOf(widget.locator('canvas.plane'));
+  await widget.getByRole('button', { name: 'Open corridor' }).click();
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
+  const { bounds, walls, startFree, freePoint, config, shown } = await squeezed(widget);
+  expect(bounds).toEqual(ROOM.bounds);
+  expect(walls).toEqual(ROOM.walls.flat());
+  // (1.4, 4.4) is outside of it.
+  expect(startFree).toBe(true);
+  expect([config.start.x, config.start.y]).toEqual(freePoint);
+  expect(shown).toBe(config.samples);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /room\.json/);
+
+  await widget.getByRole('button', { name: 'Back to the apartment' }).click();
+  expect((await squeezed(widget)).bounds).toEqual([0, 0, 12, 9]);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(before);
+});
+
+test('a robot that has room in a floor plan stays where it is', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toContainText('room.json');
+  expect((await squeezed(widget)).config.start).toEqual({ x: 2.05, y: 2.6, theta: Math.PI / 2 });
+});
+
+test('a floor plan can be written on the page', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const field = widget.getByLabel('Or a floor plan here');
+  const use = widget.getByRole('button', { name: 'Use this plan' });
+  // The example in the field is one.
+  await use.click();
+  await expect(present(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
+  await field.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
+  await use.click();
+  await expect(complaint(widget)).toHaveText(/^Pasted plan, line 2: this is not JSON \(.+\); expected is \{"bounds": .+ in metres\.$/);
+  expect((await squeezed(widget)).bounds).toEqual([0, 0, 6, 4]);
+  await field.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
+  await use.click();
+  await expect(complaint(widget)).toBeHidden();
+  expect((await squeezed(widget)).walls).toEqual([0, 0, 3, 3]);
+});
+
+test('a map_server pair can be dropped on the floor plan', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const files = [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)];
+  await widget.locator('.stage').evaluate(
+    (stage, given) => {
+      const dataTransfer = new DataTransfer();
+      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      const over = new DragEvent('dragover', { dataTransfer, cancelable: true });
+      stage.dispatchEvent(over);
+      if (!over.defaultPrevented || !stage.classList.contains('dropping')) throw new Error('It does not take files.');
+      stage.dispatchEvent(new DragEvent('drop', { dataTransfer, cancelable: true }));
+      if (stage.classList.contains('dropping')) throw new Error('It is still marked.');
+    },
+    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+  );
+  await expect(present(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
+  const { bounds, walls, startFree, config, freePoint } = await squeezed(widget);
+  expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
+  // The outside of the border and its inside.
+  expect(walls).toHaveLength(8 * 4);
+  expect(startFree).toBe(true);
+  expect([config.start.x, config.start.y]).toEqual(freePoint);
+  expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
+});
+
+test.describe('occupancy grids', () => {
+  /** @type {Record<string, { files: MapFile[], bounds: number[], walls: number }>} */
+  const maps = {
+    'of 0.03 m, with a yaw': {
+      files: [
+        yaml('room.yaml', { ...FIELDS, resolution: 0.03, origin: `[1.0, 2.0, ${Math.PI / 2}]` }),
+        pgm('room.pgm', COLUMNS, ROWS, border),
+      ],
+      bounds: [1 - 0.03 * ROWS, 2, 1, 2 + 0.03 * COLUMNS],
+      walls: 8,
+    },
+    'as PNG, in a directory': {
+      files: [yaml('map.yml', { ...FIELDS, image: 'maps/room.png' }), png('room.png', COLUMNS, ROWS, border)],
+      bounds: [0, 0, 3, 2],
+      walls: 8,
+    },
+    'in mode scale, transparent where nothing is known': {
+      files: [
+        yaml('room.yaml', { ...FIELDS, image: 'room.png', mode: 'scale' }),
+        png('room.png', COLUMNS, ROWS, border, (column) => column < 30),
+      ],
+      bounds: [0, 0, 3, 2],
+      // A bracket, open to the left: its outline has eight sides.
+      walls: 8,
+    },
+    'in mode raw': {
+      files: [
+        yaml('room.yaml', { ...FIELDS, mode: 'raw' }),
+        pgm('room.pgm', COLUMNS, ROWS, border, { black: 100, white: 0 }),
+      ],
+      bounds: [0, 0, 3, 2],
+      walls: 8,
+    },
+    negated: {
+      files: [
+        yaml('room.yaml', { ...FIELDS, negate: 1 }),
+        pgm('room.pgm', COLUMNS, ROWS, border, { black: 254, white: 0 }),
+      ],
+      bounds: [0, 0, 3, 2],
+      walls: 8,
+    },
+    'of 1000 × 1600 cells': {
+      files: [
+        yaml('hall.yaml', { ...FIELDS, image: 'hall.pgm', origin: '[-25, -40, 0]' }),
+        // 20 000 posts besides the border.
+        pgm('hall.pgm', 1000, 1600, (c, r) => c === 0 || r === 0 || c === 999 || r === 1599 || (c % 10 === 5 && r % 8 === 4)),
+      ],
+      bounds: [-25, -40, 25, 40],
+      walls: 8 + 4 * 20_000,
+    },
+  };
+  for (const [name, { files, bounds, walls }] of Object.entries(maps)) {
+    test(name, async ({ page }) => {
+      const widget = await openSqueeze(page);
+      await choose(widget, files);
+      await expect(present(widget)).toContainText(files[0].name);
+      await expect(complaint(widget)).toBeHidden();
+      const now = await squeezed(widget);
+      for (const [i, bound] of now.bounds.entries()) expect(bound).toBeCloseTo(bounds[i], 9);
+      expect(now.walls).toHaveLength(4 * walls);
+      expect(now.startFree).toBe(true);
+      expect(now.stats.drawn).toBe(now.config.samples);
+    });
+  }
+});
+
+test.describe('malformed maps', () => {
+  const image = pgm('room.pgm', COLUMNS, ROWS, border);
+  const good = yaml('room.yaml', FIELDS);
+  const broken = png('room.png', COLUMNS, ROWS, border);
+  /** @type {[string, MapFile[], RegExp][]} */
+  const cases = [
+    ['a comma missing', [file('plan.json', '{\n"bounds": [0, 0, 1, 1]\n"walls": []}')], /^plan\.json, line 3: this is not JSON .*; expected is \{"bounds"/],
+    ['cut short', [file('plan.json', '{"bounds": [0, 0, 1, 1],\n"walls": [[0,')], /^plan\.json, line 2: this is not JSON/],
+    ['empty', [file('plan.json', '')], /^plan\.json: this is not JSON/],
+    ['another shape', [file('plan.json', '"walls"')], /^plan\.json: plan is "walls"; allowed is an object with keys from bounds, walls; a floor plan is/],
+    ['no bounds', [file('plan.json', '{"walls": []}')], /^plan\.json: bounds is missing; allowed is an array of 4 numbers/],
+    ['a wall of three numbers', [file('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [[0, 0, 1, 1], [0, 0, 1]]}')], /^plan\.json: walls\[1\] has length 3; allowed is an array of 4 numbers/],
+    ['a wall outside', [file('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [[0, 0, 2, 1]]}')], /^plan\.json: walls\[0\] ends at .*; allowed is a point inside the bounds/],
+    ['broken YAML', [file('room.yaml', 'image: room.pgm\nresolution: 0.05\norigin: [0, 0\nnegate: 0\n'), image], /^room\.yaml, line 4: this is not YAML .*; expected is one field a line/],
+    ['YAML without fields', [file('room.yaml', 'room\n'), image], /^room\.yaml: there are no fields in it; expected are/],
+    ['no image named', [yaml('room.yaml', { resolution: 0.05 }), image], /^room\.yaml: image is missing; expected is the name/],
+    ['no resolution', [yaml('room.yaml', { image: 'room.pgm', origin: '[0, 0, 0]' }), image], /^room\.yaml: resolution is missing; allowed is a number/],
+    ['a resolution of 0', [yaml('room.yaml', { ...FIELDS, resolution: 0 }), image], /^room\.yaml: resolution is 0; allowed is a number from 0\.001/],
+    ['an origin without yaw', [yaml('room.yaml', { ...FIELDS, origin: '[0, 0]' }), image], /^room\.yaml: origin has length 2; allowed is an array of 3 numbers/],
+    ['negate as a word', [yaml('room.yaml', { ...FIELDS, negate: 'maybe' }), image], /^room\.yaml: negate is "maybe"; allowed is/],
+    ['an unknown mode', [yaml('room.yaml', { ...FIELDS, mode: 'binary' }), image], /^room\.yaml: mode is "binary"; allowed is "trinary" or "scale" or "raw"/],
+    ['thresholds crossed', [yaml('room.yaml', { ...FIELDS, free_thresh: 0.9 }), image], /^room\.yaml: free_thresh is above occupied_thresh/],
+    ['an image not there', [good], /^room\.yaml: image names room\.pgm, which is not there; expected are both files/],
+    ['another image', [good, pgm('hall.pgm', 3, 3, () => false)], /^room\.yaml: image names room\.pgm, which is not there \(hall\.pgm came instead\)/],
+    ['an image alone', [image], /^room\.pgm: an image alone has no scale; expected is its \.yaml/],
+    ['not a PGM', [good, file('room.pgm', 'JFIF')], /^room\.pgm, line 1: the magic number is not as expected: P5 or P2/],
+    ['a PGM of no width', [good, file('room.pgm', 'P5\n# a\nwide 40\n255\n')], /^room\.pgm, line 3: the width is not as expected: a whole number/],
+    ['a PGM cut short', [good, file('room.pgm', 'P5\n60 40\n255\nabc')], /^room\.pgm, line 3: the raster is not as expected: 2400 bytes after the header, and there are 3/],
+    ['not a PNG', [yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', 'GIF89a')], /^room\.png: its first bytes are not those of a PNG image; expected is PNG/],
+    ['a PNG cut short', [yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', broken.buffer.subarray(0, 40))], /^room\.png: the image data cannot be decoded; expected is a complete PNG/],
+    ['a PNG too large to unpack', [yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', enormous(broken.buffer))], /^room\.png: width × height is 100000 × 100000; expected are sides up to/],
+    ['another kind of file', [file('room.txt', 'a room')], /^room\.txt: this kind of file is not read; expected is a \.json floor plan/],
+    ['two maps', [good, image, file('plan.json', JSON.stringify(ROOM))], /^plan\.json, room\.yaml: these are 2 maps; expected is one at a time/],
+  ];
+
+  test('each is refused in a sentence, and the present map stays', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const before = await squeezed(widget);
+    const picture = await pictureOf(widget.locator('canvas.plane'));
+    for (const [name, files, sentence] of cases) {
+      await choose(widget, files);
+      await expect(complaint(widget), name).toHaveText(sentence);
+      expect(((await complaint(widget).textContent()) ?? '').match(/\.$/), name).not.toBeNull();
+      expect(await squeezed(widget), name).toEqual(before);
+    }
+    expect(await pictureOf(widget.locator('canvas.plane'))).toBe(picture);
+    await expect(present(widget)).toContainText('The apartment');
+    expect((await new AxeBuilder({ page }).include('map-squeeze').analyze()).violations).toEqual([]);
+
+    await choose(widget, [good, image]);
+    await expect(present(widget)).toContainText('room.yaml');
+    await expect(complaint(widget)).toBeHidden();
+  });
+});
+
+test('the map survives the element’s removal', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toContainText('room.json');
+  const before = await squeezed(widget);
+  await widget.evaluate(async (element) => {
+    Object.assign(window, { kept: element });
+    element.remove();
+    await new Promise(requestAnimationFrame);
+  });
+  await page.evaluate(() => document.querySelector('main')?.append(Reflect.get(window, 'kept')));
+  await expect(present(widget)).toContainText('room.json');
+  expect(await squeezed(widget)).toEqual(before);
+});
+
+test.describe('the page', () => {
+  for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+    test(`has no accessibility violations in ${colorScheme}`, async ({ page }) => {
+      await page.emulateMedia({ colorScheme });
+      const widget = await openSqueeze(page);
+      await widget.getByLabel('sub-stepped').check();
+      await expect(widget.locator('.table')).toHaveAttribute('aria-busy', 'false');
+      expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
+    });
+  }
+
+  test('repaints when the colour scheme changes', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const canvas = widget.locator('canvas.plane');
+    const light = await pictureOf(canvas);
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await expect.poll(() => pictureOf(canvas)).not.toBe(light);
+    await page.emulateMedia({ colorScheme: 'light' });
+    await expect.poll(() => pictureOf(canvas)).toBe(light);
+  });
+
+  test('fits a phone: nothing to scroll sideways, and targets for a finger', async ({ page }) => {
+    await page.setViewportSize({ width: 375, height: 812 });
+    const widget = await openSqueeze(page);
+    await widget.getByLabel('sub-stepped').check();
+    // At the right edge the handle ahead of the robot has no room to the right.
+    await widget.getByRole('button', { name: 'Open corridor' }).click();
+    for (let i = 0; i < 10; i++) await widget.getByRole('slider', { name: 'Robot', exact: true }).press('ArrowRight');
+    await frames(page);
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    expect(overflow).toBeLessThanOrEqual(0);
+    const targets = widget.locator('button, input, textarea, label:has(input), .handle');
+    for (const target of await targets.all()) {
+      const inLabel = await target.evaluate((element) => element.matches('label input'));
+      if (inLabel) continue;
+      const { width, height } = await boxOf(target);
+      expect(Math.min(width, height), await target.evaluate((e) => e.outerHTML)).toBeGreaterThanOrEqual(24);
+    }
+  });
+
+  test('closes in on the robot and back', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const canvas = widget.locator('canvas.plane');
+    const whole = await pictureOf(canvas);
+    await widget.getByLabel('close-up').check();
+    expect(await pictureOf(canvas)).not.toBe(whole);
+    await widget.getByLabel('whole map').check();
+    expect(await pictureOf(canvas)).toBe(whole);
+  });
+});
+
+/**
+ * The image with a header that says it is huge.
+ *
+ * @param {Buffer} image
+ */
+function enormous(image) {
+  const copy = Buffer.from(image);
+  copy.writeUInt32BE(100_000, 16);
+  copy.writeUInt32BE(100_000, 20);
+  return copy;
+}

@@ -1,0 +1,159 @@
+/**
+ * What the tests of Map Squeeze share: the widget on its page, what its machine says, and map files.
+ *
+ * @module
+ */
+
+import { deflateSync } from 'node:zlib';
+import { expect } from '@playwright/test';
+import { frames } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('../../www/types.d.ts').MapSqueeze} MapSqueeze
+ * @typedef {import('../../www/types.d.ts').Motion} Motion
+ * @typedef {HTMLElement & { machine: MapSqueeze, motion: Motion }} MapSqueezeElement
+ * @typedef {{ name: string, mimeType: string, buffer: Buffer }} MapFile
+ * @typedef {(column: number, row: number) => boolean} Occupied by column and row from the top left
+ */
+
+/**
+ * The page, with the widget running.
+ *
+ * @param {Page} page
+ * @returns {Promise<Locator>}
+ */
+export async function openSqueeze(page) {
+  await page.goto('/');
+  const widget = page.locator('map-squeeze');
+  await expect(widget.getByRole('button', { name: 'Facing a doorway' })).toBeVisible();
+  await widget.scrollIntoViewIfNeeded();
+  await frames(page);
+  return widget;
+}
+
+/**
+ * What the machine behind the widget says now.
+ *
+ * @param {Locator} widget
+ */
+export async function squeezed(widget) {
+  await frames(widget.page());
+  return widget.evaluate((element) => {
+    const { machine } = /** @type {MapSqueezeElement} */ (element);
+    const { config, shown, stats, plan, startFree, freePoint } = machine;
+    return {
+      config,
+      shown,
+      stats,
+      startFree,
+      freePoint,
+      bounds: [...plan.bounds],
+      walls: [...plan.walls],
+      poses: [...machine.poses],
+      verdicts: [...machine.verdicts],
+    };
+  });
+}
+
+/**
+ * @param {string} name
+ * @param {string | Uint8Array} contents
+ * @returns {MapFile}
+ */
+export function file(name, contents) {
+  return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(contents) };
+}
+
+/**
+ * A map's YAML file.
+ *
+ * @param {string} name
+ * @param {Record<string, unknown>} fields
+ */
+export function yaml(name, fields) {
+  return file(name, Object.entries(fields).map(([key, value]) => `${key}: ${value}\n`).join(''));
+}
+
+/**
+ * @param {string} name
+ * @param {number} columns
+ * @param {number} rows
+ * @param {Occupied} occupied
+ * @param {{ black?: number, white?: number }} [shades]
+ */
+export function pgm(name, columns, rows, occupied, { black = 0, white = 254 } = {}) {
+  const pixels = shadesOf(columns, rows, occupied, black, white);
+  const header = `P5\n# by hand\n${columns} ${rows}\n# and another comment\n255\n`;
+  return file(name, Buffer.concat([Buffer.from(header), pixels]));
+}
+
+/**
+ * A PNG image in shades of grey, with or without opacity.
+ *
+ * @param {string} name
+ * @param {number} columns
+ * @param {number} rows
+ * @param {Occupied} occupied
+ * @param {Occupied} [transparent]
+ */
+export function png(name, columns, rows, occupied, transparent) {
+  const pixels = shadesOf(columns, rows, occupied, 0, 254);
+  const samples = transparent ? 2 : 1;
+  const raster = Buffer.alloc(rows * (1 + columns * samples));
+  for (let row = 0; row < rows; row++) {
+    for (let column = 0; column < columns; column++) {
+      const at = row * (1 + columns * samples) + 1 + column * samples;
+      raster[at] = pixels[row * columns + column];
+      if (transparent) raster[at + 1] = transparent(column, row) ? 0 : 255;
+    }
+  }
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(columns, 0);
+  header.writeUInt32BE(rows, 4);
+  header.set([8, transparent ? 4 : 0, 0, 0, 0], 8);
+  const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+  return file(
+    name,
+    Buffer.concat([signature, chunk('IHDR', header), chunk('IDAT', deflateSync(raster)), chunk('IEND', Buffer.alloc(0))]),
+  );
+}
+
+/**
+ * @param {number} columns
+ * @param {number} rows
+ * @param {Occupied} occupied
+ * @param {number} black
+ * @param {number} white
+ */
+function shadesOf(columns, rows, occupied, black, white) {
+  const pixels = Buffer.alloc(columns * rows, white);
+  for (let i = 0; i < pixels.length; i++) {
+    if (occupied(i % columns, Math.floor(i / columns))) pixels[i] = black;
+  }
+  return pixels;
+}
+
+/**
+ * @param {string} type
+ * @param {Buffer} data
+ */
+function chunk(type, data) {
+  const body = Buffer.concat([Buffer.from(type), data]);
+  const framed = Buffer.alloc(body.length + 8);
+  framed.writeUInt32BE(data.length, 0);
+  body.copy(framed, 4);
+  framed.writeUInt32BE(crc32(body), body.length + 4);
+  return framed;
+}
+
+/** @param {Buffer} bytes */
+function crc32(bytes) {
+  let crc = 0xffffffff;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let bit = 0; bit < 8; bit++) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return (crc ^ 0xffffffff) >>> 0;
+}

@@ -1,0 +1,363 @@
+import { expect } from '@playwright/test';
+import { openSqueeze, squeezed } from './squeeze-support.js';
+import { STILL, centreOf, dragSlider, frames, numberIn, pictureOf, readout, test } from './support.js';
+
+/**
+ * @typedef {import('./squeeze-support.js').MapSqueezeElement} MapSqueezeElement
+ * @typedef {import('../../www/types.d.ts').SqueezeSettings} Settings
+ * @typedef {import('@playwright/test').Locator} Locator
+ */
+
+/** As DESIGN's apartment has them. */
+const PRESETS = {
+  'Facing a doorway': { x: 2.05, y: 2.6, theta: Math.PI / 2 },
+  'Facing a wall': { x: 3.3, y: 2.6, theta: Math.PI / 2 },
+  'Open corridor': { x: 1.4, y: 4.4, theta: 0 },
+};
+
+const body = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
+const turn = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
+
+test.describe('the robot', () => {
+  test.use(STILL);
+
+  test('opens facing the doorway, and presets set the place alone', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const { config, shown } = await squeezed(widget);
+    expect(config).toMatchObject({
+      start: PRESETS['Facing a doorway'],
+      command: { v: 1, omega: 0, dt: 2 },
+      alphas: [0.12, 0.12, 0.12, 0.12, 0.03, 0.03],
+      clearance: 0.13,
+      conditioned: true,
+      sampler: 'endpoint',
+    });
+    expect(shown).toBe(config.samples);
+    for (const [name, start] of Object.entries(PRESETS)) {
+      const button = widget.getByRole('button', { name });
+      await button.click();
+      expect((await squeezed(widget)).config).toEqual({ ...config, start });
+      await expect(button).toHaveAttribute('aria-pressed', 'true');
+    }
+  });
+
+  test('is dragged by its body and stays under the pointer', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const from = await centreOf(body(widget));
+    const before = await squeezed(widget);
+    const pixels = await pictureOf(widget.locator('canvas.plane'));
+    // Held beside its centre: it does not jump there.
+    await page.mouse.move(from.x + 5, from.y + 3);
+    await page.mouse.down();
+    await page.mouse.move(from.x + 65, from.y - 37, { steps: 5 });
+    const held = await squeezed(widget);
+    const at = await centreOf(body(widget));
+    expect(Math.abs(at.x - from.x - 60)).toBeLessThan(1);
+    expect(Math.abs(at.y - from.y + 40)).toBeLessThan(1);
+    const [perX, perY] = [(held.config.start.x - 2.05) / 60, (held.config.start.y - 2.6) / 40];
+    expect(perX).toBeGreaterThan(0);
+    expect(Math.abs(perX / perY - 1)).toBeLessThan(1 / 40);
+    expect(held.config.start.theta).toBe(before.config.start.theta);
+    await page.mouse.up();
+    expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pixels);
+    await expect(widget.locator('p[role=status]')).toContainText(`${held.stats.accepted} accepted`);
+  });
+
+  test('is turned by the handle ahead of it', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const [centre, from] = [await centreOf(body(widget)), await centreOf(turn(widget))];
+    expect(Math.abs(from.x - centre.x)).toBeLessThan(1);
+    expect(centre.y - from.y).toBeGreaterThan(20);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(centre.x + 80, centre.y, { steps: 5 });
+    await page.mouse.up();
+    const { config } = await squeezed(widget);
+    // The pointer's place is exact to half a pixel of eighty.
+    expect(Math.abs(config.start.theta)).toBeLessThan(1 / 80);
+    expect(config.start).toMatchObject({ x: 2.05, y: 2.6 });
+    const to = await centreOf(turn(widget));
+    expect(to.x - centre.x).toBeGreaterThan(20);
+  });
+
+  test('moves and turns by keyboard', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    let { start } = (await squeezed(widget)).config;
+    const degrees5 = Math.PI / 36;
+    const keys = /** @type {const} */ ([
+      [body, 'ArrowRight', 0.05, 0, 0],
+      [body, 'ArrowLeft', -0.05, 0, 0],
+      [body, 'ArrowUp', 0, 0.05, 0],
+      [body, 'ArrowDown', 0, -0.05, 0],
+      [body, '[', 0, 0, degrees5],
+      [body, ']', 0, 0, -degrees5],
+      [body, 'Shift+ArrowLeft', 0, 0, degrees5],
+      [body, 'Shift+ArrowRight', 0, 0, -degrees5],
+      [turn, 'ArrowUp', 0, 0, degrees5],
+      [turn, 'ArrowRight', 0, 0, -degrees5],
+    ]);
+    for (const [part, key, dx, dy, dTheta] of keys) {
+      await part(widget).press(key);
+      const next = (await squeezed(widget)).config.start;
+      expect(next.x - start.x, key).toBeCloseTo(dx, 9);
+      expect(next.y - start.y, key).toBeCloseTo(dy, 9);
+      expect(next.theta - start.theta, key).toBeCloseTo(dTheta, 9);
+      start = next;
+    }
+    await expect(body(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
+    await expect(turn(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
+  });
+
+  test('stays inside the map', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const { x, y } = await centreOf(body(widget));
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(1, y, { steps: 3 });
+    await page.mouse.up();
+    expect((await squeezed(widget)).config.start.x).toBe(0);
+  });
+
+  test('is configured and drawn once a frame, however often the pointer moves', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const { x, y } = await centreOf(body(widget));
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    const calls = await body(widget).evaluate(async (handle, from) => {
+      const root = /** @type {ShadowRoot} */ (handle.getRootNode());
+      const { machine } = /** @type {MapSqueezeElement} */ (root.host);
+      const configure = machine.configure.bind(machine);
+      let count = 0;
+      machine.configure = (settings) => (count++, configure(settings));
+      for (let i = 1; i <= 12; i++) {
+        handle.dispatchEvent(new PointerEvent('pointermove', { clientX: from.x + 2 * i, clientY: from.y }));
+      }
+      await new Promise(requestAnimationFrame);
+      await new Promise(requestAnimationFrame);
+      return count;
+    }, { x, y });
+    await page.mouse.up();
+    expect(calls).toBe(1);
+  });
+});
+
+test.describe('judging', () => {
+  test.use(STILL);
+
+  test('conditioning changes verdicts and not draws', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const on = await squeezed(widget);
+    await widget.getByLabel('Condition on it').uncheck();
+    const off = await squeezed(widget);
+    expect(off.poses).toEqual(on.poses);
+    expect(off.verdicts).not.toEqual(on.verdicts);
+    expect(off.stats.accepted).toBe(off.config.samples);
+    await widget.getByLabel('Condition on it').check();
+    expect(await squeezed(widget)).toEqual(on);
+  });
+
+  test('each sampler judges as it says, and the figures are the machine’s', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const names = { endpoint: 'endpoint', 'whole arc': 'whole-arc', 'sub-stepped': 'sub-stepped' };
+    for (const preset of ['Facing a wall', 'Facing a doorway']) {
+      await widget.getByRole('button', { name: preset }).click();
+      for (const [label, sampler] of Object.entries(names)) {
+        await widget.getByLabel(label, { exact: true }).check();
+        const { config, stats, verdicts } = await squeezed(widget);
+        expect(config.sampler).toBe(sampler);
+        const through = verdicts.filter((verdict) => (verdict & 4) !== 0 && (verdict & 2) === 0).length;
+        expect(through).toBe(stats.throughWall);
+        if (sampler === 'whole-arc') expect(through).toBe(0);
+        else expect(through).toBeGreaterThan(50);
+
+        const shown = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
+        expect(await shown(/^drawn\d/)).toBe(stats.drawn);
+        expect(await shown(/^accepted\d/)).toBe(stats.accepted);
+        expect(await shown('accepted through a wall')).toBe(stats.throughWall);
+        expect(await shown('acceptance rate')).toBeCloseTo(100 * stats.acceptanceRate, 1);
+        expect(await shown('draws per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
+        expect(await shown('wall tests per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
+        const share = (await readout(widget, 'share of the accepted').textContent()) ?? '';
+        const [rate, low, high] = [...share.matchAll(/[\d.]+/g)].map(Number);
+        expect(rate).toBeCloseTo(100 * stats.throughWallRate, 1);
+        expect(low).toBeCloseTo(100 * stats.throughWallInterval[0], 1);
+        expect(high).toBeCloseTo(100 * stats.throughWallInterval[1], 1);
+      }
+    }
+  });
+
+  test('paths are bounded, and the readout says so', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    await widget.getByRole('button', { name: 'Facing a wall' }).click();
+    const { stats } = await squeezed(widget);
+    expect(stats.throughWall).toBeGreaterThan(150);
+    await expect(readout(widget, 'drawn with their path')).toHaveText('the first 150');
+    await widget.getByLabel('whole arc').check();
+    await expect(readout(widget, 'drawn with their path')).toHaveText('0');
+  });
+
+  test('sliders set the command, the noise, the clearance, k and the count', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    await widget.getByLabel('sub-stepped').check();
+    const keys = /** @type {const} */ ([
+      ['v,', (/** @type {Settings} */ config) => config.command.v],
+      ['ω,', (/** @type {Settings} */ config) => config.command.omega],
+      ['Δt,', (/** @type {Settings} */ config) => config.command.dt],
+      ['n, noise', (/** @type {Settings} */ config) => config.alphas[3]],
+      ['r, clearance', (/** @type {Settings} */ config) => config.clearance],
+      ['k, parts', (/** @type {Settings} */ config) => config.steps],
+    ]);
+    for (const [name, of] of keys) {
+      const slider = widget.getByRole('slider', { name });
+      await dragSlider(slider, 0.6);
+      const value = Number(await slider.inputValue());
+      expect(value).toBeGreaterThan(0);
+      expect(of((await squeezed(widget)).config), name).toBeCloseTo(value, 12);
+    }
+    const { alphas } = (await squeezed(widget)).config;
+    expect(alphas[5]).toBeCloseTo(alphas[0] / 4, 12);
+    await widget.getByRole('slider', { name: 'N, samples' }).press('ArrowRight');
+    const { config, shown } = await squeezed(widget);
+    expect(config.samples).toBe(1000);
+    expect(shown).toBe(1000);
+  });
+
+  test('every cost is that of the sampler, and a core’s share follows from it', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    await widget.getByRole('button', { name: 'Facing a wall' }).click();
+    // From then on the figures before are out of date.
+    await frames(page);
+    const table = widget.locator('.table');
+    await expect(table).toHaveAttribute('aria-busy', 'false');
+    const rows = await table.locator('tbody tr').evaluateAll((all) =>
+      all.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
+    );
+    expect(rows).toHaveLength(3);
+    const [endpoint, wholeArc, subStepped] = rows.map((row) => row.map(numberIn));
+    // Accepted are 83 % of the draws at the end, and 11 % on the way; four parts take four draws and more.
+    expect(endpoint[0]).toBeCloseTo(1.2, 1);
+    expect(wholeArc[0]).toBeGreaterThan(7);
+    expect(subStepped[0]).toBeGreaterThan(4);
+    for (const [, , micros, share] of [endpoint, wholeArc, subStepped]) {
+      expect(micros).toBeGreaterThan(0);
+      // 2000 at 20 Hz: 4 % of a core a microsecond; both are rounded as they are printed.
+      expect(Math.abs(share - 4 * micros)).toBeLessThan(4 * 0.05 + 0.06);
+    }
+  });
+
+  test('a wedged robot is said to be one, with the draws that were tried', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const note = widget.locator('.floor .note');
+    await expect(note).toBeHidden();
+    await widget.getByRole('button', { name: 'Facing a wall' }).click();
+    await widget.getByLabel('sub-stepped').check();
+    const steps = widget.getByRole('slider', { name: 'k, parts' });
+    await steps.fill('32');
+    const { stats, config } = await squeezed(widget);
+    expect(config.steps).toBe(32);
+    expect(stats.gaveUp).toBe(true);
+    await expect(note).toContainText('The robot is wedged');
+    const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
+    expect(tried).toContain(`${stats.drawn} draws`);
+
+    // Into the wall: no way from there is free.
+    await widget.getByLabel('whole arc').check();
+    const { x, y } = await centreOf(body(widget));
+    const up = 1.2 * (await pixelsPerMetre(widget));
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x, y - up, { steps: 4 });
+    await page.mouse.up();
+    const blocked = await squeezed(widget);
+    expect(blocked.startFree).toBe(false);
+    expect(blocked.stats.accepted).toBe(0);
+    await expect(note).toHaveText('Nothing was accepted: of the 600 draws that were tried, none touches no wall on its way.');
+    await expect(widget.locator('p[role=status]')).toContainText('Nothing was accepted');
+    await expect(readout(widget, 'share of the accepted')).toHaveText('—');
+    const table = widget.locator('.table');
+    await expect(table).toHaveAttribute('aria-busy', 'false');
+    await expect(table.locator('tbody tr').nth(1).locator('td')).toHaveText(['—', '—', '—', '—']);
+  });
+
+  test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const { verdicts, poses } = await squeezed(widget);
+    const through = verdicts.indexOf(5);
+    const rejected = verdicts.findIndex((verdict) => (verdict & 4) === 0);
+    const field = widget.getByRole('spinbutton', { name: 'Sample' });
+    const output = widget.locator('.marked output');
+    const canvas = widget.locator('canvas.plane');
+    const plain = await pictureOf(canvas);
+
+    await field.fill(String(through + 1));
+    await expect(output).toHaveText('accepted through a wall: free at the end, but it touches a wall on the way');
+    expect(await pictureOf(canvas)).not.toBe(plain);
+    await field.fill(String(rejected + 1));
+    await expect(output).toHaveText('rejected: the robot does not fit where it ends');
+    await field.fill(String(verdicts.indexOf(7) + 1));
+    await expect(output).toHaveText('accepted: free at the end and all along the way');
+    await field.fill('');
+    expect(await pictureOf(canvas)).toBe(plain);
+
+    // The sample furthest to the right, where no other is nearer.
+    let last = 0;
+    for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * last]) last = i;
+    const { x, y } = await centreOf(body(widget));
+    const metre = await pixelsPerMetre(widget);
+    await page.mouse.move(x + (poses[3 * last] - 2.05) * metre, y - (poses[3 * last + 1] - 2.6) * metre);
+    await expect(field).toHaveValue(String(last + 1));
+  });
+
+  test('the picture and the announcements have words', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const { stats } = await squeezed(widget);
+    const canvas = widget.locator('canvas.plane');
+    await expect(canvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
+    await expect(canvas).toHaveAttribute('aria-label', new RegExp(`${stats.throughWall} of those through a wall`));
+    await widget.getByLabel('whole arc').check();
+    const after = (await squeezed(widget)).stats;
+    await expect(widget.locator('p[role=status]')).toHaveText(`600 drawn, ${after.accepted} accepted, 0 of them through a wall: 0.0\u202f%.`);
+  });
+});
+
+test.describe('growth', () => {
+  test('plays by itself, pauses, steps, resets and takes another seed', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    await widget.getByRole('button', { name: 'Pause' }).click();
+    const paused = await squeezed(widget);
+    expect(paused.shown).toBeLessThan(paused.config.samples);
+    await frames(page);
+    expect((await squeezed(widget)).shown).toBe(paused.shown);
+    await widget.getByRole('button', { name: 'Step' }).click();
+    const stepped = await squeezed(widget);
+    expect(stepped.shown).toBe(paused.shown + 4);
+    expect(stepped.poses.slice(0, paused.poses.length)).toEqual(paused.poses);
+    await widget.getByRole('button', { name: 'Reset' }).click();
+    expect((await squeezed(widget)).shown).toBe(0);
+    await widget.getByRole('button', { name: 'Play' }).click();
+    await expect(widget.getByRole('button', { name: 'Pause' })).toBeVisible();
+    await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible({ timeout: 20_000 });
+    const whole = await squeezed(widget);
+    expect(whole.shown).toBe(whole.config.samples);
+    expect(whole.poses.slice(0, stepped.poses.length)).toEqual(stepped.poses);
+    await widget.getByRole('button', { name: 'New seed' }).click();
+    const other = await squeezed(widget);
+    expect(other.config.seed).not.toBe(whole.config.seed);
+    expect(other.poses).not.toEqual(whole.poses);
+  });
+});
+
+/**
+ * How many pixels a metre is, by how far ten presses of a key move the robot.
+ *
+ * @param {Locator} widget
+ */
+async function pixelsPerMetre(widget) {
+  const from = await centreOf(body(widget));
+  for (let i = 0; i < 10; i++) await body(widget).press('ArrowRight');
+  await frames(widget.page());
+  const to = await centreOf(body(widget));
+  for (let i = 0; i < 10; i++) await body(widget).press('ArrowLeft');
+  await frames(widget.page());
+  return (to.x - from.x) / 0.5;
+}

@@ -1,0 +1,138 @@
+/**
+ * Map Squeeze's figures: the key to the picture, the tally of the draws, the marked one, and what each
+ * sampler costs.
+ *
+ * @module
+ */
+
+import { html } from 'lit';
+import { live } from 'lit/directives/live.js';
+import { inputOf } from '../ui/controls.js';
+import { fixed, percent, whole } from '../ui/format.js';
+import { DEMAND } from './map-squeeze-cost.js';
+import { SAMPLERS, SAMPLER_LABELS, shareText } from './map-squeeze-words.js';
+
+/**
+ * @typedef {import('../types.d.ts').SqueezeStats} Stats
+ * @typedef {import('./map-squeeze-cost.js').CostMeter} CostMeter
+ */
+
+/** What the marks in the picture mean. */
+export function key() {
+  return html`<ul class="key">
+    <li>
+      <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
+      rejected
+    </li>
+    <li>
+      <svg class="accepted" viewBox="0 0 36 20" aria-hidden="true">
+        <circle cx="14" cy="10" r="2" /><path d="M14 10h12" />
+      </svg>
+      accepted, with its heading
+    </li>
+    <li>
+      <svg class="through" viewBox="0 0 36 20" aria-hidden="true">
+        <path d="M1 18Q14 16 26 8" opacity="0.5" />
+        <circle class="dot" cx="26" cy="8" r="2.5" /><circle cx="26" cy="8" r="6" />
+      </svg>
+      accepted through a wall, and the way it took
+    </li>
+    <li>
+      <svg class="commanded" viewBox="0 0 36 20" aria-hidden="true">
+        <path d="M2 10h24" /><circle cx="26" cy="10" r="7" stroke-width="1.5" stroke-dasharray="3 3" />
+      </svg>
+      the command without noise
+    </li>
+  </ul>`;
+}
+
+/**
+ * @param {Stats} stats
+ * @param {number} paths how many paths are drawn
+ */
+export function tally(stats, paths) {
+  const rows = [
+    ['drawn', whole(stats.drawn)],
+    ['accepted', whole(stats.accepted)],
+    ['acceptance rate', percent(stats.acceptanceRate)],
+    ['draws per accepted sample', fixed(stats.drawsPerAccepted, 2)],
+    ['accepted through a wall', whole(stats.throughWall)],
+    ['share of the accepted (95 %)', shareText(stats)],
+    ['of these, drawn with their path', paths < stats.throughWall ? `the first ${whole(paths)}` : whole(paths)],
+    ['wall tests per accepted sample', fixed(stats.wallTestsPerAccepted, 2)],
+  ];
+  return html`<dl class="readouts">
+    ${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
+  </dl>`;
+}
+
+/**
+ * The marked draw, and the way to it from the keyboard.
+ *
+ * @param {object} marked
+ * @param {number} marked.index −1 for none
+ * @param {number} marked.shown draws there are
+ * @param {string} marked.verdict empty for none
+ * @param {(index: number) => void} marked.mark
+ */
+export function markedDraw({ index, shown, verdict, mark }) {
+  return html`<p class="marked">
+    <label>
+      Sample
+      <input
+        id="sample"
+        type="number"
+        min="1"
+        max=${shown}
+        placeholder="1–${shown}"
+        .value=${live(index < 0 ? '' : String(index + 1))}
+        @input=${(/** @type {Event} */ event) => {
+          const value = inputOf(event).valueAsNumber;
+          mark(Number.isInteger(value) && value >= 1 && value <= shown ? value - 1 : -1);
+        }}
+      />
+    </label>
+    <output for="sample">
+      ${verdict || html`<span class="hint">Point at one to see its path and the verdict on it.</span>`}
+    </output>
+  </p>`;
+}
+
+/**
+ * @param {CostMeter} meter
+ * @param {number} steps parts of the sub-stepped sampler
+ */
+export function costTable({ costs, current }, steps) {
+  const name = (/** @type {import('../types.d.ts').SamplerName} */ sampler) =>
+    sampler === 'sub-stepped' ? html`sub-stepped, <i>k</i> = ${steps}` : SAMPLER_LABELS[sampler];
+  return html`<div class="table" aria-busy=${!current}>
+    <table class=${current ? '' : 'outdated'}>
+      <caption>
+        One accepted sample of each sampler under the settings above, timed on this device when
+        nothing moves; and the share of one core that 2000 particles at 20 Hz would take. A dash: the
+        robot is wedged.
+      </caption>
+      <thead>
+        <tr>
+          <th scope="col">sampler</th>
+          <th scope="col">draws</th>
+          <th scope="col">wall tests</th>
+          <th scope="col">µs</th>
+          <th scope="col">of a core</th>
+        </tr>
+      </thead>
+      <tbody>
+        ${SAMPLERS.map((sampler) => {
+          const cost = costs[sampler] ?? { draws: NaN, wallTests: NaN, micros: NaN };
+          return html`<tr>
+            <th scope="row">${name(sampler)}</th>
+            <td>${fixed(cost.draws, 2)}</td>
+            <td>${fixed(cost.wallTests, 2)}</td>
+            <td>${fixed(cost.micros, cost.micros < 10 ? 2 : 1)}</td>
+            <td>${percent(cost.micros * 1e-6 * DEMAND)}</td>
+          </tr>`;
+        })}
+      </tbody>
+    </table>
+  </div>`;
+}

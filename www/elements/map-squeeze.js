@@ -1,0 +1,425 @@
+/**
+ * <map-squeeze>: motion conditioned on a map, and what the condition cannot see.
+ *
+ * @module
+ */
+
+import { html, nothing } from 'lit';
+import { theme } from '../ui/theme.js';
+import { WidgetElement } from './base.js';
+import { cloudControls, judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
+import { CostMeter } from './map-squeeze-cost.js';
+import { MapFileError, readMapFiles, readPlan } from './map-squeeze-files.js';
+import { RobotHandles } from './map-squeeze-handles.js';
+import { FloorPicture, sort } from './map-squeeze-picture.js';
+import { costTable, key, markedDraw, tally } from './map-squeeze-readouts.js';
+import { squeezeStyles } from './map-squeeze-styles.js';
+import { SAMPLERS, announcementOf, mapText, noteOn, pictureText, verdictText } from './map-squeeze-words.js';
+
+/**
+ * @typedef {import('../types.d.ts').MapSqueeze} MapSqueeze
+ * @typedef {import('../types.d.ts').Motion} Motion
+ * @typedef {import('../types.d.ts').SqueezeSettings} Settings
+ * @typedef {import('./map-squeeze-files.js').OwnMap} OwnMap
+ */
+
+/** Steps that a cloud grows in. */
+const BATCHES = 150;
+
+/** How near to a sample the pointer must be to mark it, CSS pixels. */
+const REACH = 12;
+
+/** Paths drawn at most: more would be one blot, and cost more than a frame. */
+const MOST_PATHS = 150;
+
+const APARTMENT = 'The apartment';
+
+/** @extends {WidgetElement<MapSqueeze>} */
+export class MapSqueezeElement extends WidgetElement {
+  static styles = [theme, ...squeezeStyles];
+
+  #playing = false;
+  /** The draw that is marked; −1 for none. */
+  #marked = -1;
+  /** @type {Partial<Settings>} changes that wait for the next frame */
+  #pending = {};
+  /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
+  #figures;
+  #stale = true;
+  #toAnnounce = false;
+  #announcement = '';
+  /** @type {OwnMap | undefined} the reader's; none for the apartment */
+  #map;
+  /** @type {import('../types.d.ts').Plan} */
+  #plan = { bounds: new Float64Array(4), walls: new Float64Array() };
+  #complaint = '';
+  /** The latest attempt to read files: an earlier one that ends later is void. */
+  #reading = 0;
+  #close = false;
+  #picture = new FloorPicture(this.#plan, null);
+  #meter = new CostMeter();
+  #handles = new RobotHandles({
+    view: () => this.#picture.view,
+    start: () => this.#wanted().start,
+    bounds: () => this.#plan.bounds,
+    change: (start) => this.#change({ start }),
+    commit: () => this.#commit(),
+  });
+
+  #actions = {
+    change: (/** @type {import('./map-squeeze-controls.js').Change} */ change) => this.#change(change),
+    commit: () => this.#commit(),
+  };
+
+  /**
+   * @param {Motion} motion
+   * @param {Partial<Settings>} [settings]
+   */
+  createMachine(motion, settings) {
+    return new motion.MapSqueeze(settings);
+  }
+
+  machineReady() {
+    this.#pending = {};
+    this.#marked = -1;
+    const { machine } = this;
+    if (!machine) return;
+    this.#map?.apply(machine);
+    this.#takePlan(machine);
+    if (!this.calm) {
+      machine.restart();
+      this.#playing = true;
+    }
+    this.#read();
+  }
+
+  /** @param {number} elapsed milliseconds */
+  draw(elapsed) {
+    const { machine, palette } = this;
+    if (!machine || !palette) return;
+    this.#configure();
+    if (this.#playing) this.#grow();
+    if (this.#stale) this.#read();
+
+    const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
+    const marked = this.#isMarked
+      ? { pose: figures.poses.subarray(3 * this.#marked), path: machine.path(this.#marked) }
+      : undefined;
+    this.#picture.close = this.#close;
+    const scene = { ...figures, marked };
+    const moving = this.#picture.draw(this.#canvas, scene, palette, elapsed, {
+      still: this.#handles.held !== undefined,
+      atOnce: this.calm,
+    });
+    this.#handles.place(this.renderRoot, figures.config.start, figures.config.clearance);
+    this.requestUpdate();
+    if (moving || this.#playing) this.wake();
+  }
+
+  /** The settings with the changes that wait. @returns {Settings} */
+  #wanted() {
+    const { config } = /** @type {MapSqueeze} */ (this.machine);
+    return { ...config, ...this.#pending };
+  }
+
+  /**
+   * Wants other settings from the next frame on: a drag costs one configuration a frame.
+   *
+   * @param {import('./map-squeeze-controls.js').Change} change
+   */
+  #change(change) {
+    if (!this.machine) return;
+    Object.assign(this.#pending, typeof change === 'function' ? change(this.#wanted()) : change);
+    this.#meter.outdate();
+    this.wake();
+  }
+
+  #configure() {
+    if (Object.keys(this.#pending).length === 0) return;
+    const pending = this.#pending;
+    this.#pending = {};
+    this.machine?.configure(pending);
+    this.#stale = true;
+  }
+
+  /** What was changed has come to rest: put it into effect and say what it led to. */
+  #commit() {
+    this.#configure();
+    this.#toAnnounce = true;
+    this.#stale = true;
+    this.wake();
+  }
+
+  #read() {
+    if (!this.machine) return;
+    this.#figures = read(this.machine);
+    this.#stale = false;
+    if (!this.#playing && this.#handles.held === undefined) this.#measureSoon();
+    if (this.#toAnnounce) {
+      this.#announcement = announcementOf(this.#figures.stats, this.#figures.note);
+      this.#toAnnounce = false;
+    }
+  }
+
+  #measureSoon() {
+    this.#meter.measureSoon(
+      () => this.machine,
+      SAMPLERS,
+      () => this.requestUpdate(),
+    );
+  }
+
+  get #batch() {
+    return Math.ceil((this.machine?.config.samples ?? 0) / BATCHES);
+  }
+
+  #grow() {
+    const { machine } = this;
+    if (!machine) return;
+    this.#stale = true;
+    if (machine.grow(this.#batch) < machine.config.samples && !machine.stats.gaveUp) return;
+    this.#playing = false;
+    this.#toAnnounce = true;
+  }
+
+  #play() {
+    const { machine } = this;
+    if (!machine) return;
+    const complete = machine.shown === machine.config.samples || machine.stats.gaveUp;
+    if (!this.#playing && complete) machine.restart();
+    this.#playing = !this.#playing;
+    this.#commit();
+  }
+
+  #step() {
+    this.#playing = false;
+    this.machine?.grow(this.#batch);
+    this.#commit();
+  }
+
+  #reset() {
+    this.#playing = false;
+    this.machine?.restart();
+    this.#commit();
+  }
+
+  #reseed() {
+    if (!this.motion) return;
+    this.#change({ seed: this.motion.randomSeed() });
+    this.#commit();
+  }
+
+  /** @param {Settings['start']} start in the apartment */
+  #go(start) {
+    this.#setMap(undefined);
+    this.#change({ start });
+    this.#commit();
+  }
+
+  #leaveMap() {
+    const [first] = this.motion?.MapSqueeze.presets ?? [];
+    if (first) this.#go(first.start);
+  }
+
+  /** @param {OwnMap | undefined} map undefined for the apartment */
+  #setMap(map) {
+    const { machine } = this;
+    if (!machine) return;
+    if (map) map.apply(machine);
+    else if (this.#map) machine.setPlan(undefined);
+    this.#complaint = '';
+    if (map === this.#map) return;
+    this.#map = map;
+    this.#takePlan(machine);
+    this.#marked = -1;
+  }
+
+  /** @param {MapSqueeze} machine */
+  #takePlan(machine) {
+    this.#plan = machine.plan;
+    this.#picture = new FloorPicture(this.#plan, machine.grid);
+  }
+
+  /**
+   * Puts the robot into a map of the reader's, or says why not.
+   *
+   * @param {() => OwnMap | Promise<OwnMap>} find
+   */
+  async #openMap(find) {
+    const reading = ++this.#reading;
+    try {
+      const map = await find();
+      if (reading !== this.#reading || !this.machine) return;
+      this.#configure();
+      this.#setMap(map);
+      this.#findRoom();
+      this.#commit();
+    } catch (error) {
+      if (!(error instanceof MapFileError)) throw error;
+      if (reading !== this.#reading) return;
+      this.#complaint = error.message;
+      this.requestUpdate();
+    }
+  }
+
+  /**
+   * Moves the robot to where it fits. In an occupancy grid it does so anyhow: the unknown is free there,
+   * so that a place which is free may lie outside of everything that was mapped.
+   */
+  #findRoom() {
+    const { machine } = this;
+    if (!machine || (machine.startFree && machine.grid === null)) return;
+    const { freePoint, config, plan } = machine;
+    const [left, bottom, right, top] = plan.bounds;
+    const [x, y] = freePoint ?? [(left + right) / 2, (bottom + top) / 2];
+    machine.configure({ start: { ...config.start, x, y } });
+  }
+
+  #paste() {
+    const field = /** @type {HTMLTextAreaElement} */ (this.renderRoot.querySelector('#map-text'));
+    this.#openMap(() => readPlan('Pasted plan', field.value));
+  }
+
+  /** @param {DragEvent} event */
+  #dragOver(event) {
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    event.preventDefault();
+    const stage = /** @type {HTMLElement} */ (event.currentTarget);
+    stage.classList.add('dropping');
+  }
+
+  /** @param {DragEvent} event */
+  #dragEnd(event) {
+    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
+  }
+
+  /** @param {DragEvent} event */
+  #drop(event) {
+    this.#dragEnd(event);
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length === 0) return;
+    event.preventDefault();
+    this.#openMap(() => readMapFiles(files));
+  }
+
+  /** @param {number} index −1 for none */
+  #mark(index) {
+    if (index === this.#marked) return;
+    this.#marked = index;
+    this.wake();
+  }
+
+  get #isMarked() {
+    return this.#marked >= 0 && this.#marked < (this.machine?.shown ?? 0);
+  }
+
+  /** @param {PointerEvent} event */
+  #point(event) {
+    if (!this.machine || this.#handles.held) return;
+    const { view } = this.#picture;
+    const [x, y] = [view.toWorldX(event.offsetX), view.toWorldY(event.offsetY)];
+    const index = this.machine.nearest(x, y, REACH / view.scaleX);
+    if (index >= 0 || event.type === 'pointerdown') this.#mark(index);
+  }
+
+  get #canvas() {
+    return /** @type {HTMLCanvasElement} */ (this.renderRoot.querySelector('canvas.plane'));
+  }
+
+  renderWidget() {
+    const { machine, motion } = this;
+    if (!machine || !motion || !this.#figures) return nothing;
+    const { config, stats, note, verdicts, paths } = this.#figures;
+    const map = mapText(this.#map?.name ?? APARTMENT, this.#plan);
+    const own = this.#map !== undefined;
+    const look = (/** @type {boolean} */ close) => {
+      this.#close = close;
+      this.wake();
+    };
+    return html`
+      <section class="machine" aria-label="Map Squeeze">
+        <div class="floor">
+          ${this.#stage(pictureText(config, stats, map, note))}
+          <p class="note" ?hidden=${note === ''}>${note}</p>
+          ${key()} ${tally(stats, paths.length)}
+          ${markedDraw({
+            index: this.#marked,
+            shown: stats.attempts,
+            verdict: this.#isMarked ? verdictText(verdicts[this.#marked], config) : '',
+            mark: (index) => this.#mark(index),
+          })}
+          ${cloudControls(
+            {
+              config,
+              playing: this.#playing,
+              batch: this.#batch,
+              play: () => this.#play(),
+              step: () => this.#step(),
+              reset: () => this.#reset(),
+              reseed: () => this.#reseed(),
+            },
+            this.#actions,
+          )}
+        </div>
+        <div class="controls">
+          ${placeControls(config, { own, close: this.#close, look }, motion.MapSqueeze.presets, (start) => this.#go(start))}
+          ${judgeControls(config, this.#actions)}
+          ${motionControls(config, motion.MapSqueeze, this.#actions)} ${costTable(this.#meter, config.steps)}
+        </div>
+        ${ownMap({
+          map,
+          own,
+          complaint: this.#complaint,
+          choose: (files) => this.#openMap(() => readMapFiles(files)),
+          paste: () => this.#paste(),
+          leave: () => this.#leaveMap(),
+        })}
+        <p class="visually-hidden" role="status">${this.#announcement}</p>
+      </section>
+    `;
+  }
+
+  /** @param {string} description */
+  #stage(description) {
+    return html`<div
+      class="stage"
+      @dragover=${this.#dragOver}
+      @dragleave=${this.#dragEnd}
+      @drop=${this.#drop}
+    >
+      <canvas
+        class="plane"
+        role="img"
+        aria-label=${description}
+        @pointermove=${this.#point}
+        @pointerdown=${this.#point}
+      ></canvas>
+      ${this.#handles.render(this.#wanted().start)}
+    </div>`;
+  }
+}
+
+/**
+ * Everything that the picture and the figures need of the machine, asked once a change.
+ *
+ * @param {MapSqueeze} machine
+ */
+function read(machine) {
+  const { config, stats, verdicts, poses, commanded, startFree } = machine;
+  const sorted = sort(poses, verdicts);
+  return {
+    config,
+    stats,
+    verdicts,
+    poses,
+    commanded,
+    sorted,
+    paths: sorted.through.slice(0, MOST_PATHS).map((index) => machine.path(index)),
+    note: noteOn(config, stats, startFree),
+  };
+}
+
+// A page may carry the script twice.
+if (!customElements.get('map-squeeze')) {
+  customElements.define('map-squeeze', MapSqueezeElement);
+}

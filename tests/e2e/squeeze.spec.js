@@ -225,6 +225,8 @@ test.describe('judging', () => {
   test('every cost is that of the sampler, and a core’s share follows from it', async ({ page }) => {
     const widget = await openSqueeze(page);
     await widget.getByRole('button', { name: 'Facing a wall' }).click();
+    // From then on the figures before are out of date.
+    await frames(page);
     const table = widget.locator('.table');
     await expect(table).toHaveAttribute('aria-busy', 'false');
     const rows = await table.locator('tbody tr').evaluateAll((all) =>

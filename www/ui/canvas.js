@@ -1,0 +1,23 @@
+/**
+ * A canvas made ready for drawing in CSS pixels.
+ *
+ * @module
+ */
+
+/**
+ * Clears a canvas and gives the view its size.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {import('./view.js').View} view
+ * @returns {{ context: CanvasRenderingContext2D, ratio: number, font: string }} device pixels a CSS
+ *   pixel, and the font of the canvas's style
+ */
+export function prepare(canvas, view) {
+  const ratio = canvas.width / Math.max(1, canvas.clientWidth);
+  view.resize(canvas.width / ratio, canvas.height / ratio);
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, view.width, view.height);
+  const { fontFamily, fontSize } = getComputedStyle(canvas);
+  return { context, ratio, font: `${fontSize} ${fontFamily}` };
+}

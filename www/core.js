@@ -15,9 +15,10 @@ let loading;
  * The core, ready to use. The first call that succeeds decides where the module comes from; later
  * calls get the same module, and a call after a failed one tries again.
  *
- * @param {BufferSource | URL | string | WebAssembly.Module} [source] the module as bytes, an
- *   address, or compiled; the bytes that this file carries when it is left out
- * @returns {Promise<import('./types.d.ts').Motion>}
+ * `source` is the module as bytes, an address, or compiled; the bytes that this file carries when it
+ * is left out.
+ *
+ * @type {typeof import('./types.d.ts').load}
  */
 export function load(source) {
   loading ??= start(source).catch((error) => {
@@ -36,8 +37,7 @@ async function start(source) {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
   await initialize({ module_or_path: await moduleFrom(source) });
-  makeDisposable(BananaMachine);
-  makeDisposable(MapSqueeze);
+  for (const handle of [BananaMachine, MapSqueeze]) makeDisposable(handle);
   return /** @type {import('./types.d.ts').Motion} */ (
     /** @type {unknown} */ ({ BananaMachine, MapSqueeze, commandReaching, randomSeed })
   );
@@ -75,15 +75,21 @@ function fileAt(source) {
 }
 
 /**
- * Engines without `Symbol.dispose` get it, so that `m[Symbol.dispose]()` works everywhere.
+ * Lets `m.free()` and `m[Symbol.dispose]()` be called again, which does nothing, and gives engines
+ * without `Symbol.dispose` one.
  *
- * @param {{ prototype: { free(): void } }} handle
+ * @param {{ prototype: { free(): void } }} handle a class of the generated glue
  */
 function makeDisposable({ prototype }) {
   if (!Symbol.dispose) {
     Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
   }
-  if (!(Symbol.dispose in prototype)) {
-    Object.defineProperty(prototype, Symbol.dispose, { value: prototype.free });
+  const { free } = prototype;
+  /** @this {{ __wbg_ptr: number }} the address in the module's memory, 0 once it is freed */
+  function freeOnce() {
+    if (this.__wbg_ptr !== 0) free.call(this);
+  }
+  for (const name of ['free', Symbol.dispose]) {
+    Object.defineProperty(prototype, name, { value: freeOnce, configurable: true, writable: true });
   }
 }

@@ -5,53 +5,77 @@ export type NoiseName = 'normal' | 'triangular';
 /** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
 export type ViewName = 'plane' | 'twist';
 
+/** One command: an arc driven at constant speeds. */
 export interface Command {
+  /** Speed along the heading, m/s; negative in reverse. −1e6 to 1e6. */
   v: number;
+  /** Turn rate, rad/s; positive to the left. −1e6 to 1e6. */
   omega: number;
+  /** Duration, s. 1e-6 to 1e6. */
   dt: number;
 }
 
 export interface Settings {
+  /** Whose noise it is; each model keeps its own alphas. */
   model: ModelName;
+  /** Distribution of the noise. Both have the variances that the alphas say. */
   noise: NoiseName;
+  /** The same for every robot. */
   command: Command;
-  /** The present model's: six for the velocity model, four for the odometry model. */
+  /** Noise parameters, each 0 to 1e6: the present model's six (velocity) or four (odometry). */
   alphas: number[];
   /** Index, from 1, of the only α that is in effect; null for all of them. */
   isolate: number | null;
+  /** Robots in the whole cloud. A whole number, 1 to 1 000 000. */
   samples: number;
+  /** The same seed is the same robots. A whole number, 0 to 2⁵³ − 1. */
   seed: number;
 }
 
+/** A command worth starting from. */
 export interface Preset extends Command {
   name: 'straight' | 'gentle' | 'hard' | 'pivot';
 }
 
+/** Of (x, y, θ) in m, m, rad; in exponential coordinates of ξ along, lateral (m) and heading (rad). */
 export interface Moments {
+  /** Three numbers; θ is a circular mean. */
   mean: number[];
+  /** Three rows of three. */
   cov: number[][];
 }
 
 /** All over the samples shown; NaN where undefined. */
 export interface Stats {
+  /** Samples shown. */
   n: number;
+  /** Of the poses. */
   cartesian: Moments;
+  /** Of the poses in exponential coordinates about the start. NaN where the chart does not hold. */
   exponential: Moments;
+  /** Third standardized moment across the mean heading; positive with the longer tail at its left. */
   crossTrackSkew: number;
+  /** Its standard error. */
   crossTrackSkewError: number;
   /** The skew that the fitted Gaussian in exponential coordinates predicts. */
   gaussianSkew: number;
+  /** Correlation of cross-track position and heading, −1 to 1. */
   rhoCrossHeading: number;
+  /** Shares, 0 to 1, inside the 2σ outlines in (x, y) and in (ξ along, ξ heading). */
   coverage: { ellipse: number; exponential: number };
 }
 
-/** Outlines as x, y pairs; empty where undefined. */
+/** Outlines on the floor as x, y pairs in m, the first point repeated at the end; empty where undefined. */
 export interface Contours {
+  /** The arc driven without noise, from the start to its end; open. */
   command: Float64Array;
+  /** 2σ, of the Gaussian fitted in (x, y). */
   ellipse: Float64Array;
+  /** 2σ, of the linearization at the command that an extended Kalman filter uses. */
   linearized: Float64Array;
+  /** 2σ, of the Gaussian fitted in exponential coordinates. */
   exponential: Float64Array;
-  /** In (ξ along, ξ heading). */
+  /** The same in (ξ along, ξ heading), m and rad. */
   twistEllipse: Float64Array;
 }
 
@@ -59,37 +83,65 @@ export interface TableColumn extends Moments {
   crossTrackSkew: number;
 }
 
+/** Moments of the pose three ways, and of its exponential coordinates. */
 export interface Table {
+  /** Noise-free end, and covariance to first order in the noise. */
   linearized: TableColumn;
+  /** By quadrature. */
   exact: TableColumn;
+  /** On the samples shown. */
   measured: TableColumn;
+  /** The commanded twist and its noise; null for the odometry model, whose noise has no such form. */
+  tangent: Moments | null;
 }
 
 /** One sample, and the arc that reaches its place. */
 export interface Inspection {
-  pose: ArrayLike<number>;
-  twist: ArrayLike<number>;
+  /** x, y in m, θ in rad, in (−π, π]. */
+  pose: Float64Array;
+  /** ξ along and lateral in m, heading in rad. */
+  twist: Float64Array;
+  /** Speed of the arc, m/s. */
   vHat: number;
+  /** Turn rate of the arc, rad/s. */
   omegaHat: number;
+  /** Turn rate after it, rad/s over the same duration. */
   gammaHat: number;
-  /** That arc as x, y pairs from the start. */
+  /** The arc as x, y pairs in m from the start. */
   path: Float64Array;
 }
 
+/**
+ * One command sent to many identical robots from (0, 0), heading along x. Whatever is out of range
+ * throws a TypeError or RangeError that names the field, and changes nothing.
+ */
 export interface BananaMachine extends Disposable {
+  /** A copy; changing it changes nothing. */
   readonly config: Settings;
+  /** How many samples there are now, 0 to `config.samples`. */
   readonly shown: number;
+  /** Whether exponential coordinates reach as far as the robots turn: to short of a full circle. */
+  readonly chartHolds: boolean;
+  /** x, y (m), θ (rad) of each sample shown; a copy. */
   readonly poses: Float64Array;
+  /** ξ along, lateral (m), heading (rad) of each sample shown; a copy. */
   readonly twists: Float64Array;
   readonly stats: Stats;
   readonly contours: Contours;
   readonly table: Table;
+  /** Changes the settings that are named. A complete cloud stays complete. */
   configure(settings: Partial<Settings>): void;
+  /** Shows up to `count` samples more, 0 to 1 000 000. Returns how many are shown then. */
   grow(count: number): number;
+  /** Shows none; the same samples come again. */
   restart(): void;
+  /** Exact cross-track skew at 2 to 10 000 evenly spaced turn rates, rad/s; NaN where undefined. */
   skewCurve(omegaMin: number, omegaMax: number, points: number): Float64Array;
+  /** A sample shown, counted from 0. */
   inspect(index: number): Inspection;
+  /** The nearest sample inside an ellipse of these radii around a point of the view; −1 for none. */
   nearest(view: ViewName, x: number, y: number, radiusX: number, radiusY: number): number;
+  /** Samples a cell of a grid over a part of the view, row by row from yMax down; 2²⁴ cells at most. */
   density(
     view: ViewName,
     xMin: number,
@@ -99,12 +151,15 @@ export interface BananaMachine extends Disposable {
     columns: number,
     rows: number,
   ): Uint32Array;
+  /** Gives the memory back. A second call does nothing. */
   free(): void;
 }
 
 export interface BananaMachineClass {
   readonly presets: Preset[];
+  /** Largest `samples`. */
   readonly maxSamples: number;
+  /** What is left out is as the widget opens: the gentle arc, velocity model, normal noise. */
   new (options?: Partial<Settings>): BananaMachine;
 }
 
@@ -209,9 +264,15 @@ export interface Motion {
   MapSqueeze: MapSqueezeClass;
   /** A whole number, 0 to 2³² − 1. */
   randomSeed(): number;
-  /** The arc from the origin, heading along x, that ends at (x, y) after `dt` seconds. */
-  commandReaching(x: number, y: number, dt: number): { v: number; omega: number };
+  /**
+   * The arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of
+   * a command; of the many, the one whose turn is nearest to that command's.
+   */
+  commandReaching(x: number, y: number, command: Command): { v: number; omega: number };
 }
+
+/** What core.js exports: see there. */
+export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
 /** Axis-aligned part of a view's world. */
 export interface Extent {

@@ -15,7 +15,7 @@ test.describe('growth', () => {
     expect(paused.shown).toBeLessThan(paused.config.samples);
     await frames(page);
     expect((await state(widget)).shown).toBe(paused.shown);
-    await expect(readout(widget, 'robots')).toHaveText(String(paused.shown));
+    await expect(readout(widget, 'robots')).toHaveText(`${paused.shown} of 2\u202f000`);
 
     await widget.getByRole('button', { name: 'Play' }).click();
     await expect.poll(async () => (await state(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
@@ -33,7 +33,7 @@ test.describe('growth', () => {
       const whole = await state(widget);
       await widget.getByRole('button', { name: 'Reset' }).click();
       expect((await state(widget)).shown).toBe(0);
-      await expect(readout(widget, 'measured')).toHaveText('—');
+      await expect(readout(widget, 'standard error')).toHaveText('—');
       await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
       const batch = Math.ceil(whole.config.samples / BATCHES);
@@ -91,7 +91,7 @@ test.describe('growth', () => {
       const { shown, stats, table } = await state(widget);
       expect(shown).toBe(100_000);
       expect(await densities()).toBeGreaterThanOrEqual(2);
-      await expect(readout(widget, 'robots')).toHaveText('100\u202f000');
+      await expect(readout(widget, 'robots')).toHaveText('100\u202f000 of 100\u202f000');
       expect(Math.abs(stats.crossTrackSkew - table.exact.crossTrackSkew)).toBeLessThan(5 * stats.crossTrackSkewError);
       for (const i of [0, 1, 2]) {
         const error = Math.sqrt(table.exact.cov[i][i] / stats.n);
@@ -106,38 +106,80 @@ test.describe('figures', () => {
 
   test('every number shown is the machine’s', async ({ page }) => {
     const widget = await open(page);
-    const { stats, table } = await state(widget);
+    const { config, stats, table } = await state(widget);
     const shown = async (/** @type {string | RegExp} */ name) => (await readout(widget, name).textContent()) ?? '';
 
-    const [skew, error] = (await shown('measured')).split(' ± ').map(numberIn);
+    const [skew, error] = (await shown('standard error')).split(' ± ').map(numberIn);
     expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
     expect(error).toBeCloseTo(stats.crossTrackSkewError, 3);
     expect(numberIn(await shown('exponential-coordinate Gaussian'))).toBeCloseTo(stats.gaussianSkew, 3);
     expect(numberIn(await shown('any Gaussian'))).toBe(0);
     expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
-    expect(numberIn(await shown('robots'))).toBe(stats.n);
+    expect((await shown('robots')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
     expect(numberIn(await shown('exponential coordinates'))).toBeCloseTo(100 * stats.coverage.exponential, 1);
     expect(numberIn(await shown('2σ, Gaussian'))).toBeCloseTo(100 * stats.coverage.ellipse, 1);
     expect(await shown('nominal')).toBe('86.5\u202f%');
 
+    const cellsOf = async (/** @type {string} */ name) => {
+      const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name, exact: true }) });
+      return row.getByRole('cell').allTextContents();
+    };
+    // Five digits of what is computed and three of what is measured: half a unit of the last one.
+    const expectPrinted = (/** @type {string} */ text, /** @type {number} */ value, /** @type {number} */ digits) => {
+      const off = Math.abs(numberIn(text) - value);
+      expect(off, `${text} for ${value}`).toBeLessThanOrEqual(0.5000001 * 10 ** (1 - digits) * Math.abs(value) + 1e-13);
+    };
     /** @type {[string, (column: typeof table.exact) => number][]} */
     const rows = [
       ['mean x', ({ mean }) => mean[0]],
       ['mean y', ({ mean }) => mean[1]],
+      ['mean θ', ({ mean }) => mean[2]],
       ['Σxx', ({ cov }) => cov[0][0]],
       ['Σyy', ({ cov }) => cov[1][1]],
       ['Σxy', ({ cov }) => cov[0][1]],
       ['Σxθ', ({ cov }) => cov[0][2]],
       ['Σyθ', ({ cov }) => cov[1][2]],
       ['Σθθ', ({ cov }) => cov[2][2]],
-      ['cross-track skew', ({ crossTrackSkew }) => crossTrackSkew],
+      ['ρyθ', ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
     ];
     for (const [name, of] of rows) {
-      const cells = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name, exact: true }) }).getByRole('cell');
-      const printed = (await cells.allTextContents()).map(numberIn);
-      for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) {
-        expect(printed[i], name).toBeCloseTo(of(column), 6);
+      const [linearized, exact, measured] = await cellsOf(name);
+      expectPrinted(linearized, of(table.linearized), 5);
+      expectPrinted(exact, of(table.exact), 5);
+      expectPrinted(measured, of(table.measured), 3);
+    }
+    const [linearized, exact, measured] = await cellsOf('cross-track skew');
+    expect(linearized).toBe('0');
+    expectPrinted(exact, table.exact.crossTrackSkew, 5);
+    expect(measured).toBe(await shown('standard error'));
+
+    const { tangent } = table;
+    if (!tangent) throw new Error('The velocity model has moments of its twist.');
+    for (const [i, axis] of ['along', 'lateral', 'heading'].entries()) {
+      for (const [name, of] of /** @type {[string, (moments: import('../../www/types.d.ts').Moments) => number][]} */ ([
+        [`mean ξ ${axis}`, ({ mean }) => mean[i]],
+        [`variance of ξ ${axis}`, ({ cov }) => cov[i][i]],
+      ])) {
+        const [command, measured] = await cellsOf(name);
+        expectPrinted(command, of(tangent), 5);
+        expectPrinted(measured, of(stats.exponential), 3);
       }
+    }
+    await widget.getByLabel('odometry').check();
+    await frames(page);
+    expect((await cellsOf('mean ξ along'))[0]).toBe('—');
+  });
+
+  test('small noise is printed, not rounded away', async ({ page }) => {
+    const widget = await open(page);
+    await widget.getByLabel('Isolate one').check();
+    await widget.getByRole('slider', { name: 'α4' }).fill('0.001');
+    const { table } = await state(widget);
+    expect(table.exact.cov[0][0]).toBeLessThan(1e-4);
+    const cells = await widget.getByRole('row', { name: 'Σxx' }).getByRole('cell').allTextContents();
+    for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) {
+      expect(cells[i]).toMatch(/·10⁻/);
+      expect(Math.abs(numberIn(cells[i]) / column.cov[0][0] - 1)).toBeLessThan(0.5 * 10 ** -2);
     }
   });
 
@@ -149,7 +191,7 @@ test.describe('figures', () => {
     for (const [label, role] of [
       ['commanded arc', 'prior'],
       ['2σ Gaussian in (x, y)', 'prediction'],
-      ['linearized (EKF) ellipse', 'prior'],
+      ['linearized (EKF) ellipse', 'prediction'],
       ['2σ Gaussian in exponential coordinates', 'posterior'],
     ]) {
       const box = widget.getByRole('checkbox', { name: label });

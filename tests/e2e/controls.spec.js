@@ -5,7 +5,6 @@ import {
   dragSlider,
   frames,
   inspectFirst,
-  numberIn,
   open,
   pictureOf,
   pixelsOf,
@@ -72,7 +71,7 @@ test.describe('command', () => {
 
     const reached = await widget.evaluate((element, [x, y]) => {
       const { motion } = /** @type {BananaMachineElement} */ (element);
-      return motion.commandReaching(x, y, 1);
+      return motion.commandReaching(x, y, { v: 1, omega: 0.5, dt: 1 });
     }, held.end);
     const { v, omega, dt } = held.config.command;
     expect(dt).toBe(1);
@@ -128,7 +127,7 @@ test.describe('noise', () => {
     const before = await state(widget);
     const robots = await inspectFirst(widget, 200);
     const picture = await pictureOf(widget.locator('canvas.plane'));
-    const skew = await readout(widget, 'measured').textContent();
+    const skew = await readout(widget, 'standard error').textContent();
     await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
     const after = await state(widget);
 
@@ -137,7 +136,7 @@ test.describe('noise', () => {
     expect(after.config).toEqual({ ...before.config, alphas: before.config.alphas.with(3, alpha) });
     expect(after.shown).toBe(before.shown);
     expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(picture);
-    expect(await readout(widget, 'measured').textContent()).not.toBe(skew);
+    expect(await readout(widget, 'standard error').textContent()).not.toBe(skew);
 
     // α₄ scales the error of ω̂ by the ratio of standard deviations, and leaves v̂ and γ̂ alone.
     const { v, omega } = after.config.command;
@@ -160,7 +159,7 @@ test.describe('noise', () => {
     expect(config.alphas).toEqual([0.02, 0.02, 0.02, 0.02, 0, 0]);
     expect(Math.abs(table.exact.crossTrackSkew + 0.30056)).toBeLessThan(5e-6);
     const row = widget.getByRole('row', { name: 'cross-track skew' });
-    expect(numberIn(await row.getByRole('cell').nth(1).textContent())).toBeCloseTo(table.exact.crossTrackSkew, 6);
+    await expect(row.getByRole('cell').nth(1)).toHaveText('−0.30056');
   });
 
   test('many inputs between two frames cost one configuration', async ({ page }) => {
@@ -252,7 +251,7 @@ test.describe('Isolate', () => {
       await expect(note).toContainText(`${symbol} multiplies ω², and ω is 0: no noise at all.`);
       const { poses } = await state(widget);
       expect(new Set(poses.map((value) => value.toFixed(9))).size).toBe(2);
-      await expect(readout(widget, 'measured')).toHaveText('—');
+      await expect(readout(widget, 'standard error')).toHaveText('—');
       expect(await widget.evaluate((element) => element.shadowRoot?.textContent?.includes('NaN'))).toBe(false);
       // The heap around the handle: at least the ring that shows beside it.
       expect(await pixelsOf(plane, 'prediction')).toBeGreaterThan(200);
@@ -269,7 +268,8 @@ test.describe('Isolate', () => {
     const fan = await pictureOf(plane);
 
     await widget.getByRole('radio', { name: 'Only α₄' }).check();
-    await expect(note).toBeHidden();
+    await expect(note).toContainText('the robots lie on a line');
+    await expect(readout(widget, '2σ, exponential')).toHaveText('—');
     ({ stats } = await state(widget));
     expect(stats.cartesian.cov[1][1]).toBeGreaterThan(0.01);
     expect(stats.rhoCrossHeading).toBeGreaterThan(0.99);

@@ -1,6 +1,6 @@
 import AxeBuilder from '@axe-core/playwright';
 import { expect, test as plain } from '@playwright/test';
-import { STILL, boxOf, frames, open, pictureOf, state, test } from './support.js';
+import { STILL, boxOf, frames, open, pictureOf, pixelsOf, state, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 
@@ -46,12 +46,48 @@ test.describe('the page', () => {
     await expect.poll(() => pictureOf(canvas)).toBe(light);
   });
 
-  test('fits a phone: nothing to scroll sideways, and targets for a finger', async ({ page }) => {
+  test('keeps its roles, its tracks and its pressed button in forced colours', async ({ page }) => {
+    await page.emulateMedia({ forcedColors: 'active' });
+    const widget = await open(page);
+    await widget.getByRole('checkbox', { name: 'linearized' }).check();
+    for (const role of ['prior', 'prediction', 'posterior', 'truth']) {
+      expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
+    }
+    const [pressed, other] = await Promise.all(
+      ['Gentle arc', 'Straight'].map((name) =>
+        widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor),
+      ),
+    );
+    expect(pressed).not.toBe(other);
+    // The track is the only thing at the right end of a slider near its left end.
+    const slider = widget.getByRole('slider', { name: 'α5' });
+    const withTrack = await slider.screenshot();
+    await slider.evaluate((element) => element.style.setProperty('--muted', 'Canvas'));
+    expect(withTrack.equals(await slider.screenshot())).toBe(false);
+    expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
+  });
+
+  for (const width of [375, 320]) {
+    test(`fits a phone of ${width} px: nothing to scroll sideways`, async ({ page }) => {
+      await page.setViewportSize({ width, height: 812 });
+      const widget = await open(page);
+      await widget.getByLabel('Isolate one').check();
+      await widget.getByRole('button', { name: 'Pivot' }).click();
+      await frames(page);
+      const right = await widget.evaluate((element) => {
+        const all = [...(element.shadowRoot?.querySelectorAll('*:not(.visually-hidden)') ?? [])];
+        return Math.max(...all.map((each) => each.getBoundingClientRect().right)) - element.getBoundingClientRect().right;
+      });
+      expect(right).toBeLessThanOrEqual(0.5);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
+      expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
+    });
+  }
+
+  test('has targets for a finger', async ({ page }) => {
     await page.setViewportSize({ width: 375, height: 812 });
     const widget = await open(page);
     await widget.getByLabel('Isolate one').check();
-    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-    expect(overflow).toBeLessThanOrEqual(0);
     const targets = widget.locator('button, input[type=range], label:has(input), .handle');
     for (const target of await targets.all()) {
       const { width, height } = await boxOf(target);
@@ -64,6 +100,62 @@ test.describe('the page', () => {
     const widget = await open(page);
     await widget.getByRole('slider', { name: 'α6' }).scrollIntoViewIfNeeded();
     await expect(widget.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
+  });
+
+  test('never hides the focus behind the floor', async ({ page }) => {
+    await page.setViewportSize({ width: 375, height: 812 });
+    const widget = await open(page);
+    await widget.getByLabel('Isolate one').check();
+    await widget.getByRole('slider', { name: 'Commanded ω on the chart' }).focus();
+    let seen = 0;
+    for (;;) {
+      await page.keyboard.press('Shift+Tab');
+      await frames(page);
+      const [name, hidden] = await widget.evaluate((element) => {
+        const focused = /** @type {Element} */ (element.shadowRoot?.activeElement);
+        const stage = /** @type {Element} */ (element.shadowRoot?.querySelector('.stage'));
+        if (stage.contains(focused)) return ['', 0];
+        return [focused.outerHTML, stage.getBoundingClientRect().bottom - focused.getBoundingClientRect().top];
+      });
+      if (name === '') break;
+      seen++;
+      expect(hidden, String(name)).toBeLessThanOrEqual(0);
+    }
+    expect(seen).toBeGreaterThan(15);
+  });
+
+  test('no slider moves under the finger when there is something to note', async ({ page }) => {
+    for (const width of [375, 320, 1280]) {
+      await page.setViewportSize({ width, height: 812 });
+      const widget = await open(page);
+      const slider = widget.locator('#omega');
+      /** @type {number[]} */
+      const places = [];
+      const place = async () => {
+        await frames(page);
+        places.push(await slider.evaluate((element) => element.getBoundingClientRect().top + scrollY));
+      };
+      const note = widget.locator('.note');
+      await place();
+      await expect(note).toHaveCount(0);
+      await widget.getByLabel('Isolate one').check();
+      await place();
+      await expect(note).toContainText('the robots lie on a line');
+      await slider.fill('0');
+      await place();
+      await expect(note).toContainText('no noise at all');
+      await widget.getByLabel('Isolate one').uncheck();
+      await slider.fill('2');
+      await widget.locator('#dt').fill('3');
+      await place();
+      await expect(note).toContainText('full circle');
+      await widget.locator('#dt').fill('1');
+      await widget.getByLabel('odometry').check();
+      await widget.locator('#v').fill('-1');
+      await place();
+      await expect(note).toContainText('two half turns');
+      expect(Math.max(...places) - Math.min(...places), `${width} px`).toBeLessThan(0.5);
+    }
   });
 
   test('gives its canvases the pixels of the screen, also after a change of size', async ({ page }) => {
@@ -102,6 +194,49 @@ test.describe('the page', () => {
 
 test.describe('the element', () => {
   test.use(STILL);
+
+  test('outlives a closed tab, and shows what was changed meanwhile', async ({ page }) => {
+    const widget = await open(page);
+    // As many as are drawn as a density, which wants an extent.
+    await widget.getByRole('slider', { name: 'robots in the whole cloud' }).fill('9');
+    const hide = (/** @type {boolean} */ hidden) =>
+      page.evaluate((value) => {
+        /** @type {HTMLElement} */ (document.querySelector('main')).style.display = value ? 'none' : '';
+      }, hidden);
+    const canvas = widget.locator('canvas.plane');
+    const before = await pictureOf(canvas);
+    expect((await state(widget)).shown).toBe(10_000);
+    await hide(true);
+    await frames(page);
+    await widget.evaluate((element) => {
+      const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha4'));
+      slider.value = '0.15';
+      slider.dispatchEvent(new Event('input'));
+    });
+    await frames(page);
+    await hide(false);
+    await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
+    await expect.poll(() => pixelsOf(canvas, 'prior')).toBeGreaterThan(100);
+    expect(await pictureOf(canvas)).not.toBe(before);
+    expect((await state(widget)).config.alphas[3]).toBe(0.15);
+  });
+
+  test('can be freed again by a page that holds its machine', async ({ page }) => {
+    const widget = await open(page);
+    const freed = await widget.evaluate((element) => {
+      const { motion } = /** @type {BananaMachineElement} */ (element);
+      const machine = new motion.BananaMachine();
+      machine.free();
+      machine.free();
+      machine[Symbol.dispose]();
+      try {
+        return machine.shown < 0;
+      } catch (error) {
+        return error instanceof Error;
+      }
+    });
+    expect(freed).toBe(true);
+  });
 
   test('stands twice on a page without sharing anything', async ({ page }) => {
     const first = await open(page);

@@ -143,7 +143,8 @@ export async function pixelsOf(canvas, role) {
   return canvas.evaluate((element, name) => {
     const target = /** @type {HTMLCanvasElement} */ (element);
     const probe = document.createElement('span');
-    probe.style.color = `var(--${name})`;
+    // In forced colours too, the roles keep their hues.
+    probe.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
     target.after(probe);
     const wanted = (getComputedStyle(probe).color.match(/\d+/g) ?? []).map(Number);
     probe.remove();
@@ -177,5 +178,7 @@ export function readout(widget, name) {
  * @returns {number}
  */
 export function numberIn(text) {
-  return Number((text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, ''));
+  const [mantissa, power = '0'] = (text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, '').split('·10');
+  const exponent = power.replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));
+  return Number(mantissa) * 10 ** Number(exponent);
 }

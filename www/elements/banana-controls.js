@@ -95,17 +95,15 @@ export function noiseControls(config, chosen, { change, commit, isolate }) {
       })}
     </fieldset>
     <fieldset class="alphas">
-      <legend>
-        Noise parameters
-        ${toggle({
-          label: 'Isolate one',
-          checked: isolated,
-          change: (on) => {
-            change({ isolate: on ? chosen + 1 : null });
-            commit();
-          },
-        })}
-      </legend>
+      <legend>Noise parameters</legend>
+      ${toggle({
+        label: 'Isolate one',
+        checked: isolated,
+        change: (on) => {
+          change({ isolate: on ? chosen + 1 : null });
+          commit();
+        },
+      })}
       ${alphas.map((alpha, index) => {
         const off = isolated && config.isolate !== index + 1;
         return sliderRow({
@@ -168,6 +166,7 @@ export function radioGroup(label, group, names, current, choose) {
 /**
  * @param {object} cloud
  * @param {Settings} cloud.config
+ * @param {number} cloud.shown robots there are now
  * @param {boolean} cloud.playing
  * @param {number} cloud.batch robots that one step adds
  * @param {() => void} cloud.play
@@ -176,22 +175,22 @@ export function radioGroup(label, group, names, current, choose) {
  * @param {() => void} cloud.reseed
  * @param {Actions} actions
  */
-export function cloudControls({ config, playing, batch, play, step, reset, reseed }, { change, commit }) {
+export function cloudControls({ config, shown, playing, batch, play, step, reset, reseed }, { change, commit }) {
   const nearest = SAMPLE_COUNTS.findIndex((count) => count >= config.samples);
   return html`
     <fieldset class="cloud">
       <legend class="visually-hidden">Cloud</legend>
       <div class="buttons">
         ${button(playing ? 'Pause' : 'Play', play, { title: 'Grow the cloud' })}
-        ${button('Step', step, { title: `Add ${whole(batch)} robots` })}
+        ${button('Step', step, { title: `Add ${whole(batch)} robots`, disabled: shown === config.samples })}
         ${button('Reset', reset, { title: 'Empty the cloud; the same seed sends the same robots' })}
         ${button('New seed', reseed, { title: 'Send other robots' })}
         <span class="seed">seed ${config.seed}</span>
       </div>
       ${sliderRow({
         id: 'samples',
-        symbol: html`<i>n</i>`,
-        name: 'n, robots in the whole cloud',
+        symbol: html`<i>N</i>`,
+        name: 'N, robots in the whole cloud',
         value: nearest < 0 ? SAMPLE_COUNTS.length - 1 : nearest,
         min: 0,
         max: SAMPLE_COUNTS.length - 1,

@@ -1,6 +1,6 @@
 /**
- * <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are an
- * ordinary Gaussian.
+ * <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are close
+ * to an ordinary Gaussian.
  *
  * @module
  */
@@ -12,15 +12,19 @@ import { DASHES } from '../ui/draw.js';
 import { fixed } from '../ui/format.js';
 import { theme } from '../ui/theme.js';
 import { cloudControls, commandControls, noiseControls } from './banana-controls.js';
+import { ArcHandle } from './banana-handle.js';
 import { PlanePicture, TwistPicture } from './banana-pictures.js';
-import { markedRobot, readoutStyles, readouts, workedExample } from './banana-readouts.js';
+import { markedRobot, readoutStyles, readouts, twistTable, workedExample } from './banana-readouts.js';
 import { bananaStyles } from './banana-styles.js';
 import {
   COMMAND_SLIDERS,
   OVERLAY_NAMES,
   announcementOf,
+  captionOf,
   noteOn,
   planeText,
+  skewText,
+  twistCaption,
   twistText,
 } from './banana-words.js';
 import { WidgetElement } from './base.js';
@@ -38,12 +42,11 @@ const BATCHES = 150;
 /** How near to a sample the pointer must be to mark it, CSS pixels. */
 const REACH = 14;
 
-/** What an arrow key moves the end of the arc by, metres; with Shift the longer way. */
-const KEY_STEP = 0.02;
-const LONG_KEY_STEP = 0.1;
-
-/** Points of the chart's curve. */
-const CURVE_POINTS = 81;
+/**
+ * Points of the chart's curve. Fewer would draw the fall of the skew across ω = 0 as a kinked line;
+ * more than a pixel each would be wasted.
+ */
+const CURVE_POINTS = 241;
 
 const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(OVERLAY_NAMES));
 const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
@@ -59,8 +62,6 @@ export class BananaMachineElement extends WidgetElement {
   #marked = -1;
   /** @type {Record<Overlay, boolean>} */
   #overlays = { command: true, ellipse: true, linearized: false, exponential: true };
-  /** Whether the handle is held: the views keep still under it. */
-  #holding = false;
   /** @type {Partial<Settings>} changes that wait for the next frame */
   #pending = {};
   /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
@@ -72,6 +73,12 @@ export class BananaMachineElement extends WidgetElement {
   #announcement = '';
   #plane = new PlanePicture();
   #twist = new TwistPicture();
+  #handle = new ArcHandle({
+    view: () => this.#plane.view,
+    end: () => this.#fresh().end,
+    reach: (x, y) => this.#reach(x, y),
+    commit: () => this.#commit(),
+  });
 
   #actions = {
     change: (/** @type {import('./banana-controls.js').Change} */ change) => this.#change(change),
@@ -108,22 +115,26 @@ export class BananaMachineElement extends WidgetElement {
     if (!machine || !palette) return;
     this.#configure();
     if (this.#playing) this.#grow();
-    if (this.#stale) this.#read();
-
-    const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
+    const figures = this.#fresh();
     const marked = this.#inspection();
     const scene = { ...figures, machine, overlays: this.#overlays, marked };
     let moving = false;
     for (const picture of [this.#plane, this.#twist]) {
       const canvas = this.#canvas(picture.name);
       picture.prepare(canvas);
-      if (!this.#holding) picture.fit(scene);
+      if (!this.#handle.held) picture.fit(scene);
       moving = picture.view.ease(elapsed, this.calm) || moving;
       picture.draw(canvas, scene, palette);
     }
-    this.#placeHandle();
+    this.#handle.place(this.renderRoot, figures.end);
     this.requestUpdate();
     if (moving || this.#playing) this.wake();
+  }
+
+  /** The settings with the changes that wait. @returns {Settings} */
+  #wanted() {
+    const { config } = /** @type {BananaMachine} */ (this.machine);
+    return { ...config, ...this.#pending };
   }
 
   /**
@@ -133,8 +144,7 @@ export class BananaMachineElement extends WidgetElement {
    */
   #change(change) {
     if (!this.machine) return;
-    const wanted = { ...this.machine.config, ...this.#pending };
-    Object.assign(this.#pending, typeof change === 'function' ? change(wanted) : change);
+    Object.assign(this.#pending, typeof change === 'function' ? change(this.#wanted()) : change);
     this.wake();
   }
 
@@ -155,8 +165,16 @@ export class BananaMachineElement extends WidgetElement {
     this.wake();
   }
 
+  /** The figures, with every change so far in effect. */
+  #fresh() {
+    this.#configure();
+    if (this.#stale) this.#read();
+    return /** @type {ReturnType<typeof read>} */ (this.#figures);
+  }
+
   #read() {
     if (!this.machine) return;
+    if (this.#marked >= this.machine.shown) this.#marked = -1;
     this.#curve ??= this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
     this.#figures = read(this.machine);
     this.#stale = false;
@@ -217,68 +235,21 @@ export class BananaMachineElement extends WidgetElement {
   /** The marked robot, if it is among those shown. */
   #inspection() {
     const { machine } = this;
-    const there = machine && this.#marked >= 0 && this.#marked < machine.shown;
-    return there ? machine.inspect(this.#marked) : undefined;
+    return machine && this.#marked >= 0 && this.#marked < machine.shown ? machine.inspect(this.#marked) : undefined;
   }
 
   /**
-   * Sets the command to the arc that ends at a point, as far as the sliders go.
+   * Sets the command to the arc that ends at a point, as far as the sliders go: of the many that do,
+   * the one nearest to the present one, so that nothing leaps.
    *
    * @param {number} x metres
    * @param {number} y
    */
   #reach(x, y) {
-    if (!this.motion || !this.#figures) return;
-    const { dt } = this.#figures.config.command;
-    const { v, omega } = this.motion.commandReaching(x, y, dt);
-    const command = { v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE), dt };
-    this.#change({ command });
-  }
-
-  /** @param {PointerEvent} event */
-  #dragHandle(event) {
-    if (!this.#holding) return;
-    const box = this.#canvas('plane').getBoundingClientRect();
-    const { view } = this.#plane;
-    this.#reach(view.toWorldX(event.clientX - box.left), view.toWorldY(event.clientY - box.top));
-  }
-
-  /** @param {PointerEvent} event */
-  #holdHandle(event) {
-    const handle = /** @type {HTMLElement} */ (event.currentTarget);
-    handle.setPointerCapture(event.pointerId);
-    this.#holding = true;
-  }
-
-  #releaseHandle() {
-    if (!this.#holding) return;
-    this.#holding = false;
-    this.#commit();
-  }
-
-  /** @param {KeyboardEvent} event */
-  #keyHandle(event) {
-    const step = event.shiftKey ? LONG_KEY_STEP : KEY_STEP;
-    const ways = /** @type {Record<string, [number, number]>} */ ({
-      ArrowRight: [step, 0],
-      ArrowLeft: [-step, 0],
-      ArrowUp: [0, step],
-      ArrowDown: [0, -step],
-    });
-    const way = ways[event.key];
-    if (!way || !this.#figures) return;
-    event.preventDefault();
-    const [x, y] = this.#figures.end;
-    this.#reach(x + way[0], y + way[1]);
-    this.#commit();
-  }
-
-  #placeHandle() {
-    const handle = /** @type {HTMLElement | null} */ (this.renderRoot.querySelector('.handle'));
-    if (!handle || !this.#figures) return;
-    const [x, y] = this.#figures.end;
-    const { view } = this.#plane;
-    handle.style.translate = `${view.toPixelX(x)}px ${view.toPixelY(y)}px`;
+    if (!this.motion || !this.machine) return;
+    const { command } = this.#wanted();
+    const { v, omega } = this.motion.commandReaching(x, y, command);
+    this.#change({ command: { ...command, v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE) } });
   }
 
   /** @param {'plane' | 'twist'} name */
@@ -291,7 +262,7 @@ export class BananaMachineElement extends WidgetElement {
    * @param {PointerEvent} event
    */
   #point(picture, event) {
-    if (!this.machine || this.#holding) return;
+    if (!this.machine || this.#handle.held) return;
     const index = picture.nearest(this.machine, event.offsetX, event.offsetY, REACH);
     if (index >= 0 || event.type === 'pointerdown') this.#mark(index);
   }
@@ -299,23 +270,33 @@ export class BananaMachineElement extends WidgetElement {
   renderWidget() {
     const { machine, motion } = this;
     if (!machine || !motion || !this.#figures || !this.#curve) return nothing;
-    const { config, stats, table, note, exactSkew } = this.#figures;
+    const { config, shown, stats, table, note, exactSkew } = this.#figures;
     const overlays = OVERLAYS.filter((name) => this.#overlays[name]).map((name) => OVERLAY_NAMES[name]);
     return html`
       <section class="machine" aria-label="The Banana Machine">
         <div class="floor">
-          ${this.#stage(planeText(config, stats, note, overlays))}
-          <p class="note" ?hidden=${note === ''}>${note}</p>
-          ${this.#legend()} ${readouts(stats)}
+          <div class="stage">
+            <canvas
+              class="plane"
+              role="img"
+              aria-label=${planeText(config, stats, note, overlays)}
+              @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
+              @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
+            ></canvas>
+            ${this.#handle.render(config.command)}
+            <p class="caption ${note && 'note'}">${note || captionOf(stats)}</p>
+          </div>
+          ${this.#legend()} ${readouts(stats, config.samples)}
           ${markedRobot({
             index: this.#marked,
-            shown: stats.n,
+            shown,
             inspection: this.#inspection(),
             mark: (index) => this.#mark(index),
           })}
           ${cloudControls(
             {
               config,
+              shown,
               playing: this.#playing,
               batch: this.#batch,
               play: () => this.#play(),
@@ -339,7 +320,8 @@ export class BananaMachineElement extends WidgetElement {
               @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
               @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
             ></canvas>
-            <figcaption>The same robots in exponential coordinates: the banana is an ellipse.</figcaption>
+            <figcaption>${twistCaption(config, note)}</figcaption>
+            ${twistTable(table, stats)}
           </figure>
           <figure>
             ${skewChart({
@@ -351,8 +333,8 @@ export class BananaMachineElement extends WidgetElement {
               x: config.command.omega,
               y: exactSkew,
               measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
-              valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, exact skew ${fixed(exactSkew, 3)}`,
-              move: (omega) => this.#change({ command: { ...config.command, omega } }),
+              valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, ${skewText(exactSkew)}`,
+              move: (to) => this.#change(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
               commit: () => this.#commit(),
             })}
             <figcaption>
@@ -360,42 +342,11 @@ export class BananaMachineElement extends WidgetElement {
               The dashed line is any Gaussian in <i>(x, y)</i>.
             </figcaption>
           </figure>
-          ${workedExample(table)}
+          ${workedExample(table, stats)}
         </div>
         <p class="visually-hidden" role="status">${this.#announcement}</p>
       </section>
     `;
-  }
-
-  /** @param {string} description */
-  #stage(description) {
-    const { v, omega } = this.#figures?.config.command ?? { v: 0, omega: 0 };
-    return html`<div class="stage">
-      <canvas
-        class="plane"
-        role="img"
-        aria-label=${description}
-        @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
-        @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
-      ></canvas>
-      <div
-        class="handle"
-        role="slider"
-        tabindex="0"
-        aria-label="End of the commanded arc"
-        aria-description="Arrow keys move it over the floor"
-        aria-valuemin=${OMEGA_RANGE.min}
-        aria-valuemax=${OMEGA_RANGE.max}
-        aria-valuenow=${omega}
-        aria-valuetext="v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s"
-        title="Drag the end of the arc"
-        @pointerdown=${this.#holdHandle}
-        @pointermove=${this.#dragHandle}
-        @pointerup=${this.#releaseHandle}
-        @pointercancel=${this.#releaseHandle}
-        @keydown=${this.#keyHandle}
-      ></div>
-    </div>`;
   }
 
   #legend() {
@@ -423,13 +374,14 @@ export class BananaMachineElement extends WidgetElement {
  * @param {BananaMachine} machine
  */
 function read(machine) {
-  const { config, stats, contours, table } = machine;
+  const { config, shown, stats, contours, table, chartHolds } = machine;
   return {
     config,
+    shown,
     stats,
     contours,
     table,
-    note: noteOn(config, table),
+    note: noteOn(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
     /** The end of the commanded arc, metres. */
     end: /** @type {[number, number]} */ ([...contours.command.slice(-2)]),

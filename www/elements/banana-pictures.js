@@ -25,13 +25,16 @@ import { View, extentOf } from '../ui/view.js';
  * @typedef {import('../types.d.ts').Contours} Contours
  * @typedef {import('../types.d.ts').Inspection} Inspection
  * @typedef {import('../types.d.ts').Palette} Palette
+ * @typedef {import('../types.d.ts').Moments} Moments
  * @typedef {import('../types.d.ts').Settings} Settings
+ * @typedef {import('../types.d.ts').Stats} Stats
  * @typedef {import('../types.d.ts').Table} Table
  * @typedef {import('../types.d.ts').ViewName} ViewName
  *
  * @typedef {object} Scene what both pictures are of
  * @property {BananaMachine} machine
  * @property {Settings} config
+ * @property {Stats} stats
  * @property {Contours} contours
  * @property {Table} table
  * @property {Record<keyof typeof DASHES, boolean>} overlays
@@ -52,6 +55,10 @@ const ROOM = 3.2;
 
 /** A picture: a canvas and its view. */
 class Picture {
+  /** Device pixels a CSS pixel. */
+  ratio = 1;
+  font = '';
+
   /**
    * @param {ViewName} name
    * @param {View} view
@@ -68,8 +75,7 @@ class Picture {
    */
   prepare(canvas) {
     const { context, ratio, font } = prepare(canvas, this.view);
-    this.ratio = ratio;
-    this.font = font;
+    Object.assign(this, { ratio, font });
     return context;
   }
 
@@ -103,9 +109,9 @@ class Picture {
       const counts = machine.density(name, xMin, yMin, xMax, yMax, columns, rows);
       drawDensity(context, view, palette, counts, columns);
     } else if (name === 'plane') {
-      drawDots(context, view, palette, machine.poses, { x: 0, y: 1, heading: 2, ratio: this.ratio ?? 1 });
+      drawDots(context, view, palette, machine.poses, { x: 0, y: 1, heading: 2, ratio: this.ratio });
     } else {
-      drawDots(context, view, palette, machine.twists, { x: 0, y: 2, heading: null, ratio: this.ratio ?? 1 });
+      drawDots(context, view, palette, machine.twists, { x: 0, y: 2, heading: null, ratio: this.ratio });
     }
   }
 }
@@ -120,6 +126,11 @@ function cellSize(area, count) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
 
+/** @param {number} variance whose quadrature may round to less than 0 */
+function deviation(variance) {
+  return Math.sqrt(Math.max(0, variance));
+}
+
 /** The floor from above. */
 export class PlanePicture extends Picture {
   constructor() {
@@ -129,7 +140,7 @@ export class PlanePicture extends Picture {
   /** @param {Scene} scene */
   fit({ contours, table }) {
     const { mean, cov } = table.exact;
-    const [sx, sy] = [ROOM * Math.sqrt(Math.max(0, cov[0][0])), ROOM * Math.sqrt(Math.max(0, cov[1][1]))];
+    const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
     /** @type {[number, number][]} */
     const points = [[mean[0] - sx, mean[1] - sy], [mean[0] + sx, mean[1] + sy]];
     const { command } = contours;
@@ -151,11 +162,10 @@ export class PlanePicture extends Picture {
     const context = this.prepare(canvas);
     const { view } = this;
     const { contours, overlays, table, marked } = scene;
-    drawAxes(context, view, palette, { x: 'x (m)', y: 'y (m)', font: this.font ?? '' });
+    drawAxes(context, view, palette, { x: 'x (m)', y: 'y (m)', font: this.font });
     clipped(context, view, () => {
       const { cov } = table.exact;
-      const [sx, sy] = [cov[0][0], cov[1][1]].map((variance) => Math.sqrt(Math.max(0, variance)) * view.scaleX);
-      const heaped = Math.hypot(sx, sy) < ONE_PLACE;
+      const heaped = deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
       if (!heaped) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
         const area = 4 * Math.PI * Math.sqrt(determinant) * view.scaleX * view.scaleY;
@@ -163,7 +173,7 @@ export class PlanePicture extends Picture {
       }
       drawRobot(context, view, palette, { x: 0, y: 0, heading: 0, colour: palette.truth });
       const styles = /** @type {const} */ ([
-        ['linearized', palette.prior, 1.75],
+        ['linearized', palette.prediction, 1.75],
         ['ellipse', palette.prediction, 2],
         ['exponential', palette.posterior, 2.25],
         ['command', palette.prior, 2.5],
@@ -175,7 +185,7 @@ export class PlanePicture extends Picture {
       if (heaped && scene.machine.shown > 0) this.#drawHeap(context, scene, palette);
       if (marked) {
         const { pose, path } = marked;
-        drawOutline(context, view, palette, path, { colour: palette.accent, width: 1.25, dash: [2, 3] });
+        drawOutline(context, view, palette, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
         drawMark(context, view, palette, { x: pose[0], y: pose[1], heading: pose[2] });
       }
     });
@@ -192,8 +202,25 @@ export class PlanePicture extends Picture {
     const headings = [];
     for (let i = 0; i < machine.shown; i += stride) headings.push(poses[3 * i + 2]);
     const label = machine.shown === 1 ? '1 robot here' : `${whole(machine.shown)} robots here`;
-    drawHeap(context, this.view, palette, { x: poses[0], y: poses[1], headings, label, font: this.font ?? '' });
+    drawHeap(context, this.view, palette, { x: poses[0], y: poses[1], headings, label, font: this.font });
   }
+}
+
+/**
+ * What is known of the cloud in exponential coordinates: the model's own moments and the sample's;
+ * where there are neither, the spread in the plane around the command.
+ *
+ * @param {Scene} scene
+ * @returns {Moments[]} one at least
+ */
+function twistMoments({ config, stats, table }) {
+  const known = [table.tangent, stats.exponential].filter((moments) => moments !== null);
+  const finite = known.filter(({ cov }) => Number.isFinite(cov[0][0]));
+  if (finite.length > 0) return finite;
+  const { v, omega, dt } = config.command;
+  const { cov } = table.exact;
+  const along = cov[0][0] + cov[1][1];
+  return [{ mean: [v * dt, 0, omega * dt], cov: [[along, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
 }
 
 /** The same robots in exponential coordinates. */
@@ -203,14 +230,15 @@ export class TwistPicture extends Picture {
   }
 
   /** @param {Scene} scene */
-  fit({ config, table }) {
-    const { v, omega, dt } = config.command;
-    const { cov } = table.exact;
-    // Along-track spread is at most the spread in the plane; that much room needs no samples.
-    const along = ROOM * Math.sqrt(Math.max(0, cov[0][0] + cov[1][1]));
-    const heading = ROOM * Math.sqrt(Math.max(0, cov[2][2]));
-    const [x, y] = [v * dt, omega * dt];
-    this.view.fit(extentOf([[x - along, y - heading], [x + along, y + heading]], 0.1));
+  fit(scene) {
+    const { v, omega, dt } = scene.config.command;
+    /** @type {[number, number][]} */
+    const points = [[v * dt, omega * dt]];
+    for (const { mean, cov } of twistMoments(scene)) {
+      const [along, heading] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[2][2])];
+      points.push([mean[0] - along, mean[2] - heading], [mean[0] + along, mean[2] + heading]);
+    }
+    this.view.fit(extentOf(points, 0.1));
   }
 
   /**
@@ -221,13 +249,12 @@ export class TwistPicture extends Picture {
   draw(canvas, scene, palette) {
     const context = this.prepare(canvas);
     const { view } = this;
-    const { machine, config, contours, overlays, table, marked } = scene;
-    drawAxes(context, view, palette, { x: 'ξ along (m)', y: 'ξ heading (rad)', font: this.font ?? '' });
+    const { machine, config, contours, overlays, marked } = scene;
+    drawAxes(context, view, palette, { x: 'ξ along (m)', y: 'ξ heading (rad)', font: this.font });
     clipped(context, view, () => {
-      const { cov } = table.exact;
-      const along = Math.sqrt(Math.max(0, cov[0][0])) * view.scaleX;
-      const heading = Math.sqrt(Math.max(0, cov[2][2])) * view.scaleY;
-      this.drawCloud(context, scene, palette, cellSize(4 * Math.PI * along * heading, machine.shown));
+      const [{ cov }] = twistMoments(scene);
+      const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;
+      this.drawCloud(context, scene, palette, cellSize(area, machine.shown));
       if (overlays.exponential) {
         const style = { colour: palette.posterior, width: 2.25, dash: DASHES.exponential };
         drawOutline(context, view, palette, contours.twistEllipse, style);

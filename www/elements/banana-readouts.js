@@ -1,6 +1,6 @@
 /**
- * The Banana Machine's figures: the statistics of the cloud, the marked robot, and the table of the
- * worked example.
+ * The Banana Machine's figures: the statistics of the cloud, the marked robot, and the tables of
+ * moments.
  *
  * @module
  */
@@ -8,7 +8,7 @@
 import { css, html } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { inputOf } from '../ui/controls.js';
-import { fixed, percent, whole, withError } from '../ui/format.js';
+import { NOTHING, fixed, percent, significant, whole, withError } from '../ui/format.js';
 
 /**
  * @typedef {import('../types.d.ts').Stats} Stats
@@ -47,8 +47,20 @@ export const readoutStyles = css`
     white-space: nowrap;
   }
 
-  .readouts .swatch {
-    margin-right: 0.4rem;
+  @container (width < 43rem) {
+    /* As wide as its widest value: no row may grow and shrink with its number. */
+    .readouts div {
+      gap: 0.5rem;
+    }
+
+    .readouts dd {
+      min-width: 3.4rem;
+      text-align: right;
+    }
+
+    .readouts div:first-child dd {
+      min-width: 6.6rem;
+    }
   }
 
   .marked {
@@ -92,13 +104,10 @@ export const readoutStyles = css`
     font-style: italic;
   }
 
-  .table {
-    overflow-x: auto;
-  }
-
   table {
     width: 100%;
     max-width: 34rem;
+    margin-bottom: 1.25rem;
     border-collapse: collapse;
     font-size: 0.92rem;
     border-block: 1.5px solid var(--ink);
@@ -121,7 +130,18 @@ export const readoutStyles = css`
   }
 
   :is(th, td) {
-    padding: 0.14rem 0 0.14rem 0.7rem;
+    padding: 0.14rem 0 0.14rem 0.5rem;
+  }
+
+  @container (width < 24rem) {
+    table {
+      font-size: 0.78rem;
+    }
+
+    :is(th, td):not(:first-child) {
+      padding-left: 0.4rem;
+      white-space: normal;
+    }
   }
 
   :is(th, td):first-child {
@@ -135,14 +155,17 @@ export const readoutStyles = css`
   }
 `;
 
-/** @param {Stats} stats */
-export function readouts(stats) {
+/**
+ * @param {Stats} stats
+ * @param {number} samples robots in the whole cloud
+ */
+export function readouts(stats, samples) {
   const rows = [
-    ['cross-track skew, measured', withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3)],
+    ['cross-track skew ± standard error', withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3)],
     ['skew, exponential-coordinate Gaussian', fixed(stats.gaussianSkew, 3)],
     [html`skew, any Gaussian in <i>(x, y)</i>`, '0'],
     [html`<i>ρ</i>(cross-track, heading)`, fixed(stats.rhoCrossHeading, 3)],
-    [html`robots, <i>n</i>`, whole(stats.n)],
+    [html`robots shown, <i>n</i> of <i>N</i>`, `${whole(stats.n)} of ${whole(samples)}`],
     ['inside 2σ, exponential coordinates', percent(stats.coverage.exponential)],
     [html`inside 2σ, Gaussian in <i>(x, y)</i>`, percent(stats.coverage.ellipse)],
     ['inside 2σ, nominal', percent(NOMINAL)],
@@ -171,12 +194,13 @@ export function markedRobot({ index, shown, inspection, mark }) {
         id="robot"
         type="number"
         min="1"
-        max=${shown}
-        placeholder="1–${shown}"
+        max=${Math.max(1, shown)}
+        placeholder=${shown === 0 ? '' : `1–${whole(shown)}`}
+        ?disabled=${shown === 0}
         .value=${live(index < 0 ? '' : String(index + 1))}
         @input=${(/** @type {Event} */ event) => {
           const value = inputOf(event).valueAsNumber;
-          mark(Number.isInteger(value) && value >= 1 && value <= shown ? value - 1 : -1);
+          mark(Number.isInteger(value) && value >= 1 ? Math.min(value, shown) - 1 : -1);
         }}
       />
     </label>
@@ -199,42 +223,89 @@ function quantity(symbol, value, unit) {
   return html`<i>${symbol}</i> = ${fixed(value, 3)} ${unit}`;
 }
 
-/** @param {Table} table */
-export function workedExample(table) {
-  const columns = /** @type {const} */ (['linearized', 'exact', 'measured']);
-  const sigma = (/** @type {string} */ indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
-  /** @type {[unknown, (column: Table['exact']) => number][]} */
+/** Digits of what is computed, as many as the book prints; and of what chance leaves uncertain. */
+const DIGITS = 5;
+const MEASURED_DIGITS = 3;
+
+/** @param {string} indices */
+const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
+
+/**
+ * @param {Table} table
+ * @param {Stats} stats
+ */
+export function workedExample({ linearized, exact, measured }, stats) {
+  const computed = [linearized, exact];
+  const skew = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3);
+  /** @type {[unknown, (column: Table['exact']) => number, string?][]} */
   const rows = [
     [html`mean <i>x</i>`, ({ mean }) => mean[0]],
     [html`mean <i>y</i>`, ({ mean }) => mean[1]],
+    [html`mean <i>θ</i>`, ({ mean }) => mean[2]],
     [sigma('xx'), ({ cov }) => cov[0][0]],
     [sigma('yy'), ({ cov }) => cov[1][1]],
     [sigma('xy'), ({ cov }) => cov[0][1]],
     [sigma('xθ'), ({ cov }) => cov[0][2]],
     [sigma('yθ'), ({ cov }) => cov[1][2]],
     [sigma('θθ'), ({ cov }) => cov[2][2]],
-    ['cross-track skew', ({ crossTrackSkew }) => crossTrackSkew],
+    [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
+    ['cross-track skew', ({ crossTrackSkew }) => crossTrackSkew, skew],
   ];
-  return html`<div class="table">
-    <table>
-      <caption>
-        Moments of the pose: linearized at the command, exact, and measured on the robots shown.
-        Metres and radians.
-      </caption>
-      <thead>
-        <tr>
-          <th scope="col">quantity</th>
-          ${columns.map((name) => html`<th scope="col">${name}</th>`)}
-        </tr>
-      </thead>
-      <tbody>
-        ${rows.map(
-          ([name, of]) => html`<tr>
-            <th scope="row">${name}</th>
-            ${columns.map((column) => html`<td>${fixed(of(table[column]), 6)}</td>`)}
-          </tr>`,
-        )}
-      </tbody>
-    </table>
-  </div>`;
+  return momentTable({
+    caption: `Moments of the pose: linearized at the command, exact, and measured on the robots shown.
+      Metres and radians.`,
+    columns: ['linearized', 'exact', 'measured'],
+    rows: rows.map(([name, of, withItsError]) => [
+      name,
+      ...computed.map((column) => significant(of(column), DIGITS)),
+      withItsError ?? significant(of(measured), MEASURED_DIGITS),
+    ]),
+  });
+}
+
+/**
+ * @param {Table} table
+ * @param {Stats} stats
+ */
+export function twistTable({ tangent }, { exponential }) {
+  const rows = ['along', 'lateral', 'heading'].flatMap((axis, i) => {
+    /** @type {[unknown, (moments: import('../types.d.ts').Moments) => number][]} */
+    const both = [
+      [html`mean <i>ξ</i> ${axis}`, ({ mean }) => mean[i]],
+      [html`variance of <i>ξ</i> ${axis}`, ({ cov }) => cov[i][i]],
+    ];
+    return both;
+  });
+  return momentTable({
+    caption: 'Moments in exponential coordinates: of the command with its noise, and measured.',
+    columns: ['command', 'measured'],
+    rows: rows.map(([name, of]) => [
+      name,
+      tangent === null ? NOTHING : significant(of(tangent), DIGITS),
+      significant(of(exponential), MEASURED_DIGITS),
+    ]),
+  });
+}
+
+/**
+ * @param {{ caption: string, columns: string[], rows: unknown[][] }} table the name of each row first
+ */
+function momentTable({ caption, columns, rows }) {
+  return html`<table>
+    <caption>${caption}</caption>
+    <thead>
+      <tr>
+        <th scope="col">quantity</th>
+        ${columns.map((name) => html`<th scope="col">${name}</th>`)}
+      </tr>
+    </thead>
+    <tbody>
+      ${rows.map(
+        ([name, ...cells]) => html`<tr>
+          <th scope="row">${name}</th>
+          ${cells.map((cell) => html`<td>${cell}</td>`)}
+        </tr>`,
+      )}
+    </tbody>
+  </table>`;
 }

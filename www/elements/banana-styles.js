@@ -13,6 +13,7 @@ const layout = css`
   .figures {
     display: grid;
     gap: 1.5rem 2.75rem;
+    align-items: start;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
     margin-top: 1.5rem;
   }
@@ -92,10 +93,29 @@ const layout = css`
     background: var(--prior);
   }
 
+  /* It always has room for its longest sentence: nothing below may move under the finger. */
+  .caption {
+    min-height: 2lh;
+    margin: 0;
+    padding: 0.25rem 0;
+  }
+
   .note {
     margin: 0.5rem 0;
     padding-left: 0.8rem;
     border-left: 3px solid var(--accent);
+  }
+
+  .caption.note {
+    margin: 0;
+  }
+
+  @container (max-width: 34rem) {
+    .caption {
+      min-height: 3lh;
+      font-size: 0.95rem;
+      line-height: 1.25;
+    }
   }
 
   .legend {
@@ -115,11 +135,11 @@ const layout = css`
     stroke-width: 2.25;
   }
 
-  .legend :is(.command, .linearized) {
+  .legend .command {
     --role: var(--prior);
   }
 
-  .legend .ellipse {
+  .legend :is(.ellipse, .linearized) {
     --role: var(--prediction);
   }
 
@@ -146,15 +166,18 @@ const layout = css`
     column-gap: 1rem;
   }
 
-  .alphas legend {
-    display: flex;
-    align-items: center;
-    justify-content: space-between;
+  @container (width < 19rem) {
+    .choices {
+      grid-template-columns: repeat(auto-fill, minmax(7rem, 1fr));
+    }
+
+    .choices > span {
+      grid-column: 1 / -1;
+    }
   }
 
-  .alphas legend .toggle {
-    font-style: normal;
-    font-size: 1rem;
+  .alphas > .toggle {
+    margin-bottom: 0.4rem;
   }
 
   .cloud {
@@ -167,7 +190,7 @@ const layout = css`
   }
 
   figcaption {
-    margin-top: 0.4rem;
+    margin: 0.4rem 0 1.25rem;
     color: var(--muted);
     font-size: 0.92rem;
   }
@@ -195,7 +218,12 @@ const layout = css`
       }
 
       canvas.plane {
-        max-height: 44svh;
+        max-height: 38svh;
+      }
+
+      /* What has the focus stays clear of the floor above it. */
+      :is(button, input, .chart-marker) {
+        scroll-margin-top: calc(38svh + 6.5rem);
       }
     }
   }

@@ -138,9 +138,11 @@ export function spreadOf(table) {
  *
  * @param {Settings} config
  * @param {Table} table
- * @returns {string} empty for an ordinary cloud
+ * @param {Stats} stats
+ * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
+ * @returns {string} empty for an ordinary cloud; short enough for three lines on a phone
  */
-export function noteOn(config, table) {
+export function noteOn(config, table, stats, chartHolds) {
   const spread = spreadOf(table);
   const { v, omega } = config.command;
   if (spread === 'point') {
@@ -153,6 +155,15 @@ export function noteOn(config, table) {
   }
   if (spread === 'headings') {
     return 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.';
+  }
+  if (!chartHolds) {
+    return 'Some robots turn nearly a full circle. Exponential coordinates end there, and their figures with them.';
+  }
+  if (config.model === 'odometry' && v < 0) {
+    return 'Odometry reads backing up as two half turns, and the table charges noise for both.';
+  }
+  if (stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN)) {
+    return 'Only one number is noisy: the robots lie on a line, and an outline without area holds no share of them.';
   }
   return '';
 }
@@ -210,14 +221,50 @@ export function planeText(config, stats, note, overlays) {
   if (note) return `${start} ${mean} ${note}${drawn}`;
   const { cov } = stats.cartesian;
   const spread = `Standard deviations ${fixed(Math.sqrt(cov[0][0]), 2)} m in x and ${fixed(Math.sqrt(cov[1][1]), 2)} m in y.`;
-  return `${start} ${mean} ${spread} ${bendText(stats.crossTrackSkew)}${drawn}`;
+  return `${start} ${mean} ${spread} ${bendText(stats)}${drawn}`;
 }
 
-/** @param {number} skew */
-function bendText(skew) {
+/** @param {Stats} stats */
+function bendText({ crossTrackSkew: skew, crossTrackSkewError: error }) {
   if (Number.isNaN(skew)) return '';
-  if (Math.abs(skew) < 0.05) return 'The cloud hardly leans to either side.';
-  return `The cloud is bent, with its tail to the ${skew < 0 ? 'right' : 'left'} of the mean heading: skew ${fixed(skew, 2)}.`;
+  const figure = `skew ${withError(skew, error, 2)}`;
+  if (Math.abs(skew) < 0.05) return `The cloud hardly leans to either side: ${figure}.`;
+  return `The cloud is bent, with its tail to the ${skew < 0 ? 'right' : 'left'} of the mean heading: ${figure}.`;
+}
+
+/**
+ * What stands under the view of the floor while there is nothing to note.
+ *
+ * @param {Stats} stats
+ */
+export function captionOf(stats) {
+  if (stats.n === 0) return 'No robots yet.';
+  return bendText(stats) || 'Too few robots for a skew.';
+}
+
+/** @param {number} skew exact */
+export function skewText(skew) {
+  return Number.isNaN(skew) ? 'exact skew undefined' : `exact skew ${fixed(skew, 3)}`;
+}
+
+/**
+ * What stands under the view in exponential coordinates: how Gaussian they make this cloud, unless
+ * there is something else to note about it.
+ *
+ * @param {Settings} config
+ * @param {string} note
+ */
+export function twistCaption({ model, noise, alphas, isolate }, note) {
+  const start = 'The same robots in exponential coordinates';
+  if (note) return `${start}.`;
+  if (model === 'odometry') {
+    return `${start}: only roughly a Gaussian. Odometry noise enters at three hinges, not along one arc, and the predicted skew misses.`;
+  }
+  const turned = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
+  if (noise === 'triangular') return `${start}: no longer bent, though triangular noise is not Gaussian.`;
+  return turned
+    ? `${start}: nearly a Gaussian. What keeps it from being one is γ̂, which turns a robot after its arc.`
+    : `${start}: exactly a Gaussian, whose outline is an ellipse.`;
 }
 
 /**

@@ -84,13 +84,20 @@ export class WidgetElement extends LitElement {
 
   /** @param {number} elapsed milliseconds */
   frame(elapsed) {
-    if (!this.machine || !this.#drawable) return;
+    if (!this.machine || !this.#drawable || !this.#hasSize) return;
     try {
       this.palette ??= resolvePalette(this.#probe());
       this.draw(elapsed);
     } catch (error) {
       this.fail(error);
     }
+  }
+
+  /** Whether there is something to draw on: not inside a closed tab, where everything has size 0. */
+  get #hasSize() {
+    return [...this.renderRoot.querySelectorAll('canvas')].every(
+      ({ width, height, clientWidth, clientHeight }) => Math.min(width, height, clientWidth, clientHeight) > 0,
+    );
   }
 
   /** Whether the reader has asked for less motion. */

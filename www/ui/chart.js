@@ -12,6 +12,7 @@ import { fixed, tick } from './format.js';
 const WIDTH = 380;
 const HEIGHT = 250;
 const INSET = { left: 40, right: 10, top: 22, bottom: 34 };
+const BOTTOM = HEIGHT - INSET.bottom;
 
 /** Half-heights that the y axis may have, so that it holds still while a slider is dragged. */
 const HALF_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
@@ -21,7 +22,6 @@ export const chartStyles = css`
     display: block;
     width: 100%;
     max-width: 34rem;
-    overflow: visible;
     cursor: crosshair;
     touch-action: pan-y;
   }
@@ -52,8 +52,10 @@ export const chartStyles = css`
   }
 
   .chart .measured {
+    fill: none;
     stroke: var(--prediction);
     stroke-width: 2;
+    pointer-events: none;
   }
 
   .chart .now {
@@ -66,6 +68,11 @@ export const chartStyles = css`
     stroke: var(--prior);
     stroke-width: 2.5;
   }
+
+  .chart-marker .nowhere {
+    stroke: var(--muted);
+    stroke-dasharray: 2 2;
+  }
 `;
 
 /**
@@ -76,10 +83,10 @@ export const chartStyles = css`
  * @param {number} chart.max
  * @param {number} chart.step of the keyboard
  * @param {number} chart.x where the marker is
- * @param {number} chart.y NaN when there is none
- * @param {{ value: number, error: number }} chart.measured
+ * @param {number} chart.y NaN when there is none: the marker waits on the x axis then
+ * @param {{ value: number, error: number }} chart.measured NaN when there is none
  * @param {string} chart.valueText
- * @param {(x: number) => void} chart.move
+ * @param {(to: (x: number) => number) => void} chart.move given what makes the next x of the present one
  * @param {() => void} chart.commit
  */
 export function skewChart(chart) {
@@ -92,35 +99,34 @@ export function skewChart(chart) {
   const peak = points.reduce((most, [, value]) => Math.max(most, Math.abs(value) || 0), 0.1);
   const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;
   const x = scaleLinear([min, max], [INSET.left, WIDTH - INSET.right]);
-  const y = scaleLinear([-half, half], [HEIGHT - INSET.bottom, INSET.top]);
+  const y = scaleLinear([-half, half], [BOTTOM, INSET.top]);
   const path = line(([at]) => x(at), ([, value]) => y(value)).defined(([, value]) => !Number.isNaN(value));
-  const bottom = HEIGHT - INSET.bottom;
-  const at = Math.min(max, Math.max(min, chart.x));
-  const markerY = y(Number.isNaN(chart.y) ? 0 : chart.y);
+  const inRange = (/** @type {number} */ value) => Math.min(max, Math.max(min, value));
+  const onStep = (/** @type {number} */ value) => inRange(Math.round(value / chart.step) * chart.step);
+  const at = inRange(chart.x);
+  const undefinedHere = Number.isNaN(chart.y);
 
   /** @param {PointerEvent} event */
   const follow = (event) => {
     const box = /** @type {Element} */ (event.currentTarget).getBoundingClientRect();
     const pixel = ((event.clientX - box.left) / box.width) * WIDTH;
-    const value = Math.min(max, Math.max(min, x.invert(pixel)));
-    chart.move(Math.round(value / chart.step) * chart.step);
+    chart.move(() => onStep(x.invert(pixel)));
   };
   /** @param {KeyboardEvent} event */
   const key = (event) => {
-    const ways = /** @type {Record<string, number>} */ ({
-      ArrowRight: at + chart.step,
-      ArrowUp: at + chart.step,
-      ArrowLeft: at - chart.step,
-      ArrowDown: at - chart.step,
-      PageUp: at + 10 * chart.step,
-      PageDown: at - 10 * chart.step,
-      Home: min,
-      End: max,
-    });
-    const value = ways[event.key];
-    if (value === undefined) return;
+    const steps = /** @type {Record<string, number>} */ ({
+      ArrowRight: 1,
+      ArrowUp: 1,
+      ArrowLeft: -1,
+      ArrowDown: -1,
+      PageUp: 10,
+      PageDown: -10,
+      Home: -Infinity,
+      End: Infinity,
+    })[event.key];
+    if (steps === undefined) return;
     event.preventDefault();
-    chart.move(Math.min(max, Math.max(min, Math.round(value / chart.step) * chart.step)));
+    chart.move((now) => onStep(now + steps * chart.step));
     chart.commit();
   };
 
@@ -131,6 +137,7 @@ export function skewChart(chart) {
       role="group"
       aria-label=${chart.label}
       @pointerdown=${(/** @type {PointerEvent} */ event) => {
+        if (event.button !== 0) return;
         /** @type {Element} */ (event.currentTarget).setPointerCapture(event.pointerId);
         follow(event);
       }}
@@ -140,21 +147,20 @@ export function skewChart(chart) {
       <g aria-hidden="true">
         ${x.ticks(5).map(
           (value) => svg`
-            <line class="axis" x1=${x(value)} x2=${x(value)} y1=${bottom} y2=${bottom + 4} />
-            <text x=${x(value)} y=${bottom + 18} text-anchor="middle">${tick(value, 1)}</text>`,
+            <line class="axis" x1=${x(value)} x2=${x(value)} y1=${BOTTOM} y2=${BOTTOM + 4} />
+            <text x=${x(value)} y=${BOTTOM + 18} text-anchor="middle">${tick(value, 1)}</text>`,
         )}
         ${y.ticks(5).map(
           (value) => svg`
             <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(value)} y2=${y(value)} opacity="0.5" />
             <text x=${INSET.left - 6} y=${y(value) + 4} text-anchor="end">${fixed(value, half < 1 ? 2 : 1)}</text>`,
         )}
-        <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${bottom} y2=${bottom} />
-        <text class="name" x=${WIDTH - INSET.right} y=${bottom + 31} text-anchor="end">ω (rad/s)</text>
+        <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${BOTTOM} y2=${BOTTOM} />
+        <text class="name" x=${WIDTH - INSET.right} y=${BOTTOM + 31} text-anchor="end">ω (rad/s)</text>
         <text class="name" x="0" y="12">cross-track skew</text>
         <line class="zero" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(0)} y2=${y(0)} />
         <path class="curve" d=${path(points) ?? ''} />
-        <line class="now" x1=${x(at)} x2=${x(at)} y1=${INSET.top} y2=${bottom} />
-        ${Number.isNaN(chart.measured.value) ? nothing : measuredBar(x(at), chart.measured, y)}
+        <line class="now" x1=${x(at)} x2=${x(at)} y1=${INSET.top} y2=${BOTTOM} />
       </g>
       <g
         class="chart-marker"
@@ -167,20 +173,30 @@ export function skewChart(chart) {
         aria-valuetext=${chart.valueText}
         @keydown=${key}
       >
-        <circle cx=${x(at)} cy=${markerY} r="6" />
+        <circle class=${undefinedHere ? 'nowhere' : nothing} cx=${x(at)} cy=${undefinedHere ? BOTTOM : y(chart.y)} r="6" />
       </g>
+      ${Number.isNaN(chart.measured.value) ? nothing : measuredBar(x(at), chart.measured, y)}
     </svg>
   `;
 }
 
 /**
- * The measured value, one standard error either way.
+ * The measured value and one standard error either way, as far as the axis goes: an arrow says that
+ * it goes on.
  *
  * @param {number} x pixels
  * @param {{ value: number, error: number }} measured
  * @param {(value: number) => number} y
  */
 function measuredBar(x, { value, error }, y) {
+  const onAxis = (/** @type {number} */ pixel) => Math.min(BOTTOM, Math.max(INSET.top, pixel));
+  const end = (/** @type {number} */ pixel) => {
+    const shown = onAxis(pixel);
+    if (shown === pixel) return `M${x - 10},${pixel}h20`;
+    const back = shown === BOTTOM ? -5 : 5;
+    return `M${x - 5},${shown + back}L${x},${shown}l5,${back}`;
+  };
   const [low, high] = [y(value - error), y(value + error)];
-  return svg`<path class="measured" d="M${x - 7},${low}h14M${x - 7},${high}h14M${x},${low}V${high}" />`;
+  const bar = `M${x},${onAxis(low)}V${onAxis(high)}`;
+  return svg`<path class="measured" aria-hidden="true" d=${end(low) + end(high) + bar} />`;
 }

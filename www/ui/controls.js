@@ -111,7 +111,13 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  button:hover {
+  button:disabled {
+    border-color: var(--rule);
+    color: var(--muted);
+    cursor: default;
+  }
+
+  button:enabled:hover {
     border-color: var(--ink);
     box-shadow: inset 0 0 0 1px var(--ink);
   }
@@ -120,6 +126,22 @@ export const controlStyles = css`
     background: var(--ink);
     border-color: var(--ink);
     color: var(--paper);
+  }
+
+  @media (forced-colors: active) {
+    input[type='range'],
+    .swatch,
+    .handle,
+    .chart {
+      forced-color-adjust: none;
+    }
+
+    button[aria-pressed='true'] {
+      forced-color-adjust: none;
+      background: Highlight;
+      border-color: Highlight;
+      color: HighlightText;
+    }
   }
 
   fieldset {
@@ -229,11 +251,12 @@ export function toggle({ label, checked, change }) {
 /**
  * @param {string} label
  * @param {() => void} press
- * @param {{ pressed?: boolean, title?: string }} [state]
+ * @param {{ pressed?: boolean, disabled?: boolean, title?: string }} [state]
  */
-export function button(label, press, { pressed, title } = {}) {
+export function button(label, press, { pressed, disabled = false, title } = {}) {
   return html`<button
     type="button"
+    ?disabled=${disabled}
     title=${title ?? nothing}
     aria-pressed=${pressed ?? nothing}
     @click=${press}

@@ -17,7 +17,7 @@ import { channels } from './theme.js';
 
 /** Dashes of the roles that are lines, in CSS pixels; the legend's swatches use the same. */
 export const DASHES = {
-  command: /** @type {number[]} */ ([]),
+  command: [2.5, 3.5],
   ellipse: [7, 4],
   linearized: [9, 3, 2, 3],
   exponential: /** @type {number[]} */ ([]),
@@ -49,12 +49,15 @@ export function drawAxes(context, view, palette, labels) {
   context.fillStyle = palette.muted;
 
   const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
+  // The axis has its name where its last tick would be.
+  const free = right - context.measureText(labels.x).width - 10;
   context.textAlign = 'center';
   context.textBaseline = 'top';
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
     line(context, x, top, x, bottom, 0.5);
-    if (x < right - 42) context.fillText(tick(value, xTicks.step), x, bottom + 6);
+    const text = tick(value, xTicks.step);
+    if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
   }
   const yTicks = ticksOf(yMin, yMax, (bottom - top) / TICK_SPACING.y);
   context.textAlign = 'right';

@@ -1,6 +1,6 @@
 /**
- * Numbers as they are printed: fixed decimals, a true minus sign, thin spaces between thousands,
- * and a dash where there is no number.
+ * Numbers as they are printed: a true minus sign, thin spaces between thousands, and a dash where
+ * there is no number.
  *
  * @module
  */
@@ -18,6 +18,27 @@ export function fixed(value, decimals) {
   if (Number.isNaN(value)) return NOTHING;
   const digits = Math.abs(value).toFixed(decimals);
   return value < 0 && Number(digits) !== 0 ? MINUS + digits : digits;
+}
+
+/** Below this a number is taken for a 0 that rounding has passed over. */
+const NOTHING_BELOW = 1e-13;
+
+const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+
+/**
+ * @param {number} value
+ * @param {number} digits significant ones
+ * @returns {string} "0.0070020"; from 0.0001 downwards "1.2500·10⁻⁵"
+ */
+export function significant(value, digits) {
+  if (Number.isNaN(value)) return NOTHING;
+  const size = Math.abs(value);
+  if (size < NOTHING_BELOW) return '0';
+  const sign = value < 0 ? MINUS : '';
+  if (size >= 1e-4 && size < 1e5) return sign + size.toPrecision(digits);
+  const [mantissa, exponent] = size.toExponential(digits - 1).split('e');
+  const power = exponent.replace(/[-+]/, '').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
+  return `${sign}${mantissa}·10${exponent.startsWith('-') ? '⁻' : ''}${power}`;
 }
 
 /**

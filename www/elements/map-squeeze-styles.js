@@ -133,8 +133,19 @@ const layout = css`
     line-height: 1.25;
   }
 
-  .choices {
-    grid-template-columns: 3rem auto 1fr;
+  @container (width >= 19rem) {
+    .choices {
+      grid-template-columns: 3rem auto 1fr;
+    }
+  }
+
+  /* A share with its interval is longer than a phone is wide. */
+  .readouts div {
+    flex-wrap: wrap;
+  }
+
+  .readouts dd {
+    margin-left: auto;
   }
 
   table.outdated tbody {

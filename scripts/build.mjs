@@ -113,6 +113,7 @@ async function buildPages() {
   for (const path of files.filter((path) => !isScript(path))) {
     write(at(join('dist', relative('www', path))), readFileSync(at(path)));
   }
+  write(at('dist/core.d.ts'), readFileSync(at('www/types.d.ts')));
 }
 
 await runAsScript(import.meta.url, async () => {

@@ -228,6 +228,7 @@ export function planeText(config, stats, note, overlays) {
 function bendText({ crossTrackSkew: skew, crossTrackSkewError: error }) {
   if (Number.isNaN(skew)) return '';
   const figure = `skew ${withError(skew, error, 2)}`;
+  if (Math.abs(skew) < 2 * error) return `Too few robots to tell to which side the cloud leans: ${figure}.`;
   if (Math.abs(skew) < 0.05) return `The cloud hardly leans to either side: ${figure}.`;
   return `The cloud is bent, with its tail to the ${skew < 0 ? 'right' : 'left'} of the mean heading: ${figure}.`;
 }

@@ -17,8 +17,8 @@ use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 const TRINARY: Interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 };
-const BLACK: Pixel = Pixel { shade: 0.0, opaque: true };
-const WHITE: Pixel = Pixel { shade: 1.0, opaque: true };
+const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
+const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
 /// A grid of which the tests know every cell.
 struct Cells {
@@ -113,8 +113,15 @@ fn arcs_are_judged_by_the_cells() {
     let (mut free, mut blocked, mut buried) = (0, 0, 0);
     for _ in 0..300 {
         let cells = Cells::random(&mut rng);
-        let plan = cells.grid().into_floor_plan().expect("a small grid");
-        let [left, bottom, right, top] = plan.bounds();
+        let grid = cells.grid();
+        let (origin, side) = (grid.origin(), grid.resolution());
+        let [right, top] = [cells.width as f64 * side, cells.height as f64 * side];
+        let plan = grid.into_floor_plan().expect("a small grid");
+        // How far inside the edge of the map, which turns with the grid.
+        let depth = |x: f64, y: f64| {
+            let local = origin.inverse() * SE2::new(x, y, 0.0);
+            local.x().min(right - local.x()).min(local.y()).min(top - local.y())
+        };
         for _ in 0..30 {
             let at = cells.in_map(
                 uniform(&mut rng, 0.0, cells.width as f64),
@@ -124,24 +131,22 @@ fn arcs_are_judged_by_the_cells() {
             let start = SE2::new(at[0], at[1], uniform(&mut rng, -PI, PI));
             let arc = Arc { start, length, turn: uniform(&mut rng, -TAU, TAU) };
             let clearance = uniform(&mut rng, 0.0, 0.7) * cells.resolution;
-            let mut least = f64::INFINITY;
+            let (mut least, mut edge) = (f64::INFINITY, f64::INFINITY);
             for i in 0..=200 {
                 let f = f64::from(i) / 200.0;
                 let end = Arc { length: f * arc.length, turn: f * arc.turn, ..arc }.end();
-                let depth = (end.x() - left).min(right - end.x()).min(end.y() - bottom).min(top - end.y());
                 let room = cells.distance([end.x(), end.y()]) - clearance;
-                least = least.min(room).min(if depth < 0.0 { -1.0 } else { f64::INFINITY });
+                edge = edge.min(depth(end.x(), end.y()));
+                least = least.min(room);
             }
-            // Between two of the points the distance falls by half their spacing at most; an arc that only just leaves
-            // the bounds may do so between two points.
-            let [x0, y0, x1, y1] = arc.bounding_box();
-            let by_the_bounds = x0 < left || y0 < bottom || x1 > right || y1 > top;
+            // Between two of the points either distance falls by half their spacing at most.
+            let between = 0.5 * length.abs() / 200.0;
             let verdict = plan.arc_free(&arc, clearance).free;
-            if least <= -1e-12 {
+            if least <= -1e-12 || edge <= -1e-12 {
                 assert!(!verdict, "{arc:?}");
                 blocked += 1;
                 buried += u32::from(cells.distance(at) == 0.0);
-            } else if least > 0.5 * length.abs() / 200.0 && !by_the_bounds {
+            } else if least > between && edge > between {
                 assert!(verdict, "{arc:?}");
                 free += 1;
             }
@@ -209,7 +214,8 @@ fn a_grid_of_too_many_walls_is_refused() {
     let dots = Cells { width: side, height: side, occupied, resolution: 0.05, origin: [0.0; 3] };
     // 160 · 160 cells that stand alone, with four sides each.
     let error = dots.grid().into_floor_plan().err();
-    assert_eq!(error, Some(FloorPlanError::TooManyWalls(102_400)));
+    // Counted no further than the row or column that passed the limit.
+    assert!(matches!(error, Some(FloorPlanError::TooManyWalls(100_001..=100_320))), "{error:?}");
 }
 
 // -------------------------------------------------------------------------------------------- map_server's pixels
@@ -217,8 +223,8 @@ fn a_grid_of_too_many_walls_is_refused() {
 /// As `map_server` reads them: occupied where the occupancy is above the threshold, not where it is at it.
 #[test]
 fn pixels_are_read_as_map_server_reads_them() {
-    let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opaque: true };
-    let clear = |value: u8| Pixel { opaque: false, ..pixel(value) };
+    let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
+    let clear = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
     let scale = Interpretation { mode: Mode::Scale, ..TRINARY };
     let raw = Interpretation { mode: Mode::Raw, ..TRINARY };
     let negated = |occupied_thresh| Interpretation { negate: true, occupied_thresh, ..TRINARY };
@@ -260,7 +266,7 @@ fn pixels_are_read_as_map_server_reads_them() {
 // ----------------------------------------------------------------------------------------------------------- PGM
 
 fn shades(image: &Image) -> Vec<f32> {
-    assert!(image.pixels.iter().all(|pixel| pixel.opaque));
+    assert!(image.pixels.iter().all(|pixel| pixel.opacity == 1.0));
     image.pixels.iter().map(|pixel| pixel.shade).collect()
 }
 
@@ -390,4 +396,56 @@ fn no_bytes_break_the_reader() {
         }
     }
     assert!(read > 10_000 && refused > 10_000, "{read} {refused}");
+}
+
+/// `map_server` averages opacity in with the colours in mode trinary, if the image has transparency at all.
+#[test]
+fn transparency_counts_as_a_colour_in_trinary() {
+    let interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 };
+    let occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
+        let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
+        let image = Image { width: pixels.len(), height: 1, pixels };
+        OccupancyGrid::new(&image, &interpretation, 0.05, SE2::identity()).occupied().to_vec()
+    };
+    // Opaque black is (0 + 0 + 0 + 1)/4 = 0.25 of white then, dark grey 60/255 is 0.43 of it, clear white 0.75.
+    assert_eq!(
+        occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 0.0), (0.0, 0.0)]),
+        [true, false, false, true]
+    );
+    assert_eq!(
+        occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 1.0)]),
+        [true, true, false],
+        "no transparency"
+    );
+}
+
+/// A turned map ends where its image does, not where a box around it does.
+#[test]
+fn the_edge_of_a_turned_map_turns_with_it() {
+    let empty = Cells {
+        width: 100,
+        height: 50,
+        occupied: vec![false; 5000],
+        resolution: 0.1,
+        origin: [1.0, 2.0, 0.6],
+    };
+    let plan = empty.grid().into_floor_plan().expect("no walls");
+    let at = |x: f64, y: f64| {
+        let point = SE2::new(1.0, 2.0, 0.6) * SE2::new(x, y, 0.0);
+        [point.x(), point.y()]
+    };
+    for (x, y, inside) in
+        [(5.0, 2.5, true), (0.1, 0.1, true), (9.9, 4.9, true), (-0.1, 2.0, false), (5.0, 5.1, false)]
+    {
+        assert_eq!(plan.point_free(at(x, y), 0.05).free, inside, "({x}, {y})");
+    }
+    let [left, _, _, top] = plan.bounds();
+    assert!(
+        !plan.point_free([left + 0.1, top - 0.1], 0.05).free,
+        "a corner of the box that is no part of the map"
+    );
+    let [x, y] = at(5.0, 4.5);
+    let across = Arc { start: SE2::new(x, y, 0.6), length: 2.0, turn: 2.0 * PI };
+    assert!(!plan.arc_free(&across, 0.05).free, "a circle that leaves and comes back");
+    assert!(plan.arc_free(&Arc { turn: -2.0 * PI, ..across }, 0.05).free);
 }

@@ -108,6 +108,37 @@ impl MapConditioned<'_> {
         Ok(cost)
     }
 
+    /// The last part of a motion of as many parts as the sampler has, each accepted as it is drawn, and whether all of
+    /// them are free. Until the first rejection these are the draws of [`MapConditioned::sample_along`].
+    pub fn sample_unconditioned<R: Rng + ?Sized>(
+        &self,
+        u: &VelocityCmd,
+        x: &SE2,
+        rng: &mut R,
+        mut along: impl FnMut(&Arc),
+    ) -> (Draw, bool) {
+        let (steps, step) = self.parts(u);
+        let mut draw = self.judge(&step, x, self.unit_noise(rng));
+        along(&draw.arc);
+        let mut path_free = draw.path.free;
+        for _ in 1..steps {
+            draw = self.judge(&step, &draw.pose, self.unit_noise(rng));
+            along(&draw.arc);
+            path_free &= draw.path.free;
+        }
+        (draw, path_free)
+    }
+
+    /// The number of parts of a motion, and the command of each.
+    fn parts(&self, u: &VelocityCmd) -> (u32, VelocityCmd) {
+        let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
+        (steps, VelocityCmd { dt: u.dt / f64::from(steps), ..*u })
+    }
+
+    fn unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {
+        std::array::from_fn(|_| self.model.noise.quantile(centred_uniform(rng)))
+    }
+
     fn drive<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -116,8 +147,7 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
         mut along: impl FnMut(&Arc),
     ) -> Result<SE2, Wedged> {
-        let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
-        let step = VelocityCmd { dt: u.dt / f64::from(steps), ..*u };
+        let (steps, step) = self.parts(u);
         let mut pose = *x;
         for _ in 0..steps {
             let arc;
@@ -135,8 +165,7 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
     ) -> Result<(SE2, Arc), Wedged> {
         for _ in 0..MOST_DRAWS {
-            let unit_noise = std::array::from_fn(|_| self.model.noise.quantile(centred_uniform(rng)));
-            let (pose, arc) = self.motion(u, x, unit_noise);
+            let (pose, arc) = self.motion(u, x, self.unit_noise(rng));
             let deciding = if self.sampler == Sampler::WholeArc {
                 self.plan.arc_free(&arc, self.clearance)
             } else {

@@ -6,6 +6,7 @@ use crate::geom::arc::Arc;
 use crate::geom::segment::Segment;
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// Walls without thickness inside a rectangle.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ pub struct FloorPlan {
 /// Why a floor plan is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FloorPlanError {
-    /// The bounds are not finite, or least is not below greatest.
+    /// A bound is beyond ±10⁶ m, or a side shorter than a centimetre or longer than 100 km.
     BadBounds([f64; 4]),
     /// A wall has an end that is not finite or outside the bounds.
     BadWall { index: usize, end: [f64; 2] },
@@ -35,13 +36,18 @@ impl fmt::Display for FloorPlanError {
         match self {
             Self::BadBounds(bounds) => write!(
                 f,
-                "bounds is {bounds:?}; allowed is four finite numbers: least x, least y, greatest x, greatest y"
+                "bounds is {bounds:?}; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to \
+                 1000000, the sides from 0.01 to 100000"
             ),
             Self::BadWall { index, end } => {
                 write!(f, "walls[{index}] ends at {end:?}; allowed is a point inside the bounds")
             }
             Self::TooManyWalls(count) => {
-                write!(f, "walls has length {count}; allowed is at most {}", FloorPlan::MOST_WALLS)
+                write!(
+                    f,
+                    "walls has a length of {count} or more; allowed is at most {}",
+                    FloorPlan::MOST_WALLS
+                )
             }
         }
     }
@@ -55,6 +61,10 @@ pub struct Verdict {
     pub free: bool,
     pub wall_tests: usize,
 }
+
+/// Where bounds may lie and how far they may be apart, m: what a robot's coordinates may be, and what a screen can show.
+const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
+const SIDE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
     /// What is still interactive to draw and to index.
@@ -74,12 +84,13 @@ impl FloorPlan {
         solid: Option<OccupancyGrid>,
     ) -> Result<Self, FloorPlanError> {
         let [left, bottom, right, top] = bounds;
-        if !(bounds.iter().all(|bound| bound.is_finite()) && left < right && bottom < top) {
+        let sides = [right - left, top - bottom];
+        if !bounds.iter().all(|bound| COORDINATE.contains(bound))
+            || !sides.iter().all(|side| SIDE.contains(side))
+        {
             return Err(FloorPlanError::BadBounds(bounds));
         }
-        if walls.len() > Self::MOST_WALLS {
-            return Err(FloorPlanError::TooManyWalls(walls.len()));
-        }
+        Self::check_count(walls.len())?;
         // Rounding may set the corner of a turned grid a little outside its own bounds.
         let slack = 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
         let inside = |[x, y]: [f64; 2]| {
@@ -92,6 +103,10 @@ impl FloorPlan {
         }
         let index = (!walls.is_empty()).then(|| index_of(&walls));
         Ok(Self { walls, bounds, index, solid })
+    }
+
+    pub(super) fn check_count(walls: usize) -> Result<(), FloorPlanError> {
+        if walls > Self::MOST_WALLS { Err(FloorPlanError::TooManyWalls(walls)) } else { Ok(()) }
     }
 
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
@@ -146,9 +161,20 @@ impl FloorPlan {
         points.into_iter().find(|point| self.point_free(*point, clearance).free)
     }
 
-    fn holds(&self, [x, y]: [f64; 2]) -> bool {
-        let [left, bottom, right, top] = self.bounds;
+    /// Whether a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
+    fn holds(&self, point: [f64; 2]) -> bool {
+        if let Some(grid) = &self.solid {
+            return grid.spans(point);
+        }
+        let ([x, y], [left, bottom, right, top]) = (point, self.bounds);
         (left..=right).contains(&x) && (bottom..=top).contains(&y)
+    }
+
+    /// The corners of the map, in order around it.
+    fn corners(&self) -> [[f64; 2]; 4] {
+        let [left, bottom, right, top] = self.bounds;
+        let of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        self.solid.as_ref().map_or(of_bounds, OccupancyGrid::corners)
     }
 
     fn buried(&self, point: [f64; 2]) -> bool {
@@ -157,7 +183,10 @@ impl FloorPlan {
 
     fn leaves_bounds(&self, arc: &Arc, within: [f64; 4]) -> bool {
         let [left, bottom, right, top] = within;
-        if self.holds([left, bottom]) && self.holds([right, top]) {
+        if [[left, bottom], [right, bottom], [right, top], [left, top]]
+            .into_iter()
+            .all(|corner| self.holds(corner))
+        {
             return false;
         }
         let end = arc.end();
@@ -165,8 +194,7 @@ impl FloorPlan {
             return true;
         }
         // Both ends are inside, so that an arc which leaves crosses an edge.
-        let [left, bottom, right, top] = self.bounds;
-        let corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let corners = self.corners();
         (0..4).any(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }.distance_to_arc(arc) == 0.0)
     }
 

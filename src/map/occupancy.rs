@@ -34,19 +34,21 @@ pub struct Image {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
+    /// Mean of the colours.
     pub shade: f32,
-    pub opaque: bool,
+    /// From 0 (transparent) to 1.
+    pub opacity: f32,
 }
 
 impl Interpretation {
     pub fn occupied(&self, pixel: Pixel) -> bool {
-        let Pixel { shade, opaque } = pixel;
+        let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
         // Rounded as the shade is, so that a pixel at the threshold is not above it.
         let threshold = self.occupied_thresh as f32;
         match self.mode {
             Mode::Trinary => occupancy > threshold,
-            Mode::Scale => opaque && occupancy > threshold,
+            Mode::Scale => opacity == 1.0 && occupancy > threshold,
             Mode::Raw => (shade * 255.0).round() == 100.0,
         }
     }
@@ -68,12 +70,22 @@ pub struct OccupancyGrid {
 
 impl OccupancyGrid {
     /// The grid of an image whose lower left corner is at `origin`, with cells of `resolution` (m, positive).
+    ///
+    /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
     pub fn new(image: &Image, interpretation: &Interpretation, resolution: f64, origin: SE2) -> Self {
         let Image { width, height, ref pixels } = *image;
+        let transparent = pixels.iter().any(|pixel| pixel.opacity < 1.0);
+        let four_colours = interpretation.mode == Mode::Trinary && transparent;
+        let seen = |pixel: &Pixel| match *pixel {
+            Pixel { shade, opacity } if four_colours => {
+                Pixel { shade: (3.0 * shade + opacity) / 4.0, opacity }
+            }
+            opaque => opaque,
+        };
         let occupied = pixels
             .chunks(width.max(1))
             .rev()
-            .flat_map(|row| row.iter().map(|pixel| interpretation.occupied(*pixel)))
+            .flat_map(|row| row.iter().map(|pixel| interpretation.occupied(seen(pixel))))
             .collect();
         Self { width, height, resolution, origin, occupied }
     }
@@ -100,9 +112,31 @@ impl OccupancyGrid {
 
     /// Whether a point of the plane lies in an occupied cell.
     pub fn holds(&self, point: [f64; 2]) -> bool {
-        let local = self.origin.inverse() * SE2::new(point[0], point[1], 0.0);
-        let (column, row) = ((local.x() / self.resolution).floor(), (local.y() / self.resolution).floor());
+        let [column, row] = self.cell_coordinates(point).map(f64::floor);
         column >= 0.0 && row >= 0.0 && self.cell(column as usize, row as usize)
+    }
+
+    /// Whether a point of the plane lies on the grid, its edge included.
+    pub fn spans(&self, point: [f64; 2]) -> bool {
+        let [column, row] = self.cell_coordinates(point);
+        (0.0..=self.width as f64).contains(&column) && (0.0..=self.height as f64).contains(&row)
+    }
+
+    /// The corners of the grid, counter-clockwise from the origin.
+    pub fn corners(&self) -> [[f64; 2]; 4] {
+        let (width, height) = (self.width, self.height);
+        [(0, 0), (width, 0), (width, height), (0, height)].map(|(column, row)| self.corner(column, row))
+    }
+
+    fn corner(&self, column: usize, row: usize) -> [f64; 2] {
+        let (x, y) = (column as f64 * self.resolution, row as f64 * self.resolution);
+        let point = self.origin * SE2::new(x, y, 0.0);
+        [point.x(), point.y()]
+    }
+
+    fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let local = self.origin.inverse() * SE2::new(x, y, 0.0);
+        [local.x() / self.resolution, local.y() / self.resolution]
     }
 
     fn cell(&self, column: usize, row: usize) -> bool {
@@ -116,27 +150,23 @@ impl OccupancyGrid {
     /// [`FloorPlanError`] where there are too many walls.
     pub fn into_floor_plan(self) -> Result<FloorPlan, FloorPlanError> {
         let mut walls = Vec::new();
-        let corner = |column: usize, row: usize| {
-            let (x, y) = (column as f64 * self.resolution, row as f64 * self.resolution);
-            let point = self.origin * SE2::new(x, y, 0.0);
-            [point.x(), point.y()]
-        };
         // Between cells on either side of a grid line there is an outline where just one is occupied.
         let before = |i: usize| i.wrapping_sub(1);
         for row in 0..=self.height {
             let edge = |column: usize| self.cell(column, row) != self.cell(column, before(row));
             for (from, to) in runs(self.width, edge) {
-                walls.push(Segment { from: corner(from, row), to: corner(to, row) });
+                walls.push(Segment { from: self.corner(from, row), to: self.corner(to, row) });
             }
+            FloorPlan::check_count(walls.len())?;
         }
         for column in 0..=self.width {
             let edge = |row: usize| self.cell(column, row) != self.cell(before(column), row);
             for (from, to) in runs(self.height, edge) {
-                walls.push(Segment { from: corner(column, from), to: corner(column, to) });
+                walls.push(Segment { from: self.corner(column, from), to: self.corner(column, to) });
             }
+            FloorPlan::check_count(walls.len())?;
         }
-        let corners = [(0, 0), (self.width, 0), (0, self.height), (self.width, self.height)]
-            .map(|(column, row)| corner(column, row));
+        let corners = self.corners();
         let extreme = |axis: usize, pick: fn(f64, f64) -> f64| {
             corners.iter().map(|corner| corner[axis]).reduce(pick).unwrap_or(0.0)
         };

@@ -56,7 +56,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image, PgmError> {
     };
     let pixels = values
         .into_iter()
-        .map(|value| Pixel { shade: value.min(greatest) as f32 / greatest as f32, opaque: true })
+        .map(|value| Pixel { shade: value.min(greatest) as f32 / greatest as f32, opacity: 1.0 })
         .collect();
     Ok(Image { width, height, pixels })
 }

@@ -82,7 +82,7 @@ impl Settings {
     /// The parts that an attempt is made of.
     pub fn parts(&self) -> u32 {
         match self.sampler {
-            Sampler::SubStepped(steps) if self.conditioned => steps,
+            Sampler::SubStepped(steps) => steps,
             _ => 1,
         }
     }
@@ -131,7 +131,10 @@ impl Tally {
         let z = NoiseKind::Normal.quantile(0.475);
         let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
         let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-        [((middle - half) / scale).max(0.0), ((middle + half) / scale).min(1.0)]
+        // At shares of 0 and 1 the interval ends there, which rounding would miss.
+        let low = if self.through_wall == 0 { 0.0 } else { (middle - half) / scale };
+        let high = if self.through_wall == self.accepted { 1.0 } else { (middle + half) / scale };
+        if n > 0.0 { [low, high] } else { [0.0, 1.0] }
     }
 }
 
@@ -308,9 +311,14 @@ impl MapSqueeze {
         let Settings { command, conditioned, sampler, seed, .. } = self.settings;
         let start = self.settings.start();
         let model = self.conditioned(sampler);
-        if let (true, Sampler::SubStepped(_)) = (conditioned, sampler) {
+        if let Sampler::SubStepped(steps) = sampler {
             // How many numbers an attempt uses depends on the walls, so that each has a stream of its own.
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
+            if !conditioned {
+                let (end, path_free) = model.sample_unconditioned(&command, &start, &mut rng, along);
+                let attempt = Attempt { pose: end.pose, accepted: true, end_free: end.end.free, path_free };
+                return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
+            }
             return match model.sample_along(&command, &start, &mut rng, along) {
                 Ok(done) => {
                     let Accepted { pose, path_free, cost } = done;

@@ -1,7 +1,8 @@
 //! `MapSqueeze` for JavaScript.
 
 use super::fields::{
-    Fields, boolean, in_range, item, length, number, numbers, read_command, type_error, whole, word,
+    Fields, boolean, in_range, item, length, no_memory, number, numbers, read_command, type_error, whole,
+    word,
 };
 use super::values::{Command, bytes, doubles, object, to_js};
 use crate::geom::se2::SE2;
@@ -39,7 +40,9 @@ const OPENING_STEPS: u32 = 4;
 const MODES: [(&str, Mode); 3] = [("trinary", Mode::Trinary), ("scale", Mode::Scale), ("raw", Mode::Raw)];
 /// From a millimetre to a hundred metres a cell.
 const RESOLUTION: std::ops::RangeInclusive<f64> = 1e-3..=100.0;
-/// Accepted samples of a trial: enough to time, few enough not to freeze a page.
+/// Of a PGM file: a plain one takes six characters a pixel.
+const MOST_BYTES: u64 = 6 * MOST_PIXELS as u64 + 4096;
+/// Accepted samples of a trial, times parts: enough to time, few enough not to freeze a page.
 const MAX_TRIAL: u64 = 100_000;
 
 impl From<FloorPlanError> for JsValue {
@@ -290,7 +293,7 @@ impl JsMapSqueeze {
     pub fn trial(&self, sampler: &JsValue, steps: &JsValue, count: &JsValue) -> Result<JsValue, JsValue> {
         let steps = whole("steps", steps, 1, MAX_STEPS)? as u32;
         let sampler = sampler_of(word("sampler", sampler, &SAMPLERS)?, steps);
-        let count = whole("count", count, 1, MAX_TRIAL)?;
+        let count = whole("count", count, 1, MAX_TRIAL / u64::from(steps))?;
         let cost = self.machine.trial(sampler, count as usize)?;
         to_js(&Cost { draws: cost.draws, wall_tests: cost.wall_tests })
     }
@@ -409,7 +412,12 @@ fn read_grid(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, Js
 /// The bytes of a PGM file, or an ImageData.
 fn read_image(image: &JsValue) -> Result<Image, JsValue> {
     if let Some(bytes) = image.dyn_ref::<Uint8Array>() {
-        return read_pgm(&bytes.to_vec()).map_err(|error| RangeError::new(&error.to_string()).into());
+        let length = whole("image.length", &bytes.length().into(), 1, MOST_BYTES)? as usize;
+        let mut copy = Vec::new();
+        copy.try_reserve_exact(length).map_err(|_| no_memory("image.length"))?;
+        copy.resize(length, 0);
+        bytes.copy_to(&mut copy);
+        return read_pgm(&copy).map_err(|error| RangeError::new(&error.to_string()).into());
     }
     let fields = Fields::open("image", "image.", image)?;
     let width = whole("image.width", &fields.value("width")?, 1, MOST_PIXELS as u64)? as usize;
@@ -427,7 +435,7 @@ fn read_image(image: &JsValue) -> Result<Image, JsValue> {
         .chunks_exact(4)
         .map(|pixel| Pixel {
             shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
-            opaque: pixel[3] == 255,
+            opacity: f32::from(pixel[3]) / 255.0,
         })
         .collect();
     Ok(Image { width, height, pixels })

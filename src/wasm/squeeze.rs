@@ -412,7 +412,7 @@ fn read_grid(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, Js
 /// The bytes of a PGM file, or an ImageData.
 fn read_image(image: &JsValue) -> Result<Image, JsValue> {
     if let Some(bytes) = image.dyn_ref::<Uint8Array>() {
-        let length = whole("image.length", &bytes.length().into(), 1, MOST_BYTES)? as usize;
+        let length = whole("image.length", &bytes.length().into(), 0, MOST_BYTES)? as usize;
         let mut copy = Vec::new();
         copy.try_reserve_exact(length).map_err(|_| no_memory("image.length"))?;
         copy.resize(length, 0);

@@ -11,7 +11,8 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    FloorPlanError, Image, Interpretation, MOST_PIXELS, Mode, OccupancyGrid, PgmError, Pixel, read_pgm,
+    FloorPlan, FloorPlanError, Image, Interpretation, MOST_PIXELS, Mode, OccupancyGrid, PgmError, Pixel,
+    read_pgm,
 };
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -79,7 +80,7 @@ fn the_walls_are_as_far_as_the_cells() {
     let (mut inside, mut outside) = (0, 0);
     for _ in 0..400 {
         let cells = Cells::random(&mut rng);
-        let plan = cells.grid().into_floor_plan().expect("a small grid");
+        let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
         let [left, bottom, right, top] = plan.bounds();
         for _ in 0..50 {
             let column = uniform(&mut rng, 0.0, cells.width as f64);
@@ -116,7 +117,7 @@ fn arcs_are_judged_by_the_cells() {
         let grid = cells.grid();
         let (origin, side) = (grid.origin(), grid.resolution());
         let [right, top] = [cells.width as f64 * side, cells.height as f64 * side];
-        let plan = grid.into_floor_plan().expect("a small grid");
+        let plan = FloorPlan::from_grid(grid).expect("a small grid");
         // How far inside the edge of the map, which turns with the grid.
         let depth = |x: f64, y: f64| {
             let local = origin.inverse() * SE2::new(x, y, 0.0);
@@ -166,7 +167,7 @@ fn a_block_is_solid() {
         resolution: 1.0,
         origin: [-20.0, -20.0, 0.0],
     };
-    let plan = cells.grid().into_floor_plan().expect("four walls");
+    let plan = FloorPlan::from_grid(cells.grid()).expect("four walls");
     assert_eq!(plan.walls().len(), 4, "{:?}", plan.walls());
     assert!(!plan.point_free([0.0, 0.0], 0.1).free);
     let inside = Arc { start: SE2::new(0.0, 0.0, 0.5), length: 3.0, turn: 1.0 };
@@ -180,7 +181,7 @@ fn outlines_are_joined() {
     let picture = ["##.", "#..", "..#"];
     let occupied = picture.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
     let cells = Cells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
-    let plan = cells.grid().into_floor_plan().expect("a small grid");
+    let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
     let mut walls: Vec<[f64; 4]> =
         plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
     walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
@@ -201,7 +202,7 @@ fn outlines_are_joined() {
     assert_eq!(walls, expected);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
     let turned = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
-    let bounds = turned.grid().into_floor_plan().expect("a small grid").bounds();
+    let bounds = FloorPlan::from_grid(turned.grid()).expect("a small grid").bounds();
     for (bound, expected) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
         assert!((bound - expected).abs() < 1e-15, "{bounds:?}");
     }
@@ -213,7 +214,7 @@ fn a_grid_of_too_many_walls_is_refused() {
     let occupied = (0..side * side).map(|i| i / side % 2 == 0 && i % side % 2 == 0).collect();
     let dots = Cells { width: side, height: side, occupied, resolution: 0.05, origin: [0.0; 3] };
     // 160 · 160 cells that stand alone, with four sides each.
-    let error = dots.grid().into_floor_plan().err();
+    let error = FloorPlan::from_grid(dots.grid()).err();
     // Counted no further than the row or column that passed the limit.
     assert!(matches!(error, Some(FloorPlanError::TooManyWalls(100_001..=100_320))), "{error:?}");
 }
@@ -302,7 +303,7 @@ fn pgm_files_are_read() {
 #[test]
 fn the_image_stands_upright() {
     let image = read_pgm(b"P2 2 3 1  0 1  1 1  1 1").expect("a valid file");
-    let plan = OccupancyGrid::new(&image, &TRINARY, 0.5, SE2::new(10.0, 20.0, 0.0)).into_floor_plan();
+    let plan = FloorPlan::from_grid(OccupancyGrid::new(&image, &TRINARY, 0.5, SE2::new(10.0, 20.0, 0.0)));
     let plan = plan.expect("one cell");
     assert!(!plan.point_free([10.25, 21.25], 0.0).free, "the cell at the upper left");
     assert!(plan.point_free([10.25, 20.25], 0.7).free && plan.point_free([10.75, 21.25], 0.2).free);
@@ -385,7 +386,7 @@ fn no_bytes_break_the_reader() {
                 assert_eq!(image.pixels.len(), image.width * image.height);
                 assert!(image.pixels.iter().all(|pixel| (0.0..=1.0).contains(&pixel.shade)));
                 let grid = OccupancyGrid::new(&image, &TRINARY, 0.05, SE2::identity());
-                assert!(grid.into_floor_plan().is_ok());
+                assert!(FloorPlan::from_grid(grid).is_ok());
                 read += 1;
             }
             Err(PgmError { field, line, expected }) => {
@@ -429,7 +430,7 @@ fn the_edge_of_a_turned_map_turns_with_it() {
         resolution: 0.1,
         origin: [1.0, 2.0, 0.6],
     };
-    let plan = empty.grid().into_floor_plan().expect("no walls");
+    let plan = FloorPlan::from_grid(empty.grid()).expect("no walls");
     let at = |x: f64, y: f64| {
         let point = SE2::new(1.0, 2.0, 0.6) * SE2::new(x, y, 0.0);
         [point.x(), point.y()]

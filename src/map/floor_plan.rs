@@ -78,7 +78,20 @@ impl FloorPlan {
         Self::with_solid(walls, bounds, None)
     }
 
-    pub(super) fn with_solid(
+    /// The plan of a grid: its walls are the outlines of the occupied cells, its bounds those of the grid.
+    ///
+    /// # Errors
+    /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
+    pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
+        let walls = grid.outlines(Self::MOST_WALLS).map_err(FloorPlanError::TooManyWalls)?;
+        let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        for [x, y] in grid.corners() {
+            bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];
+        }
+        Self::with_solid(walls, bounds, Some(grid))
+    }
+
+    fn with_solid(
         walls: Vec<Segment>,
         bounds: [f64; 4],
         solid: Option<OccupancyGrid>,
@@ -90,7 +103,9 @@ impl FloorPlan {
         {
             return Err(FloorPlanError::BadBounds(bounds));
         }
-        Self::check_count(walls.len())?;
+        if walls.len() > Self::MOST_WALLS {
+            return Err(FloorPlanError::TooManyWalls(walls.len()));
+        }
         // Rounding may set the corner of a turned grid a little outside its own bounds.
         let slack = 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
         let inside = |[x, y]: [f64; 2]| {
@@ -103,10 +118,6 @@ impl FloorPlan {
         }
         let index = (!walls.is_empty()).then(|| index_of(&walls));
         Ok(Self { walls, bounds, index, solid })
-    }
-
-    pub(super) fn check_count(walls: usize) -> Result<(), FloorPlanError> {
-        if walls > Self::MOST_WALLS { Err(FloorPlanError::TooManyWalls(walls)) } else { Ok(()) }
     }
 
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.

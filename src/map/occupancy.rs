@@ -1,6 +1,5 @@
-//! Occupancy grids as ROS `map_server` stores them, made into floor plans.
+//! Occupancy grids as ROS `map_server` stores them.
 
-use super::floor_plan::{FloorPlan, FloorPlanError};
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 
@@ -143,35 +142,34 @@ impl OccupancyGrid {
         column < self.width && row < self.height && self.occupied[row * self.width + column]
     }
 
-    /// The floor plan whose walls are the outlines of the occupied cells, neighbouring sides joined: the distance to
-    /// them is the distance to the cells for everyone outside of one.
+    /// The outlines of the occupied cells, neighbouring sides joined: the distance to them is the distance to the cells
+    /// for everyone outside of one.
     ///
     /// # Errors
-    /// [`FloorPlanError`] where there are too many walls.
-    pub fn into_floor_plan(self) -> Result<FloorPlan, FloorPlanError> {
-        let mut walls = Vec::new();
+    /// How many there are so far, once there are more than `most`.
+    pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
+        let mut sides = Vec::new();
         // Between cells on either side of a grid line there is an outline where just one is occupied.
         let before = |i: usize| i.wrapping_sub(1);
         for row in 0..=self.height {
             let edge = |column: usize| self.cell(column, row) != self.cell(column, before(row));
             for (from, to) in runs(self.width, edge) {
-                walls.push(Segment { from: self.corner(from, row), to: self.corner(to, row) });
+                sides.push(Segment { from: self.corner(from, row), to: self.corner(to, row) });
             }
-            FloorPlan::check_count(walls.len())?;
+            if sides.len() > most {
+                return Err(sides.len());
+            }
         }
         for column in 0..=self.width {
             let edge = |row: usize| self.cell(column, row) != self.cell(before(column), row);
             for (from, to) in runs(self.height, edge) {
-                walls.push(Segment { from: self.corner(column, from), to: self.corner(column, to) });
+                sides.push(Segment { from: self.corner(column, from), to: self.corner(column, to) });
             }
-            FloorPlan::check_count(walls.len())?;
+            if sides.len() > most {
+                return Err(sides.len());
+            }
         }
-        let corners = self.corners();
-        let extreme = |axis: usize, pick: fn(f64, f64) -> f64| {
-            corners.iter().map(|corner| corner[axis]).reduce(pick).unwrap_or(0.0)
-        };
-        let bounds = [extreme(0, f64::min), extreme(1, f64::min), extreme(0, f64::max), extreme(1, f64::max)];
-        FloorPlan::with_solid(walls, bounds, Some(self))
+        Ok(sides)
     }
 }
 

@@ -209,7 +209,7 @@ impl JsMapSqueeze {
     /// A map of `map_server`: what its YAML file says, and its image as the bytes of a PGM file or as ImageData.
     #[wasm_bindgen(js_name = setGrid)]
     pub fn set_grid(&mut self, description: &JsValue, image: &JsValue) -> Result<(), JsValue> {
-        let plan = read_grid(description, image)?.into_floor_plan()?;
+        let plan = FloorPlan::from_grid(read_grid(description, image)?)?;
         self.machine.set_plan(plan);
         Ok(())
     }

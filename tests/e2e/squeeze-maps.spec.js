@@ -80,30 +80,34 @@ test('a floor plan can be written on the page', async ({ page }) => {
   expect((await squeezed(widget)).walls).toEqual([0, 0, 3, 3]);
 });
 
-test('a map_server pair can be dropped on the floor plan', async ({ page }) => {
-  const widget = await openSqueeze(page);
-  const files = [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)];
-  await widget.locator('.stage').evaluate(
-    (stage, given) => {
-      const dataTransfer = new DataTransfer();
-      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
-      const over = new DragEvent('dragover', { dataTransfer, cancelable: true });
-      stage.dispatchEvent(over);
-      if (!over.defaultPrevented || !stage.classList.contains('dropping')) throw new Error('It does not take files.');
-      stage.dispatchEvent(new DragEvent('drop', { dataTransfer, cancelable: true }));
-      if (stage.classList.contains('dropping')) throw new Error('It is still marked.');
-    },
-    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
-  );
-  await expect(present(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
-  const { bounds, walls, startFree, config, freePoint } = await squeezed(widget);
-  expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
-  // The outside of the border and its inside.
-  expect(walls).toHaveLength(8 * 4);
-  expect(startFree).toBe(true);
-  expect([config.start.x, config.start.y]).toEqual(freePoint);
-  expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
-});
+for (const place of ['.stage', 'legend', '.readouts']) {
+  test(`a map_server pair can be dropped on the widget, as on its ${place}`, async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const files = [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)];
+    await widget.locator(place).first().evaluate(
+      (target, given) => {
+        const dataTransfer = new DataTransfer();
+        for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+        const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
+        const [over, drop] = [event('dragover'), event('drop')];
+        target.dispatchEvent(over);
+        if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
+        target.dispatchEvent(drop);
+        if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
+        if (target.closest('.dropping')) throw new Error('It is still marked.');
+      },
+      files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+    );
+    await expect(present(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
+    const { bounds, walls, startFree, config, freePoint } = await squeezed(widget);
+    expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
+    // The outside of the border and its inside.
+    expect(walls).toHaveLength(8 * 4);
+    expect(startFree).toBe(true);
+    expect([config.start.x, config.start.y]).toEqual(freePoint);
+    expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
+  });
+}
 
 test.describe('occupancy grids', () => {
   /** @type {Record<string, { files: MapFile[], bounds: number[], walls: number }>} */
@@ -146,6 +150,14 @@ test.describe('occupancy grids', () => {
       bounds: [0, 0, 3, 2],
       walls: 8,
     },
+    'negated in a word': {
+      files: [
+        yaml('room.yaml', { ...FIELDS, negate: 'Yes' }),
+        pgm('room.pgm', COLUMNS, ROWS, border, { black: 254, white: 0 }),
+      ],
+      bounds: [0, 0, 3, 2],
+      walls: 8,
+    },
     'of 1000 × 1600 cells': {
       files: [
         yaml('hall.yaml', { ...FIELDS, image: 'hall.pgm', origin: '[-25, -40, 0]' }),
@@ -183,6 +195,8 @@ test.describe('malformed maps', () => {
     ['another shape', [file('plan.json', '"walls"')], /^plan\.json: plan is "walls"; allowed is an object with keys from bounds, walls; a floor plan is/],
     ['no bounds', [file('plan.json', '{"walls": []}')], /^plan\.json: bounds is missing; allowed is an array of 4 numbers/],
     ['a wall of three numbers', [file('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [[0, 0, 1, 1], [0, 0, 1]]}')], /^plan\.json: walls\[1\] has length 3; allowed is an array of 4 numbers/],
+    ['bounds far away', [file('plan.json', '{"bounds": [500000, 5400000, 500010, 5400010], "walls": []}')], /^plan\.json: bounds is \[.*5400000.*\]; allowed is .*; a floor plan is/],
+    ['tiny bounds', [file('plan.json', '{"bounds": [0, 0, 1e-9, 1e-9], "walls": []}')], /^plan\.json: bounds.*; a floor plan is/],
     ['a wall outside', [file('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [[0, 0, 2, 1]]}')], /^plan\.json: walls\[0\] ends at .*; allowed is a point inside the bounds/],
     ['broken YAML', [file('room.yaml', 'image: room.pgm\nresolution: 0.05\norigin: [0, 0\nnegate: 0\n'), image], /^room\.yaml, line 4: this is not YAML .*; expected is one field a line/],
     ['YAML without fields', [file('room.yaml', 'room\n'), image], /^room\.yaml: there are no fields in it; expected are/],
@@ -226,6 +240,64 @@ test.describe('malformed maps', () => {
   });
 });
 
+test('what is transparent in a PNG image keeps its shade', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await choose(widget, [
+    yaml('room.yaml', { ...FIELDS, image: 'room.png' }),
+    png('room.png', COLUMNS, ROWS, border, (column) => column < 30),
+  ]);
+  await expect(present(widget)).toContainText('room.yaml');
+  const occupied = await widget.evaluate((element) => {
+    const { grid } = /** @type {MapSqueezeElement} */ (element).machine;
+    return grid?.occupied.filter((cell) => cell === 1).length;
+  });
+  // White stays white: only the border is occupied.
+  expect(occupied).toBe(2 * COLUMNS + 2 * (ROWS - 2));
+});
+
+test('the whole map includes a cloud that has left it', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await choose(widget, [file('small.json', '{"bounds": [0, 0, 2, 2], "walls": [[1, 0, 1, 2]]}')]);
+  await expect(present(widget)).toHaveText('small.json: 2.0 m × 2.0 m, 1 wall.');
+  await widget.getByLabel('Condition on it').uncheck();
+  await widget.getByRole('slider', { name: 'r, clearance' }).fill('0.4');
+  const { poses, bounds, config } = await squeezed(widget);
+  const furthest = Math.max(...poses.filter((_, i) => i % 3 === 1));
+  expect(furthest).toBeGreaterThan(bounds[3] + 0.5);
+  const robot = await boxOf(widget.getByRole('slider', { name: 'Robot', exact: true }));
+  const metre = robot.height / (2 * config.clearance);
+  const { y: top } = await boxOf(widget.locator('canvas.plane'));
+  expect(robot.y + robot.height / 2 - (furthest - config.start.y) * metre).toBeGreaterThan(top + 20);
+});
+
+test('a file that cannot be read any more is refused in a sentence', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  await page.evaluate(() => {
+    Blob.prototype.arrayBuffer = () => Promise.reject(new DOMException('Permission was lost.', 'NotReadableError'));
+  });
+  for (const name of ['room.json', 'room.yaml']) {
+    await choose(widget, [file(name, JSON.stringify(ROOM))]);
+    await expect(complaint(widget)).toHaveText(`${name}: the file cannot be read (NotReadableError); expected is one that is still there.`);
+  }
+  expect(await squeezed(widget)).toEqual(before);
+});
+
+test('what goes wrong beyond the file is said too, and the present map stays', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  await widget.evaluate((element) => {
+    const { prototype } = /** @type {MapSqueezeElement} */ (element).motion.MapSqueeze;
+    Object.defineProperty(prototype, 'freePoint', { get: () => [NaN, 0] });
+  });
+  await widget.getByRole('button', { name: 'Open corridor' }).click();
+  await widget.getByRole('button', { name: 'Facing a doorway' }).click();
+  await choose(widget, [file('far.json', '{"bounds": [100, 100, 103, 103], "walls": []}')]);
+  await expect(complaint(widget)).toHaveText(/^The map cannot be opened: start\.x is NaN; .+\.$/);
+  await expect(present(widget)).toContainText('The apartment');
+  expect({ ...(await squeezed(widget)), freePoint: before.freePoint }).toEqual(before);
+});
+
 test('the map survives the element’s removal', async ({ page }) => {
   const widget = await openSqueeze(page);
   await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
@@ -251,6 +323,25 @@ test.describe('the page', () => {
       expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
     });
   }
+
+  test('keeps its roles, its key and its tracks in forced colours', async ({ page }) => {
+    await page.emulateMedia({ forcedColors: 'active' });
+    const widget = await openSqueeze(page);
+    for (const role of ['prior', 'truth']) {
+      expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
+    }
+    const [ring, cross] = await Promise.all(
+      ['.through circle:last-child', '.rejected path'].map((mark) =>
+        widget.locator(`.key ${mark}`).evaluate((shape) => getComputedStyle(shape).stroke),
+      ),
+    );
+    expect(ring).not.toBe(cross);
+    const slider = widget.getByRole('slider', { name: 'n, noise' });
+    const withTrack = await slider.screenshot();
+    await slider.evaluate((element) => element.style.setProperty('--muted', 'Canvas'));
+    expect(withTrack.equals(await slider.screenshot())).toBe(false);
+    expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
+  });
 
   test('repaints when the colour scheme changes', async ({ page }) => {
     const widget = await openSqueeze(page);

@@ -33,7 +33,7 @@ import {
  * @property {() => void} commit after the last of a row of changes, which it puts into effect
  */
 
-/** Sample counts of the slider. The last is as many as follow a drag when each is made of many parts. */
+/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
 const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];
 
 /** A floor plan to start from: a room with a gap in its wall. */

@@ -9,7 +9,7 @@
  * @typedef {import('../types.d.ts').SamplerName} SamplerName
  *
  * @typedef {object} Cost of one accepted sample
- * @property {number} micros microseconds; NaN, as the others, where the robot is wedged
+ * @property {number} micros microseconds
  * @property {number} draws
  * @property {number} wallTests
  */
@@ -20,44 +20,56 @@ export const DEMAND = 2000 * 20;
 /** Milliseconds that a measurement lasts at least: browsers' clocks are as coarse as 1 ms. */
 const LONG_ENOUGH = 20;
 
-/** Most samples a trial: what `trial` allows. */
+/** Runs of which the median is told. */
+const RUNS = 5;
+
+/** Most samples a trial, times the parts of each: what `trial` allows. */
 const MOST_SAMPLES = 100_000;
 
 /**
+ * Measures a run at a time: the page goes on between two of them.
+ *
  * @param {MapSqueeze} machine
  * @param {SamplerName} sampler
- * @param {number} steps
- * @returns {Cost}
+ * @param {number} parts of the command
+ * @returns {Generator<undefined, Cost | string>} the cost, or why there is none
  */
-export function measure(machine, sampler, steps) {
+function* measuring(machine, sampler, parts) {
+  const most = Math.floor(MOST_SAMPLES / parts);
   let count = 1;
-  let samples = 0;
-  let elapsed = 0;
-  const sum = { draws: 0, wallTests: 0 };
+  const run = () => {
+    const start = performance.now();
+    const { draws, wallTests } = machine.trial(sampler, parts, count);
+    return { draws, wallTests, elapsed: performance.now() - start };
+  };
   try {
-    while (elapsed < LONG_ENOUGH) {
-      const start = performance.now();
-      const { draws, wallTests } = machine.trial(sampler, steps, count);
-      elapsed += performance.now() - start;
-      samples += count;
-      sum.draws += draws;
-      sum.wallTests += wallTests;
-      count = Math.min(MOST_SAMPLES, 2 * count);
+    for (;;) {
+      const warmUp = run();
+      if (warmUp.elapsed >= LONG_ENOUGH || count === most) {
+        const runs = [];
+        while (runs.length < RUNS) {
+          yield;
+          runs.push(run());
+        }
+        runs.sort((one, other) => one.elapsed - other.elapsed);
+        const { draws, wallTests, elapsed } = runs[(RUNS - 1) / 2];
+        // Otherwise it was long because the device was busy.
+        if (elapsed >= LONG_ENOUGH / 2 || count === most) {
+          return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
+        }
+      }
+      yield;
+      count = Math.min(most, 2 * count);
     }
   } catch (error) {
-    if (!(error instanceof RangeError)) throw error;
-    return { micros: NaN, draws: NaN, wallTests: NaN };
+    if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
+    return count === 1 ? 'wedged: not one is accepted' : 'too few are accepted to time';
   }
-  return {
-    micros: (1000 * elapsed) / samples,
-    draws: sum.draws / samples,
-    wallTests: sum.wallTests / samples,
-  };
 }
 
 /** Measures the samplers one after the other when things have come to rest, and tells of each. */
 export class CostMeter {
-  /** @type {Partial<Record<SamplerName, Cost>>} as last measured */
+  /** @type {Partial<Record<SamplerName, Cost | string>>} as last measured, or why there is none */
   costs = {};
   /** Whether the costs are those of the present settings. */
   current = false;
@@ -79,13 +91,21 @@ export class CostMeter {
    */
   measureSoon(machine, samplers, told) {
     this.outdate();
+    const measured = machine();
+    if (!measured) return;
+    const measurements = samplers.map((sampler) =>
+      measuring(measured, sampler, sampler === 'sub-stepped' ? measured.config.steps : 1),
+    );
     const next = (/** @type {number} */ index) => {
-      const measured = machine();
-      if (!measured) return;
-      this.costs[samplers[index]] = measure(measured, samplers[index], measured.config.steps);
-      this.current = index === samplers.length - 1;
-      told();
-      if (!this.current) this.#timer = setTimeout(next, 0, index + 1);
+      // The element may have gone, and its machine with it.
+      if (machine() !== measured) return;
+      const { done, value } = measurements[index].next();
+      if (done) {
+        this.costs[samplers[index]] = value;
+        this.current = index === samplers.length - 1;
+        told();
+      }
+      if (!this.current) this.#timer = setTimeout(next, 0, done ? index + 1 : index);
     };
     this.#timer = setTimeout(next, REST, 0);
   }

@@ -5,6 +5,7 @@
  */
 
 import { YAMLException, load as parseYaml } from 'js-yaml';
+import { LONGEST_SIDE } from '../ui/canvas.js';
 
 /**
  * @typedef {import('../types.d.ts').MapSqueeze} MapSqueeze
@@ -23,9 +24,8 @@ export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 /** What a floor plan looks like. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in metres';
 
-/** Cells of a map at most, as for the core, and the longest side that canvases of all browsers have. */
+/** Cells of a map at most, as for the core. */
 const MOST_PIXELS = 2 ** 24;
-const LONGEST_SIDE = 16_384;
 
 /**
  * The map that files hold.
@@ -49,10 +49,31 @@ export async function readMapFiles(files) {
     const names = [...plans, ...descriptions].map(({ name }) => name).join(', ');
     throw new MapFileError(`${names}: these are ${maps} maps; expected is one at a time.`);
   }
-  if (plans.length) return readPlan(plans[0].name, await plans[0].text());
+  if (plans.length) return readPlan(plans[0].name, await textOf(plans[0]));
   if (descriptions.length) return readGrid(descriptions[0], images);
   const name = images[0]?.name ?? 'No file';
   throw new MapFileError(`${name}: an image alone has no scale; expected is its .yaml file together with it.`);
+}
+
+/**
+ * What is in a file: it may have gone, or be forbidden, since it was chosen.
+ *
+ * @param {Blob} part of the file or all of it
+ * @param {string} name
+ * @returns {Promise<ArrayBuffer>}
+ */
+async function bytesOf(part, name) {
+  try {
+    return await part.arrayBuffer();
+  } catch (error) {
+    const reason = error instanceof Error ? error.name : String(error);
+    throw new MapFileError(`${name}: the file cannot be read (${reason}); expected is one that is still there.`);
+  }
+}
+
+/** @param {File} file */
+async function textOf(file) {
+  return new TextDecoder().decode(await bytesOf(file, file.name));
 }
 
 /**
@@ -103,7 +124,7 @@ function parsed(name, text, language, expected) {
  * @returns {Promise<OwnMap>}
  */
 async function readGrid(file, images) {
-  const description = readDescription(file.name, await file.text());
+  const description = readDescription(file.name, await textOf(file));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
     throw new MapFileError(`${file.name}: image is ${path === undefined ? 'missing' : JSON.stringify(path)}; expected is the name of a .pgm or .png file.`);
@@ -115,7 +136,7 @@ async function readGrid(file, images) {
     throw new MapFileError(`${file.name}: image names ${wanted}, which is not there${given}; expected are both files together.`);
   }
   const pixels = /\.pgm$/i.test(image.name)
-    ? new Uint8Array(await image.arrayBuffer())
+    ? new Uint8Array(await bytesOf(image, image.name))
     : await readPng(image);
   return {
     name: file.name,
@@ -129,6 +150,9 @@ async function readGrid(file, images) {
   };
 }
 
+/** Truth in words: to the older YAML of map_server they are no strings. */
+const WORDS = new Map([['yes', true], ['on', true], ['no', false], ['off', false]]);
+
 /**
  * @param {string} name of the file
  * @param {string} text
@@ -139,7 +163,9 @@ function readDescription(name, text) {
   if (typeof description !== 'object' || description === null || Array.isArray(description)) {
     throw new MapFileError(`${name}: there are no fields in it; expected are at least image, resolution and origin.`);
   }
-  return /** @type {Record<string, unknown>} */ (description);
+  const fields = /** @type {Record<string, unknown>} */ (description);
+  const { negate } = fields;
+  return typeof negate === 'string' ? { ...fields, negate: WORDS.get(negate.toLowerCase()) ?? negate } : fields;
 }
 
 /**
@@ -147,7 +173,7 @@ function readDescription(name, text) {
  * @returns {Promise<ImageData>}
  */
 async function readPng(file) {
-  const header = new DataView(await file.slice(0, 24).arrayBuffer());
+  const header = new DataView(await bytesOf(file.slice(0, 24), file.name));
   const isPng = header.byteLength === 24 && header.getUint32(0) === 0x89504e47;
   if (!isPng) throw new MapFileError(`${file.name}: its first bytes are not those of a PNG image; expected is PNG.`);
   // Looked at before it is unpacked: a small file may hold an enormous image.
@@ -158,18 +184,47 @@ async function readPng(file) {
     );
   }
   try {
-    // Values as they are in the file, not as a screen would show them.
-    const bitmap = await createImageBitmap(file, { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
-    const canvas = new OffscreenCanvas(width, height);
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (
-      canvas.getContext('2d', { willReadFrequently: true })
-    );
-    context.drawImage(bitmap, 0, 0);
-    bitmap.close();
-    return context.getImageData(0, 0, width, height);
+    return await decoded(file, width, height);
   } catch {
     throw new MapFileError(`${file.name}: the image data cannot be decoded; expected is a complete PNG image.`);
   }
+}
+
+/**
+ * The values as they are in the file, not as a screen would show them.
+ *
+ * @param {File} file
+ * @param {number} width
+ * @param {number} height
+ * @returns {Promise<ImageData>}
+ */
+async function decoded(file, width, height) {
+  const asTheyAre = /** @type {const} */ ({ colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+  if ('ImageDecoder' in globalThis) {
+    const decoder = new ImageDecoder({ data: await file.arrayBuffer(), type: 'image/png', ...asTheyAre });
+    const { image } = await decoder.decode();
+    const { format } = image;
+    const pixels = new ImageData(width, height);
+    const { data } = pixels;
+    // In its own format: a conversion would blacken what is fully transparent.
+    await image.copyTo(data);
+    image.close();
+    decoder.close();
+    for (let i = 0; i < data.length; i += 4) {
+      if (format?.startsWith('B')) [data[i], data[i + 2]] = [data[i + 2], data[i]];
+      if (format?.endsWith('X')) data[i + 3] = 255;
+    }
+    return pixels;
+  }
+  // A canvas blackens it too.
+  const bitmap = await createImageBitmap(file, asTheyAre);
+  const canvas = new OffscreenCanvas(width, height);
+  const context = /** @type {OffscreenCanvasRenderingContext2D} */ (
+    canvas.getContext('2d', { willReadFrequently: true })
+  );
+  context.drawImage(bitmap, 0, 0);
+  bitmap.close();
+  return context.getImageData(0, 0, width, height);
 }
 
 /**

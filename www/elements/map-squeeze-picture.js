@@ -8,6 +8,7 @@ import { prepare } from '../ui/canvas.js';
 import { DASHES, clipped, drawAxes, drawDots, drawMark, drawOutline } from '../ui/draw.js';
 import { View, extentOf } from '../ui/view.js';
 import { WallLayer } from '../ui/walls.js';
+import { VERDICT } from './map-squeeze-words.js';
 
 /**
  * @typedef {import('../types.d.ts').Palette} Palette
@@ -23,10 +24,6 @@ import { WallLayer } from '../ui/walls.js';
  *
  * @typedef {ReturnType<typeof sort>} Sorted
  */
-
-/** Bits of a verdict. */
-export const PATH_FREE = 2;
-export const ACCEPTED = 4;
 
 /** Half a cross, CSS pixels. */
 const CROSS = 2.6;
@@ -56,12 +53,12 @@ export function sort(poses, verdicts) {
   const through = [];
   for (let i = 0; i < verdicts.length; i++) {
     const pose = [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]];
-    if ((verdicts[i] & ACCEPTED) === 0) {
+    if ((verdicts[i] & VERDICT.accepted) === 0) {
       rejected.push(...pose);
       continue;
     }
     accepted.push(...pose);
-    if ((verdicts[i] & PATH_FREE) === 0) through.push(i);
+    if ((verdicts[i] & VERDICT.pathFree) === 0) through.push(i);
   }
   return { poses, rejected, accepted: Float64Array.from(accepted), through };
 }
@@ -88,9 +85,9 @@ export class FloorPicture {
   }
 
   /** @param {Scene} scene */
-  #fit({ commanded, config }) {
+  #fit({ commanded, config, sorted }) {
     if (!this.close) {
-      this.#whole.fit(mapped(this.#plan, config.start));
+      this.#whole.fit(including(mapped(this.#plan, config.start), sorted.poses));
       return;
     }
     const length = Math.abs(config.command.v * config.command.dt);
@@ -121,11 +118,12 @@ export class FloorPicture {
     drawAxes(context, view, palette, { x: 'x (m)', y: 'y (m)', font });
     clipped(context, view, () => {
       const { sorted, commanded, config, marked } = scene;
-      this.#walls.draw(context, view, palette, ratio);
-      drawCrosses(context, view, palette, sorted.rejected);
+      // What passes through a wall must not hide it.
       drawPaths(context, view, palette, scene.paths);
       drawDots(context, view, palette, sorted.accepted, { x: 0, y: 1, heading: 2, ratio });
       drawRings(context, view, palette, sorted);
+      this.#walls.draw(context, view, palette, ratio);
+      drawCrosses(context, view, palette, sorted.rejected);
       drawOutline(context, view, palette, commanded, {
         colour: palette.prior,
         width: 2.5,
@@ -166,6 +164,21 @@ function mapped({ bounds, walls }, { x, y }) {
   }
   const inside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
   return inside ? box : { xMin, yMin, xMax, yMax };
+}
+
+/**
+ * @param {import('../types.d.ts').Extent} extent
+ * @param {Float64Array} poses
+ * @returns {import('../types.d.ts').Extent} grown to where they are
+ */
+function including({ ...extent }, poses) {
+  for (let i = 0; i < poses.length; i += 3) {
+    extent.xMin = Math.min(extent.xMin, poses[i]);
+    extent.xMax = Math.max(extent.xMax, poses[i]);
+    extent.yMin = Math.min(extent.yMin, poses[i + 1]);
+    extent.yMax = Math.max(extent.yMax, poses[i + 1]);
+  }
+  return extent;
 }
 
 /**

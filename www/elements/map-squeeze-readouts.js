@@ -8,17 +8,23 @@
 import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { inputOf } from '../ui/controls.js';
-import { fixed, percent, whole } from '../ui/format.js';
+import { fixed, percent, rounded, whole } from '../ui/format.js';
 import { DEMAND } from './map-squeeze-cost.js';
-import { SAMPLERS, SAMPLER_LABELS, shareText } from './map-squeeze-words.js';
+import { NOT_FREE, SAMPLERS, SAMPLER_LABELS, keptWords, shareOf } from './map-squeeze-words.js';
 
 /**
+ * @typedef {import('../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../types.d.ts').SqueezeStats} Stats
  * @typedef {import('./map-squeeze-cost.js').CostMeter} CostMeter
  */
 
-/** What the marks in the picture mean. */
-export function key() {
+/**
+ * What the marks in the picture mean.
+ *
+ * @param {Settings} config
+ */
+export function key(config) {
+  const { kept, through } = keptWords(config);
   return html`<ul class="key">
     <li>
       <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
@@ -28,14 +34,14 @@ export function key() {
       <svg class="accepted" viewBox="0 0 36 20" aria-hidden="true">
         <circle cx="14" cy="10" r="2" /><path d="M14 10h12" />
       </svg>
-      accepted, with its heading
+      ${kept}, with its heading
     </li>
     <li>
       <svg class="through" viewBox="0 0 36 20" aria-hidden="true">
         <path d="M1 18Q14 16 26 8" opacity="0.5" />
         <circle class="dot" cx="26" cy="8" r="2.5" /><circle cx="26" cy="8" r="6" />
       </svg>
-      accepted through a wall, and the way it took
+      <span>${through}: the way it took, the thin line, is not free, it ${NOT_FREE}</span>
     </li>
     <li>
       <svg class="commanded" viewBox="0 0 36 20" aria-hidden="true">
@@ -48,18 +54,22 @@ export function key() {
 
 /**
  * @param {Stats} stats
+ * @param {Settings} config
  * @param {number} paths how many paths are drawn
  */
-export function tally(stats, paths) {
+export function tally(stats, config, paths) {
+  const { kept, through } = keptWords(config);
+  const share = shareOf(stats, config);
+  const parts = config.sampler === 'sub-stepped' ? ' of a part' : '';
   const rows = [
     ['drawn', whole(stats.drawn)],
-    ['accepted', whole(stats.accepted)],
-    ['acceptance rate', percent(stats.acceptanceRate)],
-    ['draws per accepted sample', fixed(stats.drawsPerAccepted, 2)],
-    ['accepted through a wall', whole(stats.throughWall)],
-    ['share of the accepted (95 %)', shareText(stats)],
+    [kept, whole(stats.accepted)],
+    [`acceptance rate${parts}`, percent(stats.acceptanceRate)],
+    [`draws per ${kept} sample`, fixed(stats.drawsPerAccepted, 2)],
+    [through, whole(stats.throughWall)],
+    [`share of the ${kept}${share.interval ? ' (95 %)' : ''}`, share.text],
     ['of these, drawn with their path', paths < stats.throughWall ? `the first ${whole(paths)}` : whole(paths)],
-    ['wall tests per accepted sample', fixed(stats.wallTestsPerAccepted, 2)],
+    [`wall tests per ${kept} sample`, fixed(stats.wallTestsPerAccepted, 2)],
   ];
   return html`<dl class="readouts">
     ${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
@@ -109,8 +119,8 @@ export function costTable({ costs, current }, steps) {
     <table class=${current ? '' : 'outdated'}>
       <caption>
         One accepted sample of each sampler under the settings above, timed on this device when
-        nothing moves; and the share of one core that 2000 particles at 20 Hz would take. A dash: the
-        robot is wedged.
+        nothing moves; and the share of one core that 2000 particles at 20 Hz would take. All is from
+        this one pose, and repeated runs differ by several per cent.
       </caption>
       <thead>
         <tr>
@@ -123,13 +133,15 @@ export function costTable({ costs, current }, steps) {
       </thead>
       <tbody>
         ${SAMPLERS.map((sampler) => {
-          const cost = costs[sampler] ?? { draws: NaN, wallTests: NaN, micros: NaN };
+          const cost = costs[sampler] ?? 'not yet measured';
           return html`<tr>
             <th scope="row">${name(sampler)}</th>
-            <td>${fixed(cost.draws, 2)}</td>
-            <td>${fixed(cost.wallTests, 2)}</td>
-            <td>${fixed(cost.micros, cost.micros < 10 ? 2 : 1)}</td>
-            <td>${percent(cost.micros * 1e-6 * DEMAND)}</td>
+            ${typeof cost === 'string'
+              ? html`<td colspan="4">${cost}</td>`
+              : html`<td>${fixed(cost.draws, 2)}</td>
+                  <td>${fixed(cost.wallTests, 2)}</td>
+                  <td>${rounded(cost.micros, 2)}</td>
+                  <td>${rounded(100 * cost.micros * 1e-6 * DEMAND, 2)}&#8239;%</td>`}
           </tr>`;
         })}
       </tbody>

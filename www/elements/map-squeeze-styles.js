@@ -36,7 +36,7 @@ const layout = css`
     }
   }
 
-  .stage.dropping {
+  .dropping .stage {
     outline: 2px dashed var(--accent);
     outline-offset: 4px;
   }
@@ -81,6 +81,12 @@ const layout = css`
     height: 1.2rem;
     fill: none;
     stroke-width: 1.5;
+  }
+
+  @media (forced-colors: active) {
+    .key svg {
+      forced-color-adjust: none;
+    }
   }
 
   .key .rejected {

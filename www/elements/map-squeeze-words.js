@@ -16,6 +16,9 @@ import { commandText } from './banana-words.js';
  * @typedef {import('../types.d.ts').Plan} Plan
  */
 
+/** Bits of a verdict. */
+export const VERDICT = { endFree: 1, pathFree: 2, accepted: 4 };
+
 export const PRESET_LABELS = {
   doorway: 'Facing a doorway',
   wall: 'Facing a wall',
@@ -34,7 +37,9 @@ export const SAMPLERS = /** @type {SamplerName[]} */ (Object.keys(SAMPLER_LABELS
 export const SAMPLER_EFFECTS = {
   endpoint: 'Keeps a draw if the robot fits where it ends; nobody asks how it got there.',
   'whole-arc': 'Keeps a draw if the robot touches no wall all along the arc it drove.',
-  'sub-stepped': 'Splits the command into parts, and keeps a part if the robot fits where that ends.',
+  'sub-stepped': html`Splits the command into <i>k</i> parts and keeps a part if the robot fits where that
+    ends. At the doorway and in the corridor fewer pass a wall as <i>k</i> grows; facing the wall a larger
+    share does, until the robot is stuck.`,
 };
 
 export const NOISE_SLIDER = {
@@ -95,7 +100,7 @@ export const STEPS_SLIDER = {
   min: 1,
   max: 64,
   step: 1,
-  effect: 'Parts of the command. Each has noise of its own, so the cloud shrinks as k grows.',
+  effect: html`Parts of the command. Each has noise of its own, so that the spread shrinks as 1/√<i>k</i>.`,
 };
 
 /**
@@ -121,39 +126,62 @@ export function noteOn(config, stats, startFree) {
 }
 
 /**
- * @param {number} verdict bits: 1 end free, 2 path free, 4 accepted
+ * What is said of a draw that stays: without the condition nothing is judged, so nothing is accepted.
+ *
  * @param {Settings} config
  */
-export function verdictText(verdict, { conditioned, sampler }) {
-  const [endFree, pathFree, accepted] = [1, 2, 4].map((bit) => (verdict & bit) !== 0);
-  if (!accepted && sampler === 'sub-stepped') return 'rejected: one of its parts found no free end';
-  const outcome = accepted ? (conditioned ? 'accepted' : 'kept unjudged') : 'rejected';
-  if (!endFree) return `${outcome}: the robot does not fit where it ends`;
-  if (pathFree) return `${outcome}: free at the end and all along the way`;
-  const how = accepted ? `${outcome} through a wall` : outcome;
-  return `${how}: free at the end, but it touches a wall on the way`;
+export function keptWords({ conditioned }) {
+  return conditioned
+    ? { kept: 'accepted', through: 'accepted through a wall', ofThem: 'through a wall' }
+    : { kept: 'kept', through: 'kept, way not free', ofThem: 'with a way that is not free' };
+}
+
+/** What makes a way not free, in the one place where it is explained and in verdicts. */
+export const NOT_FREE = 'touches a wall or leaves the map';
+
+/**
+ * @param {number} verdict bits of `VERDICT`
+ * @param {Settings} config
+ */
+export function verdictText(verdict, config) {
+  const is = (/** @type {number} */ bit) => (verdict & bit) !== 0;
+  const accepted = is(VERDICT.accepted);
+  if (!accepted && config.sampler === 'sub-stepped') return 'rejected: one of its parts found no free end';
+  const { kept, through } = keptWords(config);
+  const outcome = accepted ? kept : 'rejected';
+  if (!is(VERDICT.endFree)) return `${outcome}: the robot does not fit where it ends`;
+  if (is(VERDICT.pathFree)) return `${outcome}: free at the end and all along the way`;
+  return `${accepted ? through : outcome}: free at the end, but its way ${NOT_FREE}`;
 }
 
 /**
+ * The share through a wall, with its interval where the draws are as many as were asked for: where
+ * they end is chance too if the machine gave up.
+ *
  * @param {Stats} stats
- * @returns {string} "32.7 % (28.8–36.9 %)"
+ * @param {Settings} config
+ * @returns {{ text: string, interval: boolean }} "32.7 % (28.8–36.9 %)"
  */
-export function shareText({ throughWallRate, throughWallInterval: [low, high] }) {
-  if (Number.isNaN(throughWallRate)) return percent(NaN);
-  return `${percent(throughWallRate)} (${fixed(100 * low, 1)}–${percent(high)})`;
+export function shareOf({ throughWallRate, throughWallInterval: [low, high], gaveUp }, { conditioned, sampler }) {
+  if (Number.isNaN(throughWallRate)) return { text: percent(NaN), interval: false };
+  if (conditioned && sampler === 'whole-arc') return { text: '0, by construction', interval: false };
+  if (gaveUp) return { text: percent(throughWallRate), interval: false };
+  return { text: `${percent(throughWallRate)} (${fixed(100 * low, 1)}–${percent(high)})`, interval: true };
 }
 
 /**
  * What is announced after a change has come to rest.
  *
+ * @param {Settings} config
  * @param {Stats} stats
  * @param {string} note
  */
-export function announcementOf(stats, note) {
+export function announcementOf(config, stats, note) {
   const { drawn, accepted, throughWall, throughWallRate } = stats;
-  const counts = `${whole(drawn)} drawn, ${whole(accepted)} accepted`;
+  const { kept, ofThem } = keptWords(config);
+  const counts = `${whole(drawn)} drawn, ${whole(accepted)} ${kept}`;
   if (note && accepted === 0) return note;
-  const share = accepted > 0 ? `, ${whole(throughWall)} of them through a wall: ${percent(throughWallRate)}` : '';
+  const share = accepted > 0 ? `, ${whole(throughWall)} of them ${ofThem}: ${percent(throughWallRate)}` : '';
   return `${counts}${share}.${note ? ` ${note}` : ''}`;
 }
 
@@ -165,7 +193,8 @@ export function announcementOf(stats, note) {
  */
 export function mapText(name, { bounds, walls }) {
   const [left, bottom, right, top] = bounds;
-  return `${name}: ${fixed(right - left, 1)} m × ${fixed(top - bottom, 1)} m, ${whole(walls.length / 4)} walls`;
+  const count = walls.length / 4;
+  return `${name}: ${fixed(right - left, 1)} m × ${fixed(top - bottom, 1)} m, ${whole(count)} wall${count === 1 ? '' : 's'}`;
 }
 
 /**
@@ -180,6 +209,8 @@ export function pictureText(config, stats, map, note) {
   const { start } = config;
   const robot = `The robot stands at x ${fixed(start.x, 2)} m, y ${fixed(start.y, 2)} m, heading ${fixed(start.theta, 2)} rad. Commanded: ${commandText(config.command)}.`;
   const { accepted, drawn, throughWall } = stats;
-  const outcome = `${whole(drawn)} drawn; ${whole(accepted)} accepted, as dots; ${whole(throughWall)} of those through a wall, ringed. The rest is rejected, as crosses.`;
+  const { kept, ofThem } = keptWords(config);
+  const rest = config.conditioned ? ' The rest is rejected, as crosses.' : '';
+  const outcome = `${whole(drawn)} drawn; ${whole(accepted)} ${kept}, as dots; ${whole(throughWall)} of those ${ofThem}, ringed.${rest}`;
   return `Floor plan from above, x to the right and y up. ${map}. ${robot} ${outcome}${note ? ` ${note}` : ''}`;
 }

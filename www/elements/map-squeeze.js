@@ -156,7 +156,8 @@ export class MapSqueezeElement extends WidgetElement {
     this.#stale = false;
     if (!this.#playing && this.#handles.held === undefined) this.#measureSoon();
     if (this.#toAnnounce) {
-      this.#announcement = announcementOf(this.#figures.stats, this.#figures.note);
+      const { config, stats, note } = this.#figures;
+      this.#announcement = announcementOf(config, stats, note);
       this.#toAnnounce = false;
     }
   }
@@ -177,7 +178,8 @@ export class MapSqueezeElement extends WidgetElement {
     const { machine } = this;
     if (!machine) return;
     this.#stale = true;
-    if (machine.grow(this.#batch) < machine.config.samples && !machine.stats.gaveUp) return;
+    machine.grow(this.#batch);
+    if (!isComplete(machine)) return;
     this.#playing = false;
     this.#toAnnounce = true;
   }
@@ -185,8 +187,7 @@ export class MapSqueezeElement extends WidgetElement {
   #play() {
     const { machine } = this;
     if (!machine) return;
-    const complete = machine.shown === machine.config.samples || machine.stats.gaveUp;
-    if (!this.#playing && complete) machine.restart();
+    if (!this.#playing && isComplete(machine)) machine.restart();
     this.#playing = !this.#playing;
     this.#commit();
   }
@@ -211,7 +212,7 @@ export class MapSqueezeElement extends WidgetElement {
 
   /** @param {Settings['start']} start in the apartment */
   #go(start) {
-    this.#setMap(undefined);
+    this.#leaveOwn();
     this.#change({ start });
     this.#commit();
   }
@@ -221,16 +222,45 @@ export class MapSqueezeElement extends WidgetElement {
     if (first) this.#go(first.start);
   }
 
-  /** @param {OwnMap | undefined} map undefined for the apartment */
-  #setMap(map) {
+  #leaveOwn() {
     const { machine } = this;
     if (!machine) return;
-    if (map) map.apply(machine);
-    else if (this.#map) machine.setPlan(undefined);
     this.#complaint = '';
-    if (map === this.#map) return;
-    this.#map = map;
+    if (!this.#map) return;
+    machine.setPlan(undefined);
+    this.#map = undefined;
     this.#takePlan(machine);
+    this.#marked = -1;
+  }
+
+  /**
+   * Puts the robot into a map of the reader's. A machine of its own tries it: the present one stays as
+   * it is where the map, or the place in it, is refused.
+   *
+   * @param {OwnMap} map
+   */
+  #enter(map) {
+    const { machine, motion } = this;
+    if (!machine || !motion) return;
+    this.#configure();
+    const next = this.createMachine(motion, machine.config);
+    try {
+      map.apply(next);
+      findRoom(next);
+      if (!isComplete(machine)) {
+        next.restart();
+        next.grow(machine.shown);
+      }
+    } catch (error) {
+      next.free();
+      throw error;
+    }
+    this.#meter.outdate();
+    machine.free();
+    this.machine = next;
+    this.#map = map;
+    this.#complaint = '';
+    this.#takePlan(next);
     this.#marked = -1;
   }
 
@@ -250,29 +280,14 @@ export class MapSqueezeElement extends WidgetElement {
     try {
       const map = await find();
       if (reading !== this.#reading || !this.machine) return;
-      this.#configure();
-      this.#setMap(map);
-      this.#findRoom();
+      this.#enter(map);
       this.#commit();
     } catch (error) {
-      if (!(error instanceof MapFileError)) throw error;
       if (reading !== this.#reading) return;
-      this.#complaint = error.message;
+      const reason = error instanceof Error ? error.message : String(error);
+      this.#complaint = error instanceof MapFileError ? reason : `The map cannot be opened: ${reason}.`;
       this.requestUpdate();
     }
-  }
-
-  /**
-   * Moves the robot to where it fits. In an occupancy grid it does so anyhow: the unknown is free there,
-   * so that a place which is free may lie outside of everything that was mapped.
-   */
-  #findRoom() {
-    const { machine } = this;
-    if (!machine || (machine.startFree && machine.grid === null)) return;
-    const { freePoint, config, plan } = machine;
-    const [left, bottom, right, top] = plan.bounds;
-    const [x, y] = freePoint ?? [(left + right) / 2, (bottom + top) / 2];
-    machine.configure({ start: { ...config.start, x, y } });
   }
 
   #paste() {
@@ -284,21 +299,23 @@ export class MapSqueezeElement extends WidgetElement {
   #dragOver(event) {
     if (!event.dataTransfer?.types.includes('Files')) return;
     event.preventDefault();
-    const stage = /** @type {HTMLElement} */ (event.currentTarget);
-    stage.classList.add('dropping');
+    /** @type {HTMLElement} */ (event.currentTarget).classList.add('dropping');
   }
 
   /** @param {DragEvent} event */
-  #dragEnd(event) {
-    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
+  #dragLeave(event) {
+    const section = /** @type {HTMLElement} */ (event.currentTarget);
+    const to = /** @type {Node | null} */ (event.relatedTarget);
+    if (!section.contains(to)) section.classList.remove('dropping');
   }
 
   /** @param {DragEvent} event */
   #drop(event) {
-    this.#dragEnd(event);
-    const files = [...(event.dataTransfer?.files ?? [])];
-    if (files.length === 0) return;
+    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    // The browser would leave the page for the file.
     event.preventDefault();
+    const files = [...event.dataTransfer.files];
     this.#openMap(() => readMapFiles(files));
   }
 
@@ -337,11 +354,17 @@ export class MapSqueezeElement extends WidgetElement {
       this.wake();
     };
     return html`
-      <section class="machine" aria-label="Map Squeeze">
+      <section
+        class="machine"
+        aria-label="Map Squeeze"
+        @dragover=${this.#dragOver}
+        @dragleave=${this.#dragLeave}
+        @drop=${this.#drop}
+      >
         <div class="floor">
           ${this.#stage(pictureText(config, stats, map, note))}
           <p class="note" ?hidden=${note === ''}>${note}</p>
-          ${key()} ${tally(stats, paths.length)}
+          ${key(config)} ${tally(stats, config, paths.length)}
           ${markedDraw({
             index: this.#marked,
             shown: stats.attempts,
@@ -381,12 +404,7 @@ export class MapSqueezeElement extends WidgetElement {
 
   /** @param {string} description */
   #stage(description) {
-    return html`<div
-      class="stage"
-      @dragover=${this.#dragOver}
-      @dragleave=${this.#dragEnd}
-      @drop=${this.#drop}
-    >
+    return html`<div class="stage">
       <canvas
         class="plane"
         role="img"
@@ -397,6 +415,25 @@ export class MapSqueezeElement extends WidgetElement {
       ${this.#handles.render(this.#wanted().start)}
     </div>`;
   }
+}
+
+/** @param {MapSqueeze} machine */
+function isComplete({ shown, config, stats }) {
+  return shown === config.samples || stats.gaveUp;
+}
+
+/**
+ * Moves the robot to where it fits. In an occupancy grid it does so anyhow: the unknown is free there,
+ * so that a place which is free may lie outside of everything that was mapped.
+ *
+ * @param {MapSqueeze} machine
+ */
+function findRoom(machine) {
+  if (machine.startFree && machine.grid === null) return;
+  const { freePoint, config, plan } = machine;
+  const [left, bottom, right, top] = plan.bounds;
+  const [x, y] = freePoint ?? [(left + right) / 2, (bottom + top) / 2];
+  machine.configure({ start: { ...config.start, x, y } });
 }
 
 /**

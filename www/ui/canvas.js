@@ -4,6 +4,9 @@
  * @module
  */
 
+/** Longest side of a canvas in every browser. */
+export const LONGEST_SIDE = 16_384;
+
 /**
  * Clears a canvas and gives the view its size.
  *

@@ -42,6 +42,17 @@ export function significant(value, digits) {
 }
 
 /**
+ * @param {number} value above 0
+ * @param {number} digits significant ones
+ * @returns {string} "0.47", "12", "1 200"
+ */
+export function rounded(value, digits) {
+  const near = Number(value.toPrecision(digits));
+  const decimals = digits - 1 - Math.floor(Math.log10(near));
+  return decimals > 0 ? fixed(near, decimals) : whole(near);
+}
+
+/**
  * @param {number} count
  * @returns {string} "100 000"
  */

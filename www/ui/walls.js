@@ -5,6 +5,8 @@
  * @module
  */
 
+import { LONGEST_SIDE } from './canvas.js';
+
 /**
  * @typedef {import('./view.js').View} View
  * @typedef {import('../types.d.ts').Grid} Grid
@@ -21,9 +23,6 @@ const OUTLINE = 0.75;
 /** Walls that are stroked at once: browsers take far longer for one path of many. */
 const WALLS_A_STROKE = 500;
 
-/** Longest side of a canvas in every browser; cells of a longer grid are outlined only. */
-const LONGEST_SIDE = 16_384;
-
 export class WallLayer {
   #plan;
   /** @type {{ canvas: OffscreenCanvas, grid: Grid } | undefined} */
@@ -38,6 +37,7 @@ export class WallLayer {
    */
   constructor(plan, grid) {
     this.#plan = plan;
+    // Cells of a longer grid are outlined only.
     if (grid && Math.max(grid.columns, grid.rows) <= LONGEST_SIDE) {
       this.#cells = { canvas: maskOf(grid), grid };
     }

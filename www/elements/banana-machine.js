@@ -27,7 +27,7 @@ import {
   twistCaption,
   twistText,
 } from './banana-words.js';
-import { WidgetElement } from './base.js';
+import { CloudElement } from './cloud.js';
 
 /**
  * @typedef {import('../types.d.ts').BananaMachine} BananaMachine
@@ -35,9 +35,6 @@ import { WidgetElement } from './base.js';
  * @typedef {import('../types.d.ts').Settings} Settings
  * @typedef {keyof typeof DASHES} Overlay
  */
-
-/** Steps that a cloud grows in. */
-const BATCHES = 150;
 
 /** How near to a sample the pointer must be to mark it, CSS pixels. */
 const REACH = 14;
@@ -51,42 +48,36 @@ const CURVE_POINTS = 241;
 const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(OVERLAY_NAMES));
 const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
 
-/** @extends {WidgetElement<BananaMachine>} */
-export class BananaMachineElement extends WidgetElement {
+/** @extends {CloudElement<BananaMachine, Settings>} */
+export class BananaMachineElement extends CloudElement {
   static styles = [theme, readoutStyles, ...bananaStyles];
 
-  #playing = false;
   /** The α that Isolate leaves, from 0; remembered while Isolate is off. */
   #chosen = 3;
   /** The robot that is marked in both views; −1 for none. */
   #marked = -1;
   /** @type {Record<Overlay, boolean>} */
   #overlays = { command: true, ellipse: true, linearized: false, exponential: true };
-  /** @type {Partial<Settings>} changes that wait for the next frame */
-  #pending = {};
   /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
   #figures;
-  #stale = true;
   /** @type {Float64Array | undefined} skew against ω, which only a change of settings alters */
   #curve;
-  #toAnnounce = false;
-  #announcement = '';
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   #handle = new ArcHandle({
     view: () => this.#plane.view,
     end: () => this.#fresh().end,
     reach: (x, y) => this.#reach(x, y),
-    commit: () => this.#commit(),
+    commit: () => this.commit(),
   });
 
   #actions = {
-    change: (/** @type {import('./banana-controls.js').Change} */ change) => this.#change(change),
-    commit: () => this.#commit(),
+    change: (/** @type {import('./banana-controls.js').Change} */ change) => this.change(change),
+    commit: () => this.commit(),
     isolate: (/** @type {number} */ index) => {
       this.#chosen = index;
-      this.#change({ isolate: index + 1 });
-      this.#commit();
+      this.change({ isolate: index + 1 });
+      this.commit();
     },
   };
 
@@ -99,22 +90,16 @@ export class BananaMachineElement extends WidgetElement {
   }
 
   machineReady() {
-    this.#stale = true;
-    this.#pending = {};
     this.#curve = undefined;
-    if (!this.calm) {
-      this.machine?.restart();
-      this.#playing = true;
-    }
-    this.#read();
+    this.begin();
   }
 
   /** @param {number} elapsed milliseconds */
   draw(elapsed) {
     const { machine, palette } = this;
     if (!machine || !palette) return;
-    this.#configure();
-    if (this.#playing) this.#grow();
+    this.configure();
+    if (this.playing) this.growOn();
     const figures = this.#fresh();
     const marked = this.#inspection();
     const scene = { ...figures, machine, overlays: this.#overlays, marked };
@@ -128,101 +113,28 @@ export class BananaMachineElement extends WidgetElement {
     }
     this.#handle.place(this.renderRoot, figures.end);
     this.requestUpdate();
-    if (moving || this.#playing) this.wake();
+    if (moving || this.playing) this.wake();
   }
 
-  /** The settings with the changes that wait. @returns {Settings} */
-  #wanted() {
-    const { config } = /** @type {BananaMachine} */ (this.machine);
-    return { ...config, ...this.#pending };
-  }
-
-  /**
-   * Wants other settings from the next frame on: a drag costs one configuration a frame.
-   *
-   * @param {import('./banana-controls.js').Change} change
-   */
-  #change(change) {
-    if (!this.machine) return;
-    Object.assign(this.#pending, typeof change === 'function' ? change(this.#wanted()) : change);
-    this.wake();
-  }
-
-  #configure() {
-    if (Object.keys(this.#pending).length === 0) return;
-    const pending = this.#pending;
-    this.#pending = {};
-    this.machine?.configure(pending);
+  configured() {
     this.#curve = undefined;
-    this.#stale = true;
-  }
-
-  /** What was changed has come to rest: put it into effect and say what it led to. */
-  #commit() {
-    this.#configure();
-    this.#toAnnounce = true;
-    this.#stale = true;
-    this.wake();
   }
 
   /** The figures, with every change so far in effect. */
   #fresh() {
-    this.#configure();
-    if (this.#stale) this.#read();
+    this.configure();
+    if (this.stale) this.read();
     return /** @type {ReturnType<typeof read>} */ (this.#figures);
   }
 
-  #read() {
+  read() {
     if (!this.machine) return;
     if (this.#marked >= this.machine.shown) this.#marked = -1;
     this.#curve ??= this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
     this.#figures = read(this.machine);
-    this.#stale = false;
-    if (this.#toAnnounce) {
-      const { config, stats, note } = this.#figures;
-      this.#announcement = announcementOf(config, stats, note);
-      this.#toAnnounce = false;
-    }
-  }
-
-  get #batch() {
-    return Math.ceil((this.machine?.config.samples ?? 0) / BATCHES);
-  }
-
-  #grow() {
-    const { machine } = this;
-    if (!machine) return;
-    const { samples } = machine.config;
-    this.#stale = true;
-    if (machine.grow(this.#batch) < samples) return;
-    this.#playing = false;
-    this.#toAnnounce = true;
-  }
-
-  #play() {
-    const { machine } = this;
-    if (!machine) return;
-    if (!this.#playing && machine.shown === machine.config.samples) machine.restart();
-    this.#playing = !this.#playing;
-    this.#commit();
-  }
-
-  #step() {
-    this.#playing = false;
-    this.machine?.grow(this.#batch);
-    this.#commit();
-  }
-
-  #reset() {
-    this.#playing = false;
-    this.machine?.restart();
-    this.#commit();
-  }
-
-  #reseed() {
-    if (!this.motion) return;
-    this.#change({ seed: this.motion.randomSeed() });
-    this.#commit();
+    this.stale = false;
+    const { config, stats, note } = this.#figures;
+    this.announce(() => announcementOf(config, stats, note));
   }
 
   /** @param {number} index −1 for none */
@@ -247,9 +159,9 @@ export class BananaMachineElement extends WidgetElement {
    */
   #reach(x, y) {
     if (!this.motion || !this.machine) return;
-    const { command } = this.#wanted();
+    const { command } = this.wanted();
     const { v, omega } = this.motion.commandReaching(x, y, command);
-    this.#change({ command: { ...command, v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE) } });
+    this.change({ command: { ...command, v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE) } });
   }
 
   /** @param {'plane' | 'twist'} name */
@@ -297,12 +209,12 @@ export class BananaMachineElement extends WidgetElement {
             {
               config,
               shown,
-              playing: this.#playing,
-              batch: this.#batch,
-              play: () => this.#play(),
-              step: () => this.#step(),
-              reset: () => this.#reset(),
-              reseed: () => this.#reseed(),
+              playing: this.playing,
+              batch: this.batch,
+              play: () => this.play(),
+              step: () => this.step(),
+              reset: () => this.reset(),
+              reseed: () => this.reseed(),
             },
             this.#actions,
           )}
@@ -334,8 +246,8 @@ export class BananaMachineElement extends WidgetElement {
               y: exactSkew,
               measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
               valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, ${skewText(exactSkew)}`,
-              move: (to) => this.#change(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
-              commit: () => this.#commit(),
+              move: (to) => this.change(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
+              commit: () => this.commit(),
             })}
             <figcaption>
               Exact skew against commanded <i>ω</i>, and the robots’ own with its standard error.
@@ -344,7 +256,7 @@ export class BananaMachineElement extends WidgetElement {
           </figure>
           ${workedExample(table, stats)}
         </div>
-        <p class="visually-hidden" role="status">${this.#announcement}</p>
+        <p class="visually-hidden" role="status">${this.announcement}</p>
       </section>
     `;
   }

@@ -209,7 +209,7 @@ export function ownMap({ map, own, complaint, choose, paste, leave }) {
     <legend>A map of your own</legend>
     <div>
       <p>
-        Drop files on the floor plan, or choose them here: a floor plan in JSON, or a map of ROS
+        Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS
         map_server, its YAML file and its PGM or PNG image together. They do not leave this device.
       </p>
       <label for="map-files">Map files</label>

@@ -6,7 +6,7 @@
 
 import { html, nothing } from 'lit';
 import { theme } from '../ui/theme.js';
-import { WidgetElement } from './base.js';
+import { CloudElement } from './cloud.js';
 import { cloudControls, judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
 import { CostMeter } from './map-squeeze-cost.js';
 import { MapFileError, readMapFiles, readPlan } from './map-squeeze-files.js';
@@ -23,9 +23,6 @@ import { SAMPLERS, announcementOf, mapText, noteOn, pictureText, verdictText } f
  * @typedef {import('./map-squeeze-files.js').OwnMap} OwnMap
  */
 
-/** Steps that a cloud grows in. */
-const BATCHES = 150;
-
 /** How near to a sample the pointer must be to mark it, CSS pixels. */
 const REACH = 12;
 
@@ -34,20 +31,14 @@ const MOST_PATHS = 150;
 
 const APARTMENT = 'The apartment';
 
-/** @extends {WidgetElement<MapSqueeze>} */
-export class MapSqueezeElement extends WidgetElement {
+/** @extends {CloudElement<MapSqueeze, Settings>} */
+export class MapSqueezeElement extends CloudElement {
   static styles = [theme, ...squeezeStyles];
 
-  #playing = false;
   /** The draw that is marked; −1 for none. */
   #marked = -1;
-  /** @type {Partial<Settings>} changes that wait for the next frame */
-  #pending = {};
   /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
   #figures;
-  #stale = true;
-  #toAnnounce = false;
-  #announcement = '';
   /** @type {OwnMap | undefined} the reader's; none for the apartment */
   #map;
   /** @type {import('../types.d.ts').Plan} */
@@ -60,15 +51,15 @@ export class MapSqueezeElement extends WidgetElement {
   #meter = new CostMeter();
   #handles = new RobotHandles({
     view: () => this.#picture.view,
-    start: () => this.#wanted().start,
+    start: () => this.wanted().start,
     bounds: () => this.#plan.bounds,
-    change: (start) => this.#change({ start }),
-    commit: () => this.#commit(),
+    change: (start) => this.change({ start }),
+    commit: () => this.commit(),
   });
 
   #actions = {
-    change: (/** @type {import('./map-squeeze-controls.js').Change} */ change) => this.#change(change),
-    commit: () => this.#commit(),
+    change: (/** @type {import('./map-squeeze-controls.js').Change} */ change) => this.change(change),
+    commit: () => this.commit(),
   };
 
   /**
@@ -80,26 +71,29 @@ export class MapSqueezeElement extends WidgetElement {
   }
 
   machineReady() {
-    this.#pending = {};
     this.#marked = -1;
     const { machine } = this;
     if (!machine) return;
     this.#map?.apply(machine);
     this.#takePlan(machine);
-    if (!this.calm) {
-      machine.restart();
-      this.#playing = true;
-    }
-    this.#read();
+    this.begin();
+  }
+
+  get complete() {
+    return super.complete || this.machine?.stats.gaveUp === true;
+  }
+
+  configured() {
+    this.#meter.outdate();
   }
 
   /** @param {number} elapsed milliseconds */
   draw(elapsed) {
     const { machine, palette } = this;
     if (!machine || !palette) return;
-    this.#configure();
-    if (this.#playing) this.#grow();
-    if (this.#stale) this.#read();
+    this.configure();
+    if (this.playing) this.growOn();
+    if (this.stale) this.read();
 
     const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
     const marked = this.#isMarked
@@ -113,53 +107,16 @@ export class MapSqueezeElement extends WidgetElement {
     });
     this.#handles.place(this.renderRoot, figures.config.start, figures.config.clearance);
     this.requestUpdate();
-    if (moving || this.#playing) this.wake();
+    if (moving || this.playing) this.wake();
   }
 
-  /** The settings with the changes that wait. @returns {Settings} */
-  #wanted() {
-    const { config } = /** @type {MapSqueeze} */ (this.machine);
-    return { ...config, ...this.#pending };
-  }
-
-  /**
-   * Wants other settings from the next frame on: a drag costs one configuration a frame.
-   *
-   * @param {import('./map-squeeze-controls.js').Change} change
-   */
-  #change(change) {
-    if (!this.machine) return;
-    Object.assign(this.#pending, typeof change === 'function' ? change(this.#wanted()) : change);
-    this.#meter.outdate();
-    this.wake();
-  }
-
-  #configure() {
-    if (Object.keys(this.#pending).length === 0) return;
-    const pending = this.#pending;
-    this.#pending = {};
-    this.machine?.configure(pending);
-    this.#stale = true;
-  }
-
-  /** What was changed has come to rest: put it into effect and say what it led to. */
-  #commit() {
-    this.#configure();
-    this.#toAnnounce = true;
-    this.#stale = true;
-    this.wake();
-  }
-
-  #read() {
+  read() {
     if (!this.machine) return;
     this.#figures = read(this.machine);
-    this.#stale = false;
-    if (!this.#playing && this.#handles.held === undefined) this.#measureSoon();
-    if (this.#toAnnounce) {
-      const { config, stats, note } = this.#figures;
-      this.#announcement = announcementOf(config, stats, note);
-      this.#toAnnounce = false;
-    }
+    this.stale = false;
+    if (!this.playing && this.#handles.held === undefined) this.#measureSoon();
+    const { config, stats, note } = this.#figures;
+    this.announce(() => announcementOf(config, stats, note));
   }
 
   #measureSoon() {
@@ -170,51 +127,11 @@ export class MapSqueezeElement extends WidgetElement {
     );
   }
 
-  get #batch() {
-    return Math.ceil((this.machine?.config.samples ?? 0) / BATCHES);
-  }
-
-  #grow() {
-    const { machine } = this;
-    if (!machine) return;
-    this.#stale = true;
-    machine.grow(this.#batch);
-    if (!isComplete(machine)) return;
-    this.#playing = false;
-    this.#toAnnounce = true;
-  }
-
-  #play() {
-    const { machine } = this;
-    if (!machine) return;
-    if (!this.#playing && isComplete(machine)) machine.restart();
-    this.#playing = !this.#playing;
-    this.#commit();
-  }
-
-  #step() {
-    this.#playing = false;
-    this.machine?.grow(this.#batch);
-    this.#commit();
-  }
-
-  #reset() {
-    this.#playing = false;
-    this.machine?.restart();
-    this.#commit();
-  }
-
-  #reseed() {
-    if (!this.motion) return;
-    this.#change({ seed: this.motion.randomSeed() });
-    this.#commit();
-  }
-
   /** @param {Settings['start']} start in the apartment */
   #go(start) {
     this.#leaveOwn();
-    this.#change({ start });
-    this.#commit();
+    this.change({ start });
+    this.commit();
   }
 
   #leaveMap() {
@@ -242,12 +159,12 @@ export class MapSqueezeElement extends WidgetElement {
   #enter(map) {
     const { machine, motion } = this;
     if (!machine || !motion) return;
-    this.#configure();
+    this.configure();
     const next = this.createMachine(motion, machine.config);
     try {
       map.apply(next);
       findRoom(next);
-      if (!isComplete(machine)) {
+      if (!this.complete) {
         next.restart();
         next.grow(machine.shown);
       }
@@ -281,7 +198,7 @@ export class MapSqueezeElement extends WidgetElement {
       const map = await find();
       if (reading !== this.#reading || !this.machine) return;
       this.#enter(map);
-      this.#commit();
+      this.commit();
     } catch (error) {
       if (reading !== this.#reading) return;
       const reason = error instanceof Error ? error.message : String(error);
@@ -374,12 +291,12 @@ export class MapSqueezeElement extends WidgetElement {
           ${cloudControls(
             {
               config,
-              playing: this.#playing,
-              batch: this.#batch,
-              play: () => this.#play(),
-              step: () => this.#step(),
-              reset: () => this.#reset(),
-              reseed: () => this.#reseed(),
+              playing: this.playing,
+              batch: this.batch,
+              play: () => this.play(),
+              step: () => this.step(),
+              reset: () => this.reset(),
+              reseed: () => this.reseed(),
             },
             this.#actions,
           )}
@@ -397,7 +314,7 @@ export class MapSqueezeElement extends WidgetElement {
           paste: () => this.#paste(),
           leave: () => this.#leaveMap(),
         })}
-        <p class="visually-hidden" role="status">${this.#announcement}</p>
+        <p class="visually-hidden" role="status">${this.announcement}</p>
       </section>
     `;
   }
@@ -412,14 +329,9 @@ export class MapSqueezeElement extends WidgetElement {
         @pointermove=${this.#point}
         @pointerdown=${this.#point}
       ></canvas>
-      ${this.#handles.render(this.#wanted().start)}
+      ${this.#handles.render(this.wanted().start)}
     </div>`;
   }
-}
-
-/** @param {MapSqueeze} machine */
-function isComplete({ shown, config, stats }) {
-  return shown === config.samples || stats.gaveUp;
 }
 
 /**

@@ -1,13 +1,13 @@
 /**
- * The Banana Machine's controls: the command, the noise, and the growth of the cloud.
+ * The Banana Machine's controls: the command and the noise.
  *
  * @module
  */
 
 import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
-import { button, choice, sliderRow, toggle } from '../ui/controls.js';
-import { fixed, whole } from '../ui/format.js';
+import { button, radioGroup, sliderRow, toggle } from '../ui/controls.js';
+import { fixed } from '../ui/format.js';
 import { COMMAND_SLIDERS, PRESET_LABELS, alphaName, alphaSymbol, effectOf } from './banana-words.js';
 
 /**
@@ -26,14 +26,6 @@ import { COMMAND_SLIDERS, PRESET_LABELS, alphaName, alphaSymbol, effectOf } from
 /** Upper end of the α sliders: a standard deviation of nearly half the command. */
 const ALPHA_MAX = 0.2;
 const ALPHA_STEP = 0.001;
-
-/** Largest sample count of the slider: beyond it a drag no longer follows the finger. */
-const MOST_SAMPLES = 200_000;
-
-/** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale. */
-const SAMPLE_COUNTS = [1, 2, 3, 4, 5]
-  .flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade))
-  .filter((count) => count <= MOST_SAMPLES);
 
 /**
  * @param {Settings} config
@@ -144,63 +136,4 @@ function isolateButton(index, checked, isolate) {
       @change=${() => isolate(index)}
     />
   </label>`;
-}
-
-/**
- * @template {string} Name
- * @param {string} label
- * @param {string} group
- * @param {Name[]} names
- * @param {Name} current
- * @param {(name: Name) => void} choose
- */
-export function radioGroup(label, group, names, current, choose) {
-  return html`<div class="choices" role="radiogroup" aria-label=${label}>
-    <span aria-hidden="true">${label}</span>
-    ${names.map((name) =>
-      choice({ group, label: name, checked: name === current, choose: () => choose(name) }),
-    )}
-  </div>`;
-}
-
-/**
- * @param {object} cloud
- * @param {Settings} cloud.config
- * @param {number} cloud.shown robots there are now
- * @param {boolean} cloud.playing
- * @param {number} cloud.batch robots that one step adds
- * @param {() => void} cloud.play
- * @param {() => void} cloud.step
- * @param {() => void} cloud.reset
- * @param {() => void} cloud.reseed
- * @param {Actions} actions
- */
-export function cloudControls({ config, shown, playing, batch, play, step, reset, reseed }, { change, commit }) {
-  const nearest = SAMPLE_COUNTS.findIndex((count) => count >= config.samples);
-  return html`
-    <fieldset class="cloud">
-      <legend class="visually-hidden">Cloud</legend>
-      <div class="buttons">
-        ${button(playing ? 'Pause' : 'Play', play, { title: 'Grow the cloud' })}
-        ${button('Step', step, { title: `Add ${whole(batch)} robots`, disabled: shown === config.samples })}
-        ${button('Reset', reset, { title: 'Empty the cloud; the same seed sends the same robots' })}
-        ${button('New seed', reseed, { title: 'Send other robots' })}
-        <span class="seed">seed ${config.seed}</span>
-      </div>
-      ${sliderRow({
-        id: 'samples',
-        symbol: html`<i>N</i>`,
-        name: 'N, robots in the whole cloud',
-        value: nearest < 0 ? SAMPLE_COUNTS.length - 1 : nearest,
-        min: 0,
-        max: SAMPLE_COUNTS.length - 1,
-        step: 1,
-        shown: whole(config.samples),
-        effect: 'Robots sent: dots with headings while they are few, a density when they are many.',
-        role: 'truth',
-        input: (value) => change({ samples: SAMPLE_COUNTS[value] }),
-        commit,
-      })}
-    </fieldset>
-  `;
 }

@@ -11,14 +11,16 @@ import { toggle } from '../ui/controls.js';
 import { DASHES } from '../ui/draw.js';
 import { fixed } from '../ui/format.js';
 import { theme } from '../ui/theme.js';
-import { cloudControls, commandControls, noiseControls } from './banana-controls.js';
+import { commandControls, noiseControls } from './banana-controls.js';
 import { ArcHandle } from './banana-handle.js';
 import { PlanePicture, TwistPicture } from './banana-pictures.js';
 import { markedRobot, readoutStyles, readouts, twistTable, workedExample } from './banana-readouts.js';
 import { bananaStyles } from './banana-styles.js';
 import {
   COMMAND_SLIDERS,
+  CLOUD_WORDS,
   OVERLAY_NAMES,
+  SAMPLE_COUNTS,
   announcementOf,
   captionOf,
   noteOn,
@@ -205,19 +207,7 @@ export class BananaMachineElement extends CloudElement {
             inspection: this.#inspection(),
             mark: (index) => this.#mark(index),
           })}
-          ${cloudControls(
-            {
-              config,
-              shown,
-              playing: this.playing,
-              batch: this.batch,
-              play: () => this.play(),
-              step: () => this.step(),
-              reset: () => this.reset(),
-              reseed: () => this.reseed(),
-            },
-            this.#actions,
-          )}
+          ${this.cloudControls(CLOUD_WORDS, SAMPLE_COUNTS)}
         </div>
         <div class="controls">
           ${commandControls(config, motion.BananaMachine.presets, this.#actions)}

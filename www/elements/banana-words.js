@@ -22,6 +22,25 @@ export const PRESET_LABELS = {
   pivot: 'Pivot',
 };
 
+/** Largest sample count of the slider: beyond it a drag no longer follows the finger. */
+const MOST_SAMPLES = 200_000;
+
+/** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale. */
+export const SAMPLE_COUNTS = [1, 2, 3, 4, 5]
+  .flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade))
+  .filter((count) => count <= MOST_SAMPLES);
+
+/** @type {import('./cloud.js').CloudWords} */
+export const CLOUD_WORDS = {
+  legend: 'Cloud',
+  play: 'Grow the cloud',
+  step: (batch) => `Add ${batch} robots`,
+  reset: 'Empty the cloud; the same seed sends the same robots',
+  reseed: 'Send other robots',
+  count: 'N, robots in the whole cloud',
+  effect: 'Robots sent: dots with headings while they are few, a density when they are many.',
+};
+
 export const OVERLAY_NAMES = {
   command: 'commanded arc',
   ellipse: '2σ Gaussian in (x, y)',

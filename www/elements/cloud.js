@@ -5,16 +5,30 @@
  * @module
  */
 
+import { html } from 'lit';
+import { button, sliderRow } from '../ui/controls.js';
+import { whole } from '../ui/format.js';
 import { WidgetElement } from './base.js';
 
 /**
  * @typedef {object} Cloud
  * @property {() => void} free
- * @property {{ samples: number }} config
+ * @property {{ samples: number, seed: number }} config
  * @property {number} shown
  * @property {(count: number) => number} grow
  * @property {() => void} restart
  * @property {(settings: any) => void} configure
+ */
+
+/**
+ * @typedef {object} CloudWords what the controls of a cloud are called
+ * @property {string} legend
+ * @property {string} play what the buttons do, one after the other
+ * @property {(batch: string) => string} step
+ * @property {string} reset
+ * @property {string} reseed
+ * @property {string} count the name of the slider
+ * @property {string} effect what it does to the picture
  */
 
 /** Steps that a cloud grows in. */
@@ -134,5 +148,43 @@ export class CloudElement extends WidgetElement {
     const seed = /** @type {unknown} */ ({ seed: this.motion.randomSeed() });
     this.change(/** @type {Partial<Settings>} */ (seed));
     this.commit();
+  }
+
+  /**
+   * Growth, seed and size of the cloud.
+   *
+   * @param {CloudWords} words
+   * @param {readonly number[]} counts the sizes that the slider offers
+   */
+  cloudControls(words, counts) {
+    const { samples, seed } = /** @type {Machine} */ (this.machine).config;
+    const nearest = counts.findIndex((count) => count >= samples);
+    return html`<fieldset class="cloud">
+      <legend class="visually-hidden">${words.legend}</legend>
+      <div class="buttons">
+        ${button(this.playing ? 'Pause' : 'Play', () => this.play(), { title: words.play })}
+        ${button('Step', () => this.step(), { title: words.step(whole(this.batch)), disabled: this.complete })}
+        ${button('Reset', () => this.reset(), { title: words.reset })}
+        ${button('New seed', () => this.reseed(), { title: words.reseed })}
+        <span class="seed">seed ${seed}</span>
+      </div>
+      ${sliderRow({
+        id: 'samples',
+        symbol: html`<i>N</i>`,
+        name: words.count,
+        value: nearest < 0 ? counts.length - 1 : nearest,
+        min: 0,
+        max: counts.length - 1,
+        step: 1,
+        shown: whole(samples),
+        effect: words.effect,
+        role: 'truth',
+        input: (value) => {
+          const size = /** @type {unknown} */ ({ samples: counts[value] });
+          this.change(/** @type {Partial<Settings>} */ (size));
+        },
+        commit: () => this.commit(),
+      })}
+    </fieldset>`;
   }
 }

@@ -6,9 +6,8 @@
  */
 
 import { html, nothing } from 'lit';
-import { button, choice, inputOf, sliderRow, toggle } from '../ui/controls.js';
-import { fixed, whole } from '../ui/format.js';
-import { radioGroup } from './banana-controls.js';
+import { button, choice, inputOf, radioGroup, sliderRow, toggle } from '../ui/controls.js';
+import { fixed } from '../ui/format.js';
 import { EXTENSIONS } from './map-squeeze-files.js';
 import {
   CLEARANCE_SLIDER,
@@ -32,9 +31,6 @@ import {
  * @property {(settings: Change) => void} change takes effect with the next frame
  * @property {() => void} commit after the last of a row of changes, which it puts into effect
  */
-
-/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
-const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];
 
 /** A floor plan to start from: a room with a gap in its wall. */
 const EXAMPLE = `{
@@ -151,45 +147,6 @@ export function motionControls({ command, alphas, clearance }, squeeze, { change
       shown: `${fixed(clearance, 2)} m`,
       role: 'truth',
       input: (value) => change({ clearance: value }),
-      commit,
-    })}
-  </fieldset>`;
-}
-
-/**
- * @param {object} cloud
- * @param {Settings} cloud.config
- * @param {boolean} cloud.playing
- * @param {number} cloud.batch draws that one step adds
- * @param {() => void} cloud.play
- * @param {() => void} cloud.step
- * @param {() => void} cloud.reset
- * @param {() => void} cloud.reseed
- * @param {Actions} actions
- */
-export function cloudControls({ config, playing, batch, play, step, reset, reseed }, { change, commit }) {
-  const nearest = SAMPLE_COUNTS.findIndex((count) => count >= config.samples);
-  return html`<fieldset class="cloud">
-    <legend class="visually-hidden">Samples</legend>
-    <div class="buttons">
-      ${button(playing ? 'Pause' : 'Play', play, { title: 'Draw one after the other' })}
-      ${button('Step', step, { title: `Draw ${whole(batch)} more` })}
-      ${button('Reset', reset, { title: 'Take all away; the same seed draws the same again' })}
-      ${button('New seed', reseed, { title: 'Draw others' })}
-      <span class="seed">seed ${config.seed}</span>
-    </div>
-    ${sliderRow({
-      id: 'samples',
-      symbol: html`<i>N</i>`,
-      name: 'N, samples',
-      value: nearest < 0 ? SAMPLE_COUNTS.length - 1 : nearest,
-      min: 0,
-      max: SAMPLE_COUNTS.length - 1,
-      step: 1,
-      shown: whole(config.samples),
-      effect: 'Motions tried: more of them narrow the interval of the share through a wall.',
-      role: 'truth',
-      input: (value) => change({ samples: SAMPLE_COUNTS[value] }),
       commit,
     })}
   </fieldset>`;

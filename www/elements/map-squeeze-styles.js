@@ -183,16 +183,8 @@ const layout = css`
     font: inherit;
   }
 
-  input[type='file']::file-selector-button {
-    min-height: 2rem;
+  ::file-selector-button {
     margin-right: 0.6rem;
-    padding: 0.15rem 0.65rem 0.25rem;
-    background: none;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
-    color: var(--ink);
-    font: inherit;
-    cursor: pointer;
   }
 
   textarea {

@@ -42,6 +42,20 @@ export const SAMPLER_EFFECTS = {
     share does, until the robot is stuck.`,
 };
 
+/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
+export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];
+
+/** @type {import('./cloud.js').CloudWords} */
+export const CLOUD_WORDS = {
+  legend: 'Samples',
+  play: 'Draw one after the other',
+  step: (batch) => `Draw ${batch} more`,
+  reset: 'Take all away; the same seed draws the same again',
+  reseed: 'Draw others',
+  count: 'N, samples',
+  effect: 'Motions tried: more of them narrow the interval of the share through a wall.',
+};
+
 export const NOISE_SLIDER = {
   symbol: 'n',
   name: 'n, noise',

@@ -7,14 +7,23 @@
 import { html, nothing } from 'lit';
 import { theme } from '../ui/theme.js';
 import { CloudElement } from './cloud.js';
-import { cloudControls, judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
+import { judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
 import { CostMeter } from './map-squeeze-cost.js';
 import { MapFileError, readMapFiles, readPlan } from './map-squeeze-files.js';
 import { RobotHandles } from './map-squeeze-handles.js';
 import { FloorPicture, sort } from './map-squeeze-picture.js';
 import { costTable, key, markedDraw, tally } from './map-squeeze-readouts.js';
 import { squeezeStyles } from './map-squeeze-styles.js';
-import { SAMPLERS, announcementOf, mapText, noteOn, pictureText, verdictText } from './map-squeeze-words.js';
+import {
+  CLOUD_WORDS,
+  SAMPLERS,
+  SAMPLE_COUNTS,
+  announcementOf,
+  mapText,
+  noteOn,
+  pictureText,
+  verdictText,
+} from './map-squeeze-words.js';
 
 /**
  * @typedef {import('../types.d.ts').MapSqueeze} MapSqueeze
@@ -288,18 +297,7 @@ export class MapSqueezeElement extends CloudElement {
             verdict: this.#isMarked ? verdictText(verdicts[this.#marked], config) : '',
             mark: (index) => this.#mark(index),
           })}
-          ${cloudControls(
-            {
-              config,
-              playing: this.playing,
-              batch: this.batch,
-              play: () => this.play(),
-              step: () => this.step(),
-              reset: () => this.reset(),
-              reseed: () => this.reseed(),
-            },
-            this.#actions,
-          )}
+          ${this.cloudControls(CLOUD_WORDS, SAMPLE_COUNTS)}
         </div>
         <div class="controls">
           ${placeControls(config, { own, close: this.#close, look }, motion.MapSqueeze.presets, (start) => this.#go(start))}

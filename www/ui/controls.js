@@ -100,7 +100,8 @@ export const controlStyles = css`
     outline-offset: 2px;
   }
 
-  button {
+  button,
+  ::file-selector-button {
     min-height: 2rem;
     padding: 0.15rem 0.65rem 0.25rem;
     background: none;
@@ -273,4 +274,23 @@ export function inputOf(event) {
 /** @param {Event} event */
 function numberOf(event) {
   return inputOf(event).valueAsNumber;
+}
+
+/**
+ * Radio buttons in a row under one name.
+ *
+ * @template {string} Name
+ * @param {string} label
+ * @param {string} group
+ * @param {Name[]} names
+ * @param {Name} current
+ * @param {(name: Name) => void} choose
+ */
+export function radioGroup(label, group, names, current, choose) {
+  return html`<div class="choices" role="radiogroup" aria-label=${label}>
+    <span aria-hidden="true">${label}</span>
+    ${names.map((name) =>
+      choice({ group, label: name, checked: name === current, choose: () => choose(name) }),
+    )}
+  </div>`;
 }

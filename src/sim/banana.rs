@@ -158,7 +158,7 @@ fn command_end(command: &VelocityCmd) -> SE2 {
     SE2::exp(&TangentNoiseModel::twist(command))
 }
 
-/// What the shown samples say, and what the models say of them. Figures without meaning (no spread, fewer than two
+/// What the shown samples say, and what the models say of them. Figures without meaning (no spread, too few
 /// samples) are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {

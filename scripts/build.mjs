@@ -11,7 +11,7 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 /** Brings dist/ up to date with the sources. */
 export async function build() {
   await ensurePackages();
-  const core = digest(['src', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs']);
+  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs']);
   await whenStale('build/core.sha256', core, ['build/motion.js', 'build/motion_bg.wasm'], buildCore);
   const pages = digest(['www', 'package-lock.json', 'scripts/build.mjs'], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/motion-widgets.js'], buildPages);
@@ -74,8 +74,8 @@ async function buildCore() {
   ]);
   // What esbuild's loader gives to who imports the file.
   writeFileSync(at('build/motion_bg.wasm.d.ts'), 'declare const bytes: Uint8Array<ArrayBuffer>;\nexport default bytes;\n');
-  // The features that rustc's default for this target has.
-  const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext'];
+  // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
+  const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   await mustRun('wasm-opt failed: see above.', process.execPath, [
     at('node_modules/binaryen/bin/wasm-opt'), '-O3', ...features.map((name) => `--enable-${name}`),
     at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),

@@ -131,7 +131,14 @@ export interface BananaMachine extends Disposable {
   readonly table: Table;
   /** Changes the settings that are named. A complete cloud stays complete. */
   configure(settings: Partial<Settings>): void;
-  /** Shows up to `count` samples more, 0 to 1 000 000. Returns how many are shown then. */
+  /**
+   * As `configure`, in slices: `advance` is to be called until it says true. Until then the figures are the former ones, and
+   * the samples partly so.
+   */
+  begin(settings: Partial<Settings>): void;
+  /** Works on what was begun, for about as many poses of twice as many as are shown; whether all is done. */
+  advance(poses: number): boolean;
+  /** Shows up to `count` samples more, 0 to 10 000 000. Returns how many are shown then. */
   grow(count: number): number;
   /** Shows none; the same samples come again. */
   restart(): void;
@@ -151,6 +158,22 @@ export interface BananaMachine extends Disposable {
     columns: number,
     rows: number,
   ): Uint32Array;
+  /**
+   * The same as RGBA pixels, each count c in the colour ramp[255·√(c/most)] of 256, transparent where there is nobody. A
+   * view of the core's memory: to be used before the machine is asked for anything else.
+   */
+  picture(
+    view: ViewName,
+    xMin: number,
+    yMin: number,
+    xMax: number,
+    yMax: number,
+    columns: number,
+    rows: number,
+    ramp: Uint8Array,
+  ): Uint8ClampedArray<ArrayBuffer>;
+  /** The heading of a sample shown, counted from 0, rad. */
+  heading(index: number): number;
   /** Gives the memory back. A second call does nothing. */
   free(): void;
 }

@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod arc;
+pub mod lanes;
 pub mod se2;
 pub mod segment;
 pub mod sinc;

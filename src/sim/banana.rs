@@ -1,8 +1,10 @@
 //! The Banana Machine: one command from the origin, thousands of outcomes.
 
-use super::draws::Draws;
+use super::cloud::Cloud;
+use super::drive::Drive;
+use super::picture::{Picture, Ramp};
 use super::settings::{MAX_SAMPLES, SettingsError, check_alphas, check_command, check_whole};
-use super::views::{Grid, View, density, nearest};
+use super::views::{Grid, Nearest, View};
 use crate::geom::arc::{Arc, ArcInversion, invert_arc};
 use crate::geom::se2::SE2;
 use crate::models::{
@@ -10,6 +12,7 @@ use crate::models::{
     VelocityModel,
 };
 use crate::noise::NoiseKind;
+use crate::stats::fused::CloudFigures;
 use crate::stats::{
     CartesianMoments, CrossTrack, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
     predicted_cross_track_skew,
@@ -121,10 +124,10 @@ impl Motion {
         }
     }
 
-    fn drive(&self, unit_noise: [f64; 3]) -> SE2 {
+    fn drive(&self, command: &VelocityCmd) -> Drive {
         match self {
-            Self::Velocity(model, command) => model.apply_noise(command, &START, unit_noise),
-            Self::Odometry(model, reading) => model.apply_noise(reading, &START, unit_noise),
+            Self::Velocity(model, command) => Drive::of_velocity(model, command),
+            Self::Odometry(model, reading) => Drive::of_odometry(model, reading, command.omega * command.dt),
         }
     }
 }
@@ -158,7 +161,7 @@ fn command_end(command: &VelocityCmd) -> SE2 {
     SE2::exp(&TangentNoiseModel::twist(command))
 }
 
-/// What the shown samples say, and what the models say of them. Figures without meaning (no spread, too few
+/// What the shown samples say. Figures without meaning (no spread, too few
 /// samples) are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
@@ -177,22 +180,39 @@ pub struct Figures {
 const CHART_SIGMAS: f64 = 4.0;
 
 impl Figures {
-    fn of(poses: &[SE2], twists: &[Vector3<f64>], chart_holds: bool) -> Self {
-        let cartesian = CartesianMoments::from_poses(poses);
-        let exponential = ExponentialMoments::from_twists(if chart_holds { twists } else { &[] });
-        let share = |view: View, ellipse: &Ellipse| {
-            let points = poses.iter().zip(twists).map(|(pose, twist)| view.point(pose, twist));
-            let inside = points.filter(|point| ellipse.contains(*point)).count();
-            if ellipse.has_area() { inside as f64 / poses.len() as f64 } else { f64::NAN }
-        };
+    /// Of no cloud.
+    const NONE: Self = {
+        let (mean, cov) = (
+            Vector3::new(f64::NAN, f64::NAN, f64::NAN),
+            Matrix3::from_array_storage(nalgebra::ArrayStorage([[f64::NAN; 3]; 3])),
+        );
         Self {
+            cartesian: CartesianMoments { mean, cov },
+            exponential: ExponentialMoments { mean, cov },
+            cross_track: CrossTrack { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN },
+            gaussian_skew: f64::NAN,
+            inside_ellipse: f64::NAN,
+            inside_exponential: f64::NAN,
+        }
+    };
+
+    /// Without a chart nothing is said in exponential coordinates.
+    fn of(cloud: &CloudFigures, chart_holds: bool) -> Self {
+        let CloudFigures { cartesian, exponential, cross_track, inside_ellipse, inside_exponential } = *cloud;
+        let figures = Self {
             cartesian,
             exponential,
-            cross_track: CrossTrack::from_poses(poses),
+            cross_track,
             gaussian_skew: predicted_cross_track_skew(&exponential.mean, &exponential.cov),
-            inside_ellipse: share(View::Plane, &Ellipse::from_moments(&cartesian)),
-            inside_exponential: share(View::Twist, ExponentialContour::new(&exponential, &START).ellipse()),
+            inside_ellipse,
+            inside_exponential,
+        };
+        if chart_holds {
+            return figures;
         }
+        let (mean, cov) = (Vector3::repeat(f64::NAN), Matrix3::repeat(f64::NAN));
+        let exponential = ExponentialMoments { mean, cov };
+        Self { exponential, gaussian_skew: f64::NAN, inside_exponential: f64::NAN, ..figures }
     }
 }
 
@@ -228,11 +248,9 @@ const OUTLINE_SEGMENTS: usize = 128;
 #[derive(Clone, Debug)]
 pub struct BananaMachine {
     settings: Settings,
-    draws: Draws,
-    poses: Vec<SE2>,
-    /// ξ = pose ⊟ start, one for each pose, on the branch of the logarithm that belongs to the commanded turn.
-    twists: Vec<Vector3<f64>>,
+    cloud: Cloud,
     figures: Figures,
+    picture: Picture,
 }
 
 impl BananaMachine {
@@ -241,14 +259,13 @@ impl BananaMachine {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        let mut machine = Self {
-            settings: Settings { samples: 0, ..settings },
-            draws: Draws::new(settings.seed, settings.noise),
-            poses: Vec::new(),
-            twists: Vec::new(),
-            figures: Figures::of(&[], &[], true),
-        };
-        machine.configure(settings)?;
+        settings.check()?;
+        let drive = settings.motion(settings.command).drive(&settings.command);
+        let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
+        cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
+        let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() };
+        machine.show(settings.samples);
+        machine.finish();
         Ok(machine)
     }
 
@@ -262,49 +279,82 @@ impl BananaMachine {
     /// # Errors
     /// As [`BananaMachine::new`]; nothing has changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        settings.check()?;
-        let complete = self.poses.len() == self.settings.samples;
-        let shown = if complete { settings.samples } else { self.poses.len().min(settings.samples) };
-        let no_memory = |_| SettingsError::no_memory(settings.samples);
-        self.poses.try_reserve_exact(settings.samples.saturating_sub(self.poses.len())).map_err(no_memory)?;
-        self.twists
-            .try_reserve_exact(settings.samples.saturating_sub(self.twists.len()))
-            .map_err(no_memory)?;
-        self.draws.prepare(settings.seed, settings.noise, settings.samples).map_err(no_memory)?;
-        self.settings = settings;
-        self.restart();
-        self.grow(shown);
+        self.begin(settings)?;
+        self.finish();
         Ok(())
+    }
+
+    /// As [`BananaMachine::configure`], in slices: [`BananaMachine::advance`] is to be called until it says true. Until
+    /// then the figures are the former ones, and the samples partly so.
+    ///
+    /// # Errors
+    /// As [`BananaMachine::configure`].
+    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check()?;
+        let goal = self.cloud.goal();
+        let complete = goal == self.settings.samples;
+        let shown = if complete { settings.samples } else { goal.min(settings.samples) };
+        self.cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
+        self.settings = settings;
+        self.show(shown);
+        Ok(())
+    }
+
+    /// Goes on with what was begun for about as many poses, of twice as many as are shown; whether all is done.
+    pub fn advance(&mut self, poses: usize) -> bool {
+        if let Some(figures) = self.cloud.advance(poses) {
+            self.figures = Figures::of(&figures, self.chart_holds());
+        }
+        self.cloud.is_fresh()
+    }
+
+    fn show(&mut self, shown: usize) {
+        let Settings { seed, noise, command, .. } = self.settings;
+        self.cloud.begin(seed, noise, self.settings.motion(command).drive(&command), shown);
+    }
+
+    fn finish(&mut self) {
+        while !self.advance(usize::MAX) {}
     }
 
     /// Takes every sample off the picture; the draws remain.
     pub fn restart(&mut self) {
-        self.poses.clear();
-        self.twists.clear();
-        self.figures = Figures::of(&[], &[], true);
+        self.show(0);
+        self.finish();
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
     pub fn grow(&mut self, count: usize) -> usize {
-        let shown = self.poses.len();
-        let end = shown.saturating_add(count).min(self.settings.samples);
-        let motion = self.settings.motion(self.settings.command);
-        self.poses
-            .extend(self.draws.unit_noise()[shown..end].iter().map(|unit_noise| motion.drive(*unit_noise)));
-        let VelocityCmd { omega, dt, .. } = self.settings.command;
-        self.twists.extend(self.poses[shown..].iter().map(|pose| pose.log_near(omega * dt)));
-        self.figures = Figures::of(&self.poses, &self.twists, self.chart_holds());
+        let end = self.cloud.goal().saturating_add(count).min(self.settings.samples);
+        self.show(end);
+        self.finish();
         end
     }
 
-    /// The samples shown, in sample order.
-    pub fn poses(&self) -> &[SE2] {
-        &self.poses
+    /// The number of samples shown.
+    pub fn shown(&self) -> usize {
+        self.cloud.shown()
     }
 
-    /// Their exponential coordinates (along, lateral, heading).
-    pub fn twists(&self) -> &[Vector3<f64>] {
-        &self.twists
+    /// The samples shown, in sample order.
+    pub fn poses(&self) -> impl ExactSizeIterator<Item = SE2> {
+        (0..self.shown()).map(|index| self.cloud.pose(index))
+    }
+
+    /// One of them.
+    pub fn pose(&self, index: usize) -> Option<SE2> {
+        (index < self.shown()).then(|| self.cloud.pose(index))
+    }
+
+    /// Their exponential coordinates (along, lateral, heading), on the branch of the logarithm that belongs to the
+    /// commanded turn.
+    pub fn twists(&self) -> impl ExactSizeIterator<Item = Vector3<f64>> {
+        self.poses().map(|pose| self.twist(&pose))
+    }
+
+    fn twist(&self, pose: &SE2) -> Vector3<f64> {
+        let VelocityCmd { omega, dt, .. } = self.settings.command;
+        pose.log_near(omega * dt)
     }
 
     pub fn figures(&self) -> &Figures {
@@ -315,8 +365,7 @@ impl BananaMachine {
     /// figure and contour in them is undefined.
     pub fn chart_holds(&self) -> bool {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
-        let turn_variance = self.exact().cov[(2, 2)];
-        (omega * dt).abs() + CHART_SIGMAS * turn_variance.sqrt() < TAU
+        (omega * dt).abs() + CHART_SIGMAS * self.cloud.turn_deviation() < TAU
     }
 
     /// R_u and τ: mean and covariance in exponential coordinates as the model has them, the variance of the turn after
@@ -363,7 +412,7 @@ impl BananaMachine {
     pub fn contours(&self) -> Contours {
         let Figures { cartesian, exponential, .. } = &self.figures;
         let if_any = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
-        let enough = self.poses.len() > 1;
+        let enough = self.shown() > 1;
         let charted = enough && self.chart_holds();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START);
@@ -378,30 +427,40 @@ impl BananaMachine {
 
     /// Sample `index` of those shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
-        let (pose, twist) = (*self.poses.get(index)?, *self.twists.get(index)?);
+        let pose = self.pose(index)?;
         let dt = self.settings.command.dt;
         let executed = match self.settings.motion(self.settings.command) {
-            Motion::Velocity(model, command) => model.executed(&command, self.draws.unit_noise()[index]),
+            Motion::Velocity(model, command) => model.executed(&command, self.cloud.unit_noise(index)),
             Motion::Odometry(..) => invert_arc(&START, &pose, dt),
         };
-        Some(Sample { pose, twist, executed, path: arc_points(executed.v_hat * dt, executed.omega_hat * dt) })
+        let path = arc_points(executed.v_hat * dt, executed.omega_hat * dt);
+        Some(Sample { pose, twist: self.twist(&pose), executed, path })
     }
 
-    /// How many of the shown samples lie in each cell of a grid over a view: see [`density`].
+    /// How many of the shown samples lie in each cell of a grid over a view: see [`Picture::density`].
     ///
     /// # Errors
-    /// As [`density`].
-    pub fn density(&self, view: View, grid: &Grid) -> Result<Vec<u32>, TryReserveError> {
-        density(self.points(view), grid)
+    /// As [`Picture::density`].
+    pub fn density(&mut self, view: View, grid: &Grid) -> Result<Vec<u32>, TryReserveError> {
+        self.picture.density(&self.cloud, view, grid)
     }
 
-    /// The shown sample nearest to a point of a view: see [`nearest`].
+    /// The same in colours: see [`Picture::paint`].
+    ///
+    /// # Errors
+    /// As [`Picture::paint`].
+    pub fn paint(&mut self, view: View, grid: &Grid, ramp: &Ramp) -> Result<&[[u8; 4]], TryReserveError> {
+        self.picture.paint(&self.cloud, view, grid, ramp)
+    }
+
+    /// The shown sample nearest to a point of a view, inside the ellipse of the given radii around it.
     pub fn nearest(&self, view: View, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
-        nearest(self.points(view), target, radii)
-    }
-
-    fn points(&self, view: View) -> impl Iterator<Item = [f64; 2]> {
-        self.poses.iter().zip(&self.twists).map(move |(pose, twist)| view.point(pose, twist))
+        let mut nearest = Nearest::new(target, radii);
+        self.cloud.each_four(view, |[x, y], count| {
+            let (x, y) = (x.to_array(), y.to_array());
+            (0..count).for_each(|lane| nearest.see([x[lane], y[lane]]));
+        });
+        nearest.index()
     }
 }
 

@@ -4,6 +4,10 @@ use crate::noise::{NoiseKind, centred_uniform};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
+use wide::f64x4;
+
+/// Samples that are worked on at a time: the lanes of a vector.
+pub const LANES: usize = 4;
 
 /// Three unit-variance variates a sample, in sample order. Depends on seed and kind alone, so that a slider moves the
 /// same robots, a larger cloud begins with the smaller one, and both kinds of noise come from the same uniforms.
@@ -13,7 +17,8 @@ pub struct Draws {
     noise: NoiseKind,
     /// Xoshiro256++ by name: the same stream on every target, which `SmallRng` does not promise.
     rng: Xoshiro256PlusPlus,
-    unit_noise: Vec<[f64; 3]>,
+    /// Four samples an entry.
+    unit_noise: Vec<[f64x4; 3]>,
 }
 
 impl Draws {
@@ -21,27 +26,41 @@ impl Draws {
         Self { seed, noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
     }
 
-    /// Makes these the draws of a seed and kind, at least `count` of them. Nothing has changed where memory is short.
-    pub fn prepare(&mut self, seed: u64, noise: NoiseKind, count: usize) -> Result<(), TryReserveError> {
-        if self.seed == seed && self.noise == noise {
-            return self.extend_to(count);
+    /// Makes room for the draws of `count` samples.
+    pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
+        self.unit_noise.try_reserve_exact(count.div_ceil(LANES).saturating_sub(self.unit_noise.len()))
+    }
+
+    /// Makes these the draws of a seed and kind.
+    pub fn restart(&mut self, seed: u64, noise: NoiseKind) {
+        if self.seed != seed || self.noise != noise {
+            let unit_noise = std::mem::take(&mut self.unit_noise);
+            *self = Self { unit_noise, ..Self::new(seed, noise) };
+            self.unit_noise.clear();
         }
-        let mut draws = Self::new(seed, noise);
-        draws.extend_to(count)?;
-        *self = draws;
-        Ok(())
     }
 
-    fn extend_to(&mut self, count: usize) -> Result<(), TryReserveError> {
-        let missing = count.saturating_sub(self.unit_noise.len());
-        self.unit_noise.try_reserve_exact(missing)?;
+    /// Draws what is missing of `count` samples, for which there must be room.
+    pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
-        unit_noise
-            .extend((0..missing).map(|_| std::array::from_fn(|_| noise.quantile(centred_uniform(rng)))));
-        Ok(())
+        let (begin, end) = (unit_noise.len(), count.div_ceil(LANES));
+        while unit_noise.len() < end {
+            let mut uniforms = [[0.0; LANES]; 3];
+            for lane in 0..LANES {
+                uniforms.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
+            }
+            unit_noise.push(uniforms.map(f64x4::from));
+        }
+        noise.quantiles(unit_noise.get_mut(begin..).unwrap_or_default().as_flattened_mut());
     }
 
-    pub fn unit_noise(&self) -> &[[f64; 3]] {
+    /// As many as there are, the last ones of four perhaps more than asked for.
+    pub fn fours(&self) -> &[[f64x4; 3]] {
         &self.unit_noise
+    }
+
+    /// The unit noise of one sample.
+    pub fn of(&self, index: usize) -> [f64; 3] {
+        self.unit_noise[index / LANES].map(|lanes| lanes.to_array()[index % LANES])
     }
 }

@@ -1,7 +1,10 @@
 //! The widgets' simulations: parameters in, buffers and figures out, no browser anywhere.
 
 pub mod banana;
+mod cloud;
 mod draws;
+mod drive;
+pub mod picture;
 pub mod settings;
 pub mod squeeze;
 pub mod views;

@@ -38,8 +38,8 @@ pub const ALPHA: RangeInclusive<f64> = 0.0..=1e6;
 /// From a microsecond to a million seconds. Shorter steps would make v̂ = length/Δt lose the digits that tell samples
 /// apart.
 pub const DURATION: RangeInclusive<f64> = 1e-6..=1e6;
-/// A million poses take about 100 MB with all that is kept of them.
-pub const MAX_SAMPLES: usize = 1_000_000;
+/// Ten million poses take 400 MB; a browser's page may have 4 GB.
+pub const MAX_SAMPLES: usize = 10_000_000;
 /// The largest whole number up to which JavaScript's numbers are exact.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
@@ -78,7 +78,10 @@ pub(crate) fn check_command(command: &VelocityCmd) -> Result<(), SettingsError> 
 }
 
 pub(crate) fn check_alphas(alphas: &[f64]) -> Result<(), SettingsError> {
-    alphas.iter().enumerate().try_for_each(|(i, alpha)| check_real(&format!("alphas[{i}]"), *alpha, &ALPHA))
+    match alphas.iter().position(|alpha| !ALPHA.contains(alpha)) {
+        Some(i) => check_real(&format!("alphas[{i}]"), alphas[i], &ALPHA),
+        None => Ok(()),
+    }
 }
 
 /// A number as JavaScript would print it.

@@ -208,9 +208,9 @@ impl MapSqueeze {
         self.attempts
             .try_reserve_exact(settings.samples.saturating_sub(self.attempts.len()))
             .map_err(|_| SettingsError::no_memory(settings.samples))?;
-        self.draws
-            .prepare(settings.seed, NoiseKind::Normal, settings.samples)
-            .map_err(|_| SettingsError::no_memory(settings.samples))?;
+        self.draws.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
+        self.draws.restart(settings.seed, NoiseKind::Normal);
+        self.draws.extend_to(settings.samples);
         self.settings = settings;
         self.restart();
         self.grow(shown);
@@ -329,7 +329,7 @@ impl MapSqueeze {
                 }
             };
         }
-        let draw = model.judge(&command, &start, self.draws.unit_noise()[index]);
+        let draw = model.judge(&command, &start, self.draws.of(index));
         along(&draw.arc);
         let deciding = model.deciding(&draw);
         let attempt = Attempt {

@@ -1,9 +1,5 @@
 //! The two pictures of a cloud, and what is asked of them: where is it dense, which sample is nearest.
 
-use crate::geom::se2::SE2;
-use nalgebra::Vector3;
-use std::collections::TryReserveError;
-
 /// A picture of the cloud.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
@@ -11,16 +7,6 @@ pub enum View {
     Plane,
     /// Exponential coordinates (along, heading), m and rad.
     Twist,
-}
-
-impl View {
-    /// Where a sample stands in the picture.
-    pub fn point(self, pose: &SE2, twist: &Vector3<f64>) -> [f64; 2] {
-        match self {
-            Self::Plane => [pose.x(), pose.y()],
-            Self::Twist => [twist.x, twist.z],
-        }
-    }
 }
 
 /// A rectangle of a view divided into cells of equal size.
@@ -33,37 +19,34 @@ pub struct Grid {
     pub rows: usize,
 }
 
-/// How many points lie in each cell, row by row from the top (greatest second coordinate). Points outside count nowhere.
-///
-/// # Errors
-/// Where memory does not suffice for the cells.
-pub fn density(points: impl Iterator<Item = [f64; 2]>, grid: &Grid) -> Result<Vec<u32>, TryReserveError> {
-    let cells = grid.columns * grid.rows;
-    let mut counts = Vec::new();
-    counts.try_reserve_exact(cells)?;
-    counts.resize(cells, 0);
-    let columns_per_unit = grid.columns as f64 / (grid.max[0] - grid.min[0]);
-    let rows_per_unit = grid.rows as f64 / (grid.max[1] - grid.min[1]);
-    for [x, y] in points {
-        let column = (x - grid.min[0]) * columns_per_unit;
-        let row = (grid.max[1] - y) * rows_per_unit;
-        if column >= 0.0 && row >= 0.0 && column < grid.columns as f64 && row < grid.rows as f64 {
-            counts[row as usize * grid.columns + column as usize] += 1;
-        }
-    }
-    Ok(counts)
+/// Finds, among points shown to it one after the other, the nearest to a target.
+#[derive(Clone, Copy, Debug)]
+pub struct Nearest {
+    target: [f64; 2],
+    radii: [f64; 2],
+    least: f64,
+    seen: usize,
+    index: Option<usize>,
 }
 
-/// The index of the point nearest to `target` among those inside the ellipse of the given radii around it, distances
-/// counted in those radii.
-pub fn nearest(points: impl Iterator<Item = [f64; 2]>, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
-    points
-        .map(|[x, y]| {
-            let (dx, dy) = ((x - target[0]) / radii[0], (y - target[1]) / radii[1]);
-            dx * dx + dy * dy
-        })
-        .enumerate()
-        .filter(|(_, distance)| *distance <= 1.0)
-        .min_by(|(_, a), (_, b)| a.total_cmp(b))
-        .map(|(index, _)| index)
+impl Nearest {
+    /// Of points inside the ellipse of the given radii around the target, distances counted in those radii.
+    pub fn new(target: [f64; 2], radii: [f64; 2]) -> Self {
+        Self { target, radii, least: 1.0, seen: 0, index: None }
+    }
+
+    pub fn see(&mut self, [x, y]: [f64; 2]) {
+        let (dx, dy) = ((x - self.target[0]) / self.radii[0], (y - self.target[1]) / self.radii[1]);
+        let distance = dx * dx + dy * dy;
+        if distance < self.least || (distance == self.least && self.index.is_none()) {
+            self.least = distance;
+            self.index = Some(self.seen);
+        }
+        self.seen += 1;
+    }
+
+    /// The number of the nearest, from 0 in the order of showing.
+    pub fn index(&self) -> Option<usize> {
+        self.index
+    }
 }

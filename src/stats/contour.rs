@@ -6,6 +6,7 @@ use crate::geom::se2::SE2;
 use crate::models::covariance_root;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 use std::f64::consts::TAU;
+use wide::f64x4;
 
 /// The contours are at two standard deviations: a Gaussian of the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
 const SIGMAS: f64 = 2.0;
@@ -20,6 +21,8 @@ pub struct Ellipse {
     centre: Vector2<f64>,
     /// Lower triangular L with L·Lᵀ the covariance.
     root: Matrix2<f64>,
+    /// L⁻¹, with 0 for a coordinate in which the Gaussian has no extent.
+    whitening: Matrix2<f64>,
 }
 
 impl Ellipse {
@@ -30,7 +33,18 @@ impl Ellipse {
         let first = root(cov[(0, 0)], rounding);
         let shared = if first > 0.0 { cov[(1, 0)] / first } else { 0.0 };
         let second = root(cov[(1, 1)] - shared * shared, rounding.max(NO_AREA * cov[(1, 1)]));
-        Self { centre, root: Matrix2::new(first, 0.0, shared, second) }
+        let inverse = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 0.0 };
+        let (first_inverse, second_inverse) = (inverse(first), inverse(second));
+        Self {
+            centre,
+            root: Matrix2::new(first, 0.0, shared, second),
+            whitening: Matrix2::new(
+                first_inverse,
+                0.0,
+                -shared * first_inverse * second_inverse,
+                second_inverse,
+            ),
+        }
     }
 
     /// The ellipse of the position (x, y), m.
@@ -50,15 +64,20 @@ impl Ellipse {
 
     /// Whether a point lies inside.
     pub fn contains(&self, point: [f64; 2]) -> bool {
-        self.has_area() && self.whiten(point.into()).norm_squared() <= SIGMAS * SIGMAS
+        let [first, second] = point.map(f64x4::splat);
+        self.contains_four(first, second).any()
     }
 
-    /// L⁻¹·(point − centre), with 0 for a coordinate in which the Gaussian has no extent.
-    fn whiten(&self, point: Vector2<f64>) -> Vector2<f64> {
-        let quotient = |value: f64, extent: f64| if extent > 0.0 { value / extent } else { 0.0 };
-        let offset = point - self.centre;
-        let first = quotient(offset.x, self.root[(0, 0)]);
-        Vector2::new(first, quotient(offset.y - self.root[(1, 0)] * first, self.root[(1, 1)]))
+    /// [`Ellipse::contains`] of four points, as masks.
+    #[inline(always)]
+    pub(super) fn contains_four(&self, first: f64x4, second: f64x4) -> f64x4 {
+        if !self.has_area() {
+            return f64x4::splat(0.0);
+        }
+        let (first, second) = (first - self.centre.x, second - self.centre.y);
+        let z = first * self.whitening[(0, 0)];
+        let w = first * self.whitening[(1, 0)] + second * self.whitening[(1, 1)];
+        (z * z + w * w).simd_le(f64x4::splat(SIGMAS * SIGMAS))
     }
 }
 

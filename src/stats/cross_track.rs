@@ -46,44 +46,98 @@ impl CrossTrack {
             (along, d, wrap_angle(pose.theta() - heading))
         };
 
-        let (mut aa, mut dd, mut ddd, mut ad, mut add) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        let (mut t, mut tt, mut dt, mut resultant) = (0.0, 0.0, 0.0, 0.0);
+        let mut moments = TrackMoments::default();
         for (along, d, turn) in poses.iter().map(residual) {
-            aa += along * along;
-            dd += d * d;
-            ddd += d * d * d;
-            ad += along * d;
-            add += along * d * d;
-            t += turn;
-            tt += turn * turn;
-            dt += d * turn;
-            resultant += libm::cos(turn);
+            let (sin, cos) = libm::sincos(turn);
+            moments.extent_squared += along * along + d * d;
+            moments.along_d += along * d;
+            moments.along_d2 += along * d * d;
+            let mut power = 1.0;
+            for (k, sum) in moments.d.iter_mut().enumerate() {
+                *sum += power;
+                if let Some(sum) = moments.sin_d.get_mut(k) {
+                    *sum += sin * power;
+                }
+                power *= d;
+            }
+            moments.sin_sin += sin * sin;
+            moments.turn += turn;
+            moments.turn_turn += turn * turn;
+            moments.turn_d += turn * d;
+            moments.resultant += cos;
         }
-        let [aa, m2, m3, ad, add, t, tt, dt, resultant] =
-            [aa, dd, ddd, ad, add, t, tt, dt, resultant].map(|sum| sum / count);
-        let extent = aa + first.x() * first.x() + first.y() * first.y();
-        if m2 <= NO_SPREAD * NO_SPREAD * extent {
-            return undefined;
-        }
+        let mut moments = moments.divided_by(count);
+        moments.extent_squared += (first.x() + x) * (first.x() + x) + (first.y() + y) * (first.y() + y);
+        Self::from_moments(poses.len(), &moments)
+    }
 
-        let skew = m3 / (m2 * m2.sqrt());
-        // Turning the axis by dh moves d by −along·dh.
-        let skew_by_heading = 3.0 * (skew * ad / m2 - add / (m2 * m2.sqrt()));
-        let influence_squared = |pose: &SE2| {
-            let (_, d, turn) = residual(pose);
-            let z = d / m2.sqrt();
-            let influence = z * z * z - skew - 3.0 * z - 1.5 * skew * (z * z - 1.0)
-                + skew_by_heading * libm::sin(turn) / resultant;
-            influence * influence
-        };
-        let skew_error = poses.iter().map(influence_squared).sum::<f64>().sqrt() / count;
-        let heading_variance = tt - t * t;
+    /// The figures of `count` poses from their moments.
+    pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
+        let TrackMoments { d: [.., m2, m3, _, _, _], sin_d, .. } = moments;
+        let (m2, m3) = (*m2, *m3);
+        if count < 3 || m2 <= NO_SPREAD * NO_SPREAD * moments.extent_squared {
+            return Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
+        }
+        let sd = m2.sqrt();
+        let skew = m3 / (m2 * sd);
+        // Turning the axis by dh moves d by −along·dh, and the mean heading moves by sin(turn)/resultant.
+        let by_heading =
+            3.0 * (skew * moments.along_d / m2 - moments.along_d2 / (m2 * sd)) / moments.resultant;
+        // The influence of a pose is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin, z = d/sd: a polynomial, the
+        // mean of whose square is a sum over moments.
+        let influence = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
+        let mut squared = by_heading * by_heading * moments.sin_sin;
+        for (i, a) in influence.iter().enumerate() {
+            squared += 2.0 * by_heading * a * sin_d[i];
+            for (j, b) in influence.iter().enumerate() {
+                squared += a * b * moments.d[i + j];
+            }
+        }
+        let heading_variance = moments.turn_turn - moments.turn * moments.turn;
         let rho_heading = if heading_variance > NO_SPREAD * NO_SPREAD {
-            (dt / (m2 * heading_variance).sqrt()).clamp(-1.0, 1.0)
+            (moments.turn_d / (m2 * heading_variance).sqrt()).clamp(-1.0, 1.0)
         } else {
             f64::NAN
         };
-        Self { skew, skew_error, rho_heading }
+        Self { skew, skew_error: (squared.max(0.0) / count as f64).sqrt(), rho_heading }
+    }
+}
+
+/// Means over a cloud. d is the cross-track residual, along the one at right angles to it, turn the one of the heading,
+/// each from its mean.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TrackMoments {
+    /// Of the squared distance from the origin.
+    pub extent_squared: f64,
+    pub along_d: f64,
+    pub along_d2: f64,
+    /// dᵏ for k = 0 … 6.
+    pub d: [f64; 7],
+    /// sin(turn)·dᵏ for k = 0 … 3.
+    pub sin_d: [f64; 4],
+    pub sin_sin: f64,
+    pub turn: f64,
+    pub turn_turn: f64,
+    pub turn_d: f64,
+    /// cos(turn).
+    pub resultant: f64,
+}
+
+impl TrackMoments {
+    /// Means from sums.
+    fn divided_by(&self, count: f64) -> Self {
+        Self {
+            extent_squared: self.extent_squared / count,
+            along_d: self.along_d / count,
+            along_d2: self.along_d2 / count,
+            d: self.d.map(|sum| sum / count),
+            sin_d: self.sin_d.map(|sum| sum / count),
+            sin_sin: self.sin_sin / count,
+            turn: self.turn / count,
+            turn_turn: self.turn_turn / count,
+            turn_d: self.turn_d / count,
+            resultant: self.resultant / count,
+        }
     }
 }
 

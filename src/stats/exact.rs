@@ -32,7 +32,7 @@ impl ExactMoments {
     /// Of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
-        let rays = nodes(model.noise).into_iter().map(|node| {
+        let rays = nodes(model.noise).iter().map(|node| {
             let excess_turn = omega_variance.sqrt() * u.dt * node.value;
             Ray { weight: node.weight, unit: chord_factors(u.omega * u.dt + excess_turn), excess_turn }
         });
@@ -43,7 +43,7 @@ impl ExactMoments {
     /// Of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
     pub fn of_odometry(model: &OdometryModel, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
-        let rays = nodes(model.noise).into_iter().map(|node| {
+        let rays = nodes(model.noise).iter().map(|node| {
             let excess_turn = rot1_variance.sqrt() * node.value;
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
             Ray { weight: node.weight, unit: (cos, sin), excess_turn }
@@ -101,7 +101,7 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
     };
     let left_over = cov.fixed_view::<2, 2>(0, 0) - regression * regression.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
-    let across = nodes(NoiseKind::Normal).into_iter().map(|node| {
+    let across = nodes(NoiseKind::Normal).iter().map(|node| {
         let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
         let (a, b) = chord_factors(mean.z + excess_turn);
         // The lateral component of V(ω)·ξ, as a row over (along, lateral).

@@ -3,6 +3,7 @@
 mod contour;
 mod cross_track;
 mod exact;
+pub(crate) mod fused;
 mod moments;
 pub mod quadrature;
 

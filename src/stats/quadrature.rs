@@ -2,6 +2,7 @@
 
 use crate::noise::NoiseKind;
 use std::f64::consts::{PI, TAU};
+use std::sync::OnceLock;
 
 /// A value of a unit-variance noise and its weight; the weights of a rule sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,10 +15,13 @@ pub struct Node {
 ///
 /// For f of bounded frequency k (trigonometric functions of k·z times polynomials), correct to rounding as long as
 /// k is below 16: a heading spread of five radians in a third moment.
-pub fn nodes(noise: NoiseKind) -> Vec<Node> {
+pub fn nodes(noise: NoiseKind) -> &'static [Node] {
+    // Asked for at every event.
+    static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
+    static TRIANGULAR: OnceLock<Vec<Node>> = OnceLock::new();
     match noise {
-        NoiseKind::Normal => normal_nodes(),
-        NoiseKind::Triangular => triangular_nodes(),
+        NoiseKind::Normal => NORMAL.get_or_init(normal_nodes),
+        NoiseKind::Triangular => TRIANGULAR.get_or_init(triangular_nodes),
     }
 }
 

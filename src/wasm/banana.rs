@@ -1,14 +1,15 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{Fields, in_range, no_memory, number, numbers, read_command, whole, word};
+use super::fields::{Fields, in_range, no_memory, number, numbers, read_command, type_error, whole, word};
 use super::values::{Command, doubles, object, to_js};
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
 use crate::sim::View;
 use crate::sim::banana::{BananaMachine, Contours, ModelKind, PRESETS, Sample, Settings};
+use crate::sim::picture::{RAMP, Ramp};
 use crate::sim::settings::{MAX_SAMPLES, MAX_SEED, SPEED};
 use crate::sim::views::Grid;
-use js_sys::{Float64Array, RangeError, Uint32Array};
+use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray, Uint32Array, WebAssembly};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
@@ -126,6 +127,17 @@ impl JsBananaMachine {
         Ok(self.0.configure(read_settings(*self.0.settings(), options)?)?)
     }
 
+    /// As `configure`, in slices.
+    pub fn begin(&mut self, options: &JsValue) -> Result<(), JsValue> {
+        Ok(self.0.begin(read_settings(*self.0.settings(), options)?)?)
+    }
+
+    /// Works on what was begun, for about as many poses of twice as many as are shown; whether all is done.
+    pub fn advance(&mut self, poses: &JsValue) -> Result<bool, JsValue> {
+        let poses = whole("poses", poses, 1, MAX_SEED)?;
+        Ok(self.0.advance(usize::try_from(poses).unwrap_or(usize::MAX)))
+    }
+
     #[wasm_bindgen(getter)]
     pub fn config(&self) -> Result<JsValue, JsValue> {
         let settings = self.0.settings();
@@ -142,7 +154,7 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter)]
     pub fn shown(&self) -> usize {
-        self.0.poses().len()
+        self.0.shown()
     }
 
     /// Whether figures and contours in exponential coordinates are defined: no robot to speak of turns a whole circle.
@@ -163,20 +175,20 @@ impl JsBananaMachine {
     /// x, y, θ of each sample shown.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Result<Float64Array, JsValue> {
-        doubles("samples", self.0.poses().iter().map(|pose| [pose.x(), pose.y(), pose.theta()]))
+        doubles("samples", self.0.poses().map(|pose| [pose.x(), pose.y(), pose.theta()]))
     }
 
     /// ξ along, lateral, heading of each sample shown.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Result<Float64Array, JsValue> {
-        doubles("samples", self.0.twists().iter().map(|twist| <[f64; 3]>::from(*twist)))
+        doubles("samples", self.0.twists().map(<[f64; 3]>::from))
     }
 
     #[wasm_bindgen(getter)]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
         let figures = self.0.figures();
         to_js(&Stats {
-            n: self.0.poses().len(),
+            n: self.0.shown(),
             cartesian: Moments::new(&figures.cartesian.mean, &figures.cartesian.cov),
             exponential: Moments::new(&figures.exponential.mean, &figures.exponential.cov),
             cross_track_skew: figures.cross_track.skew,
@@ -225,12 +237,8 @@ impl JsBananaMachine {
 
     pub fn inspect(&self, index: &JsValue) -> Result<JsValue, JsValue> {
         let index = whole("index", index, 0, MAX_SAMPLES as u64)? as usize;
-        let Some(Sample { pose, twist, executed, path }) = self.0.inspect(index) else {
-            let shown = self.0.poses().len();
-            let message =
-                format!("index is {index}; allowed is one of the {shown} samples shown, counted from 0");
-            return Err(RangeError::new(&message).into());
-        };
+        let Sample { pose, twist, executed, path } =
+            self.0.inspect(index).ok_or_else(|| self.not_shown(index))?;
         object(&[
             ("pose", doubles("samples", [[pose.x(), pose.y(), pose.theta()]].into_iter())?.into()),
             ("twist", doubles("samples", [<[f64; 3]>::from(twist)].into_iter())?.into()),
@@ -239,6 +247,12 @@ impl JsBananaMachine {
             ("gammaHat", executed.gamma_hat.into()),
             ("path", doubles("samples", path.into_iter())?.into()),
         ])
+    }
+
+    /// θ of a sample.
+    pub fn heading(&self, index: &JsValue) -> Result<f64, JsValue> {
+        let index = whole("index", index, 0, MAX_SAMPLES as u64)? as usize;
+        Ok(self.0.pose(index).ok_or_else(|| self.not_shown(index))?.theta())
     }
 
     /// The index of the nearest sample in the ellipse of the given radii, −1 where there is none.
@@ -259,7 +273,7 @@ impl JsBananaMachine {
     /// Samples a cell, row by row from the top.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle and a size")]
     pub fn density(
-        &self,
+        &mut self,
         view: &JsValue,
         x_min: &JsValue,
         y_min: &JsValue,
@@ -269,17 +283,76 @@ impl JsBananaMachine {
         rows: &JsValue,
     ) -> Result<Uint32Array, JsValue> {
         let view = word("view", view, &VIEWS)?;
-        let min = [in_range("xMin", x_min, &EXTENT)?, in_range("yMin", y_min, &EXTENT)?];
-        let max = [
-            in_range("xMax", x_max, &(min[0]..=*EXTENT.end()))?,
-            in_range("yMax", y_max, &(min[1]..=*EXTENT.end()))?,
-        ];
-        let columns = whole("columns", columns, 1, MAX_CELLS)?;
-        let rows = whole("rows", rows, 1, MAX_CELLS / columns)?;
-        let grid = Grid { min, max, columns: columns as usize, rows: rows as usize };
+        let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let counts = self.0.density(view, &grid).map_err(|_| no_memory("columns"))?;
         Ok(Uint32Array::from(counts.as_slice()))
     }
+
+    /// The same as pixels, each count in its colour of a ramp: a view of the core's memory, to be used before the core is
+    /// asked for anything else.
+    #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
+    pub fn picture(
+        &mut self,
+        view: &JsValue,
+        x_min: &JsValue,
+        y_min: &JsValue,
+        x_max: &JsValue,
+        y_max: &JsValue,
+        columns: &JsValue,
+        rows: &JsValue,
+        ramp: &JsValue,
+    ) -> Result<Uint8ClampedArray, JsValue> {
+        let view = word("view", view, &VIEWS)?;
+        let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
+        let ramp = read_ramp(ramp)?;
+        let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
+        Ok(view_of(pixels.as_flattened()))
+    }
+}
+
+/// A view of bytes in the core's memory.
+fn view_of(bytes: &[u8]) -> Uint8ClampedArray {
+    let view = || {
+        let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
+        Uint8ClampedArray::new_with_byte_offset_and_length(
+            &memory.buffer(),
+            bytes.as_ptr() as u32,
+            bytes.len() as u32,
+        )
+    };
+    let first = view();
+    // The handle of the view itself may have made the memory grow, which empties all views of it; it does so once.
+    if first.length() as usize == bytes.len() { first } else { view() }
+}
+
+impl JsBananaMachine {
+    fn not_shown(&self, index: usize) -> RangeError {
+        let shown = self.0.shown();
+        RangeError::new(&format!(
+            "index is {index}; allowed is one of the {shown} samples shown, counted from 0"
+        ))
+    }
+}
+
+fn read_grid(bounds: [&JsValue; 4], columns: &JsValue, rows: &JsValue) -> Result<Grid, JsValue> {
+    let [x_min, y_min, x_max, y_max] = bounds;
+    let min = [in_range("xMin", x_min, &EXTENT)?, in_range("yMin", y_min, &EXTENT)?];
+    let max = [
+        in_range("xMax", x_max, &(min[0]..=*EXTENT.end()))?,
+        in_range("yMax", y_max, &(min[1]..=*EXTENT.end()))?,
+    ];
+    let columns = whole("columns", columns, 1, MAX_CELLS)?;
+    let rows = whole("rows", rows, 1, MAX_CELLS / columns)?;
+    Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
+}
+
+fn read_ramp(value: &JsValue) -> Result<Ramp, JsValue> {
+    let mut ramp = [[0; 4]; RAMP];
+    match value.dyn_ref::<Uint8Array>() {
+        Some(bytes) if bytes.length() as usize == 4 * RAMP => bytes.copy_to(ramp.as_flattened_mut()),
+        _ => return Err(type_error("ramp", value, "a Uint8Array of 256 colours of four bytes")),
+    }
+    Ok(ramp)
 }
 
 /// Coordinates that a view may reach: as far as the fastest robot gets in the longest step, and some.

@@ -15,7 +15,7 @@ use crate::sim::settings::{MAX_SAMPLES, MAX_SEED, SPEED};
 use crate::sim::squeeze::{
     Attempt, CLEARANCE, MAX_STEPS, MapSqueeze, PRESETS, Settings, Tally, alphas_of_noise,
 };
-use crate::sim::views::nearest;
+use crate::sim::views::Nearest;
 use js_sys::{Float64Array, RangeError, Uint8Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
@@ -301,8 +301,9 @@ impl JsMapSqueeze {
     /// The index of the attempt that ends nearest to a point and within `radius` of it, −1 where there is none.
     pub fn nearest(&self, x: &JsValue, y: &JsValue, radius: &JsValue) -> Result<i32, JsValue> {
         let (target, radius) = ([number("x", x)?, number("y", y)?], number("radius", radius)?);
-        let points = self.machine.attempts().iter().map(|attempt| [attempt.pose.x(), attempt.pose.y()]);
-        Ok(nearest(points, target, [radius, radius]).map_or(-1, |index| index as i32))
+        let mut nearest = Nearest::new(target, [radius, radius]);
+        self.machine.attempts().iter().for_each(|attempt| nearest.see([attempt.pose.x(), attempt.pose.y()]));
+        Ok(nearest.index().map_or(-1, |index| index as i32))
     }
 }
 

@@ -70,10 +70,10 @@ test.describe('growth', () => {
       await widget.evaluate((element) => {
         const { machine } = /** @type {BananaMachineElement} */ (element);
         Object.assign(window, { densities: 0 });
-        Object.defineProperty(machine, 'density', {
+        Object.defineProperty(machine, 'picture', {
           value(/** @type {unknown[]} */ ...grid) {
             Object.assign(window, { densities: Reflect.get(window, 'densities') + 1 });
-            return Object.getPrototypeOf(machine).density.apply(machine, grid);
+            return Object.getPrototypeOf(machine).picture.apply(machine, grid);
           },
         });
       });

@@ -150,11 +150,11 @@ test('the view in exponential coordinates has room for its cloud', async ({ page
     const { machine } = /** @type {BananaMachineElement} */ (element);
     /** @type {number[]} */
     let seen = [];
-    Object.defineProperty(machine, 'density', {
+    Object.defineProperty(machine, 'picture', {
       configurable: true,
       value(/** @type {[string, ...number[]]} */ ...grid) {
         if (grid[0] === 'twist') seen = grid.slice(1, 5).map(Number);
-        return Object.getPrototypeOf(machine).density.apply(machine, grid);
+        return Object.getPrototypeOf(machine).picture.apply(machine, grid);
       },
     });
     /** @type {HTMLElement | null | undefined} */ (element.shadowRoot?.querySelector('.legend input'))?.click();

@@ -256,6 +256,17 @@ test('contours, curve, inspection and views', async () => {
   const upper = Array.from({ length: 4000 }, (_, i) => poses[3 * i + 1]).filter((y) => y > 0).length;
   near(counts.slice(0, 100).reduce((sum, count) => sum + count, 0), upper, 0, 'row 0 is at the top');
 
+  const ramp = Uint8Array.from({ length: 1024 }, (_, i) => (i % 4 === 3 ? 255 : i >> 2));
+  const pixels = machine.picture('plane', -4, -4, 4, 4, 20, 10, ramp);
+  assert.ok(pixels instanceof Uint8ClampedArray && pixels.length === 800);
+  const most = Math.max(...counts);
+  counts.forEach((count, cell) => {
+    const shade = Math.round(255 * Math.sqrt(count / most));
+    assert.deepEqual([...pixels.slice(4 * cell, 4 * cell + 4)], count > 0 ? [shade, shade, shade, 255] : [0, 0, 0, 0]);
+  });
+  assert.deepEqual(machine.density('plane', -4, -4, 4, 4, 20, 10), counts, 'nothing of a picture is left for the next');
+  near(machine.heading(17), poses[53], 0);
+
   const { v, omega } = commandReaching(1, -0.4, { v: 1, omega: 0.2, dt: 2 });
   machine.configure({ command: { v, omega, dt: 2 } });
   near(machine.contours.command.at(-2), 1, 1e-12);
@@ -263,6 +274,25 @@ test('contours, curve, inspection and views', async () => {
   const seeds = Array.from({ length: 20 }, randomSeed);
   assert.ok(seeds.every((seed) => Number.isInteger(seed) && seed >= 0 && seed < 2 ** 32));
   assert.ok(new Set(seeds).size > 15);
+});
+
+test('a change in slices ends where a change at once does', async () => {
+  const { BananaMachine } = await (await freshModule()).load();
+  const [sliced, whole] = [new BananaMachine(), new BananaMachine()];
+  const change = { command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 20_000, seed: 3 };
+  const before = sliced.stats;
+  sliced.begin(change);
+  let slices = 1;
+  while (!sliced.advance(1000)) {
+    assert.deepEqual(sliced.stats.cartesian, before.cartesian);
+    slices += 1;
+  }
+  assert.ok(slices > 30, `${slices} slices`);
+  whole.configure(change);
+  assert.deepEqual(sliced.stats, whole.stats);
+  assert.deepEqual(sliced.poses, whole.poses);
+  assert.throws(() => sliced.begin({ samples: 0 }), RangeError);
+  assert.equal(sliced.advance(1), true, 'nothing was begun');
 });
 
 test('free and Symbol.dispose give the memory back, and a freed machine says so', async () => {

@@ -9,12 +9,13 @@ import { prepare } from '../ui/canvas.js';
 import {
   DASHES,
   clipped,
+  densityRamp,
   drawAxes,
-  drawDensity,
   drawDots,
   drawHeap,
   drawMark,
   drawOutline,
+  drawPixels,
   drawRobot,
 } from '../ui/draw.js';
 import { whole } from '../ui/format.js';
@@ -58,6 +59,11 @@ class Picture {
   /** Device pixels a CSS pixel. */
   ratio = 1;
   font = '';
+  #grid = new OffscreenCanvas(1, 1);
+  /** Colours of its density. @type {Uint8Array} */
+  #ramp = new Uint8Array();
+  /** What the ramp was made of. @type {Palette | undefined} */
+  #palette;
 
   /**
    * @param {ViewName} name
@@ -106,8 +112,12 @@ class Picture {
       const { xMin, yMin, xMax, yMax } = view.extent;
       const columns = Math.max(1, Math.round((right - left) / cell));
       const rows = Math.max(1, Math.round((bottom - top) / cell));
-      const counts = machine.density(name, xMin, yMin, xMax, yMax, columns, rows);
-      drawDensity(context, view, palette, counts, columns);
+      if (this.#palette !== palette) {
+        this.#palette = palette;
+        this.#ramp = densityRamp(palette);
+      }
+      const pixels = machine.picture(name, xMin, yMin, xMax, yMax, columns, rows, this.#ramp);
+      drawPixels(context, view, this.#grid, pixels, columns);
     } else if (name === 'plane') {
       drawDots(context, view, palette, machine.poses, { x: 0, y: 1, heading: 2, ratio: this.ratio });
     } else {
@@ -197,12 +207,12 @@ export class PlanePicture extends Picture {
    * @param {Palette} palette
    */
   #drawHeap(context, { machine }, palette) {
-    const poses = machine.poses;
     const stride = Math.ceil(machine.shown / RAYS_AT_MOST);
     const headings = [];
-    for (let i = 0; i < machine.shown; i += stride) headings.push(poses[3 * i + 2]);
+    for (let i = 0; i < machine.shown; i += stride) headings.push(machine.heading(i));
     const label = machine.shown === 1 ? '1 robot here' : `${whole(machine.shown)} robots here`;
-    drawHeap(context, this.view, palette, { x: poses[0], y: poses[1], headings, label, font: this.font });
+    const [x, y] = machine.inspect(0).pose;
+    drawHeap(context, this.view, palette, { x, y, headings, label, font: this.font });
   }
 }
 

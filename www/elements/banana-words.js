@@ -23,10 +23,10 @@ export const PRESET_LABELS = {
 };
 
 /** Largest sample count of the slider: beyond it a drag no longer follows the finger. */
-const MOST_SAMPLES = 200_000;
+const MOST_SAMPLES = 1_000_000;
 
 /** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale. */
-export const SAMPLE_COUNTS = [1, 2, 3, 4, 5]
+export const SAMPLE_COUNTS = [1, 2, 3, 4, 5, 6]
   .flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade))
   .filter((count) => count <= MOST_SAMPLES);
 

@@ -243,34 +243,43 @@ function haloText(context, palette, text, x, y) {
   context.fillText(text, x, y);
 }
 
+/** Colours of a density: as many as the core takes. */
+const RAMP = 256;
+
 /**
- * Counts on a grid that covers the inside of the axes, as ink of the role's colour.
+ * The colours of a density by the share of its fullest cell: ink of the role's colour, thinner where there is less.
+ *
+ * @param {Palette} palette
+ * @returns {Uint8Array} red, green, blue and alpha of each
+ */
+export function densityRamp(palette) {
+  const cloud = channels(palette.cloud);
+  const ink = channels(palette.ink);
+  const ramp = new Uint8Array(4 * RAMP);
+  for (let i = 0; i < RAMP; i++) {
+    const shade = i / (RAMP - 1);
+    const darkening = 0.6 * Math.max(0, shade - 0.5);
+    for (let k = 0; k < 3; k++) ramp[4 * i + k] = cloud[k] + darkening * (ink[k] - cloud[k]);
+    ramp[4 * i + 3] = 255 * (0.15 + 0.85 * shade);
+  }
+  return ramp;
+}
+
+/**
+ * An image that covers the inside of the axes.
  *
  * @param {Context} context
  * @param {View} view
- * @param {Palette} palette
- * @param {Uint32Array} counts row 0 at the top
+ * @param {OffscreenCanvas} grid what the pixels go through to be stretched
+ * @param {Uint8ClampedArray<ArrayBuffer>} pixels row 0 at the top
  * @param {number} columns
  */
-export function drawDensity(context, view, palette, counts, columns) {
-  const rows = counts.length / columns;
-  const most = counts.reduce((a, b) => Math.max(a, b), 0);
-  if (most === 0) return;
-  const [red, green, blue] = channels(palette.cloud);
-  const [inkRed, inkGreen, inkBlue] = channels(palette.ink);
-  const image = new ImageData(columns, rows);
-  for (let i = 0; i < counts.length; i++) {
-    if (counts[i] === 0) continue;
-    // The square root keeps the thin ends of the cloud visible beside its crowded middle.
-    const shade = Math.sqrt(counts[i] / most);
-    const ink = 0.6 * Math.max(0, shade - 0.5);
-    image.data[4 * i] = red + ink * (inkRed - red);
-    image.data[4 * i + 1] = green + ink * (inkGreen - green);
-    image.data[4 * i + 2] = blue + ink * (inkBlue - blue);
-    image.data[4 * i + 3] = 255 * (0.15 + 0.85 * shade);
-  }
-  const grid = new OffscreenCanvas(columns, rows);
-  /** @type {OffscreenCanvasRenderingContext2D} */ (grid.getContext('2d')).putImageData(image, 0, 0);
+export function drawPixels(context, view, grid, pixels, columns) {
+  const rows = pixels.length / (4 * columns);
+  if (grid.width !== columns) grid.width = columns;
+  if (grid.height !== rows) grid.height = rows;
+  const surface = /** @type {OffscreenCanvasRenderingContext2D} */ (grid.getContext('2d'));
+  surface.putImageData(new ImageData(pixels, columns, rows), 0, 0);
   const { left, right, top, bottom } = view.frame;
   context.imageSmoothingEnabled = true;
   context.drawImage(grid, left, top, right - left, bottom - top);

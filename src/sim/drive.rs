@@ -1,0 +1,140 @@
+//! Either model as one formula, from the start pose at the origin: a length driven on a bearing, and a heading.
+
+use crate::geom::lanes::{HalfTurn, Trigonometry, any};
+use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
+use crate::stats::fused::{FourPoses, Reference};
+use std::f64::consts::FRAC_PI_2;
+use wide::f64x4;
+
+/// A number of the motion as mean + deviation · unit noise.
+type Affine = [f64; 2];
+
+/// A motion under given settings; its three unit noises are in the order of the model's draws.
+///
+/// The arc of length s and turn φ ends at distance s·sinc(φ/2) on the bearing φ/2, heading φ + γ̂Δt. The three legs end
+/// at distance δ̂_trans on the bearing δ̂_rot1, heading δ̂_rot1 + δ̂_rot2. Both bearings, both distances but for the sinc,
+/// and both headings are affine in the noises.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive {
+    /// Whether the length is that of an arc, whose chord is shorter.
+    is_arc: bool,
+    /// m.
+    length: Affine,
+    /// rad.
+    bearing: Affine,
+    /// Half of the heading is `share` · bearing + half_rest, rad.
+    share: f64,
+    half_rest: Affine,
+    /// Half of the commanded turn, rad: where the branch of the logarithm is.
+    near: f64,
+    near_half: [f64; 2],
+    trigonometry: Trigonometry,
+}
+
+/// Four motions.
+#[derive(Clone, Copy)]
+pub struct Motions {
+    length: f64x4,
+    bearing: f64x4,
+    /// Half of the heading, not wrapped.
+    pub half: f64x4,
+}
+
+impl Drive {
+    pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
+        let [v, omega, gamma] = model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
+        let near = 0.5 * (u.omega * u.dt);
+        Self {
+            is_arc: true,
+            length: [u.v * u.dt, v],
+            bearing: [near, 0.5 * omega],
+            share: 1.0,
+            half_rest: [0.0, 0.5 * gamma],
+            near,
+            near_half: near_half(near),
+            trigonometry: Trigonometry::default(),
+        }
+    }
+
+    /// `turn` is that of the command which the reading came from, rad.
+    pub fn of_odometry(model: &OdometryModel, u: &OdomDelta, turn: f64) -> Self {
+        let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
+        Self {
+            is_arc: false,
+            length: [u.trans, -trans],
+            bearing: [u.rot1, -rot1],
+            share: 0.5,
+            half_rest: [0.5 * u.rot2, -0.5 * rot2],
+            near: 0.5 * turn,
+            near_half: near_half(0.5 * turn),
+            trigonometry: Trigonometry::default(),
+        }
+    }
+
+    /// Standard deviation of the turn, rad.
+    pub fn turn_deviation(&self) -> f64 {
+        2.0 * libm::hypot(self.share * self.bearing[1], self.half_rest[1])
+    }
+
+    #[inline(always)]
+    pub fn motions(&self, unit_noise: &[f64x4; 3]) -> Motions {
+        let [first, second, third] = *unit_noise;
+        let (length, bearing) = if self.is_arc { (first, second) } else { (second, first) };
+        let bearing = bearing * self.bearing[1] + self.bearing[0];
+        Motions {
+            length: length * self.length[1] + self.length[0],
+            bearing,
+            half: bearing * self.share + (third * self.half_rest[1] + self.half_rest[0]),
+        }
+    }
+
+    /// Where four motions end: x, y.
+    #[inline(always)]
+    pub fn ends(&self, motions: &Motions) -> [f64x4; 2] {
+        let any = self.is_far(motions);
+        let circle = if any {
+            self.trigonometry.any_circle(motions.bearing)
+        } else {
+            self.trigonometry.circle(motions.bearing)
+        };
+        let distance = if self.is_arc { motions.length * circle.sinc } else { motions.length };
+        [distance * circle.cos, distance * circle.sin]
+    }
+
+    /// The poses of four motions that ended at `ends`, with their logarithms on the branch of the commanded turn.
+    #[inline(always)]
+    pub fn poses(&self, motions: &Motions, ends: &[f64x4; 2]) -> FourPoses {
+        let turn = if self.is_far(motions) {
+            self.trigonometry.any_half_turn(motions.half, self.near)
+        } else {
+            self.trigonometry.half_turn(motions.half)
+        };
+        let ([x, y], HalfTurn { half, cotangent, sin, cos }) = (*ends, turn);
+        let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
+        FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos }
+    }
+
+    /// Whether an angle leaves the range of the short formulas.
+    #[inline(always)]
+    fn is_far(&self, motions: &Motions) -> bool {
+        let [middle, reach] = self.near_half;
+        any(motions.bearing.abs().simd_gt(f64x4::splat(NEAR))
+            | (motions.half - middle).abs().simd_gt(f64x4::splat(reach)))
+    }
+
+    /// Where a motion without noise ends, in the parts that a cloud's sums are counted from.
+    pub fn nominal(&self) -> Reference {
+        let motions = self.motions(&[f64x4::splat(0.0); 3]);
+        let poses = self.poses(&motions, &self.ends(&motions));
+        [poses.x, poses.y, poses.along, poses.lateral, poses.half].map(|lanes| lanes.to_array()[0])
+    }
+}
+
+/// A quarter turn, less a margin for rounding.
+const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
+
+/// The half headings within a quarter turn of 0 and of `near`: their middle, and how far they reach from there.
+fn near_half(near: f64) -> [f64; 2] {
+    let (low, high) = ((near - NEAR).max(-NEAR), (near + NEAR).min(NEAR));
+    [0.5 * (low + high), 0.5 * (high - low)]
+}

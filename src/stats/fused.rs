@@ -1,0 +1,308 @@
+//! The figures of a large cloud from two passes over its poses, four at a time.
+//!
+//! The first pass finds means and covariances, the second what is counted from them: higher moments across the track, and
+//! the shares inside the contours. Sums are of differences from a point near the mean, naive over a block of poses and
+//! compensated over the blocks, so that ten million poses add up to 1e-13 of what they are.
+
+use super::contour::{Ellipse, ExponentialContour};
+use super::cross_track::{CrossTrack, TrackMoments};
+use super::moments::{CartesianMoments, ExponentialMoments};
+use crate::geom::angle::wrap_angle;
+use crate::geom::lanes::{any, halves};
+use crate::geom::se2::SE2;
+use nalgebra::{Matrix2, Matrix3, Vector3};
+use std::f64::consts::{PI, TAU};
+use wide::{f64x2, f64x4};
+
+/// Sums of `N` quantities.
+#[derive(Clone, Debug)]
+struct Sums<const N: usize> {
+    block: [f64x2; N],
+    total: [f64x2; N],
+    lost: [f64x2; N],
+}
+
+impl<const N: usize> Sums<N> {
+    fn new() -> Self {
+        let zero = [f64x2::splat(0.0); N];
+        Self { block: zero, total: zero, lost: zero }
+    }
+
+    /// Adds the block to the total, keeping what rounding loses (Knuth's two-sum).
+    fn close_block(&mut self) {
+        for i in 0..N {
+            let (total, term) = (self.total[i], self.block[i]);
+            let sum = total + term;
+            let of_term = sum - total;
+            self.lost[i] += (total - (sum - of_term)) + (term - of_term);
+            self.total[i] = sum;
+            self.block[i] = f64x2::splat(0.0);
+        }
+    }
+
+    fn finish(&self) -> [f64; N] {
+        std::array::from_fn(|i| {
+            let ([a, b], [c, d]) = (self.total[i].to_array(), self.lost[i].to_array());
+            (a + b) + (c + d)
+        })
+    }
+}
+
+/// A sum of four added to its block.
+#[inline(always)]
+fn add<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
+    for i in 0..N {
+        let [low, high] = halves(terms[i]);
+        block[i] += low + high;
+    }
+}
+
+/// Four poses: where they are, their logarithms, and the sine and cosine of half the heading (both of either sign).
+#[derive(Clone, Copy)]
+pub struct FourPoses {
+    pub x: f64x4,
+    pub y: f64x4,
+    pub along: f64x4,
+    pub lateral: f64x4,
+    /// Half of the heading on the branch of the logarithm.
+    pub half: f64x4,
+    pub half_sin: f64x4,
+    pub half_cos: f64x4,
+}
+
+/// What differences are counted from: x, y, along, lateral, half heading.
+pub type Reference = [f64; 5];
+
+/// The first pass.
+#[derive(Clone, Debug)]
+pub struct Spread {
+    reference: Reference,
+    sums: Sums<16>,
+}
+
+impl Spread {
+    pub fn new(reference: Reference) -> Self {
+        Self { reference, sums: Sums::new() }
+    }
+
+    /// Adds those of the four for which `mask` has all bits set.
+    #[inline(always)]
+    pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
+        let [x, y, along, lateral, half] = self.reference;
+        let sin = poses.half_sin & mask;
+        let [x, y] = [(poses.x - x) & mask, (poses.y - y) & mask];
+        let [a, l, h] =
+            [(poses.along - along) & mask, (poses.lateral - lateral) & mask, (poses.half - half) & mask];
+        let terms = [
+            x,
+            y,
+            a,
+            l,
+            h,
+            x * x,
+            x * y,
+            y * y,
+            a * a,
+            a * l,
+            l * l,
+            a * h,
+            l * h,
+            h * h,
+            sin * poses.half_cos,
+            sin * sin,
+        ];
+        add(&mut self.sums.block, terms);
+    }
+
+    pub fn close_block(&mut self) {
+        self.sums.close_block();
+    }
+
+    /// The moments of `count` poses; of the Cartesian covariance only the part of the position, the rest is NaN.
+    pub fn finish(&self, count: usize) -> SpreadMoments {
+        let n = count as f64;
+        let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.finish();
+        // Means of the differences, and of their products less those of the means.
+        let cov = |product: f64, first: f64, second: f64| {
+            if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
+        };
+        let [x0, y0, along, lateral, half] = self.reference;
+        // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
+        let (sin, cos) = libm::sincos(2.0 * half);
+        let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
+        let turned = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
+        let mean_turn = 2.0 * half + libm::atan2(turned.0, turned.1);
+        let position = [cov(xx, x, x), cov(xy, x, y), cov(yy, y, y)];
+        let [aa, al, ll] = [cov(aa, a, a), cov(al, a, l), cov(ll, l, l)];
+        let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * cov(hh, h, h)];
+        SpreadMoments {
+            position: [x0 + x / n, y0 + y / n],
+            position_cov: position,
+            mean_turn,
+            resultant: libm::hypot(turned.0, turned.1) / n,
+            exponential: ExponentialMoments {
+                mean: Vector3::new(along + a / n, lateral + l / n, 2.0 * (half + h / n)),
+                cov: Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh),
+            },
+        }
+    }
+
+    /// A reference from which these sums would have lost fewer digits, if they lost more than two: the means. Small clouds
+    /// may lie far from where the model expects them, in their own measure.
+    pub fn better_reference(&self, count: usize) -> Option<Reference> {
+        let n = count as f64;
+        let sums = self.sums.finish();
+        let squares = [sums[5], sums[7], sums[8], sums[10], sums[13]];
+        let lost = (0..5).any(|i| sums[i] * (sums[i] / n) > 0.99 * squares[i] && squares[i] > 0.0);
+        lost.then(|| std::array::from_fn(|i| self.reference[i] + sums[i] / n))
+    }
+}
+
+/// What the first pass found.
+#[derive(Clone, Copy, Debug)]
+pub struct SpreadMoments {
+    position: [f64; 2],
+    /// xx, xy, yy.
+    position_cov: [f64; 3],
+    /// The circular mean of the headings, not wrapped.
+    mean_turn: f64,
+    /// Length of the mean of the headings' unit vectors.
+    resultant: f64,
+    pub exponential: ExponentialMoments,
+}
+
+/// The second pass.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    spread: SpreadMoments,
+    /// Sine and cosine of the mean heading.
+    heading: (f64, f64),
+    ellipse: Ellipse,
+    twist_ellipse: Ellipse,
+    sums: Sums<17>,
+}
+
+/// All that is known of a cloud.
+#[derive(Clone, Copy, Debug)]
+pub struct CloudFigures {
+    pub cartesian: CartesianMoments,
+    pub exponential: ExponentialMoments,
+    pub cross_track: CrossTrack,
+    /// Shares inside the two 2σ contours; NaN where one has no area.
+    pub inside_ellipse: f64,
+    pub inside_exponential: f64,
+}
+
+impl Shape {
+    /// Over the poses that `spread` was found of, driven from `start`.
+    pub fn new(spread: SpreadMoments, start: &SE2) -> Self {
+        let [xx, xy, yy] = spread.position_cov;
+        Self {
+            spread,
+            heading: libm::sincos(spread.mean_turn),
+            ellipse: Ellipse::new(spread.position.into(), Matrix2::new(xx, xy, xy, yy)),
+            twist_ellipse: *ExponentialContour::new(&spread.exponential, start).ellipse(),
+            sums: Sums::new(),
+        }
+    }
+
+    /// As [`Spread::add`].
+    #[inline(always)]
+    pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
+        let ([mean_x, mean_y], (sin, cos)) = (self.spread.position, self.heading);
+        let (x, y) = (poses.x - mean_x, poses.y - mean_y);
+        let d = (y * cos - x * sin) & mask;
+        let along = (x * cos + y * sin) & mask;
+        let turn = wrapped(poses.half * 2.0 - self.spread.mean_turn) & mask;
+        // sin(θ − h), from the double angle of θ/2.
+        let theta_sin = poses.half_sin * poses.half_cos * 2.0;
+        let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
+        let s = (theta_sin * cos - theta_cos * sin) & mask;
+        let counted = f64x4::splat(1.0) & mask;
+        let (dd, sd) = (d * d, s * d);
+        let ddd = dd * d;
+        let terms = [
+            along * d,
+            along * dd,
+            dd,
+            ddd,
+            dd * dd,
+            dd * ddd,
+            ddd * ddd,
+            s * s,
+            sd,
+            s * dd,
+            s * ddd,
+            turn,
+            turn * turn,
+            turn * d,
+            turn * along,
+            self.ellipse.contains_four(poses.x, poses.y) & counted,
+            self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & counted,
+        ];
+        add(&mut self.sums.block, terms);
+    }
+
+    pub fn close_block(&mut self) {
+        self.sums.close_block();
+    }
+
+    /// The figures of `count` poses.
+    pub fn finish(&self, count: usize) -> CloudFigures {
+        let n = count as f64;
+        let means = self.sums.finish().map(|sum| sum / n);
+        let [
+            ad,
+            add,
+            d2,
+            d3,
+            d4,
+            d5,
+            d6,
+            ss,
+            sd,
+            sdd,
+            sddd,
+            turn,
+            turn_turn,
+            turn_d,
+            turn_along,
+            inside,
+            inside_twist,
+        ] = means;
+        let SpreadMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.spread;
+        let (sin, cos) = self.heading;
+        let bessel = if count > 1 { n / (n - 1.0) } else { f64::NAN };
+        let [x_turn, y_turn, turn_variance] =
+            [turn_along * cos - turn_d * sin, turn_along * sin + turn_d * cos, turn_turn - turn * turn]
+                .map(|mean| bessel * mean);
+        let cov = Matrix3::new(xx, xy, x_turn, xy, yy, y_turn, x_turn, y_turn, turn_variance);
+        let track = TrackMoments {
+            extent_squared: x * x + y * y + if count > 1 { (xx + yy) / bessel } else { 0.0 },
+            along_d: ad,
+            along_d2: add,
+            d: [1.0, 0.0, d2, d3, d4, d5, d6],
+            sin_d: [0.0, sd, sdd, sddd],
+            sin_sin: ss,
+            turn,
+            turn_turn,
+            turn_d,
+            resultant: self.spread.resultant,
+        };
+        let share = |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
+        CloudFigures {
+            cartesian: CartesianMoments { mean: Vector3::new(x, y, wrap_angle(self.spread.mean_turn)), cov },
+            exponential: self.spread.exponential,
+            cross_track: CrossTrack::from_moments(count, &track),
+            inside_ellipse: share(&self.ellipse, inside),
+            inside_exponential: share(&self.twist_ellipse, inside_twist),
+        }
+    }
+}
+
+/// Differences of angles that are each within a turn of the other's branch, in [−π, π].
+#[inline(always)]
+fn wrapped(turn: f64x4) -> f64x4 {
+    let far = turn.abs().simd_gt(f64x4::splat(PI));
+    if any(far) { far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn) } else { turn }
+}

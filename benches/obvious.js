@@ -82,7 +82,7 @@ function wrap(angle) {
  * @param {Pose} pose
  * @returns {Pose}
  */
-function log({ x, y, theta }) {
+export function log({ x, y, theta }) {
   const half = theta / 2;
   const diagonal = Math.abs(theta) < 1e-9 ? 1 : half / Math.tan(half);
   return { x: diagonal * x + half * y, y: diagonal * y - half * x, theta };

@@ -16,6 +16,8 @@ import { uniform } from './random.js';
  * @typedef {{ mean: number[], cov: number[][] }} Moments
  */
 
+/** Where the plain formulas leave their results: an array that is returned would cost the fast path, too. */
+const far = new Float64Array(5);
 /** Samples taken at a time. V8 compiles a function that is called often well, and one long loop badly. */
 const BLOCK = 1024;
 /** Half angles within which the polynomials hold and no heading wraps: together half a turn. */
@@ -40,7 +42,8 @@ const C6 = -1.13596475577881948265e-11;
 export class TypedMachine {
   /**
    * @param {number[]} alphas
-  XX   */
+   * @param {Float64Array} unitNoise of v̂, ω̂ and γ̂ of one sample after the other
+   */
   constructor(alphas, unitNoise) {
     this.alphas = alphas;
     this.samples = unitNoise.length / 3;
@@ -63,7 +66,7 @@ export class TypedMachine {
     const figures = figuresOf(this.#transform(command), this.samples);
     const seen = this.#measure(figures, view);
     this.#paint(view, ramp, seen.most);
-    const { cartesian, exponential, skew, ellipse, tilted } = figures;
+    const { cartesian, exponential, skew, ellipse } = figures;
     return {
       stats: {
         n: this.samples,
@@ -181,10 +184,8 @@ export class TypedMachine {
  * @param {number} to
  * @param {Float64Array} sums
  */
-const far = new Float64Array(5);
-
 function transform(motion, unitNoise, cloud, from, to, sums) {
-    const length = motion[0];
+  const length = motion[0];
   const lengthNoise = motion[1];
   const half = motion[2];
   const arcNoise = motion[3];

@@ -14,12 +14,11 @@ import { ALPHAS, VIEW, figures, picture } from './scene.js';
  * @property {number} events
  * @property {number} coreGrowth bytes
  * @property {number} heapGrowth bytes of JavaScript after a collection
- * @property {number} leastLeak bytes that events would have left if each left the smallest object there is
  */
 
-/** Bytes: V8's heap numbers take 12 and its smallest objects 12 to 16. */
-const SMALLEST_OBJECT = 12;
-/** A page's picture is a few cells wide here: what is asked is whether it leaves anything behind, not how long it takes. */
+/** Bytes that an event leaves behind if it leaves anything: V8's numbers take 12 on the heap, its objects 12 or more. */
+export const SMALLEST_OBJECT = 12;
+/** The picture is a few cells wide here: what is asked is whether it leaves anything behind, not how long it takes. */
 const SMALL_VIEW = { ...VIEW, columns: 96, rows: 72 };
 const [SMALL, LARGE] = [1000, 1_000_000];
 
@@ -95,6 +94,5 @@ export async function growth(motion, memory, { events, heap }) {
     events,
     coreGrowth: after.core - before.core,
     heapGrowth: after.heap - before.heap,
-    leastLeak: SMALLEST_OBJECT * events,
   };
 }

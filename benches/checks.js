@@ -5,8 +5,9 @@
  */
 
 import * as obvious from './obvious.js';
+import { drawNoise } from './random.js';
 import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
-import { TypedMachine, drawNoise } from './typed.js';
+import { TypedMachine } from './typed.js';
 
 /**
  * @typedef {import('../www/types.d.ts').Motion} Motion

@@ -21,6 +21,8 @@ export const SMALLEST_OBJECT = 12;
 /** The picture is a few cells wide here: what is asked is whether it leaves anything behind, not how long it takes. */
 const SMALL_VIEW = { ...VIEW, columns: 96, rows: 72 };
 const [SMALL, LARGE] = [1000, 1_000_000];
+/** Robots in the cloud that is dragged: buffers have sizes at any count, and events are many. */
+const DRAGGED = 200;
 
 /**
  * The module's memory. `core.js` keeps it to itself, and so it is taken from the instance on its way.
@@ -75,7 +77,7 @@ export function bytesPerPose(motion, memory) {
  *   returns the bytes left
  */
 export async function growth(motion, memory, { events, heap }) {
-  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples: SMALL, seed: 1 });
+  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples: DRAGGED, seed: 1 });
   const drag = async (/** @type {number} */ count) => {
     for (let event = 0; event < count; event++) {
       figures(machine, event);

@@ -57,6 +57,6 @@ export async function measure({ load, heap, quick, progress }) {
   const seed = await timeSeed(motion, { samples: 1e5, seconds });
   progress('Map Squeeze');
   const squeeze = await timeSqueeze(motion, { samples: 1e5, seconds });
-  const walls = await timeWalls(motion, { samples: quick ? 1000 : 10_000, seconds, counts: quick ? [10, 10_000] : WALLS });
+  const walls = await timeWalls(motion, { samples: quick ? 1000 : 5000, seconds, counts: quick ? [10, 10_000] : WALLS });
   return { refresh, seed, squeeze, walls, memory: { bytesPerPose: perPose, ...grown } };
 }

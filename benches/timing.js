@@ -12,7 +12,7 @@ const TURN = 1;
 /** Events before the first turn: V8 has compiled by then what it will. */
 const WARM_UP = 8;
 /** Fewer would leave no quartiles to speak of. */
-const LEAST_TURNS = 7;
+const LEAST_TURNS = 5;
 
 /**
  * @template {string} Name

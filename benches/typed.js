@@ -8,7 +8,6 @@
  */
 
 import { Ellipse, exponentialOutline } from './contours.js';
-import { uniform } from './random.js';
 
 /**
  * @typedef {import('./scene.js').Command} Command
@@ -20,6 +19,8 @@ import { uniform } from './random.js';
 const far = new Float64Array(5);
 /** Samples taken at a time. V8 compiles a function that is called often well, and one long loop badly. */
 const BLOCK = 1024;
+/** Of the present block, the lateral exponential coordinates: of them there are only sums. */
+const lateral = new Float64Array(BLOCK);
 /** Half angles within which the polynomials hold and no heading wraps: together half a turn. */
 const REACH = Math.PI / 4;
 /** Below this the quotients of half angles are left to the plain formulas. */
@@ -102,7 +103,9 @@ export class TypedMachine {
     );
     const sums = new Float64Array(22);
     for (let from = 0; from < this.samples; from += BLOCK) {
-      transform(motion, this.unitNoise, this.cloud, from, Math.min(from + BLOCK, this.samples), sums);
+      const to = Math.min(from + BLOCK, this.samples);
+      transform(motion, this.unitNoise, this.cloud, from, to);
+      accumulate(this.cloud, from, to, sums);
     }
     return { origin, sums };
   }
@@ -182,9 +185,8 @@ export class TypedMachine {
  * @param {Float64Array} cloud is filled
  * @param {number} from
  * @param {number} to
- * @param {Float64Array} sums
  */
-function transform(motion, unitNoise, cloud, from, to, sums) {
+function transform(motion, unitNoise, cloud, from, to) {
   const length = motion[0];
   const lengthNoise = motion[1];
   const half = motion[2];
@@ -194,10 +196,6 @@ function transform(motion, unitNoise, cloud, from, to, sums) {
   const y0 = motion[6];
   const sinHalf = Math.sin(half);
   const cosHalf = Math.cos(half);
-  let x1 = 0, y1 = 0, l1 = 0, m1 = 0, t1 = 0, s1 = 0, c1 = 0;
-  let xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
-  let ll = 0, lm = 0, mm = 0, lt = 0, mt = 0;
-  let xxx = 0, xxy = 0, xyy = 0, yyy = 0;
   for (let i = from; i < to; i++) {
     const a = arcNoise * unitNoise[3 * i + 1];
     const g = lastNoise * unitNoise[3 * i + 2];
@@ -243,6 +241,31 @@ function transform(motion, unitNoise, cloud, from, to, sums) {
     cloud[6 * i + 3] = t;
     cloud[6 * i + 4] = s;
     cloud[6 * i + 5] = c;
+    lateral[i - from] = m;
+  }
+}
+
+/**
+ * Their sums: a loop of its own, because one loop with as many sums besides runs out of registers.
+ *
+ * @param {Float64Array} cloud
+ * @param {number} from
+ * @param {number} to
+ * @param {Float64Array} sums are added to
+ */
+function accumulate(cloud, from, to, sums) {
+  let x1 = 0, y1 = 0, l1 = 0, m1 = 0, t1 = 0, s1 = 0, c1 = 0;
+  let xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
+  let ll = 0, lm = 0, mm = 0, lt = 0, mt = 0;
+  let xxx = 0, xxy = 0, xyy = 0, yyy = 0;
+  for (let i = from; i < to; i++) {
+    const x = cloud[6 * i];
+    const y = cloud[6 * i + 1];
+    const l = cloud[6 * i + 2];
+    const m = lateral[i - from];
+    const t = cloud[6 * i + 3];
+    const s = cloud[6 * i + 4];
+    const c = cloud[6 * i + 5];
     const x2 = x * x;
     const y2 = y * y;
     x1 += x;
@@ -422,22 +445,4 @@ function figuresOf({ origin, sums }, n) {
     new Ellipse(mean[0], mean[j], cov[0][0], cov[0][j], cov[j][j]);
   const [ellipse, tilted] = [pick(cartesian, 1), pick(exponential, 2)];
   return { origin, centre: [x, y], heading, cartesian, exponential, skew, sd, pull, ellipse, tilted };
-}
-
-/**
- * Unit noise of `samples` robots: Box and Muller, both numbers of a pair.
- *
- * @param {number} samples
- * @param {number} seed
- */
-export function drawNoise(samples, seed) {
-  const random = uniform(seed);
-  const pool = new Float64Array(3 * samples + 1);
-  for (let i = 0; i < 3 * samples; i += 2) {
-    const radius = Math.sqrt(-2 * Math.log(random()));
-    const angle = 2 * Math.PI * random();
-    pool[i] = radius * Math.cos(angle);
-    pool[i + 1] = radius * Math.sin(angle);
-  }
-  return pool.subarray(0, 3 * samples);
 }

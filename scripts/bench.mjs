@@ -74,7 +74,7 @@ async function inChromium(executablePath, quick) {
   const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
   try {
     console.log('first cloud');
-    const start = await timeStart(browser, `${address}benches/start.html`, quick ? 5 : 15);
+    const start = await timeStart(browser, `${address}benches/start.html`, quick ? 5 : 11);
     const page = await browser.newPage();
     page.on('console', (message) => console.log(message.text()));
     const session = await page.context().newCDPSession(page);

@@ -14,6 +14,8 @@ export default [
     },
   },
   { files: ['www/**'], languageOptions: { globals: globals.browser } },
+  // They run in Node and in a page.
+  { files: ['benches/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
   // It runs in Node too, and asks whether it does.
   { files: ['www/core.js'], languageOptions: { globals: { process: 'readonly' } } },
   { files: ['scripts/**', 'tests/node/**', '*.config.js'], languageOptions: { globals: globals.node } },

@@ -1,0 +1,100 @@
+/**
+ * What the module holds: bytes a pose, and whether events leave anything behind. Target 6.
+ *
+ * @module
+ */
+
+import { ALPHAS, VIEW, figures, picture } from './scene.js';
+
+/** @typedef {import('../www/types.d.ts').Motion} Motion */
+
+/**
+ * @typedef {object} Memory
+ * @property {number} bytesPerPose that the module grows by, from a cloud of a thousand to one of a million
+ * @property {number} events
+ * @property {number} coreGrowth bytes
+ * @property {number} heapGrowth bytes of JavaScript after a collection
+ */
+
+/** Bytes that an event leaves behind if it leaves anything: V8's numbers take 12 on the heap, its objects 12 or more. */
+export const SMALLEST_OBJECT = 12;
+/** The picture is a few cells wide here: what is asked is whether it leaves anything behind, not how long it takes. */
+const SMALL_VIEW = { ...VIEW, columns: 96, rows: 72 };
+const [SMALL, LARGE] = [1000, 1_000_000];
+/** Robots in the cloud that is dragged: buffers have sizes at any count, and events are many. */
+const DRAGGED = 200;
+
+/**
+ * The module's memory. `core.js` keeps it to itself, and so it is taken from the instance on its way.
+ *
+ * @template T
+ * @param {() => Promise<T>} start what instantiates the module
+ * @returns {Promise<{ result: T, memory: WebAssembly.Memory }>}
+ */
+export async function watchMemory(start) {
+  const { instantiate } = WebAssembly;
+  /** @type {WebAssembly.Memory | undefined} */
+  let memory;
+  WebAssembly.instantiate = /** @type {typeof instantiate} */ (
+    /** @type {unknown} */ (async (/** @type {any} */ source, /** @type {any} */ imports) => {
+      const started = await instantiate(source, imports);
+      const { exports } = /** @type {any} */ (started).instance ?? started;
+      memory = exports.memory;
+      return started;
+    })
+  );
+  try {
+    const result = await start();
+    if (!memory) throw new Error('The module was instantiated before, or by another function.');
+    return { result, memory };
+  } finally {
+    WebAssembly.instantiate = instantiate;
+  }
+}
+
+/**
+ * To be asked first: memory never shrinks.
+ *
+ * @param {Motion} motion
+ * @param {WebAssembly.Memory} memory
+ */
+export function bytesPerPose(motion, memory) {
+  const after = (/** @type {number} */ samples) => {
+    const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1 });
+    figures(machine, 0);
+    const { byteLength } = memory.buffer;
+    machine.free();
+    return byteLength;
+  };
+  const small = after(SMALL);
+  return (after(LARGE) - small) / (LARGE - SMALL);
+}
+
+/**
+ * @param {Motion} motion
+ * @param {WebAssembly.Memory} memory
+ * @param {{ events: number, heap: () => number | Promise<number> }} options `heap` collects garbage and
+ *   returns the bytes left
+ */
+export async function growth(motion, memory, { events, heap }) {
+  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples: DRAGGED, seed: 1 });
+  const drag = async (/** @type {number} */ count) => {
+    for (let event = 0; event < count; event++) {
+      figures(machine, event);
+      picture(machine, SMALL_VIEW);
+      // Every now and then a page gets a breath, as between events.
+      if (event % 1000 === 0) await new Promise((resolve) => setTimeout(resolve));
+    }
+  };
+  // Until everything has been compiled and every buffer has its size.
+  await drag(Math.max(2000, events / 10));
+  const before = { core: memory.buffer.byteLength, heap: await heap() };
+  await drag(events);
+  const after = { core: memory.buffer.byteLength, heap: await heap() };
+  machine.free();
+  return {
+    events,
+    coreGrowth: after.core - before.core,
+    heapGrowth: after.heap - before.heap,
+  };
+}

@@ -1,0 +1,70 @@
+/**
+ * What is refreshed, the same for every contender: the model, the slider, and the picture.
+ *
+ * @module
+ */
+
+/** @typedef {import('../www/types.d.ts').BananaMachine} BananaMachine */
+/** @typedef {import('../www/types.d.ts').Command} Command */
+
+/** The widget's opening α's: none of the six is 0. */
+export const ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+
+/** 400 pixels a metre around the whole cloud. */
+export const VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, columns: 960, rows: 720 };
+
+/** @typedef {typeof VIEW} Picture */
+
+/** 256 colours as red, green, blue, opacity: from thin to dense, as the widget inks its cloud. */
+export const RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
+  const shade = (i >> 2) / 255;
+  const ink = 0.6 * Math.max(0, shade - 0.5);
+  const [from, to] = [[213, 94, 0], [27, 31, 36]];
+  return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shade) : from[i % 4] + ink * (to[i % 4] - from[i % 4]));
+});
+
+/**
+ * Where the slider stands at an event: it goes up and down, and never stays.
+ *
+ * @param {number} event
+ * @returns {Command}
+ */
+export function command(event) {
+  return { v: 1, omega: 0.5 + 0.001 * Math.abs(50 - (event % 100)), dt: 1 };
+}
+
+/**
+ * The density's pixels from the core.
+ *
+ * @param {BananaMachine} machine
+ * @param {Picture} [picture]
+ * @returns {Uint8ClampedArray}
+ */
+export function picture(machine, { xMin, yMin, xMax, yMax, columns, rows } = VIEW) {
+  const painter = /** @type {any} */ (machine);
+  if (painter.picture) return painter.picture('plane', xMin, yMin, xMax, yMax, columns, rows, RAMP);
+  return inked(machine.density('plane', xMin, yMin, xMax, yMax, columns, rows));
+}
+
+/** @param {Uint32Array} counts */
+function inked(counts) {
+  let most = 0;
+  for (const count of counts) if (count > most) most = count;
+  const colours = new Uint32Array(RAMP.buffer);
+  const pixels = new Uint32Array(counts.length);
+  for (let i = 0; i < counts.length; i++) {
+    if (counts[i] > 0) pixels[i] = colours[Math.round(255 * Math.sqrt(counts[i] / most))];
+  }
+  return new Uint8ClampedArray(pixels.buffer);
+}
+
+/**
+ * All that a page reads after an event, but for the picture.
+ *
+ * @param {BananaMachine} machine
+ * @param {number} event
+ */
+export function figures(machine, event) {
+  machine.configure({ command: command(event) });
+  return { stats: machine.stats, contours: machine.contours };
+}

@@ -1,0 +1,84 @@
+/**
+ * From the start of the page's script to the first cloud on screen, in a page without history. Target 5.
+ *
+ * @module
+ */
+
+import { spread } from './timing.js';
+
+/** What is marked, in order, and what is done until then. */
+const STAGES = /** @type {const} */ ([
+  ['begin', ''],
+  ['evaluated', 'the script is evaluated'],
+  ['instantiating', 'the element asks for the module'],
+  ['instantiated', 'the module is compiled and instantiated'],
+  ['drawn', 'machine, first rendering, first samples drawn'],
+  ['shown', 'the frame is handed over'],
+]);
+
+/**
+ * @typedef {object} Start times in ms
+ * @property {number} loads
+ * @property {import('./timing.js').Spread} total
+ * @property {{ stage: string, time: import('./timing.js').Spread }[]} stages
+ */
+
+/**
+ * @param {import('@playwright/test').Browser} browser
+ * @param {string} address of start.html
+ * @param {number} loads
+ * @returns {Promise<Start>}
+ */
+export async function timeStart(browser, address, loads) {
+  /** @type {number[][]} */
+  const marks = [];
+  for (let load = 0; load < loads; load++) {
+    // Its own process, its own caches.
+    const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
+    const page = await context.newPage();
+    await page.addInitScript(markStages);
+    await page.goto(address);
+    await page.waitForFunction(() => performance.getEntriesByName('shown').length > 0);
+    marks.push(
+      await page.evaluate(
+        (names) => names.map((name) => performance.getEntriesByName(name)[0].startTime),
+        STAGES.map(([name]) => name),
+      ),
+    );
+    await context.close();
+  }
+  const stages = STAGES.slice(1).map(([, stage], i) => {
+    return { stage, time: spread(marks.map((times) => times[i + 1] - times[i])) };
+  });
+  return { loads, total: spread(marks.map((times) => times[times.length - 1] - times[0])), stages };
+}
+
+/** Runs in the page before any script of its own. */
+function markStages() {
+  const { instantiate } = WebAssembly;
+  WebAssembly.instantiate = /** @type {typeof instantiate} */ (
+    /** @type {unknown} */ (async (/** @type {any} */ source, /** @type {any} */ imports) => {
+      performance.mark('instantiating');
+      const started = await instantiate(source, imports);
+      performance.mark('instantiated');
+      return started;
+    })
+  );
+  // Dots and densities are the only images that the widget draws onto its canvas.
+  const { prototype } = CanvasRenderingContext2D;
+  for (const name of /** @type {const} */ (['drawImage', 'putImageData'])) {
+    const draw = /** @type {(...values: any[]) => void} */ (prototype[name]);
+    /** @this {CanvasRenderingContext2D} @param {any[]} values */
+    prototype[name] = function (...values) {
+      draw.apply(this, values);
+      const root = this.canvas.getRootNode();
+      if (!(root instanceof ShadowRoot) || root.host.localName !== 'banana-machine') return;
+      if (performance.getEntriesByName('drawn').length > 0) return;
+      performance.mark('drawn');
+      // A message is read once the frame that is being made has been handed to the screen.
+      const { port1, port2 } = new MessageChannel();
+      port1.onmessage = () => performance.mark('shown');
+      port2.postMessage(undefined);
+    };
+  }
+}

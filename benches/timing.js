@@ -1,0 +1,80 @@
+/**
+ * Races: contenders take turns within one run, so that whatever slows the machine down slows all of them, and ratios are
+ * taken turn by turn. Medians and quartiles, because what disturbs a measurement only ever makes it longer.
+ *
+ * @module
+ */
+
+/** @typedef {{ median: number, lower: number, upper: number, turns: number }} Spread median, quartiles, how many */
+
+/** A turn lasts this long at least, ms: 5 µs, the clock's step in an isolated page, are then half a per cent of it. */
+const TURN = 1;
+/** Events before the first turn: V8 has compiled by then what it will. */
+const WARM_UP = 8;
+/** Fewer would leave no quartiles to speak of. */
+const LEAST_TURNS = 5;
+
+/**
+ * @template {string} Name
+ * @param {Record<Name, (event: number) => void>} contenders what each does at an event
+ * @param {{ seconds: number, most?: number }} limits of the turns altogether, once there are the least that count
+ * @returns {Promise<Record<Name, number[]>>} ms an event, turn by turn
+ */
+export async function race(contenders, { seconds, most = 60 }) {
+  const names = /** @type {Name[]} */ (Object.keys(contenders));
+  let event = 0;
+  const time = (/** @type {Name} */ name, /** @type {number} */ events) => {
+    const start = performance.now();
+    for (let i = 0; i < events; i++) contenders[name](event++);
+    return performance.now() - start;
+  };
+  const batches = names.map((name) => {
+    let [events, spent, last] = [0, 0, 0];
+    // A contender that takes long has been compiled by fewer events.
+    while (events < WARM_UP && (spent < 500 || events < 2)) {
+      last = time(name, 1);
+      spent += last;
+      events += 1;
+    }
+    // Many more of the short ones.
+    if (last < TURN) last = time(name, 200) / 200;
+    return Math.max(1, Math.ceil(TURN / Math.max(last, 1e-4)));
+  });
+  /** @type {Record<string, number[]>} */
+  const turns = Object.fromEntries(names.map((name) => [name, []]));
+  const end = performance.now() + 1000 * seconds;
+  for (let turn = 0; turn < most && (turn < LEAST_TURNS || performance.now() < end); turn++) {
+    // Each turn begins with another one, and a page gets a breath.
+    await new Promise((resolve) => setTimeout(resolve));
+    names.forEach((_, k) => {
+      const index = (k + turn) % names.length;
+      turns[names[index]].push(time(names[index], batches[index]) / batches[index]);
+    });
+  }
+  return turns;
+}
+
+/**
+ * @param {number[]} values
+ * @returns {Spread}
+ */
+export function spread(values) {
+  const sorted = [...values].sort((a, b) => a - b);
+  const at = (/** @type {number} */ share) => {
+    const position = share * (sorted.length - 1);
+    const below = Math.floor(position);
+    const above = Math.min(below + 1, sorted.length - 1);
+    return sorted[below] + (position - below) * (sorted[above] - sorted[below]);
+  };
+  return { median: at(0.5), lower: at(0.25), upper: at(0.75), turns: sorted.length };
+}
+
+/**
+ * How many times as long one takes as another, turn by turn.
+ *
+ * @param {number[]} slow
+ * @param {number[]} fast
+ */
+export function ratio(slow, fast) {
+  return spread(slow.map((value, turn) => value / fast[turn]));
+}

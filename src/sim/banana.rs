@@ -1,6 +1,7 @@
 //! The Banana Machine: one command from the origin, thousands of outcomes.
 
 use super::cloud::Cloud;
+use super::draws::LANES;
 use super::drive::Drive;
 use super::picture::{Picture, Ramp};
 use super::settings::{MAX_SAMPLES, SettingsError, check_alphas, check_command, check_whole};
@@ -456,9 +457,9 @@ impl BananaMachine {
     /// The shown sample nearest to a point of a view, inside the ellipse of the given radii around it.
     pub fn nearest(&self, view: View, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
         let mut nearest = Nearest::new(target, radii);
-        self.cloud.each_four(view, |[x, y], count| {
+        self.cloud.each_four(view, |[x, y]| {
             let (x, y) = (x.to_array(), y.to_array());
-            (0..count).for_each(|lane| nearest.see([x[lane], y[lane]]));
+            (0..LANES).for_each(|lane| nearest.see([x[lane], y[lane]]));
         });
         nearest.index()
     }

@@ -147,21 +147,23 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half.to_array()[lane])
     }
 
-    /// Shows each four of a view to `see`, with how many of them there are.
+    /// Shows each four of a view to `see`; of the last, those that are not there are infinitely far away.
     #[inline(always)]
-    pub fn each_four(&self, view: View, mut see: impl FnMut([f64x4; 2], usize)) {
-        let fours = self.positions.iter().zip(self.draws.fours());
-        let mut left = self.shown();
-        for (ends, noise) in fours.take(left.div_ceil(LANES)) {
-            let points = match view {
-                View::Plane => *ends,
-                View::Twist => {
-                    let poses = self.drive.poses(&self.drive.motions(noise), ends);
-                    [poses.along, poses.half * 2.0]
-                }
-            };
-            see(points, left.min(LANES));
-            left = left.saturating_sub(LANES);
+    pub fn each_four(&self, view: View, mut see: impl FnMut([f64x4; 2])) {
+        let shown = self.shown();
+        let point = |four: usize| match view {
+            View::Plane => self.positions[four],
+            View::Twist => {
+                let motions = self.drive.motions(&self.draws.fours()[four]);
+                let poses = self.drive.poses(&motions, &self.positions[four]);
+                [poses.along, poses.half * 2.0]
+            }
+        };
+        let (whole, rest) = (shown / LANES, shown % LANES);
+        (0..whole).for_each(|four| see(point(four)));
+        if rest > 0 {
+            let there = lanes(|lane| if lane < rest { ALL } else { 0.0 });
+            see(point(whole).map(|points| there.bitselect(points, f64x4::splat(f64::INFINITY))));
         }
     }
 }

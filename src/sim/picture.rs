@@ -42,13 +42,13 @@ impl Picture {
         let stride = columns + 2.0;
         let before = f64x4::splat(-1.0);
         let counts = self.counts.as_mut_slice();
-        cloud.each_four(view, |[x, y], count| {
+        cloud.each_four(view, |[x, y]| {
             let column = (x - grid.min[0]) * columns_per_unit;
             let row = (grid.max[1] - y) * rows_per_unit;
             let column = column.fast_max(before).fast_min(f64x4::splat(columns)).floor();
             let row = row.fast_max(before).fast_min(f64x4::splat(rows)).floor();
             let cell = row * stride + (column + (UNITS + stride + 1.0));
-            for cell in &cell.to_array()[..count] {
+            for cell in cell.to_array() {
                 if let Some(count) = counts.get_mut(cell.to_bits() as u32 as usize) {
                     *count += 1;
                 }

@@ -53,7 +53,7 @@ export async function watchMemory(start) {
 }
 
 /**
- * To be asked first: memory never shrinks.
+ * To be asked before larger clouds have been: memory never shrinks.
  *
  * @param {Motion} motion
  * @param {WebAssembly.Memory} memory

@@ -17,7 +17,7 @@ import { Ellipse, exponentialOutline } from './contours.js';
 
 /** Where the plain formulas leave their results: an array that is returned would cost the fast path, too. */
 const far = new Float64Array(5);
-/** Samples taken at a time. V8 compiles a function that is called often well, and one long loop badly. */
+/** Samples taken at a time, so that V8 keeps the code of the loops: that of one long loop goes with every event. */
 const BLOCK = 1024;
 /** Of the present block, the lateral exponential coordinates: of them there are only sums. */
 const lateral = new Float64Array(BLOCK);

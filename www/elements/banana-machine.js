@@ -23,6 +23,7 @@ import {
   SAMPLE_COUNTS,
   announcementOf,
   captionOf,
+  longestNote,
   noteOn,
   planeText,
   skewText,
@@ -198,7 +199,9 @@ export class BananaMachineElement extends CloudElement {
               @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
             ></canvas>
             ${this.#handle.render(config.command)}
-            <p class="caption ${note && 'note'}">${note || captionOf(stats)}</p>
+            <p class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
+              <span>${note || captionOf(stats)}</span>
+            </p>
           </div>
           ${this.#legend()} ${readouts(stats, config.samples)}
           ${markedRobot({

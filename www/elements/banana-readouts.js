@@ -35,32 +35,23 @@ export const readoutStyles = css`
 
   .readouts div {
     display: flex;
+    flex-wrap: wrap;
     justify-content: space-between;
     align-items: baseline;
-    gap: 1rem;
+    column-gap: 0.75rem;
     padding: 0.28rem 0;
     border-top: 1px solid var(--rule);
   }
 
-  .readouts dd {
-    margin: 0;
-    white-space: nowrap;
+  .readouts dt {
+    flex: 1;
+    min-width: min-content;
   }
 
-  @container (width < 43rem) {
-    /* As wide as its widest value: no row may grow and shrink with its number. */
-    .readouts div {
-      gap: 0.5rem;
-    }
-
-    .readouts dd {
-      min-width: 3.4rem;
-      text-align: right;
-    }
-
-    .readouts div:first-child dd {
-      min-width: 6.6rem;
-    }
+  .readouts dd {
+    margin: 0 0 0 auto;
+    text-align: right;
+    white-space: nowrap;
   }
 
   .marked {
@@ -133,17 +124,6 @@ export const readoutStyles = css`
     padding: 0.14rem 0 0.14rem 0.5rem;
   }
 
-  @container (width < 24rem) {
-    table {
-      font-size: 0.78rem;
-    }
-
-    :is(th, td):not(:first-child) {
-      padding-left: 0.4rem;
-      white-space: normal;
-    }
-  }
-
   :is(th, td):first-child {
     padding-left: 0;
   }
@@ -151,7 +131,34 @@ export const readoutStyles = css`
   thead th:not(:first-child),
   td {
     text-align: right;
-    white-space: nowrap;
+  }
+
+  /* The name of a row above its numbers, which have the whole width then. */
+  @container (width < 26rem) {
+    table {
+      font-size: 0.82rem;
+    }
+
+    table :is(caption, thead, tbody) {
+      display: block;
+    }
+
+    tr {
+      display: flex;
+      flex-wrap: wrap;
+    }
+
+    tr > :is(th, td) {
+      flex: 1;
+      min-width: 0;
+      padding-left: 0.3rem;
+      overflow-wrap: anywhere;
+    }
+
+    tr > :first-child {
+      flex-basis: 100%;
+      padding-left: 0;
+    }
   }
 `;
 
@@ -160,19 +167,25 @@ export const readoutStyles = css`
  * @param {number} samples robots in the whole cloud
  */
 export function readouts(stats, samples) {
-  const rows = [
-    ['cross-track skew ± standard error', withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3)],
-    ['skew, exponential-coordinate Gaussian', fixed(stats.gaussianSkew, 3)],
+  const all = whole(samples);
+  return readoutList([
+    ['cross-track skew ± standard error', withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3), withError(-1, 1, 3)],
+    ['skew, exponential-coordinate Gaussian', fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
     [html`skew, any Gaussian in <i>(x, y)</i>`, '0'],
-    [html`<i>ρ</i>(cross-track, heading)`, fixed(stats.rhoCrossHeading, 3)],
-    [html`robots shown, <i>n</i> of <i>N</i>`, `${whole(stats.n)} of ${whole(samples)}`],
-    ['inside 2σ, exponential coordinates', percent(stats.coverage.exponential)],
-    [html`inside 2σ, Gaussian in <i>(x, y)</i>`, percent(stats.coverage.ellipse)],
+    [html`<i>ρ</i>(cross-track, heading)`, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
+    [html`robots shown, <i>n</i> of <i>N</i>`, `${whole(stats.n)} of ${all}`, `${all} of ${all}`],
+    ['inside 2σ, exponential coordinates', percent(stats.coverage.exponential), percent(1)],
+    [html`inside 2σ, Gaussian in <i>(x, y)</i>`, percent(stats.coverage.ellipse), percent(1)],
     ['inside 2σ, nominal', percent(NOMINAL)],
-  ];
+  ]);
+}
+
+/** @param {[unknown, string, string?][]} rows name, value, and the longest value there is to keep room for */
+export function readoutList(rows) {
   return html`<dl class="readouts">
     ${rows.map(
-      ([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`,
+      ([name, value, room = value]) =>
+        html`<div><dt>${name}</dt><dd class="roomy" data-room=${room}>${value}</dd></div>`,
     )}
   </dl>`;
 }

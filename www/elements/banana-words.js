@@ -6,6 +6,7 @@
  */
 
 import { html } from 'lit';
+import { longest } from '../ui/controls.js';
 import { fixed, percent, whole, withError } from '../ui/format.js';
 
 /**
@@ -152,6 +153,17 @@ export function spreadOf(table) {
   return Math.sqrt(Math.max(0, cov[2][2])) > NO_SPREAD ? 'headings' : 'point';
 }
 
+/** Sentences on clouds that are not what a reader expects. */
+const NOTES = {
+  still: 'The command is to stand still, and a robot at rest has no motion noise.',
+  silent: 'Every α is 0: no noise at all, so every robot stops exactly where it was told to.',
+  unfed: 'No α that is above 0 has anything to multiply in this command: no noise at all.',
+  headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
+  circle: 'Some robots turn nearly a full circle. Exponential coordinates end there, and their figures with them.',
+  backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
+  line: 'Only one number is noisy: the robots lie on a line, and an outline without area holds no share of them.',
+};
+
 /**
  * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
  *
@@ -159,45 +171,42 @@ export function spreadOf(table) {
  * @param {Table} table
  * @param {Stats} stats
  * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
- * @returns {string} empty for an ordinary cloud; short enough for three lines on a phone
+ * @returns {string} empty for an ordinary cloud
  */
 export function noteOn(config, table, stats, chartHolds) {
   const spread = spreadOf(table);
   const { v, omega } = config.command;
   if (spread === 'point') {
-    if (v === 0 && omega === 0) return 'The command is to stand still, and a robot at rest has no motion noise.';
-    if (config.isolate !== null) return noteOnSilentAlpha(config, config.isolate - 1);
-    if (config.alphas.every((alpha) => alpha === 0)) {
-      return 'Every α is 0: no noise at all, so every robot stops exactly where it was told to.';
-    }
-    return 'No α that is above 0 has anything to multiply in this command: no noise at all.';
+    if (v === 0 && omega === 0) return NOTES.still;
+    if (config.isolate !== null) return noteOnSilentAlpha(config.model, config.isolate - 1, config.alphas);
+    return config.alphas.every((alpha) => alpha === 0) ? NOTES.silent : NOTES.unfed;
   }
-  if (spread === 'headings') {
-    return 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.';
-  }
-  if (!chartHolds) {
-    return 'Some robots turn nearly a full circle. Exponential coordinates end there, and their figures with them.';
-  }
-  if (config.model === 'odometry' && v < 0) {
-    return 'Odometry reads backing up as two half turns, and the table charges noise for both.';
-  }
-  if (stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN)) {
-    return 'Only one number is noisy: the robots lie on a line, and an outline without area holds no share of them.';
-  }
-  return '';
+  if (spread === 'headings') return NOTES.headings;
+  if (!chartHolds) return NOTES.circle;
+  if (config.model === 'odometry' && v < 0) return NOTES.backwards;
+  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? NOTES.line : '';
 }
 
 /**
- * @param {Settings} config
+ * @param {Settings['model']} model
  * @param {number} index of the isolated α, from 0
+ * @param {number[]} [alphas]
  */
-function noteOnSilentAlpha({ model, alphas }, index) {
+function noteOnSilentAlpha(model, index, alphas) {
   const name = alphaName(index);
-  if (alphas[index] === 0) return `${name} is alone and 0: no noise at all. Turn it up.`;
+  if (alphas?.[index] === 0) return `${name} is alone and 0: no noise at all. Turn it up.`;
   const [driver, cause, picture] = DRIVERS[model][index];
   const verb = driver.startsWith('the') ? 'are' : 'is';
   const zero = driver.startsWith('the') ? `${driver} ${verb} 0` : `${cause} is 0`;
   return `${name} multiplies ${driver}, and ${zero}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`;
+}
+
+/** The longest of the sentences that may come, to keep room for. */
+export function longestNote() {
+  const silent = Object.entries(DRIVERS).flatMap(([model, drivers]) =>
+    drivers.map((_, index) => noteOnSilentAlpha(/** @type {Settings['model']} */ (model), index)),
+  );
+  return longest([...Object.values(NOTES), ...silent]);
 }
 
 /**

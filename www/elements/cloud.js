@@ -158,7 +158,8 @@ export class CloudElement extends WidgetElement {
    */
   cloudControls(words, counts) {
     const { samples, seed } = /** @type {Machine} */ (this.machine).config;
-    const nearest = counts.findIndex((count) => count >= samples);
+    const above = counts.findIndex((count) => count >= samples);
+    const nearest = above < 0 ? counts.length - 1 : above;
     return html`<fieldset class="cloud">
       <legend class="visually-hidden">${words.legend}</legend>
       <div class="buttons">
@@ -172,11 +173,11 @@ export class CloudElement extends WidgetElement {
         id: 'samples',
         symbol: html`<i>N</i>`,
         name: words.count,
-        value: nearest < 0 ? counts.length - 1 : nearest,
+        value: nearest,
         min: 0,
         max: counts.length - 1,
         step: 1,
-        shown: whole(samples),
+        show: (index) => whole(index === nearest ? samples : counts[index]),
         effect: words.effect,
         role: 'truth',
         input: (value) => {

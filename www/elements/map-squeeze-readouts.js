@@ -9,6 +9,7 @@ import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { inputOf } from '../ui/controls.js';
 import { fixed, percent, rounded, whole } from '../ui/format.js';
+import { readoutList } from './banana-readouts.js';
 import { DEMAND } from './map-squeeze-cost.js';
 import { NOT_FREE, SAMPLERS, SAMPLER_LABELS, keptWords, shareOf } from './map-squeeze-words.js';
 
@@ -52,6 +53,9 @@ export function key(config) {
   </ul>`;
 }
 
+/** The share that is longest in print. @type {Pick<Stats, 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} */
+const CERTAIN = { throughWallRate: 1, throughWallInterval: [1, 1], gaveUp: false };
+
 /**
  * @param {Stats} stats
  * @param {Settings} config
@@ -61,19 +65,17 @@ export function tally(stats, config, paths) {
   const { kept, through } = keptWords(config);
   const share = shareOf(stats, config);
   const parts = config.sampler === 'sub-stepped' ? ' of a part' : '';
-  const rows = [
-    ['drawn', whole(stats.drawn)],
-    [kept, whole(stats.accepted)],
-    [`acceptance rate${parts}`, percent(stats.acceptanceRate)],
+  const all = whole(config.samples);
+  return readoutList([
+    ['drawn', whole(stats.drawn), all],
+    [kept, whole(stats.accepted), all],
+    [`acceptance rate${parts}`, percent(stats.acceptanceRate), percent(1)],
     [`draws per ${kept} sample`, fixed(stats.drawsPerAccepted, 2)],
-    [through, whole(stats.throughWall)],
-    [`share of the ${kept}${share.interval ? ' (95 %)' : ''}`, share.text],
+    [through, whole(stats.throughWall), all],
+    [`share of the ${kept}${share.interval ? ' (95 %)' : ''}`, share.text, shareOf(CERTAIN, config).text],
     ['of these, drawn with their path', paths < stats.throughWall ? `the first ${whole(paths)}` : whole(paths)],
     [`wall tests per ${kept} sample`, fixed(stats.wallTestsPerAccepted, 2)],
-  ];
-  return html`<dl class="readouts">
-    ${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
-  </dl>`;
+  ]);
 }
 
 /**

@@ -172,7 +172,7 @@ export function verdictText(verdict, config) {
  * The share through a wall, with its interval where the draws are as many as were asked for: where
  * they end is chance too if the machine gave up.
  *
- * @param {Stats} stats
+ * @param {Pick<Stats, 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} stats
  * @param {Settings} config
  * @returns {{ text: string, interval: boolean }} "32.7 % (28.8–36.9 %)"
  */

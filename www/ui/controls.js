@@ -9,19 +9,34 @@ import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 
 export const controlStyles = css`
+  /* The sliders of a group share their columns, each as wide as its widest text in whatever font. */
+  fieldset {
+    display: grid;
+    grid-template-columns: auto minmax(4rem, 1fr) auto;
+    column-gap: 0.6rem;
+    min-width: 0;
+    margin: 0 0 1.4rem;
+    padding: 0;
+    border: 0;
+  }
+
+  fieldset:has(.picking) {
+    grid-template-columns: auto auto minmax(4rem, 1fr) auto;
+  }
+
+  fieldset > * {
+    grid-column: 1 / -1;
+  }
+
   .slider {
     display: grid;
-    grid-template-columns: 2.2rem minmax(5rem, 1fr) 5.2rem;
+    grid-template-columns: subgrid;
     align-items: center;
-    column-gap: 0.6rem;
     margin-bottom: 0.45rem;
   }
 
-  .slider.picking {
-    grid-template-columns: 1.5rem 2.2rem minmax(4rem, 1fr) 5.2rem;
-  }
-
   .slider label {
+    min-width: 1.6rem;
     font-size: 1.1rem;
   }
 
@@ -145,11 +160,13 @@ export const controlStyles = css`
     }
   }
 
-  fieldset {
-    min-width: 0;
-    margin: 0 0 1.4rem;
-    padding: 0;
-    border: 0;
+  /* Text that comes and goes has room for the longest that may come: nothing moves when it does. */
+  .roomy::after {
+    content: attr(data-room);
+    display: block;
+    height: 0;
+    overflow: hidden;
+    visibility: hidden;
   }
 
   legend {
@@ -170,7 +187,30 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
+  .choices,
+  .options {
+    display: flex;
+    flex-wrap: wrap;
+    column-gap: 1rem;
+  }
+
+  .choices > span {
+    flex: 0 0 var(--name, 6.5rem);
+    align-self: center;
+  }
+
+  .options {
+    flex: 1;
+    min-width: min-content;
+  }
+
+  .options .choice {
+    flex: 1 0 0;
+    min-width: max-content;
+  }
+
   input:is([type='radio'], [type='checkbox']) {
+    flex: none;
     width: 1rem;
     height: 1rem;
     margin: 0.25rem;
@@ -190,7 +230,7 @@ export const controlStyles = css`
  * @param {number} row.min
  * @param {number} row.max
  * @param {number} row.step
- * @param {string} row.shown the value with its unit
+ * @param {(value: number) => string} row.show a value with its unit
  * @param {unknown} row.effect what the parameter does to the picture
  * @param {'prior' | 'prediction' | 'truth'} row.role
  * @param {boolean} [row.off] its value has no effect at present
@@ -200,6 +240,8 @@ export const controlStyles = css`
  */
 export function sliderRow(row) {
   const classes = `slider${row.pick ? ' picking' : ''}${row.off ? ' off' : ''}`;
+  const shown = row.show(row.value);
+  const room = longest([shown, row.show(row.min), row.show(row.max)]);
   return html`
     <div class=${classes} style="--thumb: var(--${row.role})">
       ${row.pick ?? nothing}
@@ -212,15 +254,20 @@ export function sliderRow(row) {
         step=${row.step}
         .value=${live(String(row.value))}
         aria-label=${row.name ?? nothing}
-        aria-valuetext=${row.shown}
+        aria-valuetext=${shown}
         aria-describedby="${row.id}-effect"
         @input=${(/** @type {Event} */ event) => row.input(numberOf(event))}
         @change=${row.commit}
       />
-      <span class="value">${row.shown}</span>
+      <span class="value roomy" data-room=${room}>${shown}</span>
       <p class="effect" id="${row.id}-effect">${row.effect}</p>
     </div>
   `;
+}
+
+/** @param {string[]} texts */
+export function longest(texts) {
+  return texts.reduce((one, other) => (other.length > one.length ? other : one), '');
 }
 
 /**
@@ -289,8 +336,10 @@ function numberOf(event) {
 export function radioGroup(label, group, names, current, choose) {
   return html`<div class="choices" role="radiogroup" aria-label=${label}>
     <span aria-hidden="true">${label}</span>
-    ${names.map((name) =>
-      choice({ group, label: name, checked: name === current, choose: () => choose(name) }),
-    )}
+    <div class="options">
+      ${names.map((name) =>
+        choice({ group, label: name, checked: name === current, choose: () => choose(name) }),
+      )}
+    </div>
   </div>`;
 }

@@ -69,9 +69,10 @@ async function buildCore() {
 
   progress('Binding and optimizing it');
   await mustRun('wasm-bindgen failed: see above.', join(bindgen, 'wasm-bindgen'), [
-    wasm, '--target', 'web', '--out-dir', at('build'), '--out-name', 'motion',
+    wasm, '--target', 'no-modules', '--out-dir', at('build'), '--out-name', 'motion',
     '--omit-default-module-path', '--remove-name-section', '--remove-producers-section',
   ]);
+  makeFactory('build/motion');
   // What esbuild's loader gives to who imports the file.
   writeFileSync(at('build/motion_bg.wasm.d.ts'), 'declare const bytes: Uint8Array<ArrayBuffer>;\nexport default bytes;\n');
   // The features that rustc's default for this target has.
@@ -80,6 +81,21 @@ async function buildCore() {
     at('node_modules/binaryen/bin/wasm-opt'), '-O3', ...features.map((name) => `--enable-${name}`),
     at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),
   ]);
+}
+
+/**
+ * Makes a module of wasm-bindgen's script: one that exports a function which gives the glue for one more instance.
+ * As a module of its own the glue would be there once, and one instance with it.
+ *
+ * @param {string} path of the script and of its types, without their extensions
+ */
+function makeFactory(path) {
+  const script = readFileSync(at(`${path}.js`), 'utf8');
+  const types = readFileSync(at(`${path}.d.ts`), 'utf8');
+  // The script would look in the page for its own address, which it does not need.
+  const factory = `export default () => {\nconst document = undefined;\n${script}\nreturn wasm_bindgen;\n};\n`;
+  writeFileSync(at(`${path}.js`), factory);
+  writeFileSync(at(`${path}.d.ts`), `${types}\nexport default function makeGlue(): typeof wasm_bindgen;\n`);
 }
 
 /** Each script at the top of www/ becomes one self-contained module; whatever is not a script is copied. */

@@ -1,19 +1,21 @@
 /**
- * Loads the WebAssembly core, once a page or process. The only file that touches generated glue.
+ * Loads the WebAssembly core, compiled once a page or process. The only file that touches generated glue.
  * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
  *
  * @module
  */
 
-import initialize, { BananaMachine, MapSqueeze, commandReaching, randomSeed } from '../build/motion.js';
+import makeGlue from '../build/motion.js';
 import inlined from '../build/motion_bg.wasm';
 
+/** @type {Promise<WebAssembly.Module> | undefined} */
+let compiling;
 /** @type {Promise<import('./types.d.ts').Motion> | undefined} */
 let loading;
 
 /**
  * The core, ready to use. The first call that succeeds decides where the module comes from; later
- * calls get the same module, and a call after a failed one tries again.
+ * calls get the same core, and a call after a failed one tries again.
  *
  * `source` is the module as bytes, an address, or compiled; the bytes that this file carries when it
  * is left out.
@@ -21,7 +23,7 @@ let loading;
  * @type {typeof import('./types.d.ts').load}
  */
 export function load(source) {
-  loading ??= start(source).catch((error) => {
+  loading ??= instantiate(source).catch((error) => {
     loading = undefined;
     throw error;
   });
@@ -29,14 +31,22 @@ export function load(source) {
 }
 
 /**
- * @param {BufferSource | URL | string | WebAssembly.Module} [source]
- * @returns {Promise<import('./types.d.ts').Motion>}
+ * One more core from the same compiled module, with a memory of its own: a trap in it harms no other,
+ * and all of its memory goes when nothing refers to it any more.
+ *
+ * @type {typeof import('./types.d.ts').instantiate}
  */
-async function start(source) {
+export async function instantiate(source) {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
-  await initialize({ module_or_path: await moduleFrom(source) });
+  compiling ??= compile(source).catch((error) => {
+    compiling = undefined;
+    throw error;
+  });
+  const glue = makeGlue();
+  await glue({ module_or_path: await compiling });
+  const { BananaMachine, MapSqueeze, commandReaching, randomSeed } = glue;
   for (const handle of [BananaMachine, MapSqueeze]) makeDisposable(handle);
   return /** @type {import('./types.d.ts').Motion} */ (
     /** @type {unknown} */ ({ BananaMachine, MapSqueeze, commandReaching, randomSeed })
@@ -44,21 +54,41 @@ async function start(source) {
 }
 
 /**
- * @param {unknown} source
- * @returns {Promise<BufferSource | URL | string | WebAssembly.Module>}
+ * Forgets a machine of a core that has trapped: what is left in its memory is not to be trusted, not
+ * even to free the machine, as would happen when its handle is collected.
+ *
+ * @param {{ free(): void }} machine
  */
-async function moduleFrom(source) {
-  if (source === undefined) return inlined;
+export function abandon(machine) {
+  /** @type {{ __destroy_into_raw(): number }} */ (/** @type {unknown} */ (machine)).__destroy_into_raw();
+}
+
+/**
+ * @param {unknown} source
+ * @returns {Promise<WebAssembly.Module>}
+ */
+async function compile(source) {
+  if (source === undefined) return WebAssembly.compile(inlined);
   if (source instanceof WebAssembly.Module) return source;
-  if (source instanceof ArrayBuffer) return source;
-  if (ArrayBuffer.isView(source)) return /** @type {BufferSource} */ (source);
+  if (source instanceof ArrayBuffer) return WebAssembly.compile(source);
+  if (ArrayBuffer.isView(source)) return WebAssembly.compile(/** @type {BufferSource} */ (source));
   if (source instanceof URL || typeof source === 'string') {
-    return fileAt(source) ?? source;
+    return WebAssembly.compile(await (fileAt(source) ?? fetched(source)));
   }
   throw new TypeError(
     `load: source is ${String(source)}, and must be the module's bytes, a URL or string, ` +
       'or a WebAssembly.Module.',
   );
+}
+
+/**
+ * @param {URL | string} source
+ * @returns {Promise<ArrayBuffer>}
+ */
+async function fetched(source) {
+  const response = await fetch(source);
+  if (!response.ok) throw new Error(`load: ${response.url} answers ${response.status}.`);
+  return response.arrayBuffer();
 }
 
 /**

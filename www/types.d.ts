@@ -273,6 +273,8 @@ export interface Motion {
 
 /** What core.js exports: see there. */
 export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
+/** As `load`, with a memory of its own each time. */
+export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
 /** Axis-aligned part of a view's world. */
 export interface Extent {

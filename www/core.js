@@ -6,19 +6,24 @@
  */
 
 import makeGlue from '../build/motion.js';
-import inlined from '../build/motion_bg.wasm';
+import own from '../build/motion_bg.wasm';
 
+/** @typedef {BufferSource | URL | string | WebAssembly.Module} Source */
+
+/** What the first to name a source named. @type {Source | undefined} */
+let wanted;
 /** @type {Promise<WebAssembly.Module> | undefined} */
 let compiling;
 /** @type {Promise<import('./types.d.ts').Motion> | undefined} */
 let loading;
 
 /**
- * The core, ready to use. The first call that succeeds decides where the module comes from; later
- * calls get the same core, and a call after a failed one tries again.
+ * The core, ready to use. Later calls get the same core, and a call after a failed one tries again.
  *
- * `source` is the module as bytes, an address, or compiled; the bytes that this file carries when it
- * is left out.
+ * `source` is the module as bytes, an address, or compiled. Where it is left out it is the one that
+ * the bundle carries, or, in external.js, the file `motion.wasm` beside that. The first to name one
+ * decides for the page: a script that imports the elements and names a source at once comes early
+ * enough, though the elements on the page have asked before it.
  *
  * @type {typeof import('./types.d.ts').load}
  */
@@ -40,8 +45,9 @@ export async function instantiate(source) {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
-  compiling ??= compile(source).catch((error) => {
-    compiling = undefined;
+  wanted ??= source;
+  compiling ??= compile().catch((error) => {
+    wanted = compiling = undefined;
     throw error;
   });
   const glue = makeGlue();
@@ -63,17 +69,25 @@ export function abandon(machine) {
   /** @type {{ __destroy_into_raw(): number }} */ (/** @type {unknown} */ (machine)).__destroy_into_raw();
 }
 
-/**
- * @param {unknown} source
- * @returns {Promise<WebAssembly.Module>}
- */
-async function compile(source) {
-  if (source === undefined) return WebAssembly.compile(inlined);
-  if (source instanceof WebAssembly.Module) return source;
-  if (source instanceof ArrayBuffer) return WebAssembly.compile(source);
-  if (ArrayBuffer.isView(source)) return WebAssembly.compile(/** @type {BufferSource} */ (source));
-  if (source instanceof URL || typeof source === 'string') {
-    return WebAssembly.compile(await (fileAt(source) ?? fetched(source)));
+/** @returns {Promise<WebAssembly.Module>} */
+async function compile() {
+  // Elements ask while they are being defined, before the script that imports them has had its say.
+  await null;
+  const source = wanted ?? own();
+  try {
+    if (source instanceof WebAssembly.Module) return source;
+    if (source instanceof ArrayBuffer) return await WebAssembly.compile(source);
+    if (ArrayBuffer.isView(source)) return await WebAssembly.compile(/** @type {BufferSource} */ (source));
+    if (source instanceof URL || typeof source === 'string') {
+      const file = fileAt(source);
+      return file ? await WebAssembly.compile(await file) : await streamed(source);
+    }
+  } catch (error) {
+    if (!forbidden()) throw error;
+    throw new Error(
+      "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
+      { cause: error },
+    );
   }
   throw new TypeError(
     `load: source is ${String(source)}, and must be the module's bytes, a URL or string, ` +
@@ -81,14 +95,33 @@ async function compile(source) {
   );
 }
 
+/** Whether not even an empty module may be compiled here. */
+function forbidden() {
+  try {
+    return !new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
+  } catch {
+    return true;
+  }
+}
+
 /**
+ * A module compiled while it is still arriving, or afterwards where the server calls it something
+ * else than application/wasm.
+ *
  * @param {URL | string} source
- * @returns {Promise<ArrayBuffer>}
+ * @returns {Promise<WebAssembly.Module>}
  */
-async function fetched(source) {
-  const response = await fetch(source);
+async function streamed(source) {
+  const response = await fetch(source).catch((error) => {
+    throw new Error(
+      `load: ${source} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src.`,
+      { cause: error },
+    );
+  });
   if (!response.ok) throw new Error(`load: ${response.url} answers ${response.status}.`);
-  return response.arrayBuffer();
+  const type = response.headers.get('content-type') ?? '';
+  if (/^application\/wasm\s*$/i.test(type)) return WebAssembly.compileStreaming(response);
+  return WebAssembly.compile(await response.arrayBuffer());
 }
 
 /**

@@ -4,7 +4,6 @@
  * @module
  */
 
-import { YAMLException, load as parseYaml } from 'js-yaml';
 import { LONGEST_SIDE } from '../ui/canvas.js';
 
 /**
@@ -81,11 +80,11 @@ async function textOf(file) {
  *
  * @param {string} name of the file
  * @param {string} text
- * @returns {OwnMap}
+ * @returns {Promise<OwnMap>}
  * @throws {MapFileError}
  */
-export function readPlan(name, text) {
-  const plan = parsed(name, text, 'JSON', PLAN_FORM);
+export async function readPlan(name, text) {
+  const plan = await parsed(name, text, 'JSON', PLAN_FORM);
   return {
     name,
     apply: (machine) => {
@@ -100,15 +99,17 @@ export function readPlan(name, text) {
 
 /**
  * What a text says. JSON is YAML too: the one parser forgives a trailing comma or a comment in a plan
- * written by hand, and knows the line of a mistake, which JSON.parse says in some browsers only.
+ * written by hand, and knows the line of a mistake, which JSON.parse says in some browsers only. It is
+ * as long as both widgets together, and loaded when the first map is opened.
  *
  * @param {string} name of the file
  * @param {string} text
  * @param {'JSON' | 'YAML'} language
  * @param {string} expected
- * @returns {unknown}
+ * @returns {Promise<unknown>}
  */
-function parsed(name, text, language, expected) {
+async function parsed(name, text, language, expected) {
+  const { YAMLException, load: parseYaml } = await import('./yaml.js');
   try {
     return parseYaml(text);
   } catch (error) {
@@ -124,7 +125,7 @@ function parsed(name, text, language, expected) {
  * @returns {Promise<OwnMap>}
  */
 async function readGrid(file, images) {
-  const description = readDescription(file.name, await textOf(file));
+  const description = await readDescription(file.name, await textOf(file));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
     throw new MapFileError(`${file.name}: image is ${path === undefined ? 'missing' : JSON.stringify(path)}; expected is the name of a .pgm or .png file.`);
@@ -156,10 +157,10 @@ const WORDS = new Map([['yes', true], ['on', true], ['no', false], ['off', false
 /**
  * @param {string} name of the file
  * @param {string} text
- * @returns {Record<string, unknown>}
+ * @returns {Promise<Record<string, unknown>>}
  */
-function readDescription(name, text) {
-  const description = parsed(name, text, 'YAML', 'one field a line, as in resolution: 0.05');
+async function readDescription(name, text) {
+  const description = await parsed(name, text, 'YAML', 'one field a line, as in resolution: 0.05');
   if (typeof description !== 'object' || description === null || Array.isArray(description)) {
     throw new MapFileError(`${name}: there are no fields in it; expected are at least image, resolution and origin.`);
   }

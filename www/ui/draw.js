@@ -5,7 +5,7 @@
  * @module
  */
 
-import { scaleLinear } from 'd3-scale';
+import { ticks } from 'd3-array';
 import { tick } from './format.js';
 import { channels } from './theme.js';
 
@@ -84,7 +84,7 @@ export function drawAxes(context, view, palette, labels) {
  * @param {number} count of ticks, about
  */
 function ticksOf(from, to, count) {
-  const values = scaleLinear().domain([from, to]).ticks(Math.max(2, Math.floor(count)));
+  const values = ticks(from, to, Math.max(2, Math.floor(count)));
   return { values, step: values.length > 1 ? values[1] - values[0] : 1 };
 }
 

@@ -6,8 +6,9 @@
  */
 
 import { html, nothing } from 'lit';
+import { words } from '../messages/registry.js';
 import { skewChart } from '../ui/chart.js';
-import { toggle } from '../ui/controls.js';
+import { rich, toggle } from '../ui/controls.js';
 import { DASHES } from '../ui/draw.js';
 import { fixed } from '../ui/format.js';
 import { theme } from '../ui/theme.js';
@@ -18,8 +19,6 @@ import { markedRobot, readoutStyles, readouts, twistTable, workedExample } from 
 import { bananaStyles } from './banana-styles.js';
 import {
   COMMAND_SLIDERS,
-  CLOUD_WORDS,
-  OVERLAY_NAMES,
   SAMPLE_COUNTS,
   announcementOf,
   captionOf,
@@ -48,7 +47,7 @@ const REACH = 14;
  */
 const CURVE_POINTS = 241;
 
-const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(OVERLAY_NAMES));
+const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(DASHES));
 const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
 
 /** @extends {CloudElement<BananaMachine, Settings>} */
@@ -186,9 +185,10 @@ export class BananaMachineElement extends CloudElement {
     const { machine, motion } = this;
     if (!machine || !motion || !this.#figures || !this.#curve) return nothing;
     const { config, shown, stats, table, note, exactSkew } = this.#figures;
-    const overlays = OVERLAYS.filter((name) => this.#overlays[name]).map((name) => OVERLAY_NAMES[name]);
+    const say = words.banana;
+    const overlays = OVERLAYS.filter((name) => this.#overlays[name]).map((name) => say.overlays[name]);
     return html`
-      <section class="machine" aria-label="The Banana Machine">
+      <section class="machine" aria-label=${say.title}>
         <div class="floor">
           <div class="stage">
             <canvas
@@ -210,7 +210,7 @@ export class BananaMachineElement extends CloudElement {
             inspection: this.#inspection(),
             mark: (index) => this.#mark(index),
           })}
-          ${this.cloudControls(CLOUD_WORDS, SAMPLE_COUNTS)}
+          ${this.cloudControls(say.cloud, SAMPLE_COUNTS)}
         </div>
         <div class="controls">
           ${commandControls(config, motion.BananaMachine.presets, this.#actions)}
@@ -230,7 +230,9 @@ export class BananaMachineElement extends CloudElement {
           </figure>
           <figure>
             ${skewChart({
-              label: 'Exact cross-track skew against commanded ω, for the present noise',
+              label: say.chart,
+              axis: say.chartAxis,
+              marker: say.chartMarker,
               curve: this.#curve,
               min: OMEGA_RANGE.min,
               max: OMEGA_RANGE.max,
@@ -238,14 +240,11 @@ export class BananaMachineElement extends CloudElement {
               x: config.command.omega,
               y: exactSkew,
               measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
-              valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, ${skewText(exactSkew)}`,
+              valueText: say.chartText(fixed(config.command.omega, 2), skewText(exactSkew)),
               move: (to) => this.change(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
               commit: () => this.commit(),
             })}
-            <figcaption>
-              Exact skew against commanded <i>ω</i>, and the robots’ own with its standard error.
-              The dashed line is any Gaussian in <i>(x, y)</i>.
-            </figcaption>
+            <figcaption>${rich(say.chartCaption)}</figcaption>
           </figure>
           ${workedExample(table, stats)}
         </div>
@@ -255,13 +254,13 @@ export class BananaMachineElement extends CloudElement {
   }
 
   #legend() {
-    return html`<div class="legend" role="group" aria-label="Overlays">
+    return html`<div class="legend" role="group" aria-label=${words.banana.overlaysLabel}>
       ${OVERLAYS.map((name) =>
         toggle({
           label: html`<svg class="swatch ${name}" viewBox="0 0 30 8" aria-hidden="true">
               <line x1="1" x2="29" y1="4" y2="4" stroke-dasharray=${DASHES[name].join(' ')} />
             </svg>
-            <span>${OVERLAY_NAMES[name]}</span>`,
+            <span>${words.banana.overlays[name]}</span>`,
           checked: this.#overlays[name],
           change: (checked) => {
             this.#overlays[name] = checked;

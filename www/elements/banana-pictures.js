@@ -5,6 +5,7 @@
  * @module
  */
 
+import { words } from '../messages/registry.js';
 import { prepare } from '../ui/canvas.js';
 import {
   DASHES,
@@ -201,7 +202,7 @@ export class PlanePicture extends Picture {
     const stride = Math.ceil(machine.shown / RAYS_AT_MOST);
     const headings = [];
     for (let i = 0; i < machine.shown; i += stride) headings.push(poses[3 * i + 2]);
-    const label = machine.shown === 1 ? '1 robot here' : `${whole(machine.shown)} robots here`;
+    const label = words.banana.robotsHere(machine.shown, whole(machine.shown));
     drawHeap(context, this.view, palette, { x: poses[0], y: poses[1], headings, label, font: this.font });
   }
 }
@@ -250,7 +251,7 @@ export class TwistPicture extends Picture {
     const context = this.prepare(canvas);
     const { view } = this;
     const { machine, config, contours, overlays, marked } = scene;
-    drawAxes(context, view, palette, { x: 'ξ along (m)', y: 'ξ heading (rad)', font: this.font });
+    drawAxes(context, view, palette, { x: words.banana.axisAlong, y: words.banana.axisHeading, font: this.font });
     clipped(context, view, () => {
       const [{ cov }] = twistMoments(scene);
       const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;

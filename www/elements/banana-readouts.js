@@ -7,7 +7,8 @@
 
 import { css, html } from 'lit';
 import { live } from 'lit/directives/live.js';
-import { inputOf } from '../ui/controls.js';
+import { words } from '../messages/registry.js';
+import { inputOf, rich } from '../ui/controls.js';
 import { NOTHING, fixed, percent, significant, whole, withError } from '../ui/format.js';
 
 /**
@@ -168,24 +169,26 @@ export const readoutStyles = css`
  */
 export function readouts(stats, samples) {
   const all = whole(samples);
+  const say = words.banana.readouts;
+  const { nOfAll } = words.banana;
   return readoutList([
-    ['cross-track skew ± standard error', withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3), withError(-1, 1, 3)],
-    ['skew, exponential-coordinate Gaussian', fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
-    [html`skew, any Gaussian in <i>(x, y)</i>`, '0'],
-    [html`<i>ρ</i>(cross-track, heading)`, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
-    [html`robots shown, <i>n</i> of <i>N</i>`, `${whole(stats.n)} of ${all}`, `${all} of ${all}`],
-    ['inside 2σ, exponential coordinates', percent(stats.coverage.exponential), percent(1)],
-    [html`inside 2σ, Gaussian in <i>(x, y)</i>`, percent(stats.coverage.ellipse), percent(1)],
-    ['inside 2σ, nominal', percent(NOMINAL)],
+    [say.skew, withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3), withError(-1, 1, 3)],
+    [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
+    [say.plane, '0'],
+    [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
+    [say.robots, nOfAll(whole(stats.n), all), nOfAll(all, all)],
+    [say.exponential, percent(stats.coverage.exponential), percent(1)],
+    [say.ellipse, percent(stats.coverage.ellipse), percent(1)],
+    [say.nominal, percent(NOMINAL)],
   ]);
 }
 
-/** @param {[unknown, string, string?][]} rows name, value, and the longest value there is to keep room for */
+/** @param {[string, string, string?][]} rows name, value, and the longest value there is to keep room for */
 export function readoutList(rows) {
   return html`<dl class="readouts">
     ${rows.map(
       ([name, value, room = value]) =>
-        html`<div><dt>${name}</dt><dd class="roomy" data-room=${room}>${value}</dd></div>`,
+        html`<div><dt>${rich(name)}</dt><dd class="roomy" data-room=${room}>${value}</dd></div>`,
     )}
   </dl>`;
 }
@@ -202,7 +205,7 @@ export function readoutList(rows) {
 export function markedRobot({ index, shown, inspection, mark }) {
   return html`<p class="marked">
     <label>
-      Robot
+      ${words.banana.robot}
       <input
         id="robot"
         type="number"
@@ -222,7 +225,7 @@ export function markedRobot({ index, shown, inspection, mark }) {
         ? html`<span>${quantity('v̂', inspection.vHat, 'm/s')}</span>
             <span>${quantity('ω̂', inspection.omegaHat, 'rad/s')}</span>
             <span>${quantity('γ̂', inspection.gammaHat, 'rad/s')}</span>`
-        : html`<span class="hint">Point at one in either view to mark it in both.</span>`}
+        : html`<span class="hint">${words.banana.markHint}</span>`}
     </output>
   </p>`;
 }
@@ -250,11 +253,12 @@ const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 export function workedExample({ linearized, exact, measured }, stats) {
   const computed = [linearized, exact];
   const skew = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3);
+  const say = words.banana.table;
   /** @type {[unknown, (column: Table['exact']) => number, string?][]} */
   const rows = [
-    [html`mean <i>x</i>`, ({ mean }) => mean[0]],
-    [html`mean <i>y</i>`, ({ mean }) => mean[1]],
-    [html`mean <i>θ</i>`, ({ mean }) => mean[2]],
+    [rich(say.mean('*x*')), ({ mean }) => mean[0]],
+    [rich(say.mean('*y*')), ({ mean }) => mean[1]],
+    [rich(say.mean('*θ*')), ({ mean }) => mean[2]],
     [sigma('xx'), ({ cov }) => cov[0][0]],
     [sigma('yy'), ({ cov }) => cov[1][1]],
     [sigma('xy'), ({ cov }) => cov[0][1]],
@@ -262,12 +266,11 @@ export function workedExample({ linearized, exact, measured }, stats) {
     [sigma('yθ'), ({ cov }) => cov[1][2]],
     [sigma('θθ'), ({ cov }) => cov[2][2]],
     [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
-    ['cross-track skew', ({ crossTrackSkew }) => crossTrackSkew, skew],
+    [say.skew, ({ crossTrackSkew }) => crossTrackSkew, skew],
   ];
   return momentTable({
-    caption: `Moments of the pose: linearized at the command, exact, and measured on the robots shown.
-      Metres and radians.`,
-    columns: ['linearized', 'exact', 'measured'],
+    caption: say.caption,
+    columns: [say.linearized, say.exact, say.measured],
     rows: rows.map(([name, of, withItsError]) => [
       name,
       ...computed.map((column) => significant(of(column), DIGITS)),
@@ -281,19 +284,20 @@ export function workedExample({ linearized, exact, measured }, stats) {
  * @param {Stats} stats
  */
 export function twistTable({ tangent }, { exponential }) {
-  const rows = ['along', 'lateral', 'heading'].flatMap((axis, i) => {
-    /** @type {[unknown, (moments: import('../types.d.ts').Moments) => number][]} */
+  const say = words.banana.table;
+  const rows = say.axes.flatMap((axis, i) => {
+    /** @type {[string, (moments: import('../types.d.ts').Moments) => number][]} */
     const both = [
-      [html`mean <i>ξ</i> ${axis}`, ({ mean }) => mean[i]],
-      [html`variance of <i>ξ</i> ${axis}`, ({ cov }) => cov[i][i]],
+      [say.mean(axis), ({ mean }) => mean[i]],
+      [say.variance(axis), ({ cov }) => cov[i][i]],
     ];
     return both;
   });
   return momentTable({
-    caption: 'Moments in exponential coordinates: of the command with its noise, and measured.',
-    columns: ['command', 'measured'],
+    caption: say.twistCaption,
+    columns: [say.command, say.measured],
     rows: rows.map(([name, of]) => [
-      name,
+      rich(name),
       tangent === null ? NOTHING : significant(of(tangent), DIGITS),
       significant(of(exponential), MEASURED_DIGITS),
     ]),
@@ -308,7 +312,7 @@ function momentTable({ caption, columns, rows }) {
     <caption>${caption}</caption>
     <thead>
       <tr>
-        <th scope="col">quantity</th>
+        <th scope="col">${words.banana.table.quantity}</th>
         ${columns.map((name) => html`<th scope="col">${name}</th>`)}
       </tr>
     </thead>

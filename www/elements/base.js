@@ -8,6 +8,8 @@
 
 import { LitElement, html, nothing } from 'lit';
 import { load } from '../core.js';
+import { en } from '../messages/en.js';
+import { onLanguage, setMessages, speak, words } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './frames.js';
 
@@ -15,6 +17,8 @@ import { sleep, wake } from './frames.js';
  * @typedef {import('../types.d.ts').Motion} Motion
  * @typedef {import('../types.d.ts').Palette} Palette
  */
+
+setMessages('en', en);
 
 /**
  * A widget over one simulation object of the core.
@@ -30,13 +34,15 @@ export class WidgetElement extends LitElement {
   machine;
   /** @type {Palette | undefined} */
   palette;
-  /** @type {string | undefined} */
+  /** @type {string | undefined} the reason why it cannot run */
   #failure;
   /** @type {object | undefined} settings of the simulation that was freed on removal */
   #kept;
   /** @type {ResizeObserver | undefined} */
   #sizes;
   #drawable = false;
+  /** Ends listening for other words. @type {(() => void) | undefined} */
+  #silence;
 
   /**
    * Makes the simulation object.
@@ -66,15 +72,23 @@ export class WidgetElement extends LitElement {
 
   connectedCallback() {
     super.connectedCallback();
+    this.#silence = onLanguage(this, () => this.relabel());
     if (!this.machine) this.#start();
   }
 
   disconnectedCallback() {
     super.disconnectedCallback();
+    this.#silence?.();
     // An element that is being moved is back in the document by the time the microtasks run.
     queueMicrotask(() => {
       if (!this.isConnected) this.#stop();
     });
+  }
+
+  /** Says everything again: the words or the language may be others. */
+  relabel() {
+    this.requestUpdate();
+    this.wake();
   }
 
   /** Asks for one call of `draw`. */
@@ -86,6 +100,7 @@ export class WidgetElement extends LitElement {
   frame(elapsed) {
     if (!this.machine || !this.#drawable || !this.#hasSize) return;
     try {
+      speak(this);
       this.palette ??= resolvePalette(this.#probe());
       this.draw(elapsed);
     } catch (error) {
@@ -113,13 +128,14 @@ export class WidgetElement extends LitElement {
   fail(error) {
     this.#stop();
     const reason = error instanceof Error ? error.message : String(error);
-    this.#failure = `This interactive figure cannot run here. ${reason}`;
+    this.#failure = reason;
     this.dispatchEvent(new ErrorEvent('error', { error, message: reason }));
     this.requestUpdate();
   }
 
   render() {
-    if (this.#failure) return html`<p class="failure" role="alert">${this.#failure}</p>`;
+    speak(this);
+    if (this.#failure !== undefined) return html`<p class="failure" role="alert">${words.failure(this.#failure)}</p>`;
     if (!this.machine) return nothing;
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${this.#repaint}></span>

@@ -6,6 +6,7 @@
  */
 
 import { html } from 'lit';
+import { words } from '../messages/registry.js';
 import { button, sliderRow } from '../ui/controls.js';
 import { whole } from '../ui/format.js';
 import { WidgetElement } from './base.js';
@@ -18,17 +19,6 @@ import { WidgetElement } from './base.js';
  * @property {(count: number) => number} grow
  * @property {() => void} restart
  * @property {(settings: any) => void} configure
- */
-
-/**
- * @typedef {object} CloudWords what the controls of a cloud are called
- * @property {string} legend
- * @property {string} play what the buttons do, one after the other
- * @property {(batch: string) => string} step
- * @property {string} reset
- * @property {string} reseed
- * @property {string} count the name of the slider
- * @property {string} effect what it does to the picture
  */
 
 /** Steps that a cloud grows in. */
@@ -53,6 +43,11 @@ export class CloudElement extends WidgetElement {
 
   /** Called when other settings have taken effect. */
   configured() {}
+
+  relabel() {
+    this.stale = true;
+    super.relabel();
+  }
 
   /** Whether the cloud will not grow any more. */
   get complete() {
@@ -109,11 +104,11 @@ export class CloudElement extends WidgetElement {
     this.wake();
   }
 
-  /** @param {() => string} words said if something has come to rest since they were last asked for */
-  announce(words) {
+  /** @param {() => string} say what is said if something has come to rest since they were last asked for */
+  announce(say) {
     if (!this.#toAnnounce) return;
     this.#toAnnounce = false;
-    this.announcement = words();
+    this.announcement = say();
   }
 
   growOn() {
@@ -153,32 +148,32 @@ export class CloudElement extends WidgetElement {
   /**
    * Growth, seed and size of the cloud.
    *
-   * @param {CloudWords} words
+   * @param {import('../messages/registry.js').Messages['banana']['cloud']} say
    * @param {readonly number[]} counts the sizes that the slider offers
    */
-  cloudControls(words, counts) {
+  cloudControls(say, counts) {
     const { samples, seed } = /** @type {Machine} */ (this.machine).config;
     const above = counts.findIndex((count) => count >= samples);
     const nearest = above < 0 ? counts.length - 1 : above;
     return html`<fieldset class="cloud">
-      <legend class="visually-hidden">${words.legend}</legend>
+      <legend class="visually-hidden">${say.legend}</legend>
       <div class="buttons">
-        ${button(this.playing ? 'Pause' : 'Play', () => this.play(), { title: words.play })}
-        ${button('Step', () => this.step(), { title: words.step(whole(this.batch)), disabled: this.complete })}
-        ${button('Reset', () => this.reset(), { title: words.reset })}
-        ${button('New seed', () => this.reseed(), { title: words.reseed })}
-        <span class="seed">seed ${seed}</span>
+        ${button(this.playing ? words.pause : words.play, () => this.play(), { title: say.play })}
+        ${button(words.step, () => this.step(), { title: say.step(whole(this.batch)), disabled: this.complete })}
+        ${button(words.reset, () => this.reset(), { title: say.reset })}
+        ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
+        <span class="seed">${words.seed(seed)}</span>
       </div>
       ${sliderRow({
         id: 'samples',
         symbol: html`<i>N</i>`,
-        name: words.count,
+        name: say.count,
         value: nearest,
         min: 0,
         max: counts.length - 1,
         step: 1,
         show: (index) => whole(index === nearest ? samples : counts[index]),
-        effect: words.effect,
+        effect: say.effect,
         role: 'truth',
         input: (value) => {
           const size = /** @type {unknown} */ ({ samples: counts[value] });

@@ -5,6 +5,7 @@
  */
 
 import { html, nothing } from 'lit';
+import { words } from '../messages/registry.js';
 import { theme } from '../ui/theme.js';
 import { CloudElement } from './cloud.js';
 import { judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
@@ -15,7 +16,6 @@ import { FloorPicture, sort } from './map-squeeze-picture.js';
 import { costTable, key, markedDraw, tally } from './map-squeeze-readouts.js';
 import { squeezeStyles } from './map-squeeze-styles.js';
 import {
-  CLOUD_WORDS,
   SAMPLERS,
   SAMPLE_COUNTS,
   announcementOf,
@@ -38,8 +38,6 @@ const REACH = 12;
 /** Paths drawn at most: more would be one blot, and cost more than a frame. */
 const MOST_PATHS = 150;
 
-const APARTMENT = 'The apartment';
-
 /** @extends {CloudElement<MapSqueeze, Settings>} */
 export class MapSqueezeElement extends CloudElement {
   static styles = [theme, ...squeezeStyles];
@@ -52,7 +50,8 @@ export class MapSqueezeElement extends CloudElement {
   #map;
   /** @type {import('../types.d.ts').Plan} */
   #plan = { bounds: new Float64Array(4), walls: new Float64Array() };
-  #complaint = '';
+  /** Why the latest map was refused. @type {(() => string) | undefined} */
+  #complaint;
   /** The latest attempt to read files: an earlier one that ends later is void. */
   #reading = 0;
   #close = false;
@@ -151,7 +150,7 @@ export class MapSqueezeElement extends CloudElement {
   #leaveOwn() {
     const { machine } = this;
     if (!machine) return;
-    this.#complaint = '';
+    this.#complaint = undefined;
     if (!this.#map) return;
     machine.setPlan(undefined);
     this.#map = undefined;
@@ -185,7 +184,7 @@ export class MapSqueezeElement extends CloudElement {
     machine.free();
     this.machine = next;
     this.#map = map;
-    this.#complaint = '';
+    this.#complaint = undefined;
     this.#takePlan(next);
     this.#marked = -1;
   }
@@ -211,14 +210,17 @@ export class MapSqueezeElement extends CloudElement {
     } catch (error) {
       if (reading !== this.#reading) return;
       const reason = error instanceof Error ? error.message : String(error);
-      this.#complaint = error instanceof MapFileError ? reason : `The map cannot be opened: ${reason}.`;
+      this.#complaint = () => {
+        const { refused } = words.squeeze;
+        return error instanceof MapFileError ? error.sentence(refused) : refused.cannot(reason);
+      };
       this.requestUpdate();
     }
   }
 
   #paste() {
     const field = /** @type {HTMLTextAreaElement} */ (this.renderRoot.querySelector('#map-text'));
-    this.#openMap(() => readPlan('Pasted plan', field.value));
+    this.#openMap(() => readPlan(words.squeeze.pasted, field.value));
   }
 
   /** @param {DragEvent} event */
@@ -273,7 +275,7 @@ export class MapSqueezeElement extends CloudElement {
     const { machine, motion } = this;
     if (!machine || !motion || !this.#figures) return nothing;
     const { config, stats, note, verdicts, paths } = this.#figures;
-    const map = mapText(this.#map?.name ?? APARTMENT, this.#plan);
+    const map = mapText(this.#map?.name ?? words.squeeze.apartment, this.#plan);
     const own = this.#map !== undefined;
     const look = (/** @type {boolean} */ close) => {
       this.#close = close;
@@ -282,7 +284,7 @@ export class MapSqueezeElement extends CloudElement {
     return html`
       <section
         class="machine"
-        aria-label="Map Squeeze"
+        aria-label=${words.squeeze.title}
         @dragover=${this.#dragOver}
         @dragleave=${this.#dragLeave}
         @drop=${this.#drop}
@@ -297,7 +299,7 @@ export class MapSqueezeElement extends CloudElement {
             verdict: this.#isMarked ? verdictText(verdicts[this.#marked], config) : '',
             mark: (index) => this.#mark(index),
           })}
-          ${this.cloudControls(CLOUD_WORDS, SAMPLE_COUNTS)}
+          ${this.cloudControls(words.squeeze.cloud, SAMPLE_COUNTS)}
         </div>
         <div class="controls">
           ${placeControls(config, { own, close: this.#close, look }, motion.MapSqueeze.presets, (start) => this.#go(start))}
@@ -307,7 +309,7 @@ export class MapSqueezeElement extends CloudElement {
         ${ownMap({
           map,
           own,
-          complaint: this.#complaint,
+          complaint: this.#complaint?.() ?? '',
           choose: (files) => this.#openMap(() => readMapFiles(files)),
           paste: () => this.#paste(),
           leave: () => this.#leaveMap(),

@@ -77,6 +77,8 @@ export const chartStyles = css`
 /**
  * @param {object} chart
  * @param {string} chart.label what a screen reader says of the chart
+ * @param {string} chart.axis the name of its y axis
+ * @param {string} chart.marker the name of the marker
  * @param {Float64Array} chart.curve values at even steps from `min` to `max`; NaN leaves a gap
  * @param {number} chart.min
  * @param {number} chart.max
@@ -161,7 +163,7 @@ export function skewChart(chart) {
         )}
         <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${BOTTOM} y2=${BOTTOM} />
         <text class="name" x=${WIDTH - INSET.right} y=${BOTTOM + 31} text-anchor="end">ω (rad/s)</text>
-        <text class="name" x="0" y="12">cross-track skew</text>
+        <text class="name" x="0" y="12">${chart.axis}</text>
         <line class="zero" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(0)} y2=${y(0)} />
         <path class="curve" d=${path.join('')} />
         <line class="now" x1=${x(at)} x2=${x(at)} y1=${INSET.top} y2=${BOTTOM} />
@@ -170,7 +172,7 @@ export function skewChart(chart) {
         class="chart-marker"
         role="slider"
         tabindex="0"
-        aria-label="Commanded ω on the chart"
+        aria-label=${chart.marker}
         aria-valuemin=${min}
         aria-valuemax=${max}
         aria-valuenow=${at}

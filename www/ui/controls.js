@@ -265,6 +265,23 @@ export function sliderRow(row) {
   `;
 }
 
+/**
+ * A message with its italics and subscripts.
+ *
+ * @param {string} message as messages/en.js has it
+ */
+export function rich(message) {
+  return message
+    .split(/(\*[^*]+\*|[₀-₉])/)
+    .map((part) =>
+      part[0] === '*'
+        ? html`<i>${part.slice(1, -1)}</i>`
+        : /^[₀-₉]$/.test(part)
+          ? html`<sub>${part.charCodeAt(0) - 0x2080}</sub>`
+          : part,
+    );
+}
+
 /** @param {string[]} texts */
 export function longest(texts) {
   return texts.reduce((one, other) => (other.length > one.length ? other : one), '');
@@ -329,16 +346,17 @@ function numberOf(event) {
  * @template {string} Name
  * @param {string} label
  * @param {string} group
- * @param {Name[]} names
+ * @param {Record<Name, string>} labels in the order shown
  * @param {Name} current
  * @param {(name: Name) => void} choose
  */
-export function radioGroup(label, group, names, current, choose) {
+export function radioGroup(label, group, labels, current, choose) {
+  const names = /** @type {Name[]} */ (Object.keys(labels));
   return html`<div class="choices" role="radiogroup" aria-label=${label}>
     <span aria-hidden="true">${label}</span>
     <div class="options">
       ${names.map((name) =>
-        choice({ group, label: name, checked: name === current, choose: () => choose(name) }),
+        choice({ group, label: labels[name], checked: name === current, choose: () => choose(name) }),
       )}
     </div>
   </div>`;

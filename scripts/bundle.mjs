@@ -66,6 +66,7 @@ export async function bundle() {
     bundled({ 'motion-widgets': 'motion-widgets.js' }, 'inlined', {}),
     bundled({ external: 'motion-widgets.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii' }),
+    bundled({ de: 'de.js' }, 'inlined', { inject: [] }),
     bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', charset: 'ascii', inject: [] }),
   ]).catch(() => {
     throw new Missing('The pages do not bundle: see the errors above.');

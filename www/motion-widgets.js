@@ -9,3 +9,4 @@ import './elements/banana-machine.js';
 import './elements/map-squeeze.js';
 
 export { load } from './core.js';
+export { setMessages } from './messages/registry.js';

@@ -128,7 +128,7 @@ export function planeText(config, stats, note, overlays) {
     if (note) sentences.push(note);
     else sentences.push(spread(deviation(cov[0][0]), deviation(cov[1][1])), bendText(stats));
   }
-  if (overlays.length) sentences.push(drawnOver(overlays));
+  if (overlays.length) sentences.push(drawnOver(overlays.join(', ')));
   return sentences.filter(Boolean).join(' ');
 }
 
@@ -183,6 +183,7 @@ export function twistText({ n, exponential: { mean, cov }, coverage }) {
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
   const start = `${twist}, ${twistAxes}.`;
   if (n < 2) return `${start} ${n === 0 ? noRobots : oneRobot}`;
-  const means = [mean[0], mean[2]].map((value) => fixed(value, 2));
-  return `${start} ${twistMoments(means, [deviation(cov[0][0]), deviation(cov[2][2])], percent(coverage.exponential))}`;
+  const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
+  const [ofAlong, ofHeading] = [deviation(cov[0][0]), deviation(cov[2][2])];
+  return `${start} ${twistMoments(along, heading, ofAlong, ofHeading, percent(coverage.exponential))}`;
 }

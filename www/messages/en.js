@@ -133,7 +133,7 @@ export const en = /** @satisfies {Message} */ ({
     noSkew: 'Cross-track skew undefined.',
     plane: (command) =>
       `View of the floor from above, x to the right and y up. Commanded: ${command}.`,
-    drawnOver: (overlays) => `Drawn over it: ${overlays.join(', ')}.`,
+    drawnOver: (overlays) => `Drawn over it: ${overlays}.`,
     noRobots: 'No robots yet.',
     oneRobot: 'One robot.',
     mean: (robots, x, y) =>
@@ -161,8 +161,8 @@ export const en = /** @satisfies {Message} */ ({
       exact: 'exactly a Gaussian, whose outline is an ellipse.',
     },
     twistAxes: 'ξ along to the right and ξ heading up',
-    twistMoments: (mean, deviation, share) =>
-      `Mean ${mean[0]} m and ${mean[1]} rad, standard deviations ${deviation[0]} m and ${deviation[1]} rad. ` +
+    twistMoments: (along, heading, deviationAlong, deviationHeading, share) =>
+      `Mean ${along} m and ${heading} rad, standard deviations ${deviationAlong} m and ${deviationHeading} rad. ` +
       `${share} lie inside the 2σ ellipse.`,
     axisAlong: 'ξ along (m)',
     axisHeading: 'ξ heading (rad)',

@@ -1,7 +1,7 @@
 // www/ to dist/: what a page, a bundler, an iframe, a disk and Node each take. doc/embedding.md says which is for whom.
 
 import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { basename, dirname, join, relative } from 'node:path';
+import { dirname, join, relative } from 'node:path';
 import { Missing, ROOT, progress } from './process.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
@@ -46,8 +46,6 @@ export async function bundle() {
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
-      // core.js reads files by it, in Node alone.
-      external: ['node:*'],
       inject: [at('www/without-dom.js')],
       plugins: [
         {
@@ -65,12 +63,13 @@ export async function bundle() {
     bundled({ core: 'core.js' }, 'inlined', { inject: [] }),
     bundled({ 'motion-widgets': 'motion-widgets.js' }, 'inlined', {}),
     bundled({ external: 'motion-widgets.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
-    bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii' }),
+    bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ de: 'de.js' }, 'inlined', { inject: [] }),
-    bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', charset: 'ascii', inject: [] }),
-  ]).catch(() => {
-    throw new Missing('The pages do not bundle: see the errors above.');
-  });
+    bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
+  ]).catch(() => []);
+  if (!results.length || results.some(({ warnings }) => warnings.length)) {
+    throw new Missing('The pages do not bundle: see the messages above.');
+  }
 
   rmSync(at('dist'), { recursive: true, force: true });
   const write = (/** @type {string} */ path, /** @type {string | Uint8Array} */ contents) => {
@@ -111,7 +110,7 @@ export function filesOf(path) {
  */
 function withoutModule(text) {
   const map = JSON.parse(text);
-  const keep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith('.wasm') ? null : content);
+  const keep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith('.wasm') ? '' : content);
   return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(keep) });
 }
 
@@ -124,13 +123,14 @@ function withoutModule(text) {
  */
 function inOneFile(name) {
   const read = (/** @type {string} */ path) => readFileSync(at(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
-  const page = read(name)
-    .replace(/<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g, (_, path) => `<style>\n${read(path)}</style>`)
-    .replace(/<script type="module" src="\.\/([\w.-]+)"><\/script>/g, (_, path) => {
-      const script = path === 'motion-widgets.js' ? read('motion-widgets.iife.js') : read(path);
-      return `<script type="module">${script.replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
-    });
-  const left = page.match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
-  if (left) throw new Missing(`${basename(name)}: ${left[0]} cannot be put into one file; expected is "./" and a file of www/.`);
-  return page;
+  const style = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
+  const script = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
+  const page = read(name);
+  const left = page.replace(style, '').replace(script, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
+  if (left) throw new Missing(`${name}: ${left[0]} cannot be put into one file; expected is "./" and a file of www/.`);
+  const inline = (/** @type {string} */ path) =>
+    `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
+  return page
+    .replace(style, (_, path) => `<style>\n${read(path)}</style>`)
+    .replace(script, (_, path) => (path === 'motion-widgets.js' ? inline('motion-widgets.iife.js') + inline('de.js') : inline(path)));
 }

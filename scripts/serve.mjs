@@ -39,10 +39,12 @@ function fileAt(directory, address) {
 
 /**
  * @param {string} directory
- * @param {number} [port] the one to take; without it the first free one from 4173 on
- * @returns {Promise<string>} the address
+ * @param {object} [options]
+ * @param {number} [options.port] the one to take; without it the first free one from 4173 on
+ * @param {Record<string, string>} [options.headers] sent with every file
+ * @returns {Promise<{ address: string, close: () => void }>}
  */
-function serve(directory, port) {
+export function serve(directory, { port, headers = {} } = {}) {
   const server = createServer((request, response) => {
     const file = fileAt(directory, request.url ?? '/');
     if (request.method !== 'GET' && request.method !== 'HEAD') {
@@ -54,6 +56,7 @@ function serve(directory, port) {
         'content-type': TYPES[extname(file.path)] ?? 'application/octet-stream',
         'content-length': file.size,
         'cache-control': 'no-cache',
+        ...headers,
       });
       if (request.method === 'HEAD') response.end();
       else createReadStream(file.path).on('error', () => response.destroy()).pipe(response);
@@ -72,7 +75,8 @@ function serve(directory, port) {
     });
     server.on('listening', () => {
       const address = server.address();
-      if (address !== null && typeof address === 'object') resolve(`http://localhost:${address.port}/`);
+      if (address === null || typeof address === 'string') return;
+      resolve({ address: `http://localhost:${address.port}/`, close: () => server.close().closeAllConnections() });
     });
     server.listen(candidate, 'localhost');
   });
@@ -91,5 +95,6 @@ function wantedPort() {
 await runAsScript(import.meta.url, async () => {
   const port = wantedPort();
   await build();
-  console.log(`\nThe widgets are at ${await serve(join(ROOT, 'dist'), port)} (Ctrl-C stops).`);
+  const { address } = await serve(join(ROOT, 'dist'), { port });
+  console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);
 });

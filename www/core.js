@@ -131,10 +131,10 @@ async function streamed(source) {
  * @returns {Promise<BufferSource> | undefined} undefined where `fetch` is the way
  */
 function fileAt(source) {
-  const inNode = typeof process !== 'undefined' && process.versions?.node !== undefined;
-  if (!inNode || /^(https?|data|blob):/.test(String(source))) return undefined;
-  const path = String(source).startsWith('file:') ? new URL(source) : source;
-  return import('node:fs/promises').then(({ readFile }) => readFile(path));
+  if (/^(https?|data|blob):/.test(String(source))) return undefined;
+  // No import: bundlers for browsers would stumble over it.
+  const files = globalThis.process?.getBuiltinModule?.('node:fs/promises');
+  return files?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
 }
 
 /**

@@ -6,6 +6,8 @@
  * @module
  */
 
+import './de.js';
+
 const WIDGETS = ['banana-machine', 'map-squeeze'];
 /** What every element of HTML has, and a widget may heed. */
 const GLOBAL = ['dir', 'lang'];

@@ -243,7 +243,7 @@ export function sliderRow(row) {
   const shown = row.show(row.value);
   const room = longest([shown, row.show(row.min), row.show(row.max)]);
   return html`
-    <div class=${classes} style="--thumb: var(--${row.role})">
+    <div class=${classes} .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}
       <label for=${row.id}>${row.symbol}</label>
       <input

@@ -28,7 +28,8 @@ let loading;
  * @type {typeof import('./types.d.ts').load}
  */
 export function load(source) {
-  loading ??= instantiate(source).catch((error) => {
+  wanted ??= source;
+  loading ??= instantiate().catch((error) => {
     loading = undefined;
     throw error;
   });

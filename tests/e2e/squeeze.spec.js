@@ -420,7 +420,7 @@ test.describe('in a closed tab', () => {
     expect((await squeezed(widget)).config.command.omega).toBe(0.5);
   });
 
-  test('the widget starts there, and is drawn when it opens', async ({ page }) => {
+  test('the widget waits there, and is drawn when it opens', async ({ page }) => {
     const seen = await pictureOf((await openSqueeze(page)).locator('canvas.plane'));
     await page.addInitScript(() => {
       addEventListener('DOMContentLoaded', () => {
@@ -429,9 +429,11 @@ test.describe('in a closed tab', () => {
     });
     await page.goto('/');
     const canvas = page.locator('map-squeeze canvas.plane');
-    await canvas.waitFor({ state: 'attached' });
+    await page.locator('map-squeeze .reserved').waitFor({ state: 'attached' });
     await frames(page);
+    await expect(canvas).toHaveCount(0);
     await hide(page, false);
+    await page.locator('map-squeeze').scrollIntoViewIfNeeded();
     await expect.poll(() => pictureOf(canvas)).toBe(seen);
   });
 });

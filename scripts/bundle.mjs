@@ -25,6 +25,12 @@ const MODULE = {
   external: () => "export default () => new URL('./motion.wasm', import.meta.url);",
 };
 
+/** What the scripts of the elements export. */
+const DECLARATIONS = `export * from './core.js';
+/** Gives the elements words: those of messages/en.js, or some of them, in a language (a BCP 47 tag). */
+export declare function setMessages(lang: string, messages: object): void;
+`;
+
 /** Bundles everything anew. */
 export async function bundle() {
   progress('Bundling the pages');
@@ -84,7 +90,7 @@ export async function bundle() {
   }
   write(at('dist/motion.wasm'), wasm);
   write(at('dist/core.d.ts'), readFileSync(at('www/types.d.ts')));
-  for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), "export * from './core.js';\n");
+  for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
   write(at('dist/classroom.html'), inOneFile('index.html'));
   // What weighs how much: read by scripts/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));

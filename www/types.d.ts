@@ -292,6 +292,12 @@ export interface WidgetElement<State, Figures> extends HTMLElement {
    * names the field, the value and what is allowed, and changes nothing then.
    */
   setState(state: Partial<State> & { widget: string; version: 1 }): void;
+  /** The picture with twice the pixels of the screen, image/png. As the next two, throws before `load`. */
+  toPNG(): Promise<Blob>;
+  /** The picture as vector graphics, with a title and a description. */
+  toSVG(): string;
+  /** Every sample shown, after a line with the settings and the seed. */
+  toCSV(): string;
   /** This page's address with the present state; rejects where `share` is not set. */
   shareLink(): Promise<string>;
   /** HTML for another page. What no attribute says, a map of one's own among it, is not in it. */

@@ -71,9 +71,9 @@ test('no English is left in a German widget, in any of its states', async ({ pag
   await german(page);
   const own = new Set(messagesOf(de).map(([, message]) => message));
   const english = messagesOf(en)
-    .map(([, message]) => (typeof message === 'string' ? message : message(...'\u0001\u0002\u0003\u0004\u0005')))
+    .map(([, message]) => (typeof message === 'string' ? message : message(...'\ue001\ue002\ue003\ue004\ue005')))
     // What is around the values of a message is English too.
-    .flatMap((message) => message.replace(/[*]/g, '').split(/[\u0001-\u0005]/))
+    .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
     .map((part) => part.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
     .filter((part) => /\p{L}{4}/u.test(part) && !SAME.includes(part) && !own.has(part));
   expect(english.length).toBeGreaterThan(150);
@@ -124,7 +124,9 @@ test('the nearest lang decides, whenever it changes; a language without words is
   const play = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
   await play('Abspielen');
-  await expect(page.locator('map-squeeze').getByRole('button', { name: 'Play' })).toBeVisible();
+  const other = page.locator('map-squeeze');
+  await other.scrollIntoViewIfNeeded();
+  await expect(other.getByRole('button', { name: 'Play' })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await play('Play');
   await expect(readout(widget, 'standard error')).toHaveText(/^−0\.\d{3}/);

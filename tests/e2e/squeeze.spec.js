@@ -289,7 +289,7 @@ test.describe('judging', () => {
     const widget = await openSqueeze(page);
     await widget.getByLabel('sub-stepped').check();
     await expect(readout(widget, 'acceptance rate of a part')).toBeVisible();
-    await expect(widget.locator('.readouts')).toContainText('share of the accepted (95 %)');
+    await expect(widget.locator('.readouts')).toContainText('share of the accepted (95 %)');
     await widget.getByLabel('whole arc').check();
     await expect(readout(widget, 'acceptance rate of a part')).toBeHidden();
 
@@ -301,7 +301,7 @@ test.describe('judging', () => {
     expect(stats.gaveUp).toBe(true);
     expect(stats.accepted).toBeGreaterThan(0);
     await expect(readout(widget, 'share of the accepted')).toHaveText(/^[\d.]+\u202f%$/);
-    await expect(widget.locator('.readouts')).not.toContainText('95 %');
+    await expect(widget.locator('.readouts')).not.toContainText('95 %');
   });
 
   test('a sampler that has not been measured says so', async ({ page }) => {

@@ -6,7 +6,7 @@
  */
 
 import { html, nothing } from 'lit';
-import { words } from '../messages/registry.js';
+import { speak, words } from '../messages/registry.js';
 import { skewChart } from '../ui/chart.js';
 import { rich, toggle } from '../ui/controls.js';
 import { DASHES } from '../ui/draw.js';
@@ -220,12 +220,7 @@ export class BananaMachineElement extends CloudElement {
     if (!machine || !palette) return;
     this.configure();
     if (this.playing) this.growOn();
-    const figures = this.#fresh();
-    const marked = this.#inspection();
-    const overlays = /** @type {Record<Overlay, boolean>} */ (
-      Object.fromEntries(OVERLAYS.map((name) => [name, this.#overlays.includes(name)]))
-    );
-    const scene = { ...figures, machine, overlays, marked };
+    const scene = this.#scene(machine);
     let moving = false;
     for (const picture of [this.#plane, this.#twist]) {
       const canvas = this.#canvas(picture.name);
@@ -234,9 +229,44 @@ export class BananaMachineElement extends CloudElement {
       moving = picture.view.ease(elapsed, this.calm) || moving;
       picture.draw(canvas, scene, palette);
     }
-    this.#handle.place(this.renderRoot, figures.end);
+    this.#handle.place(this.renderRoot, scene.end);
     this.requestUpdate();
     if (moving || this.playing) this.wake();
+  }
+
+  /** @param {BananaMachine} machine */
+  #scene(machine) {
+    const figures = this.#fresh();
+    const marked = this.#inspection();
+    const overlays = /** @type {Record<Overlay, boolean>} */ (
+      Object.fromEntries(OVERLAYS.map((name) => [name, this.#overlays.includes(name)]))
+    );
+    return { ...figures, machine, overlays, marked };
+  }
+
+  /** @returns {import('./export.js').Figure} */
+  figure() {
+    const { machine } = this;
+    if (!machine) return super.figure();
+    speak(this);
+    const palette = this.palette ?? this.look();
+    const scene = this.#scene(machine);
+    const { poses } = machine;
+    return {
+      canvas: this.#canvas('plane'),
+      palette,
+      paint: (surface) => {
+        this.#plane.prepare(surface);
+        this.#plane.fit(scene);
+        this.#plane.view.ease(0, true);
+        this.#plane.draw(surface, scene, palette);
+      },
+      settings: { element: this.localName, ...scene.config },
+      title: words.banana.title,
+      columns: ['x_m', 'y_m', 'theta_rad'],
+      row: (i) => [...poses.subarray(3 * i, 3 * i + 3)],
+      count: machine.shown,
+    };
   }
 
   configured() {
@@ -296,9 +326,10 @@ export class BananaMachineElement extends CloudElement {
    */
   #point(picture, event) {
     this.attempt(() => {
-      if (!this.machine || this.#handle.held) return;
+      // A finger that moves scrolls the page; one that taps comes as a click.
+      if (!this.machine || this.#handle.held || (event.pointerType === 'touch' && event.type !== 'click')) return;
       const index = picture.nearest(this.machine, event.offsetX, event.offsetY, REACH);
-      if (index >= 0 || event.type === 'pointerdown') this.mark(index);
+      if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }
 
@@ -311,16 +342,16 @@ export class BananaMachineElement extends CloudElement {
     return html`
       <section class="machine" aria-label=${say.title}>
         <div class="floor">
-          <div class="stage">
+          <div class="stage" part="picture">
             <canvas
               class="plane"
               role="img"
               aria-label=${planeText(config, stats, note, overlays)}
               @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
-              @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
+              @click=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
             ></canvas>
             ${this.#handle.render(config.command)}
-            <p class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
+            <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
               <span>${note || captionOf(stats)}</span>
             </p>
           </div>
@@ -333,18 +364,18 @@ export class BananaMachineElement extends CloudElement {
           })}
           ${this.cloudControls(say.cloud, SAMPLE_COUNTS)}
         </div>
-        <div class="controls">
+        <div class="controls" part="controls">
           ${commandControls(config, motion.BananaMachine.presets, this.#actions)}
           ${noiseControls(config, Math.min(this.#chosen, config.alphas.length - 1), this.#actions)}
         </div>
-        <div class="figures">
+        <div class="figures" part="figures">
           <figure>
             <canvas
               class="twist"
               role="img"
               aria-label=${twistText(stats)}
               @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
-              @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
+              @click=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
             ></canvas>
             <figcaption>${twistCaption(config, note)}</figcaption>
             ${twistTable(table, stats)}
@@ -375,7 +406,7 @@ export class BananaMachineElement extends CloudElement {
   }
 
   #legend() {
-    return html`<div class="legend" role="group" aria-label=${words.banana.overlaysLabel}>
+    return html`<div class="legend" part="legend" role="group" aria-label=${words.banana.overlaysLabel}>
       ${OVERLAYS.map((name) =>
         toggle({
           label: html`<svg class="swatch ${name}" viewBox="0 0 30 8" aria-hidden="true">

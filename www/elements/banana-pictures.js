@@ -31,6 +31,7 @@ import { View, extentOf } from '../ui/view.js';
  * @typedef {import('../types.d.ts').Stats} Stats
  * @typedef {import('../types.d.ts').Table} Table
  * @typedef {import('../types.d.ts').ViewName} ViewName
+ * @typedef {import('../ui/canvas.js').Surface} Surface
  *
  * @typedef {object} Scene what both pictures are of
  * @property {BananaMachine} machine
@@ -72,7 +73,7 @@ class Picture {
   /**
    * Prepares a canvas for drawing in CSS pixels.
    *
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLCanvasElement | Surface} canvas
    */
   prepare(canvas) {
     const { context, ratio, font } = prepare(canvas, this.view);
@@ -155,7 +156,7 @@ export class PlanePicture extends Picture {
   }
 
   /**
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLCanvasElement | Surface} canvas
    * @param {Scene} scene
    * @param {Palette} palette
    */
@@ -243,7 +244,7 @@ export class TwistPicture extends Picture {
   }
 
   /**
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLCanvasElement | Surface} canvas
    * @param {Scene} scene
    * @param {Palette} palette
    */

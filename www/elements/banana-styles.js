@@ -218,7 +218,7 @@ const layout = css`
       }
 
       /* What has the focus stays clear of the floor above it. */
-      :is(button, input, .chart-marker) {
+      :is(button, input, summary, textarea, .chart-marker) {
         scroll-margin-top: calc(38svh + 6.5rem);
       }
     }

@@ -144,7 +144,7 @@ export class WidgetElement extends LitElement {
     this.#due = false;
     try {
       speak(this);
-      this.palette ??= this.#look();
+      this.palette ??= this.look();
       this.draw(elapsed);
       this.#crashes = 0;
     } catch (error) {
@@ -320,7 +320,8 @@ export class WidgetElement extends LitElement {
     this.wake();
   }
 
-  #look() {
+  /** The colours as they are now. */
+  look() {
     return resolvePalette(this.#probe('.surface'));
   }
 

@@ -8,6 +8,8 @@ import { html } from 'lit';
 import { words } from '../messages/registry.js';
 import { button, sliderRow } from '../ui/controls.js';
 import { whole } from '../ui/format.js';
+import { csvOf, exportMenu, pngOf, svgOf } from './export.js';
+import { onPrint } from './print.js';
 import { truth, whole as wholeNumber } from './state.js';
 import { StatefulElement } from './stateful.js';
 
@@ -37,6 +39,53 @@ export class CloudElement extends StatefulElement {
   /** The sample that is marked; −1 for none. */
   markedIndex = -1;
   #toAnnounce = false;
+
+  /** Ends listening for the printer. @type {(() => void) | undefined} */
+  #unprint;
+
+  connectedCallback() {
+    super.connectedCallback();
+    this.#unprint = onPrint((printing) => this.#print(printing));
+  }
+
+  disconnectedCallback() {
+    super.disconnectedCallback();
+    this.#unprint?.();
+  }
+
+  /**
+   * Paper is light, whatever the screen is.
+   *
+   * @param {boolean} printing
+   */
+  #print(printing) {
+    const surface = /** @type {HTMLElement | null} */ (this.renderRoot.querySelector('.surface'));
+    if (!surface) return;
+    surface.style.colorScheme = printing ? 'light' : '';
+    this.palette = undefined;
+    // At once: the printer waits for no frame.
+    this.frame(0);
+  }
+
+  /** What there is to take along, with every change so far in effect. @returns {import('./export.js').Figure} */
+  figure() {
+    throw new Error('There is no figure yet: it is there from the load event on.');
+  }
+
+  /** The picture with twice the pixels of the screen. @returns {Promise<Blob>} image/png */
+  async toPNG() {
+    return pngOf(this.figure());
+  }
+
+  /** The picture as vector graphics, with a title and a description. @returns {string} */
+  toSVG() {
+    return svgOf(this.figure());
+  }
+
+  /** Every sample shown, after a line with the settings and the seed. @returns {string} */
+  toCSV() {
+    return csvOf(this.figure());
+  }
 
   relabel() {
     this.stale = true;
@@ -229,6 +278,7 @@ export class CloudElement extends StatefulElement {
         },
         commit: () => this.commit(),
       })}
+      ${exportMenu(this, seed)}
     </fieldset>`;
   }
 }

@@ -5,7 +5,7 @@
  */
 
 import { html, nothing } from 'lit';
-import { words } from '../messages/registry.js';
+import { speak, words } from '../messages/registry.js';
 import { theme } from '../ui/theme.js';
 import { CloudElement, showOnly } from './cloud.js';
 import { define } from './configurable.js';
@@ -20,6 +20,7 @@ import { squeezeStyles } from './map-squeeze-styles.js';
 import {
   SAMPLERS,
   SAMPLE_COUNTS,
+  VERDICT,
   announcementOf,
   mapText,
   noteOn,
@@ -231,21 +232,51 @@ export class MapSqueezeElement extends CloudElement {
     if (!machine || !palette) return;
     this.configure();
     if (this.playing) this.growOn();
-    if (this.stale) this.read();
+    const scene = this.#scene(machine);
+    const moving = this.#picture.draw(this.#canvas, scene, palette, elapsed, {
+      still: this.#handles.held !== undefined,
+      atOnce: this.calm,
+    });
+    this.#handles.place(this.renderRoot, scene.config.start, scene.config.clearance);
+    this.requestUpdate();
+    if (moving || this.playing) this.wake();
+  }
 
+  /** @param {MapSqueeze} machine */
+  #scene(machine) {
+    this.configure();
+    if (this.stale) this.read();
     const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
     const marked = this.#isMarked
       ? { pose: figures.poses.subarray(3 * this.markedIndex), path: machine.path(this.markedIndex) }
       : undefined;
     this.#picture.close = this.#close;
-    const scene = { ...figures, marked };
-    const moving = this.#picture.draw(this.#canvas, scene, palette, elapsed, {
-      still: this.#handles.held !== undefined,
-      atOnce: this.calm,
-    });
-    this.#handles.place(this.renderRoot, figures.config.start, figures.config.clearance);
-    this.requestUpdate();
-    if (moving || this.playing) this.wake();
+    return { ...figures, marked };
+  }
+
+  /** @returns {import('./export.js').Figure} */
+  figure() {
+    const { machine } = this;
+    if (!machine) return super.figure();
+    speak(this);
+    const palette = this.palette ?? this.look();
+    const scene = this.#scene(machine);
+    const { poses, verdicts } = scene;
+    return {
+      canvas: this.#canvas,
+      palette,
+      paint: (surface) => {
+        this.#picture.draw(surface, scene, palette, 0, { still: false, atOnce: true });
+      },
+      settings: { element: this.localName, map: this.#map?.name ?? null, ...scene.config },
+      title: words.squeeze.title,
+      columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
+      row: (i) => [
+        ...poses.subarray(3 * i, 3 * i + 3),
+        ...[VERDICT.endFree, VERDICT.pathFree, VERDICT.accepted].map((bit) => Math.sign(verdicts[i] & bit)),
+      ],
+      count: verdicts.length,
+    };
   }
 
   read() {
@@ -394,11 +425,12 @@ export class MapSqueezeElement extends CloudElement {
   /** @param {PointerEvent} event */
   #point(event) {
     this.attempt(() => {
-      if (!this.machine || this.#handles.held) return;
+      // A finger that moves scrolls the page; one that taps comes as a click.
+      if (!this.machine || this.#handles.held || (event.pointerType === 'touch' && event.type !== 'click')) return;
       const { view } = this.#picture;
       const [x, y] = [view.toWorldX(event.offsetX), view.toWorldY(event.offsetY)];
       const index = this.machine.nearest(x, y, REACH / view.scaleX);
-      if (index >= 0 || event.type === 'pointerdown') this.mark(index);
+      if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }
 
@@ -427,7 +459,7 @@ export class MapSqueezeElement extends CloudElement {
       >
         <div class="floor">
           ${this.#stage(pictureText(config, stats, map, note))}
-          <p class="note" ?hidden=${note === ''}>${note}</p>
+          <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
           ${key(config)} ${tally(stats, config, paths.length)}
           ${markedDraw({
             index: this.markedIndex,
@@ -437,7 +469,7 @@ export class MapSqueezeElement extends CloudElement {
           })}
           ${this.cloudControls(words.squeeze.cloud, SAMPLE_COUNTS)}
         </div>
-        <div class="controls">
+        <div class="controls" part="controls">
           ${placeControls(config, { own, close: this.#close, look }, motion.MapSqueeze.presets, (start) => this.#go(start))}
           ${judgeControls(config, this.#actions)}
           ${motionControls(config, motion.MapSqueeze, this.#actions)} ${costTable(this.#meter, config.steps)}
@@ -457,13 +489,13 @@ export class MapSqueezeElement extends CloudElement {
 
   /** @param {string} description */
   #stage(description) {
-    return html`<div class="stage">
+    return html`<div class="stage" part="picture">
       <canvas
         class="plane"
         role="img"
         aria-label=${description}
         @pointermove=${this.#point}
-        @pointerdown=${this.#point}
+        @click=${this.#point}
       ></canvas>
       ${this.#handles.render(this.wanted().start)}
     </div>`;

@@ -290,7 +290,7 @@ export const en = /** @satisfies {Message} */ ({
       rateOfParts: 'acceptance rate of a part',
       draws: (kept) => `draws per ${kept} sample`,
       share: (kept) => `share of the ${kept}`,
-      interval: ' (95 %)',
+      interval: ' (95 %)',
       paths: 'of these, drawn with their path',
       first: (count) => `the first ${count}`,
       tests: (kept) => `wall tests per ${kept} sample`,

@@ -110,9 +110,15 @@ export const controlStyles = css`
     box-shadow: 0 0 0 3px var(--paper);
   }
 
-  :is(button, input, .handle, .chart-marker):focus-visible {
+  :is(button, input, summary, .handle, .chart-marker):focus-visible {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
+  }
+
+  summary {
+    width: fit-content;
+    min-height: 1.75rem;
+    cursor: pointer;
   }
 
   button,

@@ -13,12 +13,10 @@ export default [
       'no-unused-vars': ['error', { argsIgnorePattern: '^_' }],
     },
   },
-  { files: ['www/**'], languageOptions: { globals: globals.browser } },
+  { files: ['www/**', 'examples/**'], languageOptions: { globals: globals.browser } },
   // They run in Node and in a page.
   { files: ['benches/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
-  // It runs in Node too, and asks whether it does.
-  { files: ['www/core.js'], languageOptions: { globals: { process: 'readonly' } } },
-  { files: ['scripts/**', 'tests/node/**', '*.config.js'], languageOptions: { globals: globals.node } },
+  { files: ['scripts/**', 'tests/node/**', '*.config.js', 'examples/**/*.config.js'], languageOptions: { globals: globals.node } },
   // Browser tests run in Node and pass functions into the page.
-  { files: ['tests/e2e/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
+  { files: ['tests/e2e/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 ];

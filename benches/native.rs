@@ -10,6 +10,7 @@ use divan::{Bencher, black_box};
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
+use motion::sim::picture::RAMP;
 use motion::sim::squeeze::{self, MapSqueeze};
 use motion::sim::views::Grid;
 use motion::{
@@ -56,12 +57,12 @@ fn refresh(bencher: Bencher, samples: usize) {
         machine.configure(settings).expect("settings in range");
         black_box(machine.figures());
         black_box(machine.contours());
-        picture(&machine);
+        picture(&mut machine);
     });
 }
 
-fn picture(machine: &BananaMachine) {
-    black_box(machine.density(View::Plane, &PICTURE).expect("memory"));
+fn picture(machine: &mut BananaMachine) {
+    black_box(machine.paint(View::Plane, &PICTURE, &[[0; 4]; RAMP]).expect("memory"));
 }
 
 /// Every robot drawn anew.

@@ -41,21 +41,7 @@ export function command(event) {
  * @returns {Uint8ClampedArray}
  */
 export function picture(machine, { xMin, yMin, xMax, yMax, columns, rows } = VIEW) {
-  const painter = /** @type {any} */ (machine);
-  if (painter.picture) return painter.picture('plane', xMin, yMin, xMax, yMax, columns, rows, RAMP);
-  return inked(machine.density('plane', xMin, yMin, xMax, yMax, columns, rows));
-}
-
-/** @param {Uint32Array} counts */
-function inked(counts) {
-  let most = 0;
-  for (const count of counts) if (count > most) most = count;
-  const colours = new Uint32Array(RAMP.buffer);
-  const pixels = new Uint32Array(counts.length);
-  for (let i = 0; i < counts.length; i++) {
-    if (counts[i] > 0) pixels[i] = colours[Math.round(255 * Math.sqrt(counts[i] / most))];
-  }
-  return new Uint8ClampedArray(pixels.buffer);
+  return machine.picture('plane', xMin, yMin, xMax, yMax, columns, rows, RAMP);
 }
 
 /**

@@ -70,7 +70,7 @@ async function inNode(quick) {
 async function inChromium(executablePath, quick) {
   const { chromium: launcher } = await import('@playwright/test');
   const { timeStart } = await import('../benches/start.js');
-  const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), 0, ISOLATED);
+  const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATED });
   const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
   try {
     console.log('first cloud');

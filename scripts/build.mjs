@@ -1,9 +1,10 @@
 // `npm run build`: src/ to build/ (WebAssembly and its glue), then www/ to dist/. What is up to date is left alone.
 
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { dirname, join, relative } from 'node:path';
-import { Missing, ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { bundle, filesOf } from './bundle.mjs';
+import { ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
 import { ensurePackages, nativeRust, wasmBindgen, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
@@ -13,8 +14,8 @@ export async function build() {
   await ensurePackages();
   const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs']);
   await whenStale('build/core.sha256', core, ['build/motion.js', 'build/motion_bg.wasm'], buildCore);
-  const pages = digest(['www', 'package-lock.json', 'scripts/build.mjs'], core);
-  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/motion-widgets.js'], buildPages);
+  const pages = digest(['www', 'package.json', 'package-lock.json', 'scripts/bundle.mjs'], core);
+  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html'], bundle);
 }
 
 /**
@@ -26,18 +27,6 @@ function digest(paths, seed = '') {
   const hash = createHash('sha256').update(seed);
   for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(at(path)));
   return hash.digest('hex');
-}
-
-/**
- * @param {string} path of a file or directory, from the root
- * @returns {string[]} the files there, sorted
- */
-function filesOf(path) {
-  if (statSync(at(path)).isFile()) return [path];
-  return readdirSync(at(path), { withFileTypes: true, recursive: true })
-    .filter((entry) => entry.isFile())
-    .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
-    .sort();
 }
 
 /**
@@ -69,11 +58,13 @@ async function buildCore() {
 
   progress('Binding and optimizing it');
   await mustRun('wasm-bindgen failed: see above.', join(bindgen, 'wasm-bindgen'), [
-    wasm, '--target', 'web', '--out-dir', at('build'), '--out-name', 'motion',
+    wasm, '--target', 'no-modules', '--out-dir', at('build'), '--out-name', 'motion',
     '--omit-default-module-path', '--remove-name-section', '--remove-producers-section',
   ]);
-  // What esbuild's loader gives to who imports the file.
-  writeFileSync(at('build/motion_bg.wasm.d.ts'), 'declare const bytes: Uint8Array<ArrayBuffer>;\nexport default bytes;\n');
+  makeFactory('build/motion');
+  // What scripts/bundle.mjs gives to who imports the file.
+  const type = 'declare const module: () => Uint8Array<ArrayBuffer> | URL;\nexport default module;\n';
+  writeFileSync(at('build/motion_bg.wasm.d.ts'), type);
   // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
   const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   await mustRun('wasm-opt failed: see above.', process.execPath, [
@@ -82,38 +73,19 @@ async function buildCore() {
   ]);
 }
 
-/** Each script at the top of www/ becomes one self-contained module; whatever is not a script is copied. */
-async function buildPages() {
-  progress('Bundling the pages');
-  const esbuild = await import('esbuild');
-  const isScript = (/** @type {string} */ path) => /\.(js|ts)$/.test(path);
-  const files = filesOf('www');
-  const bundles = await esbuild.build({
-    entryPoints: files.filter((path) => path.endsWith('.js') && dirname(path) === 'www'),
-    absWorkingDir: ROOT,
-    outdir: at('dist'),
-    write: false,
-    bundle: true,
-    minify: true,
-    sourcemap: true,
-    format: 'esm',
-    target: 'es2022',
-    loader: { '.wasm': 'binary' },
-    // core.js reads files by it, in Node alone.
-    external: ['node:*'],
-  }).catch(() => {
-    throw new Missing('The pages do not bundle: see the errors above.');
-  });
-  rmSync(at('dist'), { recursive: true, force: true });
-  const write = (/** @type {string} */ path, /** @type {Uint8Array} */ contents) => {
-    mkdirSync(dirname(path), { recursive: true });
-    writeFileSync(path, contents);
-  };
-  for (const { path, contents } of bundles.outputFiles) write(path, contents);
-  for (const path of files.filter((path) => !isScript(path))) {
-    write(at(join('dist', relative('www', path))), readFileSync(at(path)));
-  }
-  write(at('dist/core.d.ts'), readFileSync(at('www/types.d.ts')));
+/**
+ * Makes a module of wasm-bindgen's script: one that exports a function which gives the glue for one more instance.
+ * As a module of its own the glue would be there once, and one instance with it.
+ *
+ * @param {string} path of the script and of its types, without their extensions
+ */
+function makeFactory(path) {
+  const script = readFileSync(at(`${path}.js`), 'utf8');
+  const types = readFileSync(at(`${path}.d.ts`), 'utf8');
+  // The script would look in the page for its own address, which it does not need.
+  const factory = `export default () => {\nconst document = undefined;\n${script}\nreturn wasm_bindgen;\n};\n`;
+  writeFileSync(at(`${path}.js`), factory);
+  writeFileSync(at(`${path}.d.ts`), `${types}\nexport default function makeGlue(): typeof wasm_bindgen;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

@@ -39,11 +39,12 @@ function fileAt(directory, address) {
 
 /**
  * @param {string} directory
- * @param {number} [port] the one to take; without it the first free one from 4173 on
- * @param {Record<string, string>} [headers] sent with every file
+ * @param {object} [options]
+ * @param {number} [options.port] the one to take; without it the first free one from 4173 on
+ * @param {Record<string, string>} [options.headers] sent with every file
  * @returns {Promise<{ address: string, close: () => void }>}
  */
-export function serve(directory, port, headers = {}) {
+export function serve(directory, { port, headers = {} } = {}) {
   const server = createServer((request, response) => {
     const file = fileAt(directory, request.url ?? '/');
     if (request.method !== 'GET' && request.method !== 'HEAD') {
@@ -74,12 +75,8 @@ export function serve(directory, port, headers = {}) {
     });
     server.on('listening', () => {
       const address = server.address();
-      if (address === null || typeof address !== 'object') return;
-      const close = () => {
-        server.close();
-        server.closeAllConnections();
-      };
-      resolve({ address: `http://localhost:${address.port}/`, close });
+      if (address === null || typeof address === 'string') return;
+      resolve({ address: `http://localhost:${address.port}/`, close: () => server.close().closeAllConnections() });
     });
     server.listen(candidate, 'localhost');
   });
@@ -98,6 +95,6 @@ function wantedPort() {
 await runAsScript(import.meta.url, async () => {
   const port = wantedPort();
   await build();
-  const { address } = await serve(join(ROOT, 'dist'), port);
+  const { address } = await serve(join(ROOT, 'dist'), { port });
   console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);
 });

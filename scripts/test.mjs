@@ -79,7 +79,10 @@ async function test() {
     rustTally,
   );
   await needsBuild('Node tests', () =>
-    stage('Node tests', [process.execPath, '--test', '--test-reporter', 'tap', ...nodeTests()], {}, tapTally),
+    stage('Node tests', nodeTests('tests/node'), {}, tapTally),
+  );
+  await needsBuild('package tests', () =>
+    stage('package tests', nodeTests('tests/package'), { CHROME: browser.chrome }, tapTally),
   );
   await needsBuild('browser tests', () =>
     stage('browser tests', [...npmProgram('@playwright/test/cli.js'), 'test'], { CHROME: browser.chrome }, playwrightTally),
@@ -106,12 +109,13 @@ function testRunner(bindgen, browser) {
   };
 }
 
-/** @returns {string[]} */
-function nodeTests() {
-  const directory = 'tests/node';
-  return readdirSync(at(directory))
-    .filter((name) => name.endsWith('.test.js'))
-    .map((name) => join(directory, name));
+/**
+ * @param {string} directory
+ * @returns {string[]} the command that runs its tests
+ */
+function nodeTests(directory) {
+  const files = readdirSync(at(directory)).filter((name) => name.endsWith('.test.js'));
+  return [process.execPath, '--test', '--test-reporter', 'tap', ...files.map((name) => join(directory, name))];
 }
 
 /**

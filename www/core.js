@@ -1,27 +1,35 @@
 /**
- * Loads the WebAssembly core, once a page or process. The only file that touches generated glue.
+ * Loads the WebAssembly core, compiled once a page or process. The only file that touches generated glue.
  * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
  *
  * @module
  */
 
-import initialize, { BananaMachine, MapSqueeze, commandReaching, randomSeed } from '../build/motion.js';
-import inlined from '../build/motion_bg.wasm';
+import makeGlue from '../build/motion.js';
+import own from '../build/motion_bg.wasm';
 
+/** @typedef {BufferSource | URL | string | WebAssembly.Module} Source */
+
+/** What the first to name a source named. @type {Source | undefined} */
+let wanted;
+/** @type {Promise<WebAssembly.Module> | undefined} */
+let compiling;
 /** @type {Promise<import('./types.d.ts').Motion> | undefined} */
 let loading;
 
 /**
- * The core, ready to use. The first call that succeeds decides where the module comes from; later
- * calls get the same module, and a call after a failed one tries again.
+ * The core, ready to use. Later calls get the same core, and a call after a failed one tries again.
  *
- * `source` is the module as bytes, an address, or compiled; the bytes that this file carries when it
- * is left out.
+ * `source` is the module as bytes, an address, or compiled. Where it is left out it is the one that
+ * the bundle carries, or, in external.js, the file `motion.wasm` beside that. The first to name one
+ * decides for the page: a script that imports the elements and names a source at once comes early
+ * enough, though the elements on the page have asked before it.
  *
  * @type {typeof import('./types.d.ts').load}
  */
 export function load(source) {
-  loading ??= start(source).catch((error) => {
+  wanted ??= source;
+  loading ??= instantiate().catch((error) => {
     loading = undefined;
     throw error;
   });
@@ -29,14 +37,23 @@ export function load(source) {
 }
 
 /**
- * @param {BufferSource | URL | string | WebAssembly.Module} [source]
- * @returns {Promise<import('./types.d.ts').Motion>}
+ * One more core from the same compiled module, with a memory of its own: a trap in it harms no other,
+ * and all of its memory goes when nothing refers to it any more.
+ *
+ * @type {typeof import('./types.d.ts').instantiate}
  */
-async function start(source) {
+export async function instantiate(source) {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
-  await initialize({ module_or_path: await moduleFrom(source) });
+  wanted ??= source;
+  compiling ??= compile().catch((error) => {
+    wanted = compiling = undefined;
+    throw error;
+  });
+  const glue = makeGlue();
+  await glue({ module_or_path: await compiling });
+  const { BananaMachine, MapSqueeze, commandReaching, randomSeed } = glue;
   for (const handle of [BananaMachine, MapSqueeze]) makeDisposable(handle);
   return /** @type {import('./types.d.ts').Motion} */ (
     /** @type {unknown} */ ({ BananaMachine, MapSqueeze, commandReaching, randomSeed })
@@ -44,21 +61,68 @@ async function start(source) {
 }
 
 /**
- * @param {unknown} source
- * @returns {Promise<BufferSource | URL | string | WebAssembly.Module>}
+ * Forgets a machine of a core that has trapped: what is left in its memory is not to be trusted, not
+ * even to free the machine, as would happen when its handle is collected.
+ *
+ * @param {{ free(): void }} machine
  */
-async function moduleFrom(source) {
-  if (source === undefined) return inlined;
-  if (source instanceof WebAssembly.Module) return source;
-  if (source instanceof ArrayBuffer) return source;
-  if (ArrayBuffer.isView(source)) return /** @type {BufferSource} */ (source);
-  if (source instanceof URL || typeof source === 'string') {
-    return fileAt(source) ?? source;
+export function abandon(machine) {
+  /** @type {{ __destroy_into_raw(): number }} */ (/** @type {unknown} */ (machine)).__destroy_into_raw();
+}
+
+/** @returns {Promise<WebAssembly.Module>} */
+async function compile() {
+  // Elements ask while they are being defined, before the script that imports them has had its say.
+  await null;
+  const source = wanted ?? own();
+  try {
+    if (source instanceof WebAssembly.Module) return source;
+    if (source instanceof ArrayBuffer) return await WebAssembly.compile(source);
+    if (ArrayBuffer.isView(source)) return await WebAssembly.compile(/** @type {BufferSource} */ (source));
+    if (source instanceof URL || typeof source === 'string') {
+      const file = fileAt(source);
+      return file ? await WebAssembly.compile(await file) : await streamed(source);
+    }
+  } catch (error) {
+    if (!forbidden()) throw error;
+    throw new Error(
+      "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
+      { cause: error },
+    );
   }
   throw new TypeError(
     `load: source is ${String(source)}, and must be the module's bytes, a URL or string, ` +
       'or a WebAssembly.Module.',
   );
+}
+
+/** Whether not even an empty module may be compiled here. */
+function forbidden() {
+  try {
+    return !new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
+  } catch {
+    return true;
+  }
+}
+
+/**
+ * A module compiled while it is still arriving, or afterwards where the server calls it something
+ * else than application/wasm.
+ *
+ * @param {URL | string} source
+ * @returns {Promise<WebAssembly.Module>}
+ */
+async function streamed(source) {
+  const response = await fetch(source).catch((error) => {
+    throw new Error(
+      `load: ${source} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src.`,
+      { cause: error },
+    );
+  });
+  if (!response.ok) throw new Error(`load: ${response.url} answers ${response.status}.`);
+  const type = response.headers.get('content-type') ?? '';
+  if (/^application\/wasm\s*$/i.test(type)) return WebAssembly.compileStreaming(response);
+  return WebAssembly.compile(await response.arrayBuffer());
 }
 
 /**
@@ -68,10 +132,10 @@ async function moduleFrom(source) {
  * @returns {Promise<BufferSource> | undefined} undefined where `fetch` is the way
  */
 function fileAt(source) {
-  const inNode = typeof process !== 'undefined' && process.versions?.node !== undefined;
-  if (!inNode || /^(https?|data|blob):/.test(String(source))) return undefined;
-  const path = String(source).startsWith('file:') ? new URL(source) : source;
-  return import('node:fs/promises').then(({ readFile }) => readFile(path));
+  if (/^(https?|data|blob):/.test(String(source))) return undefined;
+  // No import: bundlers for browsers would stumble over it.
+  const files = globalThis.process?.getBuiltinModule?.('node:fs/promises');
+  return files?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
 }
 
 /**

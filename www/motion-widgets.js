@@ -1,3 +1,12 @@
-/** Registers the custom elements. */
+/**
+ * Registers the custom elements. In dist/ it comes three times: motion-widgets.js carries the
+ * WebAssembly module inside, motion-widgets.iife.js is that as a classic script, and external.js
+ * leaves the module in a file of its own.
+ *
+ * @module
+ */
 import './elements/banana-machine.js';
 import './elements/map-squeeze.js';
+
+export { load } from './core.js';
+export { setMessages } from './messages/registry.js';

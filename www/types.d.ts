@@ -282,6 +282,135 @@ export interface MapSqueezeClass {
   alphasOfNoise(n: number): Float64Array;
 }
 
+/**
+ * A map as plain data. A floor plan of walls from one point to another, or square cells row by row from the
+ * bottom: base64 of a bit each, the first of eight highest, 1 where occupied. Lengths in m, yaw in rad.
+ */
+export type MapData =
+  | { name?: string; bounds: number[]; walls: number[][] }
+  | { name?: string; columns: number; rows: number; resolution: number; origin: number[]; occupied: string };
+
+/** What both elements have. */
+export interface WidgetElement<State, Figures> extends HTMLElement {
+  v: number;
+  omega: number;
+  dt: number;
+  command: Command;
+  alphas: number[];
+  samples: number;
+  seed: number;
+  theme: 'auto' | 'light' | 'dark';
+  /** Whether the fragment of the page's address carries the state. */
+  share: boolean;
+  /** The sample that is marked, counted from 0. */
+  marked: number | null;
+  /** Null before there are any. */
+  readonly stats: Figures | null;
+  /** x, y (m), θ (rad) of each sample shown; a copy. */
+  readonly poses: Float64Array | null;
+  /** Plain data; null before the figure has come near the reader for the first time. */
+  getState(): State | null;
+  /**
+   * Puts the element into a state; what is left out stays as it is. Throws a TypeError or RangeError that
+   * names the field, the value and what is allowed, and changes nothing then.
+   */
+  setState(state: Partial<State> & { widget: string; version: 1 }): void;
+  /** The picture with twice the pixels of the screen, image/png. As the next two, throws before `load`. */
+  toPNG(): Promise<Blob>;
+  /** The picture as vector graphics, with a title and a description. */
+  toSVG(): string;
+  /** Every sample shown, after a line with the settings and the seed. */
+  toCSV(): string;
+  /** This page's address with the present state; rejects where `share` is not set. */
+  shareLink(): Promise<string>;
+  /** HTML for another page. What no attribute says, a map of one's own among it, is not in it. */
+  embedCode(): string;
+}
+
+/** What every state has. */
+export interface WidgetState {
+  version: 1;
+  command: Command;
+  samples: number;
+  seed: number;
+  /** Samples asked for so far, 0 to `samples`. */
+  shown: number;
+  playing: boolean;
+  /** The sample that is marked, counted from 0. */
+  marked: number | null;
+}
+
+export type OverlayName = 'command' | 'ellipse' | 'linearized' | 'exponential';
+
+export interface BananaState extends WidgetState {
+  widget: 'banana-machine';
+  model: ModelName;
+  noise: NoiseName;
+  /** Six and four, of either model. */
+  alphas: { velocity: number[]; odometry: number[] };
+  isolate: number | null;
+  /** What Isolate leaves when it is turned on, from 1. */
+  isolateChoice: number;
+  overlays: OverlayName[];
+}
+
+export interface SqueezeState extends WidgetState {
+  widget: 'map-squeeze';
+  start: Pose;
+  alphas: number[];
+  clearance: number;
+  conditioned: boolean;
+  sampler: SamplerName;
+  steps: number;
+  view: 'whole' | 'close';
+  /** A map of the reader's own; null for the apartment. */
+  map: MapData | null;
+}
+
+/** `<banana-machine>`. Its attributes have the properties' names. */
+export interface BananaMachineElement extends WidgetElement<BananaState, Stats> {
+  preset: Preset['name'] | null;
+  model: ModelName;
+  noise: NoiseName;
+  alpha1: number;
+  alpha2: number;
+  alpha3: number;
+  alpha4: number;
+  /** Null for the odometry model, as alpha6 is. */
+  alpha5: number | null;
+  alpha6: number | null;
+  isolate: number | null;
+  overlays: OverlayName[];
+  /** ξ along, lateral (m), heading (rad) of each robot shown; a copy. */
+  readonly twists: Float64Array | null;
+}
+
+/** `<map-squeeze>`. Its attributes have the properties' names. */
+export interface MapSqueezeElement extends WidgetElement<SqueezeState, SqueezeStats> {
+  preset: 'doorway' | 'wall' | 'corridor' | null;
+  start: Pose;
+  x: number;
+  y: number;
+  theta: number;
+  /** Level n; null where the noise parameters are not those of a level. */
+  noise: number | null;
+  clearance: number;
+  conditioned: boolean;
+  sampler: SamplerName;
+  steps: number;
+  view: 'whole' | 'close';
+  map: MapData | null;
+  /** A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted. */
+  readonly verdicts: Uint8Array | null;
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'banana-machine': BananaMachineElement;
+    'map-squeeze': MapSqueezeElement;
+  }
+}
+
 export interface Motion {
   BananaMachine: BananaMachineClass;
   MapSqueeze: MapSqueezeClass;
@@ -296,6 +425,8 @@ export interface Motion {
 
 /** What core.js exports: see there. */
 export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
+/** As `load`, with a memory of its own each time. */
+export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
 /** Axis-aligned part of a view's world. */
 export interface Extent {

@@ -242,6 +242,7 @@ test.describe('the element', () => {
     const first = await open(page);
     await page.evaluate(() => document.querySelector('main')?.append(document.createElement('banana-machine')));
     const second = page.locator('banana-machine').nth(1);
+    await second.scrollIntoViewIfNeeded();
     await second.getByRole('button', { name: 'Pivot' }).click();
     expect((await state(second)).config.command).toEqual({ v: 0.06, omega: 1.5, dt: 1 });
     expect((await state(first.first())).config.command).toEqual({ v: 1, omega: 0.5, dt: 1 });
@@ -289,6 +290,7 @@ test.describe('the element', () => {
     });
     expect(answers).toEqual([true, false]);
     await page.evaluate(() => document.querySelector('main')?.append(Reflect.get(window, 'kept')));
+    await widget.scrollIntoViewIfNeeded();
     await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
     expect((await state(widget)).config).toEqual(before.config);
   });

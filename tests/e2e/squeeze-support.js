@@ -27,8 +27,9 @@ import { frames } from './support.js';
 export async function openSqueeze(page) {
   await page.goto('/');
   const widget = page.locator('map-squeeze');
-  await expect(widget.getByRole('button', { name: 'Facing a doorway' })).toBeVisible();
   await widget.scrollIntoViewIfNeeded();
+  await expect(widget.getByRole('button', { name: 'Facing a doorway' })).toBeVisible();
+  await widget.locator('canvas.plane').scrollIntoViewIfNeeded();
   await frames(page);
   return widget;
 }

@@ -289,7 +289,7 @@ test.describe('judging', () => {
     const widget = await openSqueeze(page);
     await widget.getByLabel('sub-stepped').check();
     await expect(readout(widget, 'acceptance rate of a part')).toBeVisible();
-    await expect(widget.locator('.readouts')).toContainText('share of the accepted (95 %)');
+    await expect(widget.locator('.readouts')).toContainText('share of the accepted (95 %)');
     await widget.getByLabel('whole arc').check();
     await expect(readout(widget, 'acceptance rate of a part')).toBeHidden();
 
@@ -301,7 +301,7 @@ test.describe('judging', () => {
     expect(stats.gaveUp).toBe(true);
     expect(stats.accepted).toBeGreaterThan(0);
     await expect(readout(widget, 'share of the accepted')).toHaveText(/^[\d.]+\u202f%$/);
-    await expect(widget.locator('.readouts')).not.toContainText('95 %');
+    await expect(widget.locator('.readouts')).not.toContainText('95 %');
   });
 
   test('a sampler that has not been measured says so', async ({ page }) => {
@@ -420,7 +420,7 @@ test.describe('in a closed tab', () => {
     expect((await squeezed(widget)).config.command.omega).toBe(0.5);
   });
 
-  test('the widget starts there, and is drawn when it opens', async ({ page }) => {
+  test('the widget waits there, and is drawn when it opens', async ({ page }) => {
     const seen = await pictureOf((await openSqueeze(page)).locator('canvas.plane'));
     await page.addInitScript(() => {
       addEventListener('DOMContentLoaded', () => {
@@ -429,9 +429,11 @@ test.describe('in a closed tab', () => {
     });
     await page.goto('/');
     const canvas = page.locator('map-squeeze canvas.plane');
-    await canvas.waitFor({ state: 'attached' });
+    await page.locator('map-squeeze .reserved').waitFor({ state: 'attached' });
     await frames(page);
+    await expect(canvas).toHaveCount(0);
     await hide(page, false);
+    await page.locator('map-squeeze').scrollIntoViewIfNeeded();
     await expect.poll(() => pictureOf(canvas)).toBe(seen);
   });
 });

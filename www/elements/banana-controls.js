@@ -6,9 +6,10 @@
 
 import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
+import { words } from '../messages/registry.js';
 import { button, radioGroup, sliderRow, toggle } from '../ui/controls.js';
 import { fixed } from '../ui/format.js';
-import { COMMAND_SLIDERS, PRESET_LABELS, alphaName, alphaSymbol, effectOf } from './banana-words.js';
+import { COMMAND_SLIDERS, alphaName, alphaSymbol } from './banana-words.js';
 
 /**
  * @typedef {import('../types.d.ts').Settings} Settings
@@ -36,11 +37,11 @@ export function commandControls(config, presets, { change, commit }) {
   const { command } = config;
   return html`
     <fieldset>
-      <legend>Command</legend>
+      <legend>${words.command}</legend>
       <div class="buttons">
         ${presets.map(({ name, v, omega, dt }) =>
           button(
-            PRESET_LABELS[name],
+            words.banana.presets[name],
             () => {
               change({ command: { v, omega, dt } });
               commit();
@@ -49,14 +50,15 @@ export function commandControls(config, presets, { change, commit }) {
           ),
         )}
       </div>
-      ${COMMAND_SLIDERS.map(({ key, symbol, unit, effect, ...range }) =>
+      ${COMMAND_SLIDERS.map(({ key, symbol, name, unit, ...range }) =>
         sliderRow({
           ...range,
           id: key,
           symbol: html`<i>${symbol}</i>`,
+          name: words[name],
           value: command[key],
-          shown: `${fixed(command[key], 2)} ${unit}`,
-          effect,
+          show: (value) => `${fixed(value, 2)} ${unit}`,
+          effect: words.banana.effects[key],
           role: 'prior',
           input: (value) => change(({ command }) => ({ command: { ...command, [key]: value } })),
           commit,
@@ -74,22 +76,23 @@ export function commandControls(config, presets, { change, commit }) {
 export function noiseControls(config, chosen, { change, commit, isolate }) {
   const { model, noise, alphas } = config;
   const isolated = config.isolate !== null;
+  const say = words.banana;
   return html`
     <fieldset>
-      <legend>Model and noise</legend>
-      ${radioGroup('Motion model', 'model', ['velocity', 'odometry'], model, (name) => {
+      <legend>${say.modelAndNoise}</legend>
+      ${radioGroup(say.model, 'model', say.models, model, (name) => {
         change({ model: name, isolate: null });
         commit();
       })}
-      ${radioGroup('Noise', 'noise', ['normal', 'triangular'], noise, (name) => {
+      ${radioGroup(say.noise, 'noise', say.noises, noise, (name) => {
         change({ noise: name });
         commit();
       })}
     </fieldset>
     <fieldset class="alphas">
-      <legend>Noise parameters</legend>
+      <legend>${say.alphas}</legend>
       ${toggle({
-        label: 'Isolate one',
+        label: say.isolate,
         checked: isolated,
         change: (on) => {
           change({ isolate: on ? chosen + 1 : null });
@@ -105,8 +108,8 @@ export function noiseControls(config, chosen, { change, commit, isolate }) {
           min: 0,
           max: ALPHA_MAX,
           step: ALPHA_STEP,
-          shown: off ? `${fixed(alpha, 3)} off` : fixed(alpha, 3),
-          effect: effectOf(model, index),
+          show: (value) => (off ? say.off(fixed(value, 3)) : fixed(value, 3)),
+          effect: effectOf(say.alphaEffects[model][index]),
           role: 'prediction',
           off,
           pick: isolated ? isolateButton(index, !off, isolate) : undefined,
@@ -121,6 +124,11 @@ export function noiseControls(config, chosen, { change, commit, isolate }) {
   `;
 }
 
+/** @param {string[]} effect the noise that an α feeds, and what that does to the picture */
+function effectOf([path, picture]) {
+  return html`<span class="path">${path}:</span> ${picture}.`;
+}
+
 /**
  * @param {number} index
  * @param {boolean} checked
@@ -131,7 +139,7 @@ function isolateButton(index, checked, isolate) {
     <input
       type="radio"
       name="isolate"
-      aria-label="Only ${alphaName(index)}"
+      aria-label=${words.banana.only(alphaName(index))}
       .checked=${live(checked)}
       @change=${() => isolate(index)}
     />

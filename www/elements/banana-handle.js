@@ -5,6 +5,7 @@
  */
 
 import { html } from 'lit';
+import { words } from '../messages/registry.js';
 import { fixed } from '../ui/format.js';
 import { COMMAND_SLIDERS } from './banana-words.js';
 
@@ -36,17 +37,18 @@ export class ArcHandle {
 
   /** @param {import('../types.d.ts').Command} command */
   render({ v, omega }) {
+    const say = words.banana;
     return html`<div
       class="handle"
       role="slider"
       tabindex="0"
-      aria-label="End of the commanded arc"
-      aria-description="Arrow keys move it over the floor"
+      aria-label=${say.handle}
+      aria-description=${say.handleKeys}
       aria-valuemin=${OMEGA_RANGE.min}
       aria-valuemax=${OMEGA_RANGE.max}
       aria-valuenow=${omega}
       aria-valuetext="v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s"
-      title="Drag the end of the arc"
+      title=${say.handleTitle}
       @pointerdown=${this.#hold}
       @pointermove=${this.#drag}
       @pointerup=${this.#release}

@@ -6,8 +6,9 @@
  */
 
 import { html, nothing } from 'lit';
+import { speak, words } from '../messages/registry.js';
 import { skewChart } from '../ui/chart.js';
-import { toggle } from '../ui/controls.js';
+import { rich, toggle } from '../ui/controls.js';
 import { DASHES } from '../ui/draw.js';
 import { fixed } from '../ui/format.js';
 import { theme } from '../ui/theme.js';
@@ -18,24 +19,30 @@ import { markedRobot, readoutStyles, readouts, twistTable, workedExample } from 
 import { bananaStyles } from './banana-styles.js';
 import {
   COMMAND_SLIDERS,
-  CLOUD_WORDS,
-  OVERLAY_NAMES,
   SAMPLE_COUNTS,
   announcementOf,
   captionOf,
+  longestNote,
   noteOn,
   planeText,
   skewText,
   twistCaption,
   twistText,
 } from './banana-words.js';
+import { ALPHAS, ATTRIBUTES, OPENING_OVERLAYS, OVERLAYS, machineIn, openingOf } from './banana-settings.js';
 import { CloudElement } from './cloud.js';
+import { define } from './configurable.js';
+import { reserve } from './reserve.js';
+import { schemeStyles } from './scheme.js';
+import { object, subset, whole } from './state.js';
 
 /**
  * @typedef {import('../types.d.ts').BananaMachine} BananaMachine
  * @typedef {import('../types.d.ts').Motion} Motion
  * @typedef {import('../types.d.ts').Settings} Settings
+ * @typedef {import('../types.d.ts').ModelName} ModelName
  * @typedef {keyof typeof DASHES} Overlay
+ * @typedef {import('./stateful.js').State} State
  */
 
 /** How near to a sample the pointer must be to mark it, CSS pixels. */
@@ -47,19 +54,56 @@ const REACH = 14;
  */
 const CURVE_POINTS = 241;
 
-const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(OVERLAY_NAMES));
+const ROOM = reserve([[0, 240], [31, 214], [47, 172], [57, 105]]);
+
 const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
 
-/** @extends {CloudElement<BananaMachine, Settings>} */
+/**
+ * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
+ *
+ * Attributes and properties say what the figure shows, whoever has changed it. What is out of range is
+ * refused with a TypeError or RangeError that names the field, the value and what is allowed: a property
+ * throws it, an attribute reports it by `error`, and the last good value stays.
+ *
+ * @attr {"straight" | "gentle" | "hard" | "pivot"} preset - A command worth starting from; none where the command is another.
+ * @attr {"velocity" | "odometry"} model - Whose noise it is.
+ * @attr {"normal" | "triangular"} noise - Distribution of the noise.
+ * @attr {number} v - Commanded speed, m/s.
+ * @attr {number} omega - Commanded turn rate, rad/s, positive to the left.
+ * @attr {number} dt - Duration of the command, s.
+ * @attr {number} alpha1 - Noise parameter of the present model.
+ * @attr {number} alpha2 - Noise parameter of the present model.
+ * @attr {number} alpha3 - Noise parameter of the present model.
+ * @attr {number} alpha4 - Noise parameter of the present model.
+ * @attr {number} alpha5 - Noise parameter of the velocity model.
+ * @attr {number} alpha6 - Noise parameter of the velocity model.
+ * @attr {number} isolate - Index, from 1, of the only noise parameter in effect; none for all of them.
+ * @attr {number} samples - Robots in the whole cloud, 1 to 1 000 000.
+ * @attr {number} seed - The same seed is the same robots.
+ * @attr {string} overlays - Which of command, ellipse, linearized, exponential are drawn, with spaces between.
+ * @attr {"auto" | "light" | "dark"} theme - Auto, the default, is as the surroundings are.
+ * @attr {boolean} share - Keeps the state in the fragment of the page's address, and opens in the state that it carries.
+ *
+ * @fires load - The figure is ready.
+ * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run.
+ * @fires input - The reader has changed something, and may go on.
+ * @fires change - What the reader changed has come to rest.
+ * @fires {CustomEvent<Stats>} stats - There are fresh statistics; the detail has them.
+ *
+ * @extends {CloudElement<BananaMachine, Settings>}
+ */
 export class BananaMachineElement extends CloudElement {
-  static styles = [theme, readoutStyles, ...bananaStyles];
+  static styles = [theme, schemeStyles, ROOM, readoutStyles, ...bananaStyles];
+
+  static attributes = ATTRIBUTES;
+  static settings = ['command', 'alphas'];
 
   /** The α that Isolate leaves, from 0; remembered while Isolate is off. */
   #chosen = 3;
-  /** The robot that is marked in both views; −1 for none. */
-  #marked = -1;
-  /** @type {Record<Overlay, boolean>} */
-  #overlays = { command: true, ellipse: true, linearized: false, exponential: true };
+  /** The α's of either model: the machine tells those of the present one. @type {Partial<Record<ModelName, number[]>>} */
+  #alphas = {};
+  /** Those that are shown. @type {readonly Overlay[]} */
+  #overlays = OPENING_OVERLAYS;
   /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
   #figures;
   /** @type {Float64Array | undefined} skew against ω, which only a change of settings alters */
@@ -68,7 +112,7 @@ export class BananaMachineElement extends CloudElement {
   #twist = new TwistPicture();
   #handle = new ArcHandle({
     view: () => this.#plane.view,
-    end: () => this.#fresh().end,
+    end: () => this.attempt(() => this.#fresh().end) ?? [0, 0],
     reach: (x, y) => this.#reach(x, y),
     commit: () => this.commit(),
   });
@@ -85,15 +129,89 @@ export class BananaMachineElement extends CloudElement {
 
   /**
    * @param {Motion} motion
-   * @param {Partial<Settings>} [settings]
+   * @param {State} [state]
    */
-  createMachine(motion, settings) {
-    return new motion.BananaMachine(settings);
+  build(motion, state) {
+    const machine = machineIn(motion, state);
+    if (!state) this.#alphas = { odometry: this.opening(motion, { ...machine.config, model: 'odometry' }).alphas };
+    return machine;
+  }
+
+  /**
+   * @param {Motion} motion
+   * @param {Settings} config
+   */
+  opening(motion, config) {
+    return openingOf(motion, config);
   }
 
   machineReady() {
     this.#curve = undefined;
-    this.begin();
+    super.machineReady();
+  }
+
+  snapshot() {
+    const { model, noise, command, alphas, isolate } = /** @type {BananaMachine} */ (this.machine).config;
+    return {
+      ...super.snapshot(),
+      model,
+      noise,
+      command,
+      alphas: { ...this.#alphas, [model]: alphas },
+      isolate,
+      isolateChoice: this.#chosen + 1,
+      overlays: [...this.#overlays],
+    };
+  }
+
+  /**
+   * @param {State} present
+   * @param {State} given
+   */
+  completed(present, given) {
+    const { alphas = {} } = given;
+    const whole = super.completed(present, given);
+    return {
+      ...whole,
+      alphas: { ...present.alphas, ...object('state.alphas', alphas, Object.keys(ALPHAS)) },
+    };
+  }
+
+  /**
+   * @param {State} state
+   * @param {BananaMachine} machine
+   */
+  checked(state, machine) {
+    const { isolateChoice, overlays } = super.checked(state, machine);
+    whole('state.isolateChoice', isolateChoice, 1, ALPHAS.velocity);
+    return { ...state, overlays: subset('state.overlays', overlays, OVERLAYS) };
+  }
+
+  /** @param {State} state */
+  adopt(state) {
+    super.adopt(state);
+    this.#alphas = state.alphas;
+    this.#chosen = state.isolateChoice - 1;
+    this.#overlays = state.overlays;
+  }
+
+  get usual() {
+    return { overlays: OPENING_OVERLAYS };
+  }
+
+  /** Which overlays are drawn: some of "command", "ellipse", "linearized" and "exponential". */
+  get overlays() {
+    return [...this.#overlays];
+  }
+
+  set overlays(overlays) {
+    this.#overlays = /** @type {Overlay[]} */ (subset('overlays', overlays, OVERLAYS));
+    this.retell();
+  }
+
+  /** ξ along, lateral (m), heading (rad) of each robot shown; a copy. */
+  get twists() {
+    return this.ask((machine) => machine.twists);
   }
 
   /** @param {number} elapsed milliseconds */
@@ -102,9 +220,7 @@ export class BananaMachineElement extends CloudElement {
     if (!machine || !palette) return;
     this.configure();
     if (this.playing) this.growOn();
-    const figures = this.#fresh();
-    const marked = this.#inspection();
-    const scene = { ...figures, machine, overlays: this.#overlays, marked };
+    const scene = this.#scene(machine);
     let moving = false;
     for (const picture of [this.#plane, this.#twist]) {
       const canvas = this.#canvas(picture.name);
@@ -113,13 +229,50 @@ export class BananaMachineElement extends CloudElement {
       moving = picture.view.ease(elapsed, this.calm) || moving;
       picture.draw(canvas, scene, palette);
     }
-    this.#handle.place(this.renderRoot, figures.end);
+    this.#handle.place(this.renderRoot, scene.end);
     this.requestUpdate();
     if (moving || this.playing) this.wake();
   }
 
+  /** @param {BananaMachine} machine */
+  #scene(machine) {
+    const figures = this.#fresh();
+    const marked = this.#inspection();
+    const overlays = /** @type {Record<Overlay, boolean>} */ (
+      Object.fromEntries(OVERLAYS.map((name) => [name, this.#overlays.includes(name)]))
+    );
+    return { ...figures, machine, overlays, marked };
+  }
+
+  /** @returns {import('./export.js').Figure} */
+  figure() {
+    const { machine } = this;
+    if (!machine) return super.figure();
+    speak(this);
+    const palette = this.palette ?? this.look();
+    const scene = this.#scene(machine);
+    const { poses } = machine;
+    return {
+      canvas: this.#canvas('plane'),
+      palette,
+      paint: (surface) => {
+        this.#plane.prepare(surface);
+        this.#plane.fit(scene);
+        this.#plane.view.ease(0, true);
+        this.#plane.draw(surface, scene, palette);
+      },
+      settings: { element: this.localName, ...scene.config },
+      title: words.banana.title,
+      columns: ['x_m', 'y_m', 'theta_rad'],
+      row: (i) => [...poses.subarray(3 * i, 3 * i + 3)],
+      count: machine.shown,
+    };
+  }
+
   configured() {
     this.#curve = undefined;
+    const { model, alphas } = /** @type {BananaMachine} */ (this.machine).config;
+    this.#alphas = { ...this.#alphas, [model]: alphas };
   }
 
   /** The figures, with every change so far in effect. */
@@ -131,25 +284,19 @@ export class BananaMachineElement extends CloudElement {
 
   read() {
     if (!this.machine) return;
-    if (this.#marked >= this.machine.shown) this.#marked = -1;
+    if (this.markedIndex >= this.machine.shown) this.mark(-1);
     this.#curve ??= this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
     this.#figures = read(this.machine);
     this.stale = false;
     const { config, stats, note } = this.#figures;
     this.announce(() => announcementOf(config, stats, note));
-  }
-
-  /** @param {number} index −1 for none */
-  #mark(index) {
-    if (index === this.#marked) return;
-    this.#marked = index;
-    this.wake();
+    this.refreshed();
   }
 
   /** The marked robot, if it is among those shown. */
   #inspection() {
     const { machine } = this;
-    return machine && this.#marked >= 0 && this.#marked < machine.shown ? machine.inspect(this.#marked) : undefined;
+    return machine && this.markedIndex >= 0 && this.markedIndex < machine.shown ? machine.inspect(this.markedIndex) : undefined;
   }
 
   /**
@@ -160,10 +307,12 @@ export class BananaMachineElement extends CloudElement {
    * @param {number} y
    */
   #reach(x, y) {
-    if (!this.motion || !this.machine) return;
-    const { command } = this.wanted();
-    const { v, omega } = this.motion.commandReaching(x, y, command);
-    this.change({ command: { ...command, v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE) } });
+    this.attempt(() => {
+      if (!this.motion || !this.machine) return;
+      const { command } = this.wanted();
+      const { v, omega } = this.motion.commandReaching(x, y, command);
+      this.change({ command: { ...command, v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE) } });
+    });
   }
 
   /** @param {'plane' | 'twist'} name */
@@ -176,58 +325,66 @@ export class BananaMachineElement extends CloudElement {
    * @param {PointerEvent} event
    */
   #point(picture, event) {
-    if (!this.machine || this.#handle.held) return;
-    const index = picture.nearest(this.machine, event.offsetX, event.offsetY, REACH);
-    if (index >= 0 || event.type === 'pointerdown') this.#mark(index);
+    this.attempt(() => {
+      // A finger that moves scrolls the page; one that taps comes as a click.
+      if (!this.machine || this.#handle.held || (event.pointerType === 'touch' && event.type !== 'click')) return;
+      const index = picture.nearest(this.machine, event.offsetX, event.offsetY, REACH);
+      if (index >= 0 || event.type === 'click') this.mark(index);
+    });
   }
 
   renderWidget() {
     const { machine, motion } = this;
     if (!machine || !motion || !this.#figures || !this.#curve) return nothing;
     const { config, shown, stats, table, note, exactSkew } = this.#figures;
-    const overlays = OVERLAYS.filter((name) => this.#overlays[name]).map((name) => OVERLAY_NAMES[name]);
+    const say = words.banana;
+    const overlays = this.#overlays.map((name) => say.overlays[name]);
     return html`
-      <section class="machine" aria-label="The Banana Machine">
+      <section class="machine" aria-label=${say.title}>
         <div class="floor">
-          <div class="stage">
+          <div class="stage" part="picture">
             <canvas
               class="plane"
               role="img"
               aria-label=${planeText(config, stats, note, overlays)}
               @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
-              @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
+              @click=${(/** @type {PointerEvent} */ event) => this.#point(this.#plane, event)}
             ></canvas>
             ${this.#handle.render(config.command)}
-            <p class="caption ${note && 'note'}">${note || captionOf(stats)}</p>
+            <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
+              <span>${note || captionOf(stats)}</span>
+            </p>
           </div>
           ${this.#legend()} ${readouts(stats, config.samples)}
           ${markedRobot({
-            index: this.#marked,
+            index: this.markedIndex,
             shown,
             inspection: this.#inspection(),
-            mark: (index) => this.#mark(index),
+            mark: (index) => this.mark(index),
           })}
-          ${this.cloudControls(CLOUD_WORDS, SAMPLE_COUNTS)}
+          ${this.cloudControls(say.cloud, SAMPLE_COUNTS)}
         </div>
-        <div class="controls">
+        <div class="controls" part="controls">
           ${commandControls(config, motion.BananaMachine.presets, this.#actions)}
           ${noiseControls(config, Math.min(this.#chosen, config.alphas.length - 1), this.#actions)}
         </div>
-        <div class="figures">
+        <div class="figures" part="figures">
           <figure>
             <canvas
               class="twist"
               role="img"
               aria-label=${twistText(stats)}
               @pointermove=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
-              @pointerdown=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
+              @click=${(/** @type {PointerEvent} */ event) => this.#point(this.#twist, event)}
             ></canvas>
             <figcaption>${twistCaption(config, note)}</figcaption>
             ${twistTable(table, stats)}
           </figure>
           <figure>
             ${skewChart({
-              label: 'Exact cross-track skew against commanded ω, for the present noise',
+              label: say.chart,
+              axis: say.chartAxis,
+              marker: say.chartMarker,
               curve: this.#curve,
               min: OMEGA_RANGE.min,
               max: OMEGA_RANGE.max,
@@ -235,14 +392,11 @@ export class BananaMachineElement extends CloudElement {
               x: config.command.omega,
               y: exactSkew,
               measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
-              valueText: `ω = ${fixed(config.command.omega, 2)} rad/s, ${skewText(exactSkew)}`,
+              valueText: say.chartText(fixed(config.command.omega, 2), skewText(exactSkew)),
               move: (to) => this.change(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
               commit: () => this.commit(),
             })}
-            <figcaption>
-              Exact skew against commanded <i>ω</i>, and the robots’ own with its standard error.
-              The dashed line is any Gaussian in <i>(x, y)</i>.
-            </figcaption>
+            <figcaption>${rich(say.chartCaption)}</figcaption>
           </figure>
           ${workedExample(table, stats)}
         </div>
@@ -252,17 +406,18 @@ export class BananaMachineElement extends CloudElement {
   }
 
   #legend() {
-    return html`<div class="legend" role="group" aria-label="Overlays">
+    return html`<div class="legend" part="legend" role="group" aria-label=${words.banana.overlaysLabel}>
       ${OVERLAYS.map((name) =>
         toggle({
           label: html`<svg class="swatch ${name}" viewBox="0 0 30 8" aria-hidden="true">
               <line x1="1" x2="29" y1="4" y2="4" stroke-dasharray=${DASHES[name].join(' ')} />
             </svg>
-            <span>${OVERLAY_NAMES[name]}</span>`,
-          checked: this.#overlays[name],
+            <span>${words.banana.overlays[name]}</span>`,
+          checked: this.#overlays.includes(name),
           change: (checked) => {
-            this.#overlays[name] = checked;
-            this.wake();
+            this.#overlays = OVERLAYS.filter((each) => (each === name ? checked : this.#overlays.includes(each)));
+            this.touch();
+            this.rest();
           },
         }),
       )}
@@ -298,7 +453,4 @@ function clamp(value, { min, max }) {
   return Math.min(max, Math.max(min, value));
 }
 
-// A page may carry the script twice.
-if (!customElements.get('banana-machine')) {
-  customElements.define('banana-machine', BananaMachineElement);
-}
+define('banana-machine', BananaMachineElement);

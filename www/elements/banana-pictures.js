@@ -5,6 +5,7 @@
  * @module
  */
 
+import { words } from '../messages/registry.js';
 import { prepare } from '../ui/canvas.js';
 import {
   DASHES,
@@ -31,6 +32,7 @@ import { View, extentOf } from '../ui/view.js';
  * @typedef {import('../types.d.ts').Stats} Stats
  * @typedef {import('../types.d.ts').Table} Table
  * @typedef {import('../types.d.ts').ViewName} ViewName
+ * @typedef {import('../ui/canvas.js').Surface} Surface
  *
  * @typedef {object} Scene what both pictures are of
  * @property {BananaMachine} machine
@@ -77,7 +79,7 @@ class Picture {
   /**
    * Prepares a canvas for drawing in CSS pixels.
    *
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLCanvasElement | Surface} canvas
    */
   prepare(canvas) {
     const { context, ratio, font } = prepare(canvas, this.view);
@@ -164,7 +166,7 @@ export class PlanePicture extends Picture {
   }
 
   /**
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLCanvasElement | Surface} canvas
    * @param {Scene} scene
    * @param {Palette} palette
    */
@@ -210,7 +212,7 @@ export class PlanePicture extends Picture {
     const stride = Math.ceil(machine.shown / RAYS_AT_MOST);
     const headings = [];
     for (let i = 0; i < machine.shown; i += stride) headings.push(machine.heading(i));
-    const label = machine.shown === 1 ? '1 robot here' : `${whole(machine.shown)} robots here`;
+    const label = words.banana.robotsHere(machine.shown, whole(machine.shown));
     const [x, y] = machine.inspect(0).pose;
     drawHeap(context, this.view, palette, { x, y, headings, label, font: this.font });
   }
@@ -252,7 +254,7 @@ export class TwistPicture extends Picture {
   }
 
   /**
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLCanvasElement | Surface} canvas
    * @param {Scene} scene
    * @param {Palette} palette
    */
@@ -260,7 +262,7 @@ export class TwistPicture extends Picture {
     const context = this.prepare(canvas);
     const { view } = this;
     const { machine, config, contours, overlays, marked } = scene;
-    drawAxes(context, view, palette, { x: 'ξ along (m)', y: 'ξ heading (rad)', font: this.font });
+    drawAxes(context, view, palette, { x: words.banana.axisAlong, y: words.banana.axisHeading, font: this.font });
     clipped(context, view, () => {
       const [{ cov }] = twistMoments(scene);
       const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;

@@ -7,7 +7,8 @@
 
 import { css, html } from 'lit';
 import { live } from 'lit/directives/live.js';
-import { inputOf } from '../ui/controls.js';
+import { words } from '../messages/registry.js';
+import { inputOf, rich } from '../ui/controls.js';
 import { NOTHING, fixed, percent, significant, whole, withError } from '../ui/format.js';
 
 /**
@@ -35,32 +36,23 @@ export const readoutStyles = css`
 
   .readouts div {
     display: flex;
+    flex-wrap: wrap;
     justify-content: space-between;
     align-items: baseline;
-    gap: 1rem;
+    column-gap: 0.75rem;
     padding: 0.28rem 0;
     border-top: 1px solid var(--rule);
   }
 
-  .readouts dd {
-    margin: 0;
-    white-space: nowrap;
+  .readouts dt {
+    flex: 1;
+    min-width: min-content;
   }
 
-  @container (width < 43rem) {
-    /* As wide as its widest value: no row may grow and shrink with its number. */
-    .readouts div {
-      gap: 0.5rem;
-    }
-
-    .readouts dd {
-      min-width: 3.4rem;
-      text-align: right;
-    }
-
-    .readouts div:first-child dd {
-      min-width: 6.6rem;
-    }
+  .readouts dd {
+    margin: 0 0 0 auto;
+    text-align: right;
+    white-space: nowrap;
   }
 
   .marked {
@@ -133,17 +125,6 @@ export const readoutStyles = css`
     padding: 0.14rem 0 0.14rem 0.5rem;
   }
 
-  @container (width < 24rem) {
-    table {
-      font-size: 0.78rem;
-    }
-
-    :is(th, td):not(:first-child) {
-      padding-left: 0.4rem;
-      white-space: normal;
-    }
-  }
-
   :is(th, td):first-child {
     padding-left: 0;
   }
@@ -151,7 +132,34 @@ export const readoutStyles = css`
   thead th:not(:first-child),
   td {
     text-align: right;
-    white-space: nowrap;
+  }
+
+  /* The name of a row above its numbers, which have the whole width then. */
+  @container (width < 26rem) {
+    table {
+      font-size: 0.82rem;
+    }
+
+    table :is(caption, thead, tbody) {
+      display: block;
+    }
+
+    tr {
+      display: flex;
+      flex-wrap: wrap;
+    }
+
+    tr > :is(th, td) {
+      flex: 1;
+      min-width: 0;
+      padding-left: 0.3rem;
+      overflow-wrap: anywhere;
+    }
+
+    tr > :first-child {
+      flex-basis: 100%;
+      padding-left: 0;
+    }
   }
 `;
 
@@ -160,19 +168,27 @@ export const readoutStyles = css`
  * @param {number} samples robots in the whole cloud
  */
 export function readouts(stats, samples) {
-  const rows = [
-    ['cross-track skew ± standard error', withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3)],
-    ['skew, exponential-coordinate Gaussian', fixed(stats.gaussianSkew, 3)],
-    [html`skew, any Gaussian in <i>(x, y)</i>`, '0'],
-    [html`<i>ρ</i>(cross-track, heading)`, fixed(stats.rhoCrossHeading, 3)],
-    [html`robots shown, <i>n</i> of <i>N</i>`, `${whole(stats.n)} of ${whole(samples)}`],
-    ['inside 2σ, exponential coordinates', percent(stats.coverage.exponential)],
-    [html`inside 2σ, Gaussian in <i>(x, y)</i>`, percent(stats.coverage.ellipse)],
-    ['inside 2σ, nominal', percent(NOMINAL)],
-  ];
+  const all = whole(samples);
+  const say = words.banana.readouts;
+  const { nOfAll } = words.banana;
+  return readoutList([
+    [say.skew, withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3), withError(-1, 1, 3)],
+    [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
+    [say.plane, '0'],
+    [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
+    [say.robots, nOfAll(whole(stats.n), all), nOfAll(all, all)],
+    [say.exponential, percent(stats.coverage.exponential), percent(1)],
+    [say.ellipse, percent(stats.coverage.ellipse), percent(1)],
+    [say.nominal, percent(NOMINAL)],
+  ]);
+}
+
+/** @param {[string, string, string?][]} rows name, value, and the longest value there is to keep room for */
+export function readoutList(rows) {
   return html`<dl class="readouts">
     ${rows.map(
-      ([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`,
+      ([name, value, room = value]) =>
+        html`<div><dt>${rich(name)}</dt><dd class="roomy" data-room=${room}>${value}</dd></div>`,
     )}
   </dl>`;
 }
@@ -189,7 +205,7 @@ export function readouts(stats, samples) {
 export function markedRobot({ index, shown, inspection, mark }) {
   return html`<p class="marked">
     <label>
-      Robot
+      ${words.banana.robot}
       <input
         id="robot"
         type="number"
@@ -209,7 +225,7 @@ export function markedRobot({ index, shown, inspection, mark }) {
         ? html`<span>${quantity('v̂', inspection.vHat, 'm/s')}</span>
             <span>${quantity('ω̂', inspection.omegaHat, 'rad/s')}</span>
             <span>${quantity('γ̂', inspection.gammaHat, 'rad/s')}</span>`
-        : html`<span class="hint">Point at one in either view to mark it in both.</span>`}
+        : html`<span class="hint">${words.banana.markHint}</span>`}
     </output>
   </p>`;
 }
@@ -237,11 +253,12 @@ const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 export function workedExample({ linearized, exact, measured }, stats) {
   const computed = [linearized, exact];
   const skew = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3);
+  const say = words.banana.table;
   /** @type {[unknown, (column: Table['exact']) => number, string?][]} */
   const rows = [
-    [html`mean <i>x</i>`, ({ mean }) => mean[0]],
-    [html`mean <i>y</i>`, ({ mean }) => mean[1]],
-    [html`mean <i>θ</i>`, ({ mean }) => mean[2]],
+    [rich(say.mean('*x*')), ({ mean }) => mean[0]],
+    [rich(say.mean('*y*')), ({ mean }) => mean[1]],
+    [rich(say.mean('*θ*')), ({ mean }) => mean[2]],
     [sigma('xx'), ({ cov }) => cov[0][0]],
     [sigma('yy'), ({ cov }) => cov[1][1]],
     [sigma('xy'), ({ cov }) => cov[0][1]],
@@ -249,12 +266,11 @@ export function workedExample({ linearized, exact, measured }, stats) {
     [sigma('yθ'), ({ cov }) => cov[1][2]],
     [sigma('θθ'), ({ cov }) => cov[2][2]],
     [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
-    ['cross-track skew', ({ crossTrackSkew }) => crossTrackSkew, skew],
+    [say.skew, ({ crossTrackSkew }) => crossTrackSkew, skew],
   ];
   return momentTable({
-    caption: `Moments of the pose: linearized at the command, exact, and measured on the robots shown.
-      Metres and radians.`,
-    columns: ['linearized', 'exact', 'measured'],
+    caption: say.caption,
+    columns: [say.linearized, say.exact, say.measured],
     rows: rows.map(([name, of, withItsError]) => [
       name,
       ...computed.map((column) => significant(of(column), DIGITS)),
@@ -268,19 +284,20 @@ export function workedExample({ linearized, exact, measured }, stats) {
  * @param {Stats} stats
  */
 export function twistTable({ tangent }, { exponential }) {
-  const rows = ['along', 'lateral', 'heading'].flatMap((axis, i) => {
-    /** @type {[unknown, (moments: import('../types.d.ts').Moments) => number][]} */
+  const say = words.banana.table;
+  const rows = say.axes.flatMap((axis, i) => {
+    /** @type {[string, (moments: import('../types.d.ts').Moments) => number][]} */
     const both = [
-      [html`mean <i>ξ</i> ${axis}`, ({ mean }) => mean[i]],
-      [html`variance of <i>ξ</i> ${axis}`, ({ cov }) => cov[i][i]],
+      [say.mean(axis), ({ mean }) => mean[i]],
+      [say.variance(axis), ({ cov }) => cov[i][i]],
     ];
     return both;
   });
   return momentTable({
-    caption: 'Moments in exponential coordinates: of the command with its noise, and measured.',
-    columns: ['command', 'measured'],
+    caption: say.twistCaption,
+    columns: [say.command, say.measured],
     rows: rows.map(([name, of]) => [
-      name,
+      rich(name),
       tangent === null ? NOTHING : significant(of(tangent), DIGITS),
       significant(of(exponential), MEASURED_DIGITS),
     ]),
@@ -295,7 +312,7 @@ function momentTable({ caption, columns, rows }) {
     <caption>${caption}</caption>
     <thead>
       <tr>
-        <th scope="col">quantity</th>
+        <th scope="col">${words.banana.table.quantity}</th>
         ${columns.map((name) => html`<th scope="col">${name}</th>`)}
       </tr>
     </thead>

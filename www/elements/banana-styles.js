@@ -93,11 +93,25 @@ const layout = css`
     background: var(--prior);
   }
 
-  /* It always has room for its longest sentence: nothing below may move under the finger. */
   .caption {
-    min-height: 2lh;
+    display: grid;
     margin: 0;
     padding: 0.25rem 0;
+  }
+
+  .caption > * {
+    grid-area: 1 / 1;
+  }
+
+  /* As a note has it, which is set in. */
+  .caption::after {
+    grid-area: 1 / 1;
+    height: auto;
+    padding-left: calc(0.8rem + 3px);
+  }
+
+  .caption.note::after {
+    padding-left: 0;
   }
 
   .note {
@@ -112,7 +126,6 @@ const layout = css`
 
   @container (max-width: 34rem) {
     .caption {
-      min-height: 3lh;
       font-size: 0.95rem;
       line-height: 1.25;
     }
@@ -157,23 +170,6 @@ const layout = css`
     align-items: center;
     gap: 0.5rem;
     margin-bottom: 0.7rem;
-  }
-
-  .choices {
-    display: grid;
-    grid-template-columns: 6.5rem auto 1fr;
-    align-items: center;
-    column-gap: 1rem;
-  }
-
-  @container (width < 19rem) {
-    .choices {
-      grid-template-columns: repeat(auto-fill, minmax(7rem, 1fr));
-    }
-
-    .choices > span {
-      grid-column: 1 / -1;
-    }
   }
 
   .alphas > .toggle {
@@ -222,7 +218,7 @@ const layout = css`
       }
 
       /* What has the focus stays clear of the floor above it. */
-      :is(button, input, .chart-marker) {
+      :is(button, input, summary, textarea, .chart-marker) {
         scroll-margin-top: calc(38svh + 6.5rem);
       }
     }

@@ -1,6 +1,6 @@
 /**
  * One animation-frame loop for every element of the page. It runs while some element has asked for
- * a frame and stops when none has.
+ * a frame and the page is in sight, and stops when none has.
  *
  * @module
  */
@@ -22,10 +22,7 @@ let running = false;
  */
 export function wake(element) {
   waiting.add(element);
-  if (running) return;
-  running = true;
-  previous = performance.now();
-  requestAnimationFrame(run);
+  if (!running) start();
 }
 
 /** @param {Animated} element */
@@ -33,12 +30,29 @@ export function sleep(element) {
   waiting.delete(element);
 }
 
+function start() {
+  if (document.hidden) {
+    document.addEventListener('visibilitychange', start, { once: true });
+    return;
+  }
+  if (running || waiting.size === 0) return;
+  running = true;
+  previous = performance.now();
+  requestAnimationFrame(run);
+}
+
 /** @param {number} now */
 function run(now) {
+  running = false;
+  if (document.hidden) {
+    start();
+    return;
+  }
   const elapsed = Math.min(LONGEST_STEP, Math.max(0, now - previous));
   previous = now;
   const due = [...waiting];
   waiting.clear();
+  running = true;
   for (const element of due) element.frame(elapsed);
   running = waiting.size > 0;
   if (running) requestAnimationFrame(run);

@@ -6,17 +6,15 @@
  */
 
 import { html, nothing } from 'lit';
-import { button, choice, inputOf, radioGroup, sliderRow, toggle } from '../ui/controls.js';
+import { words } from '../messages/registry.js';
+import { button, choice, inputOf, radioGroup, rich, sliderRow, toggle } from '../ui/controls.js';
 import { fixed } from '../ui/format.js';
 import { EXTENSIONS } from './map-squeeze-files.js';
 import {
   CLEARANCE_SLIDER,
   COMMAND_SLIDERS,
   NOISE_SLIDER,
-  PRESET_LABELS,
   SAMPLERS,
-  SAMPLER_EFFECTS,
-  SAMPLER_LABELS,
   STEPS_SLIDER,
 } from './map-squeeze-words.js';
 
@@ -52,16 +50,15 @@ const EXAMPLE = `{
 export function placeControls({ start }, { own, close, look }, presets, go) {
   const there = (/** @type {Settings['start']} */ { x, y, theta }) =>
     !own && start.x === x && start.y === y && start.theta === theta;
+  const say = words.squeeze;
   return html`<fieldset>
-    <legend>Place</legend>
+    <legend>${say.place}</legend>
     <div class="buttons">
       ${presets.map((preset) =>
-        button(PRESET_LABELS[preset.name], () => go(preset.start), { pressed: there(preset.start) }),
+        button(say.presets[preset.name], () => go(preset.start), { pressed: there(preset.start) }),
       )}
     </div>
-    ${radioGroup('View', 'view', ['whole map', 'close-up'], close ? 'close-up' : 'whole map', (name) =>
-      look(name === 'close-up'),
-    )}
+    ${radioGroup(say.view, 'view', say.views, close ? 'close' : 'whole', (name) => look(name === 'close'))}
   </fieldset>`;
 }
 
@@ -74,31 +71,34 @@ export function judgeControls({ conditioned, sampler, steps }, { change, commit 
     change(settings);
     commit();
   };
+  const say = words.squeeze;
   return html`<fieldset class="judge">
     <legend>
-      Map
-      ${toggle({ label: 'Condition on it', checked: conditioned, change: (on) => now({ conditioned: on }) })}
+      ${say.map}
+      ${toggle({ label: say.condition, checked: conditioned, change: (on) => now({ conditioned: on }) })}
     </legend>
-    <div class="samplers" role="radiogroup" aria-label="Sampler" aria-describedby="sampler-effect">
+    <div class="samplers" role="radiogroup" aria-label=${say.sampler} aria-describedby="sampler-effect">
       ${SAMPLERS.map((name) =>
         choice({
           group: 'sampler',
-          label: SAMPLER_LABELS[name],
+          label: say.samplers[name],
           checked: name === sampler,
           choose: () => now({ sampler: name }),
         }),
       )}
     </div>
     <p class="effect" id="sampler-effect">
-      ${conditioned ? SAMPLER_EFFECTS[sampler] : 'Off: every draw is kept, wherever it ends.'}
+      ${rich(say.samplerEffects[conditioned ? sampler : 'off'])}
     </p>
     ${sampler === 'sub-stepped'
       ? sliderRow({
           ...STEPS_SLIDER,
           id: 'steps',
           symbol: html`<i>k</i>`,
+          name: say.steps,
+          effect: rich(say.effects.steps),
           value: steps,
-          shown: String(steps),
+          show: String,
           role: 'prediction',
           off: !conditioned,
           input: (value) => change({ steps: value }),
@@ -114,16 +114,18 @@ export function judgeControls({ conditioned, sampler, steps }, { change, commit 
  * @param {Actions} actions
  */
 export function motionControls({ command, alphas, clearance }, squeeze, { change, commit }) {
+  const say = words.squeeze;
   return html`<fieldset>
-    <legend>Command and noise</legend>
-    ${COMMAND_SLIDERS.map(({ key, symbol, unit, effect, ...range }) =>
+    <legend>${say.commandAndNoise}</legend>
+    ${COMMAND_SLIDERS.map(({ key, symbol, name, unit, ...range }) =>
       sliderRow({
         ...range,
         id: key,
         symbol: html`<i>${symbol}</i>`,
+        name: words[name],
         value: command[key],
-        shown: `${fixed(command[key], 2)} ${unit}`,
-        effect,
+        show: (value) => `${fixed(value, 2)} ${unit}`,
+        effect: say.effects[key],
         role: 'prior',
         input: (value) => change(({ command }) => ({ command: { ...command, [key]: value } })),
         commit,
@@ -133,8 +135,10 @@ export function motionControls({ command, alphas, clearance }, squeeze, { change
       ...NOISE_SLIDER,
       id: 'noise',
       symbol: html`<i>n</i>`,
+      name: say.noise,
+      effect: rich(say.effects.noise),
       value: alphas[0],
-      shown: fixed(alphas[0], 3),
+      show: (value) => fixed(value, 3),
       role: 'prediction',
       input: (value) => change({ alphas: [...squeeze.alphasOfNoise(value)] }),
       commit,
@@ -143,8 +147,10 @@ export function motionControls({ command, alphas, clearance }, squeeze, { change
       ...CLEARANCE_SLIDER,
       id: 'clearance',
       symbol: html`<i>r</i>`,
+      name: say.clearance,
+      effect: say.effects.clearance,
       value: clearance,
-      shown: `${fixed(clearance, 2)} m`,
+      show: (value) => `${fixed(value, 2)} m`,
       role: 'truth',
       input: (value) => change({ clearance: value }),
       commit,
@@ -162,14 +168,12 @@ export function motionControls({ command, alphas, clearance }, squeeze, { change
  * @param {() => void} panel.leave back to the apartment
  */
 export function ownMap({ map, own, complaint, choose, paste, leave }) {
+  const say = words.squeeze.own;
   return html`<fieldset class="own-map">
-    <legend>A map of your own</legend>
+    <legend>${say.legend}</legend>
     <div>
-      <p>
-        Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS
-        map_server, its YAML file and its PGM or PNG image together. They do not leave this device.
-      </p>
-      <label for="map-files">Map files</label>
+      <p>${say.text}</p>
+      <label for="map-files">${say.files}</label>
       <input
         id="map-files"
         type="file"
@@ -184,12 +188,12 @@ export function ownMap({ map, own, complaint, choose, paste, leave }) {
       />
       <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>
-      ${own ? button('Back to the apartment', leave) : nothing}
+      ${own ? button(say.leave, leave) : nothing}
     </div>
     <div>
-      <label for="map-text">Or a floor plan here, in metres</label>
+      <label for="map-text">${say.plan}</label>
       <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE}></textarea>
-      ${button('Use this plan', paste)}
+      ${button(say.use, paste)}
     </div>
   </fieldset>`;
 }

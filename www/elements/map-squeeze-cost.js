@@ -32,7 +32,7 @@ const MOST_SAMPLES = 100_000;
  * @param {MapSqueeze} machine
  * @param {SamplerName} sampler
  * @param {number} parts of the command
- * @returns {Generator<undefined, Cost | string>} the cost, or why there is none
+ * @returns {Generator<undefined, Cost | 'wedged' | 'few'>} the cost, or why there is none
  */
 function* measuring(machine, sampler, parts) {
   const most = Math.floor(MOST_SAMPLES / parts);
@@ -63,13 +63,13 @@ function* measuring(machine, sampler, parts) {
     }
   } catch (error) {
     if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
-    return count === 1 ? 'wedged: not one is accepted' : 'too few are accepted to time';
+    return count === 1 ? 'wedged' : 'few';
   }
 }
 
 /** Measures the samplers one after the other when things have come to rest, and tells of each. */
 export class CostMeter {
-  /** @type {Partial<Record<SamplerName, Cost | string>>} as last measured, or why there is none */
+  /** @type {Partial<Record<SamplerName, Cost | 'wedged' | 'few'>>} as last measured, or why there is none */
   costs = {};
   /** Whether the costs are those of the present settings. */
   current = false;

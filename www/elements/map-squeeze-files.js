@@ -4,10 +4,10 @@
  * @module
  */
 
-import { YAMLException, load as parseYaml } from 'js-yaml';
 import { LONGEST_SIDE } from '../ui/canvas.js';
 
 /**
+ * @typedef {import('../messages/registry.js').Messages['squeeze']['refused']} Refused
  * @typedef {import('../types.d.ts').MapSqueeze} MapSqueeze
  *
  * @typedef {object} OwnMap
@@ -17,12 +17,18 @@ import { LONGEST_SIDE } from '../ui/canvas.js';
  */
 
 /** One sentence that names the file, the line or field, and what was expected. */
-export class MapFileError extends Error {}
+export class MapFileError extends Error {
+  /** @param {(say: Refused) => string} sentence in the words of the time when it is shown */
+  constructor(sentence) {
+    super('The map is refused.');
+    this.sentence = sentence;
+  }
+}
 
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
 /** What a floor plan looks like. */
-const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in metres';
+const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
 
 /** Cells of a map at most, as for the core. */
 const MOST_PIXELS = 2 ** 24;
@@ -39,20 +45,16 @@ export async function readMapFiles(files) {
   const [plans, descriptions, images] = [named(/\.json$/i), named(/\.ya?ml$/i), named(/\.(pgm|png)$/i)];
   const stranger = files.find((file) => ![...plans, ...descriptions, ...images].includes(file));
   if (stranger) {
-    throw new MapFileError(
-      `${stranger.name}: this kind of file is not read; expected is a .json floor plan, ` +
-        'or a .yaml file together with its .pgm or .png image.',
-    );
+    throw new MapFileError((say) => say.kind(stranger.name));
   }
   const maps = plans.length + descriptions.length;
   if (maps > 1) {
     const names = [...plans, ...descriptions].map(({ name }) => name).join(', ');
-    throw new MapFileError(`${names}: these are ${maps} maps; expected is one at a time.`);
+    throw new MapFileError((say) => say.several(names, maps));
   }
   if (plans.length) return readPlan(plans[0].name, await textOf(plans[0]));
   if (descriptions.length) return readGrid(descriptions[0], images);
-  const name = images[0]?.name ?? 'No file';
-  throw new MapFileError(`${name}: an image alone has no scale; expected is its .yaml file together with it.`);
+  throw new MapFileError((say) => say.alone(images[0]?.name ?? say.noFile));
 }
 
 /**
@@ -67,7 +69,7 @@ async function bytesOf(part, name) {
     return await part.arrayBuffer();
   } catch (error) {
     const reason = error instanceof Error ? error.name : String(error);
-    throw new MapFileError(`${name}: the file cannot be read (${reason}); expected is one that is still there.`);
+    throw new MapFileError((say) => say.gone(name, reason));
   }
 }
 
@@ -81,18 +83,19 @@ async function textOf(file) {
  *
  * @param {string} name of the file
  * @param {string} text
- * @returns {OwnMap}
+ * @returns {Promise<OwnMap>}
  * @throws {MapFileError}
  */
-export function readPlan(name, text) {
-  const plan = parsed(name, text, 'JSON', PLAN_FORM);
+export async function readPlan(name, text) {
+  const plan = await parsed(name, text, 'JSON');
   return {
     name,
     apply: (machine) => {
       try {
         machine.setPlan(plan ?? null);
       } catch (error) {
-        throw new MapFileError(`${name}: ${complaint(error)}; a floor plan is ${PLAN_FORM}.`);
+        const reason = complaint(error);
+        throw new MapFileError((say) => say.plan(name, reason, PLAN_FORM));
       }
     },
   };
@@ -100,21 +103,24 @@ export function readPlan(name, text) {
 
 /**
  * What a text says. JSON is YAML too: the one parser forgives a trailing comma or a comment in a plan
- * written by hand, and knows the line of a mistake, which JSON.parse says in some browsers only.
+ * written by hand, and knows the line of a mistake, which JSON.parse says in some browsers only. It is
+ * as long as both widgets together, and loaded when the first map is opened.
  *
  * @param {string} name of the file
  * @param {string} text
  * @param {'JSON' | 'YAML'} language
- * @param {string} expected
- * @returns {unknown}
+ * @returns {Promise<unknown>}
  */
-function parsed(name, text, language, expected) {
+async function parsed(name, text, language) {
+  const { YAMLException, load: parseYaml } = await import('./yaml.js');
   try {
     return parseYaml(text);
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
-    const line = error.mark ? `, line ${error.mark.line + 1}` : '';
-    throw new MapFileError(`${name}${line}: this is not ${language} (${error.reason}); expected is ${expected}.`);
+    const line = error.mark ? error.mark.line + 1 : 0;
+    throw new MapFileError((say) =>
+      say.syntax(name, line, language, error.reason, language === 'JSON' ? say.planForm(PLAN_FORM) : say.yamlForm),
+    );
   }
 }
 
@@ -124,16 +130,16 @@ function parsed(name, text, language, expected) {
  * @returns {Promise<OwnMap>}
  */
 async function readGrid(file, images) {
-  const description = readDescription(file.name, await textOf(file));
+  const description = await readDescription(file.name, await textOf(file));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
-    throw new MapFileError(`${file.name}: image is ${path === undefined ? 'missing' : JSON.stringify(path)}; expected is the name of a .pgm or .png file.`);
+    throw new MapFileError((say) => say.image(file.name, path === undefined ? '' : JSON.stringify(path)));
   }
   const wanted = path.split(/[\\/]/).pop();
   const image = images.find(({ name }) => name === wanted);
   if (!image) {
-    const given = images.length ? ` (${images.map(({ name }) => name).join(', ')} came instead)` : '';
-    throw new MapFileError(`${file.name}: image names ${wanted}, which is not there${given}; expected are both files together.`);
+    const given = images.map(({ name }) => name).join(', ');
+    throw new MapFileError((say) => say.pair(file.name, wanted, given));
   }
   const pixels = /\.pgm$/i.test(image.name)
     ? new Uint8Array(await bytesOf(image, image.name))
@@ -144,7 +150,8 @@ async function readGrid(file, images) {
       try {
         machine.setGrid(description, pixels);
       } catch (error) {
-        throw new MapFileError(gridComplaint(file.name, image.name, error));
+        const reason = complaint(error);
+        throw new MapFileError((say) => gridComplaint(say, file.name, image.name, reason));
       }
     },
   };
@@ -156,12 +163,12 @@ const WORDS = new Map([['yes', true], ['on', true], ['no', false], ['off', false
 /**
  * @param {string} name of the file
  * @param {string} text
- * @returns {Record<string, unknown>}
+ * @returns {Promise<Record<string, unknown>>}
  */
-function readDescription(name, text) {
-  const description = parsed(name, text, 'YAML', 'one field a line, as in resolution: 0.05');
+async function readDescription(name, text) {
+  const description = await parsed(name, text, 'YAML');
   if (typeof description !== 'object' || description === null || Array.isArray(description)) {
-    throw new MapFileError(`${name}: there are no fields in it; expected are at least image, resolution and origin.`);
+    throw new MapFileError((say) => say.fields(name));
   }
   const fields = /** @type {Record<string, unknown>} */ (description);
   const { negate } = fields;
@@ -175,18 +182,16 @@ function readDescription(name, text) {
 async function readPng(file) {
   const header = new DataView(await bytesOf(file.slice(0, 24), file.name));
   const isPng = header.byteLength === 24 && header.getUint32(0) === 0x89504e47;
-  if (!isPng) throw new MapFileError(`${file.name}: its first bytes are not those of a PNG image; expected is PNG.`);
+  if (!isPng) throw new MapFileError((say) => say.noPng(file.name));
   // Looked at before it is unpacked: a small file may hold an enormous image.
   const [width, height] = [header.getUint32(16), header.getUint32(20)];
   if (Math.max(width, height) > LONGEST_SIDE || width * height > MOST_PIXELS) {
-    throw new MapFileError(
-      `${file.name}: width × height is ${width} × ${height}; expected are sides up to ${LONGEST_SIDE} and at most ${MOST_PIXELS} pixels.`,
-    );
+    throw new MapFileError((say) => say.large(file.name, `${width} × ${height}`, LONGEST_SIDE, MOST_PIXELS));
   }
   try {
     return await decoded(file, width, height);
   } catch {
-    throw new MapFileError(`${file.name}: the image data cannot be decoded; expected is a complete PNG image.`);
+    throw new MapFileError((say) => say.broken(file.name));
   }
 }
 
@@ -228,17 +233,16 @@ async function decoded(file, width, height) {
 }
 
 /**
+ * @param {Refused} say
  * @param {string} description name of the YAML file
  * @param {string} image name of the image file
- * @param {unknown} error
+ * @param {string} reason
  */
-function gridComplaint(description, image, error) {
-  const text = complaint(error);
-  const line = /^line (\d+): (.*)$/.exec(text);
-  if (line) return `${image}, line ${line[1]}: ${line[2]}.`;
-  if (text.startsWith('image')) return `${image}: ${text}.`;
-  if (text.startsWith('walls')) return `${image}: its occupied cells have too many sides: ${text}.`;
-  return `${description}: ${text}.`;
+function gridComplaint(say, description, image, reason) {
+  const line = /^line (\d+): (.*)$/.exec(reason);
+  if (line) return say.line(image, line[1], line[2]);
+  if (reason.startsWith('image')) return `${image}: ${reason}.`;
+  return reason.startsWith('walls') ? say.cells(image, reason) : `${description}: ${reason}.`;
 }
 
 /** @param {unknown} error of the core, which names a field and what is allowed */

@@ -6,6 +6,7 @@
  */
 
 import { html } from 'lit';
+import { words } from '../messages/registry.js';
 import { fixed } from '../ui/format.js';
 import { turnDistance } from './map-squeeze-picture.js';
 
@@ -44,21 +45,21 @@ export class RobotHandles {
 
   /** @param {Pose} start */
   render({ x, y, theta }) {
-    const place = `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`;
+    const say = words.squeeze;
     const heading = `${fixed(theta, 2)} rad`;
     return [
       this.#handle('body', {
-        name: 'Robot',
-        keys: 'Arrow keys move it; [ and ], or Shift with an arrow key, turn it',
-        title: 'Drag the robot',
+        name: say.robot,
+        keys: say.robotKeys,
+        title: say.robotTitle,
         range: this.#range(),
         now: x,
-        text: place,
+        text: say.robotText(fixed(x, 2), fixed(y, 2)),
       }),
       this.#handle('turn', {
-        name: 'Heading of the robot',
-        keys: 'Arrow keys turn it',
-        title: 'Turn the robot',
+        name: say.heading,
+        keys: say.headingKeys,
+        title: say.headingTitle,
         range: [-Math.PI, Math.PI],
         now: theta,
         text: heading,

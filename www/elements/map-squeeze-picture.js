@@ -102,7 +102,7 @@ export class FloorPicture {
   }
 
   /**
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLCanvasElement | import('../ui/canvas.js').Surface} canvas
    * @param {Scene} scene
    * @param {Palette} palette
    * @param {number} elapsed milliseconds since the frame before

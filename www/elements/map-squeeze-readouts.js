@@ -7,10 +7,12 @@
 
 import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
+import { words } from '../messages/registry.js';
 import { inputOf } from '../ui/controls.js';
 import { fixed, percent, rounded, whole } from '../ui/format.js';
+import { readoutList } from './banana-readouts.js';
 import { DEMAND } from './map-squeeze-cost.js';
-import { NOT_FREE, SAMPLERS, SAMPLER_LABELS, keptWords, shareOf } from './map-squeeze-words.js';
+import { SAMPLERS, keptWords, shareOf } from './map-squeeze-words.js';
 
 /**
  * @typedef {import('../types.d.ts').SqueezeSettings} Settings
@@ -25,32 +27,36 @@ import { NOT_FREE, SAMPLERS, SAMPLER_LABELS, keptWords, shareOf } from './map-sq
  */
 export function key(config) {
   const { kept, through } = keptWords(config);
+  const { rejected, key: say } = words.squeeze;
   return html`<ul class="key">
     <li>
       <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
-      rejected
+      ${rejected}
     </li>
     <li>
       <svg class="accepted" viewBox="0 0 36 20" aria-hidden="true">
         <circle cx="14" cy="10" r="2" /><path d="M14 10h12" />
       </svg>
-      ${kept}, with its heading
+      ${say.accepted(kept)}
     </li>
     <li>
       <svg class="through" viewBox="0 0 36 20" aria-hidden="true">
         <path d="M1 18Q14 16 26 8" opacity="0.5" />
         <circle class="dot" cx="26" cy="8" r="2.5" /><circle cx="26" cy="8" r="6" />
       </svg>
-      <span>${through}: the way it took, the thin line, is not free, it ${NOT_FREE}</span>
+      <span>${say.through(through)}</span>
     </li>
     <li>
       <svg class="commanded" viewBox="0 0 36 20" aria-hidden="true">
         <path d="M2 10h24" /><circle cx="26" cy="10" r="7" stroke-width="1.5" stroke-dasharray="3 3" />
       </svg>
-      the command without noise
+      ${say.commanded}
     </li>
   </ul>`;
 }
+
+/** The share that is longest in print. @type {Pick<Stats, 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} */
+const CERTAIN = { throughWallRate: 1, throughWallInterval: [1, 1], gaveUp: false };
 
 /**
  * @param {Stats} stats
@@ -60,20 +66,18 @@ export function key(config) {
 export function tally(stats, config, paths) {
   const { kept, through } = keptWords(config);
   const share = shareOf(stats, config);
-  const parts = config.sampler === 'sub-stepped' ? ' of a part' : '';
-  const rows = [
-    ['drawn', whole(stats.drawn)],
-    [kept, whole(stats.accepted)],
-    [`acceptance rate${parts}`, percent(stats.acceptanceRate)],
-    [`draws per ${kept} sample`, fixed(stats.drawsPerAccepted, 2)],
-    [through, whole(stats.throughWall)],
-    [`share of the ${kept}${share.interval ? ' (95 %)' : ''}`, share.text],
-    ['of these, drawn with their path', paths < stats.throughWall ? `the first ${whole(paths)}` : whole(paths)],
-    [`wall tests per ${kept} sample`, fixed(stats.wallTestsPerAccepted, 2)],
-  ];
-  return html`<dl class="readouts">
-    ${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
-  </dl>`;
+  const all = whole(config.samples);
+  const say = words.squeeze.tally;
+  return readoutList([
+    [say.drawn, whole(stats.drawn), all],
+    [kept, whole(stats.accepted), all],
+    [config.sampler === 'sub-stepped' ? say.rateOfParts : say.rate, percent(stats.acceptanceRate), percent(1)],
+    [say.draws(kept), fixed(stats.drawsPerAccepted, 2)],
+    [through, whole(stats.throughWall), all],
+    [say.share(kept) + (share.interval ? say.interval : ''), share.text, shareOf(CERTAIN, config).text],
+    [say.paths, paths < stats.throughWall ? say.first(whole(paths)) : whole(paths)],
+    [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2)],
+  ]);
 }
 
 /**
@@ -88,7 +92,7 @@ export function tally(stats, config, paths) {
 export function markedDraw({ index, shown, verdict, mark }) {
   return html`<p class="marked">
     <label>
-      Sample
+      ${words.squeeze.sample}
       <input
         id="sample"
         type="number"
@@ -103,7 +107,7 @@ export function markedDraw({ index, shown, verdict, mark }) {
       />
     </label>
     <output for="sample">
-      ${verdict || html`<span class="hint">Point at one to see its path and the verdict on it.</span>`}
+      ${verdict || html`<span class="hint">${words.squeeze.markHint}</span>`}
     </output>
   </p>`;
 }
@@ -113,31 +117,28 @@ export function markedDraw({ index, shown, verdict, mark }) {
  * @param {number} steps parts of the sub-stepped sampler
  */
 export function costTable({ costs, current }, steps) {
+  const { samplers, costs: say } = words.squeeze;
   const name = (/** @type {import('../types.d.ts').SamplerName} */ sampler) =>
-    sampler === 'sub-stepped' ? html`sub-stepped, <i>k</i> = ${steps}` : SAMPLER_LABELS[sampler];
+    sampler === 'sub-stepped' ? html`${samplers[sampler]}, <i>k</i> = ${steps}` : samplers[sampler];
   return html`<div class="table" aria-busy=${!current}>
     <table class=${current ? '' : 'outdated'}>
-      <caption>
-        One accepted sample of each sampler under the settings above, timed on this device when
-        nothing moves; and the share of one core that 2000 particles at 20 Hz would take. All is from
-        this one pose, and repeated runs differ by several per cent.
-      </caption>
+      <caption>${say.caption}</caption>
       <thead>
         <tr>
-          <th scope="col">sampler</th>
-          <th scope="col">draws</th>
-          <th scope="col">wall tests</th>
+          <th scope="col">${say.sampler}</th>
+          <th scope="col">${say.draws}</th>
+          <th scope="col">${say.tests}</th>
           <th scope="col">µs</th>
-          <th scope="col">of a core</th>
+          <th scope="col">${say.core}</th>
         </tr>
       </thead>
       <tbody>
         ${SAMPLERS.map((sampler) => {
-          const cost = costs[sampler] ?? 'not yet measured';
+          const cost = costs[sampler] ?? 'none';
           return html`<tr>
             <th scope="row">${name(sampler)}</th>
             ${typeof cost === 'string'
-              ? html`<td colspan="4">${cost}</td>`
+              ? html`<td colspan="4">${say[cost]}</td>`
               : html`<td>${fixed(cost.draws, 2)}</td>
                   <td>${fixed(cost.wallTests, 2)}</td>
                   <td>${rounded(cost.micros, 2)}</td>

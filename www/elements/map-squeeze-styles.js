@@ -26,8 +26,8 @@ const layout = css`
     margin: 1.5rem 0 0;
   }
 
-  .own-map legend {
-    grid-column: 1 / -1;
+  .own-map > * {
+    grid-column: auto;
   }
 
   @container (min-width: 56rem) {
@@ -139,19 +139,8 @@ const layout = css`
     line-height: 1.25;
   }
 
-  @container (width >= 19rem) {
-    .choices {
-      grid-template-columns: 3rem auto 1fr;
-    }
-  }
-
-  /* A share with its interval is longer than a phone is wide. */
-  .readouts div {
-    flex-wrap: wrap;
-  }
-
-  .readouts dd {
-    margin-left: auto;
+  .choices {
+    --name: 3rem;
   }
 
   table.outdated tbody {

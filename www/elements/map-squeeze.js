@@ -5,54 +5,97 @@
  */
 
 import { html, nothing } from 'lit';
+import { speak, words } from '../messages/registry.js';
 import { theme } from '../ui/theme.js';
-import { CloudElement } from './cloud.js';
+import { CloudElement, showOnly } from './cloud.js';
+import { define } from './configurable.js';
 import { judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
 import { CostMeter } from './map-squeeze-cost.js';
+import { applyMap, mapData } from './map-squeeze-data.js';
 import { MapFileError, readMapFiles, readPlan } from './map-squeeze-files.js';
 import { RobotHandles } from './map-squeeze-handles.js';
 import { FloorPicture, sort } from './map-squeeze-picture.js';
 import { costTable, key, markedDraw, tally } from './map-squeeze-readouts.js';
 import { squeezeStyles } from './map-squeeze-styles.js';
 import {
-  CLOUD_WORDS,
   SAMPLERS,
   SAMPLE_COUNTS,
+  VERDICT,
   announcementOf,
   mapText,
   noteOn,
   pictureText,
   verdictText,
 } from './map-squeeze-words.js';
+import { ATTRIBUTES, VIEWS, findRoom, machineIn, openingOf } from './map-squeeze-settings.js';
+import { reserve } from './reserve.js';
+import { schemeStyles } from './scheme.js';
+import { word } from './state.js';
 
 /**
  * @typedef {import('../types.d.ts').MapSqueeze} MapSqueeze
  * @typedef {import('../types.d.ts').Motion} Motion
  * @typedef {import('../types.d.ts').SqueezeSettings} Settings
+ * @typedef {import('../types.d.ts').MapData} MapData
  * @typedef {import('./map-squeeze-files.js').OwnMap} OwnMap
+ * @typedef {import('./stateful.js').State} State
  */
 
 /** How near to a sample the pointer must be to mark it, CSS pixels. */
 const REACH = 12;
 
+const ROOM = reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]);
+
 /** Paths drawn at most: more would be one blot, and cost more than a frame. */
 const MOST_PATHS = 150;
 
-const APARTMENT = 'The apartment';
-
-/** @extends {CloudElement<MapSqueeze, Settings>} */
+/**
+ * Motion conditioned on a map, and what the condition cannot see.
+ *
+ * Attributes and properties say what the figure shows, whoever has changed it. What is out of range is
+ * refused with a TypeError or RangeError that names the field, the value and what is allowed: a property
+ * throws it, an attribute reports it by `error`, and the last good value stays.
+ *
+ * @attr {"doorway" | "wall" | "corridor"} preset - A place in the apartment to start from; none elsewhere.
+ * @attr {number} x - Where the robot starts, m.
+ * @attr {number} y - Where the robot starts, m.
+ * @attr {number} theta - Its heading there, rad.
+ * @attr {number} v - Commanded speed, m/s.
+ * @attr {number} omega - Commanded turn rate, rad/s, positive to the left.
+ * @attr {number} dt - Duration of the command, s.
+ * @attr {number} noise - Level n: the first four noise parameters are n, the others n/4.
+ * @attr {number} clearance - Radius of the robot, m.
+ * @attr {"true" | "false"} conditioned - Whether draws are judged by the map at all; they are unless it says false.
+ * @attr {"endpoint" | "whole-arc" | "sub-stepped"} sampler - How they are judged.
+ * @attr {number} steps - Parts of the command, for the sub-stepped sampler.
+ * @attr {number} samples - Motions tried, 1 to 1 000 000.
+ * @attr {number} seed - The same seed draws the same motions.
+ * @attr {"whole" | "close"} view - The whole map, or what is near the robot.
+ * @attr {"auto" | "light" | "dark"} theme - Auto, the default, is as the surroundings are.
+ * @attr {boolean} share - Keeps the state in the fragment of the page's address, and opens in the state that it carries.
+ *
+ * @fires load - The figure is ready.
+ * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run.
+ * @fires input - The reader has changed something, and may go on.
+ * @fires change - What the reader changed has come to rest.
+ * @fires {CustomEvent<SqueezeStats>} stats - There are fresh statistics; the detail has them.
+ *
+ * @extends {CloudElement<MapSqueeze, Settings>}
+ */
 export class MapSqueezeElement extends CloudElement {
-  static styles = [theme, ...squeezeStyles];
+  static styles = [theme, schemeStyles, ROOM, ...squeezeStyles];
 
-  /** The draw that is marked; −1 for none. */
-  #marked = -1;
+  static attributes = ATTRIBUTES;
+  static settings = ['start', 'command', 'alphas'];
+
   /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
   #figures;
-  /** @type {OwnMap | undefined} the reader's; none for the apartment */
-  #map;
+  /** The reader's own; null for the apartment. @type {MapData | null} */
+  #map = null;
   /** @type {import('../types.d.ts').Plan} */
   #plan = { bounds: new Float64Array(4), walls: new Float64Array() };
-  #complaint = '';
+  /** Why the latest map was refused. @type {(() => string) | undefined} */
+  #complaint;
   /** The latest attempt to read files: an earlier one that ends later is void. */
   #reading = 0;
   #close = false;
@@ -73,19 +116,106 @@ export class MapSqueezeElement extends CloudElement {
 
   /**
    * @param {Motion} motion
-   * @param {Partial<Settings>} [settings]
+   * @param {State} [state]
    */
-  createMachine(motion, settings) {
-    return new motion.MapSqueeze(settings);
+  build(motion, state) {
+    return machineIn(motion, state);
+  }
+
+  /** @param {Motion} motion */
+  opening(motion) {
+    return openingOf(motion);
   }
 
   machineReady() {
-    this.#marked = -1;
-    const { machine } = this;
-    if (!machine) return;
-    this.#map?.apply(machine);
-    this.#takePlan(machine);
-    this.begin();
+    this.#takePlan();
+    super.machineReady();
+  }
+
+  parting() {
+    super.parting();
+    this.#meter.outdate();
+  }
+
+  snapshot() {
+    const { start, command, alphas, clearance, conditioned, sampler, steps } = /** @type {MapSqueeze} */ (this.machine).config;
+    return {
+      ...super.snapshot(),
+      start,
+      command,
+      alphas,
+      clearance,
+      conditioned,
+      sampler,
+      steps,
+      view: this.view,
+      map: this.#map,
+    };
+  }
+
+  /**
+   * @param {State} state
+   * @param {MapSqueeze} machine
+   */
+  checked(state, machine) {
+    const { view, map } = super.checked(state, machine);
+    word('state.view', view, VIEWS);
+    return map === null ? state : { ...state, map: mapData(machine, map.name ?? '') };
+  }
+
+  /** @param {State} state */
+  adopt(state) {
+    super.adopt(state);
+    this.#close = state.view === 'close';
+    this.#map = state.map;
+    this.#complaint = undefined;
+    this.#takePlan();
+  }
+
+  get usual() {
+    return { preset: this.motion?.MapSqueeze.presets[0].name, view: 'whole' };
+  }
+
+  /** The place in the apartment that the robot starts from; null elsewhere. @returns {string | null} */
+  get preset() {
+    if (!this.machine || !this.motion) return /** @type {string | undefined} */ (this.wished('preset')) ?? null;
+    if (this.#map) return null;
+    const { x, y, theta } = this.wanted().start;
+    const holds = (/** @type {Settings['start']} */ start) => start.x === x && start.y === y && start.theta === theta;
+    return this.motion.MapSqueeze.presets.find(({ start }) => holds(start))?.name ?? null;
+  }
+
+  set preset(name) {
+    this.whenReady('preset', name, () => {
+      const { presets } = /** @type {Motion} */ (this.motion).MapSqueeze;
+      const known = word('preset', name, presets.map((preset) => preset.name));
+      this.attempt(() => this.#leaveOwn());
+      for (const preset of presets) if (preset.name === known) this.assign({ start: preset.start });
+    });
+  }
+
+  /** Whether the whole map is shown, or what is near the robot. @returns {'whole' | 'close'} */
+  get view() {
+    return this.#close ? 'close' : 'whole';
+  }
+
+  set view(view) {
+    this.#close = word('view', view, VIEWS) === 'close';
+    this.retell();
+  }
+
+  /** The map of the reader's own; null for the apartment. @returns {MapData | null} */
+  get map() {
+    return this.#map;
+  }
+
+  set map(map) {
+    this.whenReady('map', map, () => this.attempt(() => this.#put(map)));
+  }
+
+  /** A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted. */
+  get verdicts() {
+    return this.ask((machine) => machine.verdicts);
   }
 
   get complete() {
@@ -102,21 +232,51 @@ export class MapSqueezeElement extends CloudElement {
     if (!machine || !palette) return;
     this.configure();
     if (this.playing) this.growOn();
-    if (this.stale) this.read();
-
-    const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
-    const marked = this.#isMarked
-      ? { pose: figures.poses.subarray(3 * this.#marked), path: machine.path(this.#marked) }
-      : undefined;
-    this.#picture.close = this.#close;
-    const scene = { ...figures, marked };
+    const scene = this.#scene(machine);
     const moving = this.#picture.draw(this.#canvas, scene, palette, elapsed, {
       still: this.#handles.held !== undefined,
       atOnce: this.calm,
     });
-    this.#handles.place(this.renderRoot, figures.config.start, figures.config.clearance);
+    this.#handles.place(this.renderRoot, scene.config.start, scene.config.clearance);
     this.requestUpdate();
     if (moving || this.playing) this.wake();
+  }
+
+  /** @param {MapSqueeze} machine */
+  #scene(machine) {
+    this.configure();
+    if (this.stale) this.read();
+    const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
+    const marked = this.#isMarked
+      ? { pose: figures.poses.subarray(3 * this.markedIndex), path: machine.path(this.markedIndex) }
+      : undefined;
+    this.#picture.close = this.#close;
+    return { ...figures, marked };
+  }
+
+  /** @returns {import('./export.js').Figure} */
+  figure() {
+    const { machine } = this;
+    if (!machine) return super.figure();
+    speak(this);
+    const palette = this.palette ?? this.look();
+    const scene = this.#scene(machine);
+    const { poses, verdicts } = scene;
+    return {
+      canvas: this.#canvas,
+      palette,
+      paint: (surface) => {
+        this.#picture.draw(surface, scene, palette, 0, { still: false, atOnce: true });
+      },
+      settings: { element: this.localName, map: this.#map?.name ?? null, ...scene.config },
+      title: words.squeeze.title,
+      columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
+      row: (i) => [
+        ...poses.subarray(3 * i, 3 * i + 3),
+        ...[VERDICT.endFree, VERDICT.pathFree, VERDICT.accepted].map((bit) => Math.sign(verdicts[i] & bit)),
+      ],
+      count: verdicts.length,
+    };
   }
 
   read() {
@@ -126,6 +286,7 @@ export class MapSqueezeElement extends CloudElement {
     if (!this.playing && this.#handles.held === undefined) this.#measureSoon();
     const { config, stats, note } = this.#figures;
     this.announce(() => announcementOf(config, stats, note));
+    this.refreshed();
   }
 
   #measureSoon() {
@@ -138,7 +299,7 @@ export class MapSqueezeElement extends CloudElement {
 
   /** @param {Settings['start']} start in the apartment */
   #go(start) {
-    this.#leaveOwn();
+    this.attempt(() => this.#leaveOwn());
     this.change({ start });
     this.commit();
   }
@@ -151,17 +312,18 @@ export class MapSqueezeElement extends CloudElement {
   #leaveOwn() {
     const { machine } = this;
     if (!machine) return;
-    this.#complaint = '';
+    this.#complaint = undefined;
     if (!this.#map) return;
     machine.setPlan(undefined);
-    this.#map = undefined;
-    this.#takePlan(machine);
-    this.#marked = -1;
+    this.#map = null;
+    this.stale = true;
+    this.#takePlan();
+    this.mark(-1);
   }
 
   /**
-   * Puts the robot into a map of the reader's. A machine of its own tries it: the present one stays as
-   * it is where the map, or the place in it, is refused.
+   * Puts the robot into another map. A machine of its own tries it: the present one stays as it is where
+   * the map, or the place in it, is refused.
    *
    * @param {OwnMap} map
    */
@@ -169,14 +331,12 @@ export class MapSqueezeElement extends CloudElement {
     const { machine, motion } = this;
     if (!machine || !motion) return;
     this.configure();
-    const next = this.createMachine(motion, machine.config);
+    const next = this.build(motion, this.snapshot());
     try {
       map.apply(next);
       findRoom(next);
-      if (!this.complete) {
-        next.restart();
-        next.grow(machine.shown);
-      }
+      showOnly(next, this.asked);
+      this.#map = mapData(next, map.name);
     } catch (error) {
       next.free();
       throw error;
@@ -184,14 +344,23 @@ export class MapSqueezeElement extends CloudElement {
     this.#meter.outdate();
     machine.free();
     this.machine = next;
-    this.#map = map;
-    this.#complaint = '';
-    this.#takePlan(next);
-    this.#marked = -1;
+    this.stale = true;
+    this.#complaint = undefined;
+    this.#takePlan();
+    this.mark(-1);
   }
 
-  /** @param {MapSqueeze} machine */
-  #takePlan(machine) {
+  /** @param {MapData | null} map that the page gives */
+  #put(map) {
+    if (map === null) this.#leaveOwn();
+    else this.#enter({ name: map?.name ?? '', apply: (machine) => applyMap(machine, map) });
+    this.tell();
+    this.refresh();
+  }
+
+  #takePlan() {
+    const { machine } = this;
+    if (!machine) return;
     this.#plan = machine.plan;
     this.#picture = new FloorPicture(this.#plan, machine.grid);
   }
@@ -206,19 +375,23 @@ export class MapSqueezeElement extends CloudElement {
     try {
       const map = await find();
       if (reading !== this.#reading || !this.machine) return;
-      this.#enter(map);
+      this.attempt(() => this.#enter(map));
+      this.touch();
       this.commit();
     } catch (error) {
       if (reading !== this.#reading) return;
       const reason = error instanceof Error ? error.message : String(error);
-      this.#complaint = error instanceof MapFileError ? reason : `The map cannot be opened: ${reason}.`;
+      this.#complaint = () => {
+        const { refused } = words.squeeze;
+        return error instanceof MapFileError ? error.sentence(refused) : refused.cannot(reason);
+      };
       this.requestUpdate();
     }
   }
 
   #paste() {
     const field = /** @type {HTMLTextAreaElement} */ (this.renderRoot.querySelector('#map-text'));
-    this.#openMap(() => readPlan('Pasted plan', field.value));
+    this.#openMap(() => readPlan(words.squeeze.pasted, field.value));
   }
 
   /** @param {DragEvent} event */
@@ -245,24 +418,20 @@ export class MapSqueezeElement extends CloudElement {
     this.#openMap(() => readMapFiles(files));
   }
 
-  /** @param {number} index −1 for none */
-  #mark(index) {
-    if (index === this.#marked) return;
-    this.#marked = index;
-    this.wake();
-  }
-
   get #isMarked() {
-    return this.#marked >= 0 && this.#marked < (this.machine?.shown ?? 0);
+    return this.markedIndex >= 0 && this.markedIndex < (this.machine?.shown ?? 0);
   }
 
   /** @param {PointerEvent} event */
   #point(event) {
-    if (!this.machine || this.#handles.held) return;
-    const { view } = this.#picture;
-    const [x, y] = [view.toWorldX(event.offsetX), view.toWorldY(event.offsetY)];
-    const index = this.machine.nearest(x, y, REACH / view.scaleX);
-    if (index >= 0 || event.type === 'pointerdown') this.#mark(index);
+    this.attempt(() => {
+      // A finger that moves scrolls the page; one that taps comes as a click.
+      if (!this.machine || this.#handles.held || (event.pointerType === 'touch' && event.type !== 'click')) return;
+      const { view } = this.#picture;
+      const [x, y] = [view.toWorldX(event.offsetX), view.toWorldY(event.offsetY)];
+      const index = this.machine.nearest(x, y, REACH / view.scaleX);
+      if (index >= 0 || event.type === 'click') this.mark(index);
+    });
   }
 
   get #canvas() {
@@ -273,33 +442,34 @@ export class MapSqueezeElement extends CloudElement {
     const { machine, motion } = this;
     if (!machine || !motion || !this.#figures) return nothing;
     const { config, stats, note, verdicts, paths } = this.#figures;
-    const map = mapText(this.#map?.name ?? APARTMENT, this.#plan);
-    const own = this.#map !== undefined;
+    const map = mapText(this.#map ? this.#map.name || words.squeeze.pasted : words.squeeze.apartment, this.#plan);
+    const own = this.#map !== null;
     const look = (/** @type {boolean} */ close) => {
       this.#close = close;
-      this.wake();
+      this.touch();
+      this.rest();
     };
     return html`
       <section
         class="machine"
-        aria-label="Map Squeeze"
+        aria-label=${words.squeeze.title}
         @dragover=${this.#dragOver}
         @dragleave=${this.#dragLeave}
         @drop=${this.#drop}
       >
         <div class="floor">
           ${this.#stage(pictureText(config, stats, map, note))}
-          <p class="note" ?hidden=${note === ''}>${note}</p>
+          <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
           ${key(config)} ${tally(stats, config, paths.length)}
           ${markedDraw({
-            index: this.#marked,
+            index: this.markedIndex,
             shown: stats.attempts,
-            verdict: this.#isMarked ? verdictText(verdicts[this.#marked], config) : '',
-            mark: (index) => this.#mark(index),
+            verdict: this.#isMarked ? verdictText(verdicts[this.markedIndex], config) : '',
+            mark: (index) => this.mark(index),
           })}
-          ${this.cloudControls(CLOUD_WORDS, SAMPLE_COUNTS)}
+          ${this.cloudControls(words.squeeze.cloud, SAMPLE_COUNTS)}
         </div>
-        <div class="controls">
+        <div class="controls" part="controls">
           ${placeControls(config, { own, close: this.#close, look }, motion.MapSqueeze.presets, (start) => this.#go(start))}
           ${judgeControls(config, this.#actions)}
           ${motionControls(config, motion.MapSqueeze, this.#actions)} ${costTable(this.#meter, config.steps)}
@@ -307,7 +477,7 @@ export class MapSqueezeElement extends CloudElement {
         ${ownMap({
           map,
           own,
-          complaint: this.#complaint,
+          complaint: this.#complaint?.() ?? '',
           choose: (files) => this.#openMap(() => readMapFiles(files)),
           paste: () => this.#paste(),
           leave: () => this.#leaveMap(),
@@ -319,31 +489,17 @@ export class MapSqueezeElement extends CloudElement {
 
   /** @param {string} description */
   #stage(description) {
-    return html`<div class="stage">
+    return html`<div class="stage" part="picture">
       <canvas
         class="plane"
         role="img"
         aria-label=${description}
         @pointermove=${this.#point}
-        @pointerdown=${this.#point}
+        @click=${this.#point}
       ></canvas>
       ${this.#handles.render(this.wanted().start)}
     </div>`;
   }
-}
-
-/**
- * Moves the robot to where it fits. In an occupancy grid it does so anyhow: the unknown is free there,
- * so that a place which is free may lie outside of everything that was mapped.
- *
- * @param {MapSqueeze} machine
- */
-function findRoom(machine) {
-  if (machine.startFree && machine.grid === null) return;
-  const { freePoint, config, plan } = machine;
-  const [left, bottom, right, top] = plan.bounds;
-  const [x, y] = freePoint ?? [(left + right) / 2, (bottom + top) / 2];
-  machine.configure({ start: { ...config.start, x, y } });
 }
 
 /**
@@ -366,7 +522,4 @@ function read(machine) {
   };
 }
 
-// A page may carry the script twice.
-if (!customElements.get('map-squeeze')) {
-  customElements.define('map-squeeze', MapSqueezeElement);
-}
+define('map-squeeze', MapSqueezeElement);

@@ -4,8 +4,7 @@
  * @module
  */
 
-import { scaleLinear } from 'd3-scale';
-import { line } from 'd3-shape';
+import { ticks } from 'd3-array';
 import { css, html, nothing, svg } from 'lit';
 import { fixed, tick } from './format.js';
 
@@ -78,6 +77,8 @@ export const chartStyles = css`
 /**
  * @param {object} chart
  * @param {string} chart.label what a screen reader says of the chart
+ * @param {string} chart.axis the name of its y axis
+ * @param {string} chart.marker the name of the marker
  * @param {Float64Array} chart.curve values at even steps from `min` to `max`; NaN leaves a gap
  * @param {number} chart.min
  * @param {number} chart.max
@@ -98,9 +99,14 @@ export function skewChart(chart) {
   );
   const peak = points.reduce((most, [, value]) => Math.max(most, Math.abs(value) || 0), 0.1);
   const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;
-  const x = scaleLinear([min, max], [INSET.left, WIDTH - INSET.right]);
-  const y = scaleLinear([-half, half], [BOTTOM, INSET.top]);
-  const path = line(([at]) => x(at), ([, value]) => y(value)).defined(([, value]) => !Number.isNaN(value));
+  const [perX, perY] = [(WIDTH - INSET.right - INSET.left) / (max - min), (INSET.top - BOTTOM) / (2 * half)];
+  const x = (/** @type {number} */ value) => INSET.left + (value - min) * perX;
+  const y = (/** @type {number} */ value) => BOTTOM + (value + half) * perY;
+  // After a gap the line starts anew.
+  const path = points.map(([at, value], i) => {
+    if (Number.isNaN(value)) return '';
+    return `${i > 0 && !Number.isNaN(curve[i - 1]) ? 'L' : 'M'}${x(at)},${y(value)}`;
+  });
   const inRange = (/** @type {number} */ value) => Math.min(max, Math.max(min, value));
   const onStep = (/** @type {number} */ value) => inRange(Math.round(value / chart.step) * chart.step);
   const at = inRange(chart.x);
@@ -110,7 +116,7 @@ export function skewChart(chart) {
   const follow = (event) => {
     const box = /** @type {Element} */ (event.currentTarget).getBoundingClientRect();
     const pixel = ((event.clientX - box.left) / box.width) * WIDTH;
-    chart.move(() => onStep(x.invert(pixel)));
+    chart.move(() => onStep(min + (pixel - INSET.left) / perX));
   };
   /** @param {KeyboardEvent} event */
   const key = (event) => {
@@ -145,28 +151,28 @@ export function skewChart(chart) {
       @pointerup=${chart.commit}
     >
       <g aria-hidden="true">
-        ${x.ticks(5).map(
+        ${ticks(min, max, 5).map(
           (value) => svg`
             <line class="axis" x1=${x(value)} x2=${x(value)} y1=${BOTTOM} y2=${BOTTOM + 4} />
             <text x=${x(value)} y=${BOTTOM + 18} text-anchor="middle">${tick(value, 1)}</text>`,
         )}
-        ${y.ticks(5).map(
+        ${ticks(-half, half, 5).map(
           (value) => svg`
             <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(value)} y2=${y(value)} opacity="0.5" />
             <text x=${INSET.left - 6} y=${y(value) + 4} text-anchor="end">${fixed(value, half < 1 ? 2 : 1)}</text>`,
         )}
         <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${BOTTOM} y2=${BOTTOM} />
         <text class="name" x=${WIDTH - INSET.right} y=${BOTTOM + 31} text-anchor="end">ω (rad/s)</text>
-        <text class="name" x="0" y="12">cross-track skew</text>
+        <text class="name" x="0" y="12">${chart.axis}</text>
         <line class="zero" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(0)} y2=${y(0)} />
-        <path class="curve" d=${path(points) ?? ''} />
+        <path class="curve" d=${path.join('')} />
         <line class="now" x1=${x(at)} x2=${x(at)} y1=${INSET.top} y2=${BOTTOM} />
       </g>
       <g
         class="chart-marker"
         role="slider"
         tabindex="0"
-        aria-label="Commanded ω on the chart"
+        aria-label=${chart.marker}
         aria-valuemin=${min}
         aria-valuemax=${max}
         aria-valuenow=${at}

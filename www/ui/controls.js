@@ -9,19 +9,34 @@ import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 
 export const controlStyles = css`
+  /* The sliders of a group share their columns, each as wide as its widest text in whatever font. */
+  fieldset {
+    display: grid;
+    grid-template-columns: auto minmax(4rem, 1fr) auto;
+    column-gap: 0.6rem;
+    min-width: 0;
+    margin: 0 0 1.4rem;
+    padding: 0;
+    border: 0;
+  }
+
+  fieldset:has(.picking) {
+    grid-template-columns: auto auto minmax(4rem, 1fr) auto;
+  }
+
+  fieldset > * {
+    grid-column: 1 / -1;
+  }
+
   .slider {
     display: grid;
-    grid-template-columns: 2.2rem minmax(5rem, 1fr) 5.2rem;
+    grid-template-columns: subgrid;
     align-items: center;
-    column-gap: 0.6rem;
     margin-bottom: 0.45rem;
   }
 
-  .slider.picking {
-    grid-template-columns: 1.5rem 2.2rem minmax(4rem, 1fr) 5.2rem;
-  }
-
   .slider label {
+    min-width: 1.6rem;
     font-size: 1.1rem;
   }
 
@@ -95,9 +110,15 @@ export const controlStyles = css`
     box-shadow: 0 0 0 3px var(--paper);
   }
 
-  :is(button, input, .handle, .chart-marker):focus-visible {
+  :is(button, input, summary, .handle, .chart-marker):focus-visible {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
+  }
+
+  summary {
+    width: fit-content;
+    min-height: 1.75rem;
+    cursor: pointer;
   }
 
   button,
@@ -145,11 +166,13 @@ export const controlStyles = css`
     }
   }
 
-  fieldset {
-    min-width: 0;
-    margin: 0 0 1.4rem;
-    padding: 0;
-    border: 0;
+  /* Text that comes and goes has room for the longest that may come: nothing moves when it does. */
+  .roomy::after {
+    content: attr(data-room);
+    display: block;
+    height: 0;
+    overflow: hidden;
+    visibility: hidden;
   }
 
   legend {
@@ -170,7 +193,30 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
+  .choices,
+  .options {
+    display: flex;
+    flex-wrap: wrap;
+    column-gap: 1rem;
+  }
+
+  .choices > span {
+    flex: 0 0 var(--name, 6.5rem);
+    align-self: center;
+  }
+
+  .options {
+    flex: 1;
+    min-width: min-content;
+  }
+
+  .options .choice {
+    flex: 1 0 0;
+    min-width: max-content;
+  }
+
   input:is([type='radio'], [type='checkbox']) {
+    flex: none;
     width: 1rem;
     height: 1rem;
     margin: 0.25rem;
@@ -190,7 +236,7 @@ export const controlStyles = css`
  * @param {number} row.min
  * @param {number} row.max
  * @param {number} row.step
- * @param {string} row.shown the value with its unit
+ * @param {(value: number) => string} row.show a value with its unit
  * @param {unknown} row.effect what the parameter does to the picture
  * @param {'prior' | 'prediction' | 'truth'} row.role
  * @param {boolean} [row.off] its value has no effect at present
@@ -200,8 +246,10 @@ export const controlStyles = css`
  */
 export function sliderRow(row) {
   const classes = `slider${row.pick ? ' picking' : ''}${row.off ? ' off' : ''}`;
+  const shown = row.show(row.value);
+  const room = longest([shown, row.show(row.min), row.show(row.max)]);
   return html`
-    <div class=${classes} style="--thumb: var(--${row.role})">
+    <div class=${classes} .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}
       <label for=${row.id}>${row.symbol}</label>
       <input
@@ -212,15 +260,37 @@ export function sliderRow(row) {
         step=${row.step}
         .value=${live(String(row.value))}
         aria-label=${row.name ?? nothing}
-        aria-valuetext=${row.shown}
+        aria-valuetext=${shown}
         aria-describedby="${row.id}-effect"
         @input=${(/** @type {Event} */ event) => row.input(numberOf(event))}
         @change=${row.commit}
       />
-      <span class="value">${row.shown}</span>
+      <span class="value roomy" data-room=${room}>${shown}</span>
       <p class="effect" id="${row.id}-effect">${row.effect}</p>
     </div>
   `;
+}
+
+/**
+ * A message with its italics and subscripts.
+ *
+ * @param {string} message as messages/en.js has it
+ */
+export function rich(message) {
+  return message
+    .split(/(\*[^*]+\*|[₀-₉])/)
+    .map((part) =>
+      part[0] === '*'
+        ? html`<i>${part.slice(1, -1)}</i>`
+        : /^[₀-₉]$/.test(part)
+          ? html`<sub>${part.charCodeAt(0) - 0x2080}</sub>`
+          : part,
+    );
+}
+
+/** @param {string[]} texts */
+export function longest(texts) {
+  return texts.reduce((one, other) => (other.length > one.length ? other : one), '');
 }
 
 /**
@@ -282,15 +352,18 @@ function numberOf(event) {
  * @template {string} Name
  * @param {string} label
  * @param {string} group
- * @param {Name[]} names
+ * @param {Record<Name, string>} labels in the order shown
  * @param {Name} current
  * @param {(name: Name) => void} choose
  */
-export function radioGroup(label, group, names, current, choose) {
+export function radioGroup(label, group, labels, current, choose) {
+  const names = /** @type {Name[]} */ (Object.keys(labels));
   return html`<div class="choices" role="radiogroup" aria-label=${label}>
     <span aria-hidden="true">${label}</span>
-    ${names.map((name) =>
-      choice({ group, label: name, checked: name === current, choose: () => choose(name) }),
-    )}
+    <div class="options">
+      ${names.map((name) =>
+        choice({ group, label: labels[name], checked: name === current, choose: () => choose(name) }),
+      )}
+    </div>
   </div>`;
 }

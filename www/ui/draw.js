@@ -5,7 +5,7 @@
  * @module
  */
 
-import { scaleLinear } from 'd3-scale';
+import { ticks } from 'd3-array';
 import { tick } from './format.js';
 import { channels } from './theme.js';
 
@@ -84,7 +84,7 @@ export function drawAxes(context, view, palette, labels) {
  * @param {number} count of ticks, about
  */
 function ticksOf(from, to, count) {
-  const values = scaleLinear().domain([from, to]).ticks(Math.max(2, Math.floor(count)));
+  const values = ticks(from, to, Math.max(2, Math.floor(count)));
   return { values, step: values.length > 1 ? values[1] - values[0] : 1 };
 }
 
@@ -153,9 +153,19 @@ export function drawDots(context, view, palette, triples, layout) {
       context.stroke();
     }
   }
+  context.globalAlpha = few ? 0.9 : 0.5;
+  if ('vector' in context) {
+    context.fillStyle = palette.cloud;
+    for (let i = 0; i < triples.length; i += 3) {
+      context.beginPath();
+      context.arc(view.toPixelX(triples[i + layout.x]), view.toPixelY(triples[i + layout.y]), radius, 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.globalAlpha = 1;
+    return;
+  }
   const dot = sprite(palette.cloud, radius * layout.ratio);
   const side = dot.width / layout.ratio;
-  context.globalAlpha = few ? 0.9 : 0.5;
   for (let i = 0; i < triples.length; i += 3) {
     const x = view.toPixelX(triples[i + layout.x]) - side / 2;
     const y = view.toPixelY(triples[i + layout.y]) - side / 2;

@@ -1,13 +1,33 @@
 /**
- * Numbers as they are printed: a true minus sign, thin spaces between thousands, and a dash where
- * there is no number.
+ * Numbers as they are printed in the present language: a true minus sign, thin spaces between
+ * thousands, and a dash where there is no number.
  *
  * @module
  */
 
+import { language } from '../messages/registry.js';
+
 const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
 export const NOTHING = '\u2014';
+
+/** @type {Map<string, Intl.NumberFormat>} by language and options: to make one costs more than a frame can spare */
+const formats = new Map();
+
+/**
+ * @param {number} value
+ * @param {Intl.NumberFormatOptions} options
+ */
+function print(value, options) {
+  if (Number.isNaN(value)) return NOTHING;
+  const key = language + Object.entries(options);
+  let format = formats.get(key);
+  if (!format) formats.set(key, (format = new Intl.NumberFormat(language, { signDisplay: 'negative', ...options })));
+  return format
+    .formatToParts(value)
+    .map((part) => (part.type === 'minusSign' ? MINUS : part.type === 'group' ? THIN_SPACE : part.value))
+    .join('');
+}
 
 /**
  * @param {number} value
@@ -15,9 +35,9 @@ export const NOTHING = '\u2014';
  * @returns {string} "−0.301"; "0.000" rather than "−0.000"; "—" for NaN
  */
 export function fixed(value, decimals) {
-  if (Number.isNaN(value)) return NOTHING;
-  const digits = Math.abs(value).toFixed(decimals);
-  return value < 0 && Number(digits) !== 0 ? MINUS + digits : digits;
+  // Rounded here, as the number is in binary: ties of its shortest decimals are none.
+  const rounded = Number(value.toFixed(decimals));
+  return print(rounded, { minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false });
 }
 
 /** Below this a number is taken for a 0 that rounding has passed over. */
@@ -31,14 +51,13 @@ const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
  * @returns {string} "0.0070020"; from 0.0001 downwards "1.2500·10⁻⁵"
  */
 export function significant(value, digits) {
-  if (Number.isNaN(value)) return NOTHING;
   const size = Math.abs(value);
   if (size < NOTHING_BELOW) return '0';
-  const sign = value < 0 ? MINUS : '';
-  if (size >= 1e-4 && size < 1e5) return sign + size.toPrecision(digits);
-  const [mantissa, exponent] = size.toExponential(digits - 1).split('e');
+  const options = { minimumSignificantDigits: digits, maximumSignificantDigits: digits, useGrouping: false };
+  if (!(size < 1e-4 || size >= 1e5)) return print(value, options);
+  const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
   const power = exponent.replace(/[-+]/, '').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
-  return `${sign}${mantissa}·10${exponent.startsWith('-') ? '⁻' : ''}${power}`;
+  return `${print(Number(mantissa), options)}·10${exponent.startsWith('-') ? '⁻' : ''}${power}`;
 }
 
 /**
@@ -57,7 +76,7 @@ export function rounded(value, digits) {
  * @returns {string} "100 000"
  */
 export function whole(count) {
-  return String(count).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
+  return print(count, { maximumFractionDigits: 0, useGrouping: true });
 }
 
 /**

@@ -41,8 +41,6 @@ export const theme = css`
 
     display: block;
     container-type: inline-size;
-    background: var(--paper);
-    color: var(--ink);
     font: 1rem/1.4 var(--serif);
     font-variant-numeric: lining-nums tabular-nums;
     text-align: start;
@@ -60,18 +58,11 @@ export const theme = css`
       --muted: CanvasText;
       --rule: color-mix(in srgb, CanvasText 35%, Canvas);
     }
-
-    .scheme-probe {
-      forced-color-adjust: none;
-    }
   }
 
-  /* Its colour follows the scheme; the transition makes every change of scheme an event. */
-  .scheme-probe {
-    position: absolute;
-    visibility: hidden;
+  .surface {
+    background: var(--paper);
     color: var(--ink);
-    transition: color 1ms;
   }
 
   .failure {
@@ -93,12 +84,15 @@ export const theme = css`
 /**
  * The palette as the element sees it now.
  *
- * @param {HTMLElement} probe an element that nothing shows
+ * @param {HTMLElement} surface
  * @returns {import('../types.d.ts').Palette}
  */
-export function resolvePalette(probe) {
+export function resolvePalette(surface) {
   const swatch = document.createElement('span');
-  probe.append(swatch);
+  swatch.hidden = true;
+  // In forced colours too, the roles keep their hues.
+  swatch.style.forcedColorAdjust = 'none';
+  surface.append(swatch);
   const style = getComputedStyle(swatch);
   const colours = ROLES.map((role) => {
     swatch.style.color = `var(--${role})`;

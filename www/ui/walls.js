@@ -52,6 +52,10 @@ export class WallLayer {
    */
   draw(context, view, palette, ratio) {
     const { extent, width, height } = view;
+    if ('vector' in context && !this.#cells) {
+      this.#outline(context, view, palette);
+      return;
+    }
     const wanted = JSON.stringify([extent, width, height, palette.truth, palette.rule, ratio]);
     if (wanted !== this.#shown) {
       this.#shown = wanted;
@@ -81,6 +85,15 @@ export class WallLayer {
       context.fillRect(0, 0, view.width, view.height);
       context.globalCompositeOperation = 'source-over';
     }
+    this.#outline(context, view, palette);
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} context
+   * @param {View} view
+   * @param {Palette} palette
+   */
+  #outline(context, view, palette) {
     const { bounds, walls } = this.#plan;
     const [left, top] = [view.toPixelX(bounds[0]), view.toPixelY(bounds[3])];
     context.strokeStyle = palette.rule;
@@ -98,6 +111,7 @@ export class WallLayer {
       }
       context.stroke();
     }
+    context.lineCap = 'butt';
   }
 }
 

@@ -1,0 +1,7 @@
+// A frame says how high its widget is; its element takes that height.
+addEventListener('message', ({ data, source }) => {
+  if (data?.type !== 'motion-widgets:height' || !Number.isFinite(data.height)) return;
+  for (const frame of document.querySelectorAll('iframe')) {
+    if (frame.contentWindow === source) frame.style.height = `${data.height}px`;
+  }
+});

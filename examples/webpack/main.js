@@ -1,0 +1,2 @@
+import 'motion-widgets/external';
+import './index.html';

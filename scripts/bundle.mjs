@@ -1,0 +1,142 @@
+// www/ to dist/: what a page, a bundler, an iframe, a disk and Node each take. doc/embedding.md says which is for whom.
+
+import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { dirname, join, relative } from 'node:path';
+import { Missing, ROOT, progress } from './process.mjs';
+
+const at = (/** @type {string} */ path) => join(ROOT, path);
+
+/** What is copied as it is; index.html becomes classroom.html as well. */
+const COPIED = /\.(html|css)$/;
+
+/** What a bundle finds where it imports the WebAssembly module: a function that returns it. */
+const MODULE = {
+  /**
+   * The bytes as characters, one each. Brotli and gzip see through this, as they do not through base64 or through a
+   * module that is deflated already: over the wire it costs 2 % more than the module itself. Scripts of type "module"
+   * are always UTF-8; a classic script may be read as anything, and gets the upper half of them escaped.
+   *
+   * @param {Uint8Array} bytes
+   */
+  inlined: (bytes) =>
+    `const text = ${JSON.stringify(Buffer.from(bytes).toString('latin1'))};` +
+    'export default () => Uint8Array.from(text, (character) => character.charCodeAt(0));',
+  /** Bundlers know this form, and carry the file along. */
+  external: () => "export default () => new URL('./motion.wasm', import.meta.url);",
+};
+
+/** What the scripts of the elements export. */
+const DECLARATIONS = `export * from './core.js';
+/** Gives the elements words: those of messages/en.js, or some of them, in a language (a BCP 47 tag). */
+export declare function setMessages(lang: string, messages: object): void;
+`;
+
+/** Bundles everything anew. */
+export async function bundle() {
+  progress('Bundling the pages');
+  const wasm = readFileSync(at('build/motion_bg.wasm'));
+  const { build } = await import('esbuild');
+  /**
+   * @param {Record<string, string>} entryPoints by the name of the product, from www/
+   * @param {keyof typeof MODULE} form
+   * @param {import('esbuild').BuildOptions} options
+   */
+  const bundled = (entryPoints, form, options) =>
+    build({
+      entryPoints: Object.entries(entryPoints).map(([out, path]) => ({ in: join('www', path), out })),
+      absWorkingDir: ROOT,
+      outdir: at('dist'),
+      bundle: true,
+      minify: true,
+      sourcemap: true,
+      format: 'esm',
+      target: 'es2022',
+      charset: 'utf8',
+      inject: [at('www/without-dom.js')],
+      plugins: [
+        {
+          name: 'wasm',
+          setup({ onLoad }) {
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
+          },
+        },
+      ],
+      ...options,
+      metafile: true,
+      write: false,
+    });
+  const results = await Promise.all([
+    bundled({ core: 'core.js' }, 'inlined', { inject: [] }),
+    bundled({ 'motion-widgets': 'motion-widgets.js' }, 'inlined', {}),
+    bundled({ external: 'motion-widgets.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
+    bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
+    bundled({ de: 'de.js' }, 'inlined', { inject: [] }),
+    bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
+  ]).catch(() => []);
+  if (!results.length || results.some(({ warnings }) => warnings.length)) {
+    throw new Missing('The pages do not bundle: see the messages above.');
+  }
+
+  rmSync(at('dist'), { recursive: true, force: true });
+  const write = (/** @type {string} */ path, /** @type {string | Uint8Array} */ contents) => {
+    mkdirSync(dirname(path), { recursive: true });
+    writeFileSync(path, contents);
+  };
+  for (const { path, contents, text } of results.flatMap(({ outputFiles }) => outputFiles)) {
+    write(path, path.endsWith('.map') ? withoutModule(text) : contents);
+  }
+  for (const path of filesOf('www').filter((path) => COPIED.test(path))) {
+    write(at(join('dist', relative('www', path))), readFileSync(at(path)));
+  }
+  write(at('dist/motion.wasm'), wasm);
+  write(at('dist/core.d.ts'), readFileSync(at('www/types.d.ts')));
+  for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
+  write(at('dist/classroom.html'), inOneFile('index.html'));
+  // What weighs how much: read by scripts/sizes.mjs.
+  const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
+  write(at('build/outputs.json'), JSON.stringify(outputs));
+}
+
+/**
+ * @param {string} path of a file or directory, from the root
+ * @returns {string[]} the files there, sorted
+ */
+export function filesOf(path) {
+  if (statSync(at(path)).isFile()) return [path];
+  return readdirSync(at(path), { withFileTypes: true, recursive: true })
+    .filter((entry) => entry.isFile())
+    .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
+    .sort();
+}
+
+/**
+ * A map of sources that leaves out a quarter of a million characters which serve nobody.
+ *
+ * @param {string} text
+ */
+function withoutModule(text) {
+  const map = JSON.parse(text);
+  const keep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith('.wasm') ? '' : content);
+  return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(keep) });
+}
+
+/**
+ * A page of dist/ with its styles and scripts inside. Opened from a disk, browsers refuse scripts of type "module" in
+ * files of their own, but not in the page.
+ *
+ * @param {string} name
+ * @returns {string}
+ */
+function inOneFile(name) {
+  const read = (/** @type {string} */ path) => readFileSync(at(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
+  const style = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
+  const script = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
+  const page = read(name);
+  const left = page.replace(style, '').replace(script, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
+  if (left) throw new Missing(`${name}: ${left[0]} cannot be put into one file; expected is "./" and a file of www/.`);
+  const inline = (/** @type {string} */ path) =>
+    `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
+  return page
+    .replace(style, (_, path) => `<style>\n${read(path)}</style>`)
+    .replace(script, (_, path) => (path === 'motion-widgets.js' ? inline('motion-widgets.iife.js') + inline('de.js') : inline(path)));
+}

@@ -1,0 +1,71 @@
+// The elements under the strictest Content-Security-Policy that lets them run, and under one that does not.
+
+import { fileURLToPath } from 'node:url';
+import { expect, test as anyway } from '@playwright/test';
+import { serve } from '../../scripts/serve.mjs';
+import { test } from './support.js';
+
+const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
+const STRICT = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
+
+/** @type {Awaited<ReturnType<typeof serve>> | undefined} */
+let server;
+
+for (const { afterEach } of [test, anyway]) {
+  afterEach(() => {
+    server?.close();
+    server = undefined;
+  });
+}
+
+/**
+ * Opens a page of dist/ served with a policy, and keeps what the policy forbids.
+ *
+ * @param {import('@playwright/test').Page} page
+ * @param {string} policy
+ * @param {string} path
+ * @returns {Promise<() => Promise<string[]>>} the violations so far
+ */
+async function openUnder(page, policy, path) {
+  server = await serve(DIST, { port: 0, headers: { 'content-security-policy': policy } });
+  await page.addInitScript(() => {
+    const violations = /** @type {string[]} */ ([]);
+    Object.assign(globalThis, { violations });
+    addEventListener('securitypolicyviolation', ({ effectiveDirective, blockedURI, sample }) => {
+      violations.push(`${effectiveDirective} ${blockedURI} ${sample}`);
+    });
+  });
+  await page.goto(server.address + path);
+  return () => page.evaluate(() => /** @type {any} */ (globalThis).violations);
+}
+
+for (const widget of ['banana-machine', 'map-squeeze']) {
+  test(`${widget} asks for nothing that a strict policy forbids`, async ({ page }) => {
+    const violations = await openUnder(page, STRICT, `embed.html?widget=${widget}`);
+    const element = page.locator(widget);
+    await expect(element.locator('canvas').first()).toBeVisible();
+    // Everything that is rendered later is rendered now.
+    await element.getByRole('slider').first().press('ArrowRight');
+    for (const details of await element.locator('details:not([open]) > summary').all()) await details.click();
+    for (const box of await element.getByRole('checkbox').all()) await box.click();
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    expect(await violations()).toEqual([]);
+  });
+}
+
+// What the browser says of the policy in the console is what these are about.
+anyway('where WebAssembly is forbidden, a sentence names the directive that is missing', async ({ page }) => {
+  await openUnder(page, "script-src 'self'", 'embed.html?widget=banana-machine');
+  await expect(page.locator('banana-machine').getByRole('alert')).toContainText("lacks 'wasm-unsafe-eval'");
+});
+
+anyway('where the module in a file of its own is forbidden, so does one', async ({ page }) => {
+  const html = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
+  await page.route('**/external.html', (route) =>
+    route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT }, body: html }),
+  );
+  await openUnder(page, STRICT, 'external.html');
+  const sentence = page.locator('banana-machine').getByRole('alert');
+  await expect(sentence).toContainText('motion.wasm');
+  await expect(sentence).toContainText('connect-src');
+});

@@ -1,0 +1,192 @@
+import { readFileSync } from 'node:fs';
+import { expect } from '@playwright/test';
+import { openSqueeze, squeezed } from './squeeze-support.js';
+import { STILL, boxOf, frames, numberIn, open, readout, state, test } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure either element, as far as it can be exported
+ */
+
+test.use(STILL);
+
+/** @param {string} text as `toCSV` writes it */
+function parsed(text) {
+  const [comment, header, ...lines] = text.trimEnd().split('\n');
+  expect(comment.startsWith('# ')).toBe(true);
+  return { settings: JSON.parse(comment.slice(2)), columns: header.split(','), rows: lines.map((line) => line.split(',').map(Number)) };
+}
+
+const mean = (/** @type {number[]} */ values) => values.reduce((sum, value) => sum + value, 0) / values.length;
+
+/**
+ * Third standardized moment across the circular mean of the headings.
+ *
+ * @param {number[][]} poses
+ */
+function crossTrackSkew(poses) {
+  const heading = Math.atan2(mean(poses.map(([, , theta]) => Math.sin(theta))), mean(poses.map(([, , theta]) => Math.cos(theta))));
+  const across = poses.map(([x, y]) => y * Math.cos(heading) - x * Math.sin(heading));
+  const centre = mean(across);
+  const moment = (/** @type {number} */ power) => mean(across.map((value) => (value - centre) ** power));
+  return moment(3) / moment(2) ** 1.5;
+}
+
+const csvOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toCSV());
+const svgOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toSVG());
+
+/**
+ * What an SVG file looks like on its own, by the numbers of its elements.
+ *
+ * @param {import('@playwright/test').Page} page
+ * @param {string} svg
+ */
+function elementsOf(page, svg) {
+  return page.evaluate((text) => {
+    const parsed = new DOMParser().parseFromString(text, 'image/svg+xml');
+    if (parsed.querySelector('parsererror')) throw new Error(parsed.documentElement.textContent ?? '');
+    const count = (/** @type {string} */ selector) => parsed.querySelectorAll(selector).length;
+    return {
+      title: parsed.querySelector('title')?.textContent,
+      description: parsed.querySelector('desc')?.textContent,
+      paths: count('path'),
+      texts: count('text'),
+      images: count('image'),
+      dashed: count('[stroke-dasharray]'),
+      size: [parsed.documentElement.getAttribute('width'), parsed.documentElement.getAttribute('height')].map(Number),
+    };
+  }, svg);
+}
+
+/**
+ * The size of a PNG image, and whether it is opaque everywhere.
+ *
+ * @param {Locator} widget
+ */
+function pngOf(widget) {
+  return widget.evaluate(async (element) => {
+    const blob = await /** @type {Figure} */ (element).toPNG();
+    const image = await createImageBitmap(blob);
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    const colours = new Set();
+    let opaque = true;
+    for (let i = 0; i < data.length; i += 4) {
+      colours.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+      opaque &&= data[i + 3] === 255;
+    }
+    return { type: blob.type, width: image.width, height: image.height, opaque, colours: colours.size };
+  });
+}
+
+test('the samples as CSV bring back the skew on screen, and their settings the same samples', async ({ page }) => {
+  const widget = await open(page);
+  await widget.getByRole('button', { name: 'Hard arc' }).click();
+  const { config, shown, stats, poses } = await state(widget);
+  const { settings, columns, rows } = parsed(await csvOf(widget));
+  expect(columns).toEqual(['x_m', 'y_m', 'theta_rad']);
+  expect(rows).toHaveLength(shown);
+  // Every digit comes back.
+  expect(rows.flat()).toEqual(poses);
+  const skew = crossTrackSkew(rows);
+  expect(Math.abs(skew - stats.crossTrackSkew)).toBeLessThan(1e-9);
+  const printed = ((await readout(widget, 'standard error').textContent()) ?? '').split(' ± ')[0];
+  expect(Math.abs(numberIn(printed) - skew)).toBeLessThanOrEqual(0.0005);
+  expect(settings).toEqual({ element: 'banana-machine', ...config });
+  const again = await widget.evaluate((element, { element: _name, ...given }) => {
+    const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
+    const machine = new motion.BananaMachine(given);
+    const copy = [...machine.poses];
+    machine.free();
+    return copy;
+  }, settings);
+  expect(again).toEqual(poses);
+});
+
+test('Map Squeeze’s CSV has the verdicts, which add up to the figures', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { config, stats } = await squeezed(widget);
+  const { settings, columns, rows } = parsed(await csvOf(widget));
+  expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
+  expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
+  expect(rows).toHaveLength(stats.attempts);
+  expect(rows.filter((row) => row[5] === 1)).toHaveLength(stats.accepted);
+  expect(rows.filter((row) => row[5] === 1 && row[4] === 0)).toHaveLength(stats.throughWall);
+});
+
+test('SVG is vectors with a title and a description: dots while they are few, else an image', async ({ page }) => {
+  const widget = await open(page);
+  const plane = widget.locator('canvas.plane');
+  const few = await elementsOf(page, await svgOf(widget));
+  const { width, height } = await boxOf(plane);
+  expect(few.title).toBe('The Banana Machine');
+  expect(few.description).toBe(await plane.getAttribute('aria-label'));
+  expect(few.size).toEqual([Math.round(width), Math.round(height)]);
+  expect(few.images).toBe(0);
+  expect(few.paths).toBeGreaterThan(2000);
+  expect(few.texts).toBeGreaterThan(8);
+  // The commanded arc and the ellipse.
+  expect(few.dashed).toBe(2);
+  await widget.getByRole('slider', { name: 'robots in the whole cloud' }).fill('9');
+  await frames(page);
+  const many = await elementsOf(page, await svgOf(widget));
+  expect(many.images).toBe(1);
+  expect(many.paths).toBeLessThan(60);
+
+  const squeeze = await openSqueeze(page);
+  const map = await elementsOf(page, await svgOf(squeeze));
+  expect(map.title).toBe('Map Squeeze');
+  expect(map.images).toBe(0);
+  expect(map.paths).toBeGreaterThan(600);
+});
+
+test('the picture on screen stays as it is when it is exported', async ({ page }) => {
+  const widget = await open(page);
+  const canvas = widget.locator('canvas.plane');
+  const pixels = () => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
+  const before = await pixels();
+  await svgOf(widget);
+  await pngOf(widget);
+  await widget.getByRole('checkbox', { name: 'linearized' }).check();
+  await widget.getByRole('checkbox', { name: 'linearized' }).uncheck();
+  await frames(page);
+  expect(await pixels()).toBe(before);
+});
+
+for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+  test(`PNG has twice the pixels and its paper under it, in ${colorScheme}`, async ({ page }) => {
+    await page.emulateMedia({ colorScheme });
+    for (const widget of [await open(page), await openSqueeze(page)]) {
+      const { width, height } = await boxOf(widget.locator('canvas.plane'));
+      const { colours, ...png } = await pngOf(widget);
+      expect(png).toEqual({ type: 'image/png', width: Math.round(2 * width), height: Math.round(2 * height), opaque: true });
+      expect(colours).toBeGreaterThan(50);
+    }
+  });
+}
+
+test('the menu saves files with names that say what they are, from the keyboard too', async ({ page }) => {
+  const widget = await open(page);
+  const menu = widget.locator('.exports summary');
+  await menu.focus();
+  await page.keyboard.press('Enter');
+  for (const ending of ['png', 'svg', 'csv']) {
+    await page.keyboard.press('Tab');
+    const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
+    expect(download.suggestedFilename()).toBe(`banana-machine-7.${ending}`);
+    const contents = readFileSync(await download.path());
+    expect(contents.length).toBeGreaterThan(1000);
+    if (ending === 'csv') expect(contents.toString()).toBe(await csvOf(widget));
+  }
+});
+
+test('before there is a figure the methods say so', async ({ page }) => {
+  await open(page);
+  const complaint = await page.evaluate(async () => {
+    const element = document.createElement('banana-machine');
+    return element.toPNG().catch((error) => String(error));
+  });
+  expect(complaint).toBe('Error: There is no figure yet: it is there from the load event on.');
+});

@@ -1,0 +1,178 @@
+// What the entries of the package promise to who imports them: Node, TypeScript, and pages that have several.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { ROOT } from '../../scripts/process.mjs';
+import { serve } from '../../scripts/serve.mjs';
+import { installed, launch } from './support.js';
+
+/** @type {ReturnType<typeof installed>} */
+let project;
+/** @type {import('@playwright/test').Browser} */
+let browser;
+/** @type {Awaited<ReturnType<typeof serve>>} */
+let server;
+
+before(async () => {
+  project = installed();
+  browser = await launch();
+  server = await serve(project.directory, { port: 0 });
+});
+
+after(async () => {
+  server?.close();
+  await browser?.close();
+  project?.remove();
+});
+
+/**
+ * @param {string} source of a module that stands beside the installed package
+ * @returns {string} what it prints
+ */
+function inNode(source) {
+  const path = join(project.directory, 'script.mjs');
+  writeFileSync(path, source);
+  return execFileSync(process.execPath, [path], { encoding: 'utf8' });
+}
+
+test('every script of the package can be imported in Node, and leaves no names behind', () => {
+  const { exports } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+  const names = Object.keys(exports).filter((name) => !/\.(json|wasm)$/.test(name));
+  const addresses = names.map((name) => join('motion-widgets', name));
+  assert.ok(addresses.length >= 4, addresses.join(' '));
+  const printed = inNode(`
+    const before = Object.getOwnPropertyNames(globalThis);
+    for (const address of ${JSON.stringify(addresses)}) await import(address);
+    console.log(JSON.stringify(Object.getOwnPropertyNames(globalThis).filter((name) => !before.includes(name))));
+  `);
+  // Lit keeps its notes there, which several copies of it share.
+  const ofLit = ['reactiveElementVersions', 'litHtmlVersions', 'litElementVersions', 'litPropertyMetadata'];
+  assert.deepEqual(JSON.parse(printed).filter((/** @type {string} */ name) => !ofLit.includes(name)), []);
+});
+
+test('the elements in Node bring the core along', () => {
+  const printed = inNode(`
+    import { load } from 'motion-widgets';
+    const { BananaMachine } = await load();
+    console.log(new BananaMachine({ samples: 100 }).poses.length);
+  `);
+  assert.equal(printed, '300\n');
+});
+
+test('external.js finds its module in Node too', () => {
+  const printed = inNode(`
+    import { load } from 'motion-widgets/external';
+    const { BananaMachine } = await load();
+    console.log(new BananaMachine({ samples: 100 }).poses.length);
+  `);
+  assert.equal(printed, '300\n');
+});
+
+test('TypeScript knows the elements and the core, however it resolves', () => {
+  writeFileSync(
+    join(project.directory, 'typed.ts'),
+    `import 'motion-widgets';
+     import { load, type Stats } from 'motion-widgets/core';
+     import { load as loadExternal } from 'motion-widgets/external';
+     const omega: number | undefined = document.querySelector('banana-machine')?.omega;
+     document.createElement('map-squeeze').sampler = 'whole-arc';
+     const stats: Stats = new (await load()).BananaMachine({ samples: 10 }).stats;
+     await loadExternal('/motion.wasm');
+     // @ts-expect-error
+     document.createElement('banana-machine').omega = 'fast';
+     export { omega, stats };`,
+  );
+  for (const [module, moduleResolution] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
+    const options = ['--noEmit', '--strict', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable'];
+    const resolution = ['--module', module, '--moduleResolution', moduleResolution, '--types', ''];
+    const tsc = join(ROOT, 'node_modules/typescript/bin/tsc');
+    // In the directory of a module, or top-level await is refused.
+    writeFileSync(join(project.directory, 'package.json'), '{ "private": true, "type": "module" }');
+    const run = () =>
+      execFileSync(process.execPath, [tsc, ...options, ...resolution, 'typed.ts'], { cwd: project.directory, encoding: 'utf8' });
+    assert.doesNotThrow(run, (error) => assert.fail(/** @type {{ stdout: string }} */ (error).stdout));
+  }
+});
+
+/**
+ * A page with three elements and some of the package's scripts.
+ *
+ * @param {string} scripts
+ * @returns {Promise<{ compiled: number, complaints: string[], requests: string[] }>}
+ */
+async function pageWith(scripts) {
+  const elements = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
+  const page = await browser.newPage();
+  /** @type {string[]} */
+  const complaints = [];
+  /** @type {string[]} */
+  const requests = [];
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('request', (request) => requests.push(request.url()));
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  await page.addInitScript(countCompilations);
+  await page.route('**/page.html', (route) => {
+    route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scripts}${elements}` });
+  });
+  await page.goto(`${server.address}page.html`);
+  for (const element of await page.locator('banana-machine, map-squeeze').all()) {
+    await element.scrollIntoViewIfNeeded();
+    await element.locator('canvas').first().waitFor({ timeout: 10_000 });
+  }
+  const compiled = await page.evaluate(() => /** @type {any} */ (globalThis).compiled);
+  await page.close();
+  return { compiled, complaints, requests };
+}
+
+/** Runs in the page. */
+function countCompilations() {
+  const counter = Object.assign(globalThis, { compiled: 0 });
+  for (const name of /** @type {const} */ (['compile', 'compileStreaming', 'instantiateStreaming'])) {
+    const original = /** @type {Function} */ (WebAssembly[name]);
+    Object.assign(WebAssembly, {
+      [name](/** @type {unknown[]} */ ...args) {
+        counter.compiled++;
+        return original.apply(WebAssembly, args);
+      },
+    });
+  }
+  const { instantiate } = WebAssembly;
+  Object.assign(WebAssembly, {
+    instantiate(/** @type {any} */ source, /** @type {any} */ imports) {
+      if (!(source instanceof WebAssembly.Module)) counter.compiled++;
+      return instantiate(source, imports);
+    },
+  });
+}
+
+const DIST = '/node_modules/motion-widgets/dist/';
+const script = (/** @type {string} */ name) => `<script type="module" src="${DIST}${name}"></script>`;
+
+test('all elements of a page share one compiled module', async () => {
+  for (const name of ['motion-widgets.js', 'external.js']) {
+    const { compiled, complaints } = await pageWith(script(name));
+    assert.deepEqual(complaints, []);
+    assert.equal(compiled, 1, name);
+  }
+});
+
+test('two copies of the bundle on a page get along', async () => {
+  for (const [first, second] of [['motion-widgets.js', 'external.js'], ['external.js', 'motion-widgets.iife.js'], ['motion-widgets.js', 'motion-widgets.js?copy']]) {
+    const { complaints } = await pageWith(script(first) + script(second));
+    assert.deepEqual(complaints, []);
+  }
+});
+
+test('the address of the external module can be set by the script that imports it', async () => {
+  const address = `${DIST}motion.wasm?mine`;
+  const { complaints, requests } = await pageWith(
+    `<script type="module">import { load } from '${DIST}external.js'; load('${address}');</script>`,
+  );
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests.filter((url) => url.includes('.wasm')), [new URL(address, server.address).href]);
+});

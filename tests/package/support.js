@@ -1,0 +1,89 @@
+/**
+ * The package as npm would publish it, installed beside the examples in a directory of its own.
+ *
+ * @module
+ */
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { chromium } from '@playwright/test';
+import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
+import { ROOT } from '../../scripts/process.mjs';
+
+/**
+ * @returns {{ directory: string, remove: () => void }} a copy of each example, with the packed and
+ *   installed package as all that they have
+ */
+export function installed() {
+  const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
+  const npm = (/** @type {string[]} */ ...args) =>
+    execFileSync('npm', args, { cwd: directory, encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'] });
+  // What is packed has been built already.
+  npm('pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory);
+  const tarball = readdirSync(directory).find((name) => name.endsWith('.tgz'));
+  assert.ok(tarball, 'npm pack makes a tarball');
+  writeFileSync(join(directory, 'package.json'), '{ "private": true }');
+  npm('install', '--ignore-scripts', '--offline', '--no-audit', '--no-fund', '--silent', `./${tarball}`);
+  cpSync(join(ROOT, 'examples'), directory, { recursive: true });
+  for (const entry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
+    if (entry.isDirectory()) cpSync(join(directory, 'node_modules'), join(directory, entry.name, 'node_modules'), { recursive: true });
+  }
+  return { directory, remove: () => rmSync(directory, { recursive: true, force: true }) };
+}
+
+export function launch() {
+  return chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
+}
+
+/**
+ * Opens a page and waits until a cloud has been drawn on it.
+ *
+ * @param {import('@playwright/test').Browser} browser
+ * @param {string} address
+ * @returns {Promise<{ page: import('@playwright/test').Page, requests: string[] }>}
+ */
+export async function openWithCloud(browser, address) {
+  const page = await browser.newPage();
+  /** @type {string[]} */
+  const complaints = [];
+  /** @type {string[]} */
+  const requests = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('requestfailed', (request) => complaints.push(`${request.url()} ${request.failure()?.errorText}`));
+  page.on('request', (request) => requests.push(request.url()));
+  await page.goto(address);
+  const frame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
+  const canvas = frame.locator('banana-machine canvas').first();
+  await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
+    throw new Error([...complaints, error.message].join('\n'));
+  });
+  await canvas.evaluate(waitForCloud);
+  assert.deepEqual(complaints, []);
+  return { page, requests };
+}
+
+/**
+ * Resolves when a picture has many pixels of the colour of the cloud. Runs in the page.
+ *
+ * @param {Element} canvas
+ */
+async function waitForCloud(canvas) {
+  const drawn = /** @type {HTMLCanvasElement} */ (canvas);
+  for (;;) {
+    await new Promise(requestAnimationFrame);
+    if (drawn.width === 0 || drawn.height === 0) continue;
+    const copy = Object.assign(document.createElement('canvas'), { width: drawn.width, height: drawn.height });
+    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+    context.drawImage(drawn, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    let orange = 0;
+    for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 100 && data[i] - data[i + 2] > 120) orange++;
+    if (orange > 200) return;
+  }
+}

@@ -1,0 +1,48 @@
+/**
+ * What the reader does, as a page hears of it: `input` for each step and `change` where it ends, once
+ * each, however many settings a step changed.
+ *
+ * @module
+ */
+
+export class Gesture {
+  #tell;
+  #step = false;
+  #end = false;
+  #queued = false;
+  /** Whether a step was told without its end. */
+  #open = false;
+
+  /** @param {(name: 'input' | 'change') => void} tell */
+  constructor(tell) {
+    this.#tell = tell;
+  }
+
+  /** Something has changed, and it may go on. */
+  step() {
+    this.#step = true;
+    this.#end = false;
+    this.#queue();
+  }
+
+  /** What has changed has come to rest. */
+  end() {
+    this.#end = true;
+    this.#queue();
+  }
+
+  /** After the handler that is running: it may take several steps in one. */
+  #queue() {
+    if (this.#queued) return;
+    this.#queued = true;
+    queueMicrotask(() => {
+      const [step, end] = [this.#step, this.#end];
+      this.#queued = this.#step = this.#end = false;
+      this.#open ||= step;
+      if (step) this.#tell('input');
+      if (!end || !this.#open) return;
+      this.#open = false;
+      this.#tell('change');
+    });
+  }
+}

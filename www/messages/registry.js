@@ -1,0 +1,147 @@
+/**
+ * The words of the elements, by language. English and German come with the project; a page adds or
+ * replaces others with `setMessages`.
+ *
+ * An element speaks the language of its nearest `lang` attribute as far as there are words in it, and
+ * English otherwise. `speak` makes that language the present one before anything is rendered or
+ * drawn, all of which happens at once: `words` and the numbers of ui/format.js are in it then.
+ *
+ * @module
+ */
+
+/**
+ * @typedef {typeof import('./en.js').en} Messages
+ *
+ * @typedef {object} Shared what all scripts of a page share: a language may come in a file of its own
+ * @property {Record<string, Partial<Messages>>} catalogues by language
+ * @property {Set<() => void>} listeners called when words or languages change
+ */
+
+const KEY = Symbol.for('motion-widgets.messages');
+
+/** @type {Shared} */
+const shared = (/** @type {any} */ (globalThis)[KEY] ??= { catalogues: {}, listeners: new Set() });
+
+/** The words of the present language. @type {Messages} */
+export let words;
+
+/** The present language as a BCP 47 tag, for numbers. */
+export let language = 'en';
+
+/** @type {Map<string, { words: Messages, language: string }>} by what the page asks for */
+const voices = new Map();
+shared.listeners.add(() => voices.clear());
+
+/**
+ * Gives the elements words in a language, at once and on the whole page. What is left out stays as it
+ * was, and is English in a new language.
+ *
+ * @param {string} lang a BCP 47 tag: "de", "pt-BR"
+ * @param {object} messages in the shape of messages/en.js, or a part of it
+ * @throws {TypeError} if a message is not of the catalogue, or not of the kind it is there
+ */
+export function setMessages(lang, messages) {
+  const { catalogues, listeners } = shared;
+  const known = catalogues.en;
+  if (known) check(known, messages, lang);
+  const key = lang.toLowerCase();
+  catalogues[key] = merge(catalogues[key] ?? {}, messages);
+  for (const listener of listeners) listener();
+}
+
+/**
+ * @param {any} known
+ * @param {any} given
+ * @param {string} path
+ */
+function check(known, given, path) {
+  for (const [key, message] of Object.entries(given)) {
+    const expected = kind(known[key]);
+    if (kind(message) !== expected) {
+      const allowed = expected === 'undefined' ? `one of ${Object.keys(known).join(', ')}` : `a ${expected}`;
+      throw new TypeError(`messages: ${path}.${key} is a ${kind(message)}; allowed is ${allowed}.`);
+    }
+    if (expected === 'object') check(known[key], message, `${path}.${key}`);
+  }
+}
+
+/** @param {unknown} value */
+function kind(value) {
+  return Array.isArray(value) ? 'list' : typeof value;
+}
+
+/**
+ * @param {any} base
+ * @param {any} over
+ * @returns {any}
+ */
+function merge(base, over) {
+  const merged = { ...base };
+  for (const [key, message] of Object.entries(over)) {
+    merged[key] = kind(message) === 'object' ? merge(base[key] ?? {}, message) : message;
+  }
+  return merged;
+}
+
+/**
+ * Makes the language of an element the present one.
+ *
+ * @param {Element} element
+ */
+export function speak(element) {
+  const wanted = languageOf(element);
+  let voice = voices.get(wanted);
+  if (!voice) {
+    const [primary] = wanted.split('-');
+    const found = [wanted, primary].find((tag) => tag in shared.catalogues) ?? 'en';
+    const language = primary === found && isTag(wanted) ? wanted : found;
+    voices.set(wanted, (voice = { language, words: merge(shared.catalogues.en, shared.catalogues[found]) }));
+  }
+  ({ words, language } = voice);
+}
+
+/** @param {string} text */
+function isTag(text) {
+  try {
+    return Intl.getCanonicalLocales(text).length > 0;
+  } catch {
+    return false;
+  }
+}
+
+/**
+ * @param {Element} element
+ * @returns {string} the nearest language, through shadow roots; lower case, empty where there is none
+ */
+function languageOf(element) {
+  for (let at = /** @type {Element | undefined} */ (element); at; ) {
+    const bearer = /** @type {Element | null} */ (at.closest('[lang]'));
+    if (bearer) return bearer.getAttribute('lang')?.toLowerCase() ?? '';
+    const root = at.getRootNode();
+    at = root instanceof ShadowRoot ? root.host : undefined;
+  }
+  return '';
+}
+
+/** @type {MutationObserver | undefined} */
+let observer;
+
+/**
+ * Calls back when an element may have to speak again: on other words, or another language.
+ *
+ * @param {Element} element
+ * @param {() => void} listener
+ * @returns {() => void} ends it
+ */
+export function onLanguage(element, listener) {
+  const { listeners } = shared;
+  observer ??= new MutationObserver(() => {
+    for (const each of listeners) each();
+  });
+  const watch = { attributeFilter: ['lang'], subtree: true };
+  observer.observe(document, watch);
+  const root = element.getRootNode();
+  if (root !== document) observer.observe(root, watch);
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}

@@ -1,0 +1,194 @@
+/**
+ * A stand-in for a canvas that writes down what is drawn on it as SVG: the pictures are drawn once and
+ * for both. It knows what ui/draw.js and the pictures use of a canvas, and no more.
+ *
+ * @module
+ */
+
+/** @param {string} text */
+export const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
+
+/** @param {number} length CSS pixels: a hundredth of one is finer than any printer */
+const short = (length) => String(Math.round(100 * length) / 100);
+
+/** Moves a text down from where the canvas has its baseline, in its own height. */
+const BASELINES = /** @type {Record<string, string>} */ ({ top: '0.8em', middle: '0.33em' });
+const ANCHORS = /** @type {Record<string, string>} */ ({ center: 'middle', right: 'end' });
+
+export class SvgContext {
+  /** Tells those who draw pixels for speed that here are none. */
+  vector = true;
+  strokeStyle = '';
+  fillStyle = '';
+  lineWidth = 1;
+  lineJoin = 'miter';
+  lineCap = 'butt';
+  globalAlpha = 1;
+  font = '';
+  textAlign = 'left';
+  textBaseline = 'alphabetic';
+  imageSmoothingEnabled = true;
+  #path = '';
+  /** @type {number[]} */
+  #dash = [];
+  /** @type {string[]} */
+  #marks = [];
+  /** Groups to be closed by each `restore`. @type {number[]} */
+  #open = [];
+  #clips = 0;
+  #ruler = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d'));
+
+  /** What was drawn, as elements of SVG. */
+  get markup() {
+    return this.#marks.join('\n');
+  }
+
+  // What was cleared is not there, and the unit is the CSS pixel anyhow.
+  setTransform() {}
+  clearRect() {}
+
+  save() {
+    this.#open.push(0);
+  }
+
+  restore() {
+    this.#marks.push('</g>'.repeat(this.#open.pop() ?? 0));
+  }
+
+  beginPath() {
+    this.#path = '';
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
+  moveTo(x, y) {
+    this.#path += `M${short(x)},${short(y)}`;
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
+  lineTo(x, y) {
+    this.#path += `L${short(x)},${short(y)}`;
+  }
+
+  /**
+   * A whole circle: there are no others.
+   *
+   * @param {number} x
+   * @param {number} y
+   * @param {number} radius
+   */
+  arc(x, y, radius) {
+    const [r, across] = [short(radius), short(2 * radius)];
+    this.#path += `M${short(x - radius)},${short(y)}a${r},${r} 0 1 0 ${across},0a${r},${r} 0 1 0 -${across},0Z`;
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @param {number} width
+   * @param {number} height
+   */
+  rect(x, y, width, height) {
+    this.#path += `M${short(x)},${short(y)}h${short(width)}v${short(height)}h${short(-width)}Z`;
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @param {number} width
+   * @param {number} height
+   */
+  strokeRect(x, y, width, height) {
+    this.#path = '';
+    this.rect(x, y, width, height);
+    this.stroke();
+  }
+
+  clip() {
+    const id = `clip${++this.#clips}`;
+    this.#marks.push(`<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
+    if (this.#open.length) this.#open[this.#open.length - 1]++;
+  }
+
+  /** @param {number[]} dash */
+  setLineDash(dash) {
+    this.#dash = dash;
+  }
+
+  stroke() {
+    this.#marks.push(`<path d="${this.#path}" fill="none"${this.#line()}/>`);
+  }
+
+  fill() {
+    this.#marks.push(`<path d="${this.#path}" fill="${this.fillStyle}"${this.#opacity()}/>`);
+  }
+
+  #opacity() {
+    return this.globalAlpha === 1 ? '' : ` opacity="${this.globalAlpha}"`;
+  }
+
+  #line() {
+    const dash = this.#dash.length ? ` stroke-dasharray="${this.#dash}"` : '';
+    const cap = this.lineCap === 'butt' ? '' : ` stroke-linecap="${this.lineCap}"`;
+    const join = this.lineJoin === 'miter' ? '' : ` stroke-linejoin="${this.lineJoin}"`;
+    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dash}${cap}${join}${this.#opacity()}`;
+  }
+
+  /** @param {string} text */
+  measureText(text) {
+    this.#ruler.font = this.font;
+    return this.#ruler.measureText(text);
+  }
+
+  /**
+   * @param {string} text
+   * @param {number} x
+   * @param {number} y
+   */
+  fillText(text, x, y) {
+    this.#text(text, x, y, ` fill="${this.fillStyle}"${this.#opacity()}`);
+  }
+
+  /**
+   * @param {string} text
+   * @param {number} x
+   * @param {number} y
+   */
+  strokeText(text, x, y) {
+    this.#text(text, x, y, ` fill="none"${this.#line()}`);
+  }
+
+  /**
+   * @param {string} text
+   * @param {number} x
+   * @param {number} y
+   * @param {string} paint
+   */
+  #text(text, x, y, paint) {
+    const dy = BASELINES[this.textBaseline] ?? '0';
+    const anchor = ANCHORS[this.textAlign] ?? 'start';
+    const place = `x="${short(x)}" y="${short(y)}" dy="${dy}" text-anchor="${anchor}"`;
+    this.#marks.push(`<text ${place} style="font:${escaped(this.font)}"${paint}>${escaped(text)}</text>`);
+  }
+
+  /**
+   * @param {CanvasImageSource & { width: number, height: number }} image
+   * @param {number} x
+   * @param {number} y
+   * @param {number} width
+   * @param {number} height
+   */
+  drawImage(image, x, y, width, height) {
+    const canvas = document.createElement('canvas');
+    canvas.width = image.width;
+    canvas.height = image.height;
+    /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')).drawImage(image, 0, 0);
+    const box = `x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}"`;
+    this.#marks.push(`<image ${box} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacity()}/>`);
+  }
+}

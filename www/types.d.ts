@@ -140,6 +140,8 @@ export interface BananaMachine extends Disposable {
   advance(poses: number): boolean;
   /** Shows up to `count` samples more, 0 to 10 000 000. Returns how many are shown then. */
   grow(count: number): number;
+  /** As `grow`, in slices like `begin`. */
+  beginToGrow(count: number): void;
   /** Shows none; the same samples come again. */
   restart(): void;
   /** Exact cross-track skew at 2 to 10 000 evenly spaced turn rates, rad/s; NaN where undefined. */

@@ -326,10 +326,14 @@ impl BananaMachine {
 
     /// Shows up to `count` samples more; returns how many are shown.
     pub fn grow(&mut self, count: usize) -> usize {
-        let end = self.cloud.goal().saturating_add(count).min(self.settings.samples);
-        self.show(end);
+        self.begin_to_grow(count);
         self.finish();
-        end
+        self.shown()
+    }
+
+    /// As [`BananaMachine::grow`], in slices like [`BananaMachine::begin`].
+    pub fn begin_to_grow(&mut self, count: usize) {
+        self.show(self.cloud.goal().saturating_add(count).min(self.settings.samples));
     }
 
     /// The number of samples shown.

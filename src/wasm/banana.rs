@@ -168,6 +168,13 @@ impl JsBananaMachine {
         Ok(self.0.grow(count as usize))
     }
 
+    /// As `grow`, in slices.
+    #[wasm_bindgen(js_name = beginToGrow)]
+    pub fn begin_to_grow(&mut self, count: &JsValue) -> Result<(), JsValue> {
+        self.0.begin_to_grow(whole("count", count, 0, MAX_SAMPLES as u64)? as usize);
+        Ok(())
+    }
+
     pub fn restart(&mut self) {
         self.0.restart();
     }

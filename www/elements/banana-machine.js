@@ -218,8 +218,14 @@ export class BananaMachineElement extends CloudElement {
   draw(elapsed) {
     const { machine, palette } = this;
     if (!machine || !palette) return;
-    this.configure();
-    if (this.playing) this.growOn();
+    if (!this.settle()) {
+      this.wake();
+      return;
+    }
+    if (this.playing && !this.growOn()) {
+      this.wake();
+      return;
+    }
     const scene = this.#scene(machine);
     let moving = false;
     for (const picture of [this.#plane, this.#twist]) {

@@ -21,6 +21,7 @@ import { StatefulElement } from './stateful.js';
  * @property {number} shown
  * @property {Float64Array} poses
  * @property {(count: number) => number} grow
+ * @property {(count: number) => void} [beginToGrow] as grow, where it may take longer than a frame
  * @property {() => void} restart
  * @property {(settings: any) => void} configure
  */
@@ -194,13 +195,22 @@ export class CloudElement extends StatefulElement {
     this.announcement = say();
   }
 
+  /** @returns {boolean} whether there is a larger cloud now: of a large one it may take more than a frame */
   growOn() {
-    if (!this.machine) return;
+    const { machine } = this;
+    if (!machine) return true;
+    if (!this.complete) {
+      if (machine.beginToGrow) machine.beginToGrow(this.batch);
+      else machine.grow(this.batch);
+      this.work();
+      if (!this.settle()) return false;
+    }
     this.stale = true;
-    this.machine.grow(this.batch);
-    if (!this.complete) return;
-    this.playing = false;
-    this.#toAnnounce = true;
+    if (this.complete) {
+      this.playing = false;
+      this.#toAnnounce = true;
+    }
+    return true;
   }
 
   play() {

@@ -22,7 +22,15 @@ import { word } from './state.js';
  * @property {object} config
  * @property {object} stats
  * @property {(settings: any) => void} configure
+ * @property {(settings: any) => void} [begin] as configure, where a large cloud may take longer than a frame
+ * @property {(samples: number) => boolean} [advance] goes on with what was begun; whether it is done
  */
+
+/** Longest work in a frame, milliseconds: with the pictures, a touch is answered within 50. */
+const LONGEST_WORK = 25;
+
+/** Samples between two looks at the clock: a millisecond's work, ten on a slow phone. */
+const SLICE = 50_000;
 
 /**
  * @template {Configured} Machine
@@ -47,6 +55,8 @@ export class ConfigurableElement extends WidgetElement {
   #gesture = new Gesture((name) => this.done(name));
   #reflection = new Reflection(this, this.#attributes);
   #refreshing = false;
+  /** Whether the machine is in the middle of what it has begun. */
+  #working = false;
 
   static get observedAttributes() {
     return [...super.observedAttributes, ...Object.keys(this.attributes), 'theme'];
@@ -76,6 +86,7 @@ export class ConfigurableElement extends WidgetElement {
 
   machineReady() {
     this.stale = true;
+    this.#working = false;
     this.#pending = {};
     // In the order of the table: what others depend on comes first.
     for (const name of Object.keys(this.#attributes)) {
@@ -144,10 +155,55 @@ export class ConfigurableElement extends WidgetElement {
 
   /** Puts the changes that wait into effect. One that is refused is reported and forgotten. */
   configure() {
+    this.#proceed(Infinity);
     if (!this.machine || Object.keys(this.#pending).length === 0) return;
     const pending = this.#pending;
     this.#pending = {};
     this.tolerate(() => this.#apply(pending));
+  }
+
+  /**
+   * As `configure`, for no longer than a frame may take.
+   *
+   * @returns {boolean} whether all is in effect
+   */
+  settle() {
+    const { machine } = this;
+    if (!machine?.begin) {
+      this.configure();
+      return true;
+    }
+    if (!this.#working && Object.keys(this.#pending).length > 0) {
+      const pending = this.#pending;
+      this.#pending = {};
+      this.tolerate(() => {
+        machine.begin?.(pending);
+        this.work();
+        this.configured();
+        this.tell();
+      });
+    }
+    return this.#proceed(LONGEST_WORK);
+  }
+
+  /** To be called when the machine has begun something that `settle` is to go on with. */
+  work() {
+    this.#working = true;
+  }
+
+  /**
+   * @param {number} limit milliseconds
+   * @returns {boolean} whether nothing is left to do
+   */
+  #proceed(limit) {
+    if (!this.#working) return true;
+    const end = performance.now() + limit;
+    while (this.machine?.advance?.(SLICE) === false) {
+      if (performance.now() > end) return false;
+    }
+    this.#working = false;
+    this.stale = true;
+    return true;
   }
 
   /** @param {Partial<Settings>} settings */

@@ -163,8 +163,7 @@ fn no_plan_is_too_strange_for_the_index() {
     ];
     for (walls, bounds, point) in cases {
         let plan = FloorPlan::new(walls, bounds).expect("a valid plan");
-        let verdict = plan.point_free(point, 0.6);
-        assert!(!verdict.free && verdict.wall_tests > 0, "{bounds:?} {point:?}");
+        assert!(!plan.point_free(point, 0.6).free, "{bounds:?} {point:?}");
         let on_the_spot = Arc { start: SE2::new(point[0], point[1], 0.0), length: 1e-9, turn: 1.0 };
         assert!(!plan.arc_free(&on_the_spot, 0.6).free, "{bounds:?} {point:?}");
         plan.free_point(0.1);
@@ -173,12 +172,13 @@ fn no_plan_is_too_strange_for_the_index() {
 
 // ------------------------------------------------------------------------------------------------------ verdicts
 
-/// The verdicts are those of measuring every wall, and the walls measured are those whose box meets the box of the
-/// motion.
+/// The verdicts are those of measuring every wall. Walls are measured only where the box of one meets the box of the
+/// motion, and in all far fewer than do.
 #[test]
 fn no_wall_is_overlooked() {
     let mut rng = seeded(9600);
     let (mut free, mut blocked) = ([0; 2], [0; 2]);
+    let (mut measured, mut met) = (0, 0);
     for round in 0..400 {
         let count = [1, 5, 18, 60, 300][round % 5];
         let walls = scattered(count, [2.0, 6.0, 0.3][round % 3], ROOM, &mut rng);
@@ -212,17 +212,19 @@ fn no_wall_is_overlooked() {
                 }
                 let expected = distances.iter().all(|distance| *distance > clearance);
                 assert_eq!(verdict.free, expected, "{arc:?} {clearance} {walls:?}");
+                assert!(if near == 0 { expected && verdict.wall_tests == 0 } else { true });
+                measured += verdict.wall_tests;
+                met += near;
                 if expected {
-                    assert_eq!(verdict.wall_tests, near);
                     free[kind] += 1;
                 } else {
-                    assert!((1..=near).contains(&verdict.wall_tests));
                     blocked[kind] += 1;
                 }
             }
         }
     }
     assert!(free.iter().chain(&blocked).all(|count| *count > 2000), "{free:?} {blocked:?}");
+    assert!(measured > 1000 && measured < met / 10, "{measured} of {met}");
 }
 
 #[test]
@@ -278,8 +280,8 @@ fn leaving_the_bounds_is_seen() {
     assert!(!plan.point_free([-1e-9, 5.0], 0.5).free);
 }
 
-/// A thousand times the walls at the same density cost no more measurements; all of them in the same area cost in
-/// proportion, less what the first wall in the way saves.
+/// Fewer than one wall is measured for a motion, however many there are at the same density; all of them in the same area
+/// cost at most in proportion.
 #[test]
 fn wall_tests_grow_slower_than_the_number_of_walls() {
     let mut rng = seeded(9800);
@@ -297,14 +299,11 @@ fn wall_tests_grow_slower_than_the_number_of_walls() {
     };
     let growing: Vec<f64> =
         [100usize, 1000, 10_000].map(|count| mean_tests(count, (count as f64).sqrt(), 0.5)).to_vec();
-    assert!(growing[0] > 0.3, "{growing:?}: there is something to measure");
-    for pair in growing.windows(2) {
-        // 3 m of arc rarely leave the larger areas, which is worth a third more walls met.
-        assert!(pair[1] < 1.35 * pair[0], "{growing:?}");
-    }
+    assert!(growing[0] > 0.1, "{growing:?}: there is something to measure");
+    // Larger maps have larger cells, which decide less.
+    assert!(growing.windows(2).all(|pair| pair[1] < 2.5 * pair[0]) && growing[2] < 1.0, "{growing:?}");
     let fixed: Vec<f64> = [10usize, 100, 1000, 10_000].map(|count| mean_tests(count, 100.0, 0.5)).to_vec();
     assert!(fixed[3] < 0.001 * 10_000.0, "{fixed:?}: a thousandth of the walls");
-    assert!(fixed.windows(2).all(|pair| pair[1] > pair[0]), "{fixed:?}");
 }
 
 #[test]

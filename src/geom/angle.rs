@@ -7,6 +7,10 @@ use std::f64::consts::{PI, TAU};
 /// Exact for |angle| ≤ π; beyond that the remainder is taken against the double nearest to 2π, so that the result
 /// is off by about 1.2e-16 · |angle|. NaN and infinities give NaN.
 pub fn wrap_angle(angle: f64) -> f64 {
+    // Most angles are in range, and a remainder takes longer than everything else here.
+    if -PI < angle && angle <= PI {
+        return angle;
+    }
     let turned = angle % TAU;
     if turned > PI {
         turned - TAU

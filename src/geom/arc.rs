@@ -7,7 +7,7 @@
 use super::angle::wrap_angle;
 use super::se2::SE2;
 use super::sinc::{chord_factors, sinc};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// The end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start:
 /// x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
@@ -66,8 +66,8 @@ pub struct Arc {
 impl Arc {
     /// The pose where it ends.
     pub fn end(&self) -> SE2 {
-        let (forward, left) = chord(self.length, self.turn);
-        self.start * SE2::new(forward, left, self.turn)
+        let Driven { end: [x, y], heading, .. } = Departure::new(self.start).drive(self.length, self.turn);
+        SE2::new(x, y, heading)
     }
 
     /// The arc as chords of about a degree, up to two turns of it; the chords of a metre's arc of one radian then stray
@@ -110,6 +110,132 @@ impl Arc {
             curvature,
             end: chord(length, turn).into(),
         }
+    }
+}
+
+/// A pose that many arcs leave, with the sine and cosine of its heading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Departure {
+    pose: SE2,
+    sin: f64,
+    cos: f64,
+}
+
+/// An arc and where it ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Driven {
+    pub arc: Arc,
+    pub end: [f64; 2],
+    /// In (−π, π], rad.
+    pub heading: f64,
+    /// sinc(φ/2): the chord over the length.
+    half_sinc: f64,
+}
+
+impl Departure {
+    pub fn new(pose: SE2) -> Self {
+        let (sin, cos) = libm::sincos(pose.theta());
+        Self { pose, sin, cos }
+    }
+
+    /// A point in the frame of the pose, told in the frame that the pose is in.
+    pub fn transform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
+    }
+
+    /// The arc of [`chord`], composed with the pose.
+    pub fn drive(&self, length: f64, turn: f64) -> Driven {
+        let half = 0.5 * turn;
+        let half_sine = libm::sin(half);
+        let half_sinc = if half == 0.0 { 1.0 } else { half_sine / half };
+        let (forward, left) = (length * sinc(turn), length * (half_sine * half_sinc));
+        let end = self.transform([forward, left]);
+        let heading = wrap_angle(self.pose.theta() + wrap_angle(turn));
+        Driven { arc: Arc { start: self.pose, length, turn }, end, heading, half_sinc }
+    }
+}
+
+impl Driven {
+    /// The arc in courses of up to half a turn: one, or two of which the second ends after a full turn at the latest,
+    /// where the circle begins again.
+    pub fn courses(&self) -> impl Iterator<Item = Course> {
+        let Arc { start, length, turn } = self.arc;
+        let from = [start.x(), start.y()];
+        if turn.abs() <= PI {
+            let course = Course::new(from, self.end, length.abs(), turn, self.half_sinc);
+            return [Some(course), None].into_iter().flatten();
+        }
+        let half = 0.5 * (TAU / turn.abs()).min(1.0);
+        let (length, turn) = (half * length, half * turn);
+        let Driven { end: middle, half_sinc, .. } = Departure::new(start).drive(length, turn);
+        let to = if half < 0.5 { from } else { self.end };
+        [(from, middle), (middle, to)]
+            .map(|(from, to)| Some(Course::new(from, to, length.abs(), turn, half_sinc)))
+            .into_iter()
+            .flatten()
+    }
+
+    /// A box that holds the arc: least x, least y, greatest x, greatest y.
+    pub fn bounding_box(&self) -> [f64; 4] {
+        if self.arc.turn.abs() > PI {
+            return self.arc.bounding_box();
+        }
+        let ([x0, y0], [x1, y1]) = ([self.arc.start.x(), self.arc.start.y()], self.end);
+        // No point of the arc is further from its chord than its middle is: tan(φ/4)/2 chords, at most φ/2π of them.
+        let bend = self.arc.turn.abs() / TAU;
+        let rise = bend * ((x1 - x0).abs() + (y1 - y0).abs());
+        [x0.min(x1) - rise, y0.min(y1) - rise, x0.max(x1) + rise, y0.max(y1) + rise]
+    }
+}
+
+/// An arc that turns by up to a half, as a quick approximation around its middle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course {
+    middle: [f64; 2],
+    /// The direction of travel in the middle.
+    tangent: [f64; 2],
+    curvature: f64,
+    /// Half its length, m.
+    pub half: f64,
+    /// No point given is further from the true one, m.
+    pub error: f64,
+}
+
+impl Course {
+    /// From one point to another, `length` (m, positive) apart along the arc, turning by `turn`; `half_sinc` = sinc(φ/2).
+    fn new(from: [f64; 2], to: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
+        let chord = length * half_sinc;
+        let per_metre = if chord > 0.0 { 1.0 / chord } else { 0.0 };
+        let curvature = if length > 0.0 { turn / length } else { 0.0 };
+        let tangent = [(to[0] - from[0]) * per_metre, (to[1] - from[1]) * per_metre];
+        let half = 0.5 * length;
+        let ends = Self {
+            middle: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
+            tangent,
+            curvature,
+            half,
+            error: 0.0,
+        };
+        let [_, rise] = ends.local(half);
+        let middle = [ends.middle[0] + rise * tangent[1], ends.middle[1] - rise * tangent[0]];
+        let square = 0.25 * turn * turn;
+        Self { middle, error: half * square * square * square / 2000.0, ..ends }
+    }
+
+    fn local(&self, s: f64) -> [f64; 2] {
+        let angle = self.curvature * s;
+        let square = angle * angle;
+        [
+            s * (1.0 + square * (square / 120.0 - 1.0 / 6.0)),
+            s * angle * (0.5 + square * (square / 720.0 - 1.0 / 24.0)),
+        ]
+    }
+
+    /// The point `s` metres after the middle.
+    pub fn at(&self, s: f64) -> [f64; 2] {
+        let [ahead, left] = self.local(s);
+        let [cos, sin] = self.tangent;
+        [self.middle[0] + (cos * ahead - sin * left), self.middle[1] + (sin * ahead + cos * left)]
     }
 }
 

@@ -1,6 +1,6 @@
 //! Line segments, and their exact distance to points and to arcs.
 
-use super::arc::Arc;
+use super::arc::{Arc, Unrolled};
 
 /// A straight line between two points, m. It may have no length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,11 +12,23 @@ pub struct Segment {
 impl Segment {
     /// The distance (m) from a point to the nearest point of the segment.
     pub fn distance_to_point(&self, point: [f64; 2]) -> f64 {
+        let [x, y] = self.offset_of_point(point);
+        libm::hypot(x, y)
+    }
+
+    /// The square of the distance: without a root, but 0 below 10⁻¹⁶² m.
+    pub(crate) fn squared_distance_to_point(&self, point: [f64; 2]) -> f64 {
+        let offset = self.offset_of_point(point);
+        dot(offset, offset)
+    }
+
+    /// From the nearest point of the segment to a point.
+    fn offset_of_point(&self, point: [f64; 2]) -> [f64; 2] {
         let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];
         let squared = dot(along, along);
         let t = if squared > 0.0 { (dot(offset, along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-        libm::hypot(offset[0] - t * along[0], offset[1] - t * along[1])
+        [offset[0] - t * along[0], offset[1] - t * along[1]]
     }
 
     /// The distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
@@ -25,7 +37,11 @@ impl Segment {
     /// where the segment is parallel to the arc and outside its circle. Nothing else can be a minimum: from within the
     /// circle the distance to it is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
-        let local = arc.unrolled();
+        self.distance_to_unrolled(&arc.unrolled())
+    }
+
+    /// [`Segment::distance_to_arc`] of an arc that several segments are measured to.
+    pub(crate) fn distance_to_unrolled(&self, local: &Unrolled) -> f64 {
         let (from, to) = (local.transform(self.from), local.transform(self.to));
         let mirrored = Segment { from, to };
         let along = [to[0] - from[0], to[1] - from[1]];

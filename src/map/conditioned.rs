@@ -1,7 +1,7 @@
 //! Motion conditioned on a map by rejection (Table 5.7), and what the condition looks at.
 
 use super::floor_plan::{FloorPlan, Verdict};
-use crate::geom::arc::Arc;
+use crate::geom::arc::{Arc, ArcInversion, Departure, Driven};
 use crate::geom::se2::SE2;
 use crate::models::{VelocityCmd, VelocityModel};
 use crate::noise::centred_uniform;
@@ -75,6 +75,42 @@ impl std::error::Error for Wedged {}
 /// use to a filter; more draws would freeze a page.
 pub const MOST_DRAWS: usize = 10_000;
 
+/// [`MapConditioned::judge`] of draws that leave one pose under one command.
+#[derive(Clone, Copy, Debug)]
+pub struct Judging<'a> {
+    conditioned: &'a MapConditioned<'a>,
+    part: Part,
+    from: Departure,
+}
+
+impl Judging<'_> {
+    pub fn judge(&self, unit_noise: [f64; 3]) -> Draw {
+        let MapConditioned { plan, clearance, .. } = *self.conditioned;
+        let (pose, driven) = self.part.motion(&self.from, unit_noise);
+        let end = plan.point_free(driven.end, clearance);
+        Draw { pose, arc: driven.arc, end, path: plan.path_free(&driven, end, clearance) }
+    }
+}
+
+/// A command and the standard deviations of its noise.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    u: VelocityCmd,
+    deviations: [f64; 3],
+}
+
+impl Part {
+    /// The pose under these unit noises, and the arc driven there.
+    fn motion(&self, from: &Departure, unit_noise: [f64; 3]) -> (SE2, Driven) {
+        let ArcInversion { v_hat, omega_hat, gamma_hat } =
+            VelocityModel::disturbed(&self.u, self.deviations, unit_noise);
+        let dt = self.u.dt;
+        let driven = from.drive(v_hat * dt, omega_hat * dt);
+        let [x, y] = driven.end;
+        (SE2::new(x, y, driven.heading + gamma_hat * dt), driven)
+    }
+}
+
 impl MapConditioned<'_> {
     /// One accepted motion from `x`.
     ///
@@ -94,9 +130,9 @@ impl MapConditioned<'_> {
     ) -> Result<Accepted, Wedged> {
         let mut path_free = true;
         let mut cost = Cost::default();
-        let pose = self.drive(u, x, rng, &mut cost, |arc| {
-            along(arc);
-            path_free &= self.plan.arc_free(arc, self.clearance).free;
+        let pose = self.drive(u, x, rng, &mut cost, |driven, end| {
+            along(&driven.arc);
+            path_free = path_free && self.plan.path_free(driven, end, self.clearance).free;
         })?;
         Ok(Accepted { pose, path_free, cost })
     }
@@ -104,7 +140,7 @@ impl MapConditioned<'_> {
     /// What one accepted motion costs a filter that deploys the sampler: of each draw, just the verdict that decides.
     pub fn cost<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Cost, Wedged> {
         let mut cost = Cost::default();
-        self.drive(u, x, rng, &mut cost, |_| ())?;
+        self.drive(u, x, rng, &mut cost, |_, _| ())?;
         Ok(cost)
     }
 
@@ -118,21 +154,28 @@ impl MapConditioned<'_> {
         mut along: impl FnMut(&Arc),
     ) -> (Draw, bool) {
         let (steps, step) = self.parts(u);
-        let mut draw = self.judge(&step, x, self.unit_noise(rng));
+        let judged = |from: &SE2, unit_noise| {
+            Judging { conditioned: self, part: step, from: Departure::new(*from) }.judge(unit_noise)
+        };
+        let mut draw = judged(x, self.unit_noise(rng));
         along(&draw.arc);
         let mut path_free = draw.path.free;
         for _ in 1..steps {
-            draw = self.judge(&step, &draw.pose, self.unit_noise(rng));
+            draw = judged(&draw.pose, self.unit_noise(rng));
             along(&draw.arc);
             path_free &= draw.path.free;
         }
         (draw, path_free)
     }
 
-    /// The number of parts of a motion, and the command of each.
-    fn parts(&self, u: &VelocityCmd) -> (u32, VelocityCmd) {
+    /// The number of parts of a motion, and each of them.
+    fn parts(&self, u: &VelocityCmd) -> (u32, Part) {
         let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
-        (steps, VelocityCmd { dt: u.dt / f64::from(steps), ..*u })
+        (steps, self.part(&VelocityCmd { dt: u.dt / f64::from(steps), ..*u }))
+    }
+
+    fn part(&self, u: &VelocityCmd) -> Part {
+        Part { u: *u, deviations: self.model.deviations(u) }
     }
 
     fn unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {
@@ -145,58 +188,51 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
         cost: &mut Cost,
-        mut along: impl FnMut(&Arc),
+        mut along: impl FnMut(&Driven, Verdict),
     ) -> Result<SE2, Wedged> {
         let (steps, step) = self.parts(u);
         let mut pose = *x;
         for _ in 0..steps {
-            let arc;
-            (pose, arc) = self.one_step(&step, &pose, rng, cost)?;
-            along(&arc);
+            let (driven, end);
+            (pose, driven, end) = self.one_step(&step, &Departure::new(pose), rng, cost)?;
+            along(&driven, end);
         }
         Ok(pose)
     }
 
+    /// The first draw that is accepted, and the verdict on its end.
     fn one_step<R: Rng + ?Sized>(
         &self,
-        u: &VelocityCmd,
-        x: &SE2,
+        part: &Part,
+        from: &Departure,
         rng: &mut R,
         cost: &mut Cost,
-    ) -> Result<(SE2, Arc), Wedged> {
+    ) -> Result<(SE2, Driven, Verdict), Wedged> {
         for _ in 0..MOST_DRAWS {
-            let (pose, arc) = self.motion(u, x, self.unit_noise(rng));
+            let (pose, driven) = part.motion(from, self.unit_noise(rng));
+            let end = self.plan.point_free(driven.end, self.clearance);
             let deciding = if self.sampler == Sampler::WholeArc {
-                self.plan.arc_free(&arc, self.clearance)
+                self.plan.path_free(&driven, end, self.clearance)
             } else {
-                self.plan.point_free([pose.x(), pose.y()], self.clearance)
+                end
             };
             cost.draws += 1;
             cost.wall_tests += deciding.wall_tests;
             if deciding.free {
-                return Ok((pose, arc));
+                return Ok((pose, driven, end));
             }
         }
         Err(Wedged(*cost))
     }
 
-    /// The pose under these unit noises, and the arc driven there.
-    fn motion(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> (SE2, Arc) {
-        let executed = self.model.executed(u, unit_noise);
-        let arc = Arc { start: *x, length: executed.v_hat * u.dt, turn: executed.omega_hat * u.dt };
-        let end = arc.end();
-        (SE2::new(end.x(), end.y(), end.theta() + executed.gamma_hat * u.dt), arc)
-    }
-
     /// The motion under these unit noises, with both verdicts.
     pub fn judge(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> Draw {
-        let (pose, arc) = self.motion(u, x, unit_noise);
-        Draw {
-            pose,
-            arc,
-            end: self.plan.point_free([pose.x(), pose.y()], self.clearance),
-            path: self.plan.arc_free(&arc, self.clearance),
-        }
+        self.judging(u, x).judge(unit_noise)
+    }
+
+    /// For many draws from one pose: what they share is computed once.
+    pub fn judging(&self, u: &VelocityCmd, x: &SE2) -> Judging<'_> {
+        Judging { conditioned: self, part: self.part(u), from: Departure::new(*x) }
     }
 
     /// The verdict that decides on a draw.

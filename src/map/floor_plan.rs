@@ -1,8 +1,9 @@
 //! A floor plan, and whether a round robot fits.
 
 use super::apartment;
+use super::distance_field::DistanceField;
 use super::occupancy::OccupancyGrid;
-use crate::geom::arc::Arc;
+use crate::geom::arc::{Arc, Course, Departure, Driven, Unrolled};
 use crate::geom::segment::Segment;
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 use std::fmt;
@@ -14,10 +15,11 @@ pub struct FloorPlan {
     walls: Vec<Segment>,
     /// Least x, least y, greatest x, greatest y, m.
     bounds: [f64; 4],
-    /// The walls by their bounding boxes; None where there are none.
-    index: Option<StaticAABB2DIndex<f64>>,
+    /// Pieces of walls by their bounding boxes, and the wall of each piece; None where there are none.
+    index: Option<(StaticAABB2DIndex<f64>, Vec<u32>)>,
     /// The cells that the walls outline, where they do: inside of one nobody is free, however far its sides.
     solid: Option<OccupancyGrid>,
+    field: DistanceField,
 }
 
 /// Why a floor plan is refused.
@@ -60,6 +62,11 @@ impl std::error::Error for FloorPlanError {}
 pub struct Verdict {
     pub free: bool,
     pub wall_tests: usize,
+}
+
+impl Verdict {
+    const FREE: Self = Self { free: true, wall_tests: 0 };
+    const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
 /// Where bounds may lie and how far they may be apart, m: what a robot's coordinates may be, and what a screen can show.
@@ -117,7 +124,8 @@ impl FloorPlan {
             }
         }
         let index = (!walls.is_empty()).then(|| index_of(&walls));
-        Ok(Self { walls, bounds, index, solid })
+        let field = DistanceField::new(&walls, bounds, solid.as_ref());
+        Ok(Self { walls, bounds, index, solid, field })
     }
 
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
@@ -141,21 +149,39 @@ impl FloorPlan {
 
     /// Whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
     pub fn point_free(&self, point: [f64; 2], clearance: f64) -> Verdict {
-        if !self.holds(point) || self.buried(point) {
-            return Verdict { free: false, wall_tests: 0 };
+        if !self.holds(point) {
+            return Verdict::BLOCKED;
         }
-        let [x, y] = point;
-        self.keeps_clear([x, y, x, y], clearance, |wall| wall.distance_to_point(point))
+        let least = self.field.least(point);
+        if least > clearance {
+            return Verdict::FREE;
+        }
+        if self.field.most(least) <= clearance || self.buried(point) {
+            return Verdict::BLOCKED;
+        }
+        let mut wall_tests = 0;
+        let free = self
+            .walls_keep(point, clearance, &mut wall_tests, |wall| wall.distance_to_point(point) > clearance);
+        Verdict { free, wall_tests }
     }
 
     /// Whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
     /// bounds.
     pub fn arc_free(&self, arc: &Arc, clearance: f64) -> Verdict {
-        let within = arc.bounding_box();
-        if self.leaves_bounds(arc, within) || self.buried([arc.start.x(), arc.start.y()]) {
-            return Verdict { free: false, wall_tests: 0 };
+        let driven = Departure::new(arc.start).drive(arc.length, arc.turn);
+        self.path_free(&driven, self.point_free(driven.end, clearance), clearance)
+    }
+
+    /// [`FloorPlan::arc_free`] of an arc whose end has been looked at, which counts as a part of this.
+    pub(super) fn path_free(&self, driven: &Driven, end: Verdict, clearance: f64) -> Verdict {
+        let start = [driven.arc.start.x(), driven.arc.start.y()];
+        if !end.free || self.leaves_bounds(driven) || self.buried(start) {
+            return Verdict { free: false, ..end };
         }
-        self.keeps_clear(within, clearance, |wall| wall.distance_to_arc(arc))
+        let mut sweep =
+            Sweep { plan: self, arc: &driven.arc, clearance, unrolled: None, wall_tests: end.wall_tests };
+        let free = driven.courses().all(|course| sweep.free(&course, -course.half, course.half));
+        Verdict { free, wall_tests: sweep.wall_tests }
     }
 
     /// A point where a disc of radius `clearance` fits, as near as a search in steps of a hundredth of the bounds finds
@@ -192,48 +218,139 @@ impl FloorPlan {
         self.solid.as_ref().is_some_and(|solid| solid.holds(point))
     }
 
-    fn leaves_bounds(&self, arc: &Arc, within: [f64; 4]) -> bool {
-        let [left, bottom, right, top] = within;
+    fn leaves_bounds(&self, driven: &Driven) -> bool {
+        let [left, bottom, right, top] = driven.bounding_box();
         if [[left, bottom], [right, bottom], [right, top], [left, top]]
             .into_iter()
             .all(|corner| self.holds(corner))
         {
             return false;
         }
-        let end = arc.end();
-        if !self.holds([arc.start.x(), arc.start.y()]) || !self.holds([end.x(), end.y()]) {
+        let arc = &driven.arc;
+        if !self.holds([arc.start.x(), arc.start.y()]) || !self.holds(driven.end) {
             return true;
         }
         // Both ends are inside, so that an arc which leaves crosses an edge.
-        let corners = self.corners();
-        (0..4).any(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }.distance_to_arc(arc) == 0.0)
+        let (corners, unrolled) = (self.corners(), arc.unrolled());
+        (0..4).any(|i| {
+            Segment { from: corners[i], to: corners[(i + 1) % 4] }.distance_to_unrolled(&unrolled) == 0.0
+        })
     }
 
-    /// Whether every wall near the box is further than `clearance` by the given measure.
-    fn keeps_clear(&self, within: [f64; 4], clearance: f64, distance: impl Fn(&Segment) -> f64) -> Verdict {
-        let mut verdict = Verdict { free: true, wall_tests: 0 };
-        let Some(index) = &self.index else { return verdict };
-        let [left, bottom, right, top] = within;
-        let mut visit = |wall: usize| {
-            verdict.wall_tests += 1;
-            verdict.free = distance(&self.walls[wall]) > clearance;
-            if verdict.free { Control::Continue } else { Control::Break(()) }
+    /// Whether every wall that has a piece whose box comes within `reach` (m) of the point, by both coordinates, is
+    /// `free`.
+    fn walls_keep(
+        &self,
+        [x, y]: [f64; 2],
+        reach: f64,
+        wall_tests: &mut usize,
+        mut free: impl FnMut(&Segment) -> bool,
+    ) -> bool {
+        let Some((index, wall_of)) = &self.index else { return true };
+        let mut all_free = true;
+        // Pieces of one wall tend to come one after the other.
+        let mut last = None;
+        let mut visit = |piece: usize| {
+            let wall = wall_of[piece] as usize;
+            if last.replace(wall) == Some(wall) {
+                return Control::Continue;
+            }
+            *wall_tests += 1;
+            all_free = free(&self.walls[wall]);
+            if all_free { Control::Continue } else { Control::Break(()) }
         };
-        index.visit_query(
-            left - clearance,
-            bottom - clearance,
-            right + clearance,
-            top + clearance,
-            &mut visit,
-        );
-        verdict
+        index.visit_query(x - reach, y - reach, x + reach, y + reach, &mut visit);
+        all_free
     }
 }
 
-fn index_of(walls: &[Segment]) -> StaticAABB2DIndex<f64> {
-    let mut builder = StaticAABB2DIndexBuilder::new(walls.len());
-    for Segment { from, to } in walls {
-        builder.add(from[0].min(to[0]), from[1].min(to[1]), from[0].max(to[0]), from[1].max(to[1]));
+/// Pieces of an arc that are looked at together, without a branch between them.
+const PIECES: usize = 4;
+
+/// A piece whose half is shorter than this many times the radius of the field's cells is measured: to divide it would
+/// tell less about it than is known about its walls.
+const DIVISIBLE: f64 = 2.0;
+
+/// A disc that is moved along an arc.
+struct Sweep<'a> {
+    plan: &'a FloorPlan,
+    arc: &'a Arc,
+    clearance: f64,
+    /// The arc as walls are measured to it, once there is one to measure.
+    unrolled: Option<Unrolled>,
+    wall_tests: usize,
+}
+
+impl Sweep<'_> {
+    /// Whether a course is free between `from` and `to` metres after its middle.
+    fn free(&mut self, course: &Course, from: f64, to: f64) -> bool {
+        let field = &self.plan.field;
+        let reach = (to - from) / (2 * PIECES) as f64;
+        let needed = self.clearance + course.error + reach;
+        let middle = |i: usize| course.at(from + (2 * i + 1) as f64 * reach);
+        let rooms: [f64; PIECES] = std::array::from_fn(|i| field.least(middle(i)));
+        let least = rooms.into_iter().fold(f64::INFINITY, f64::min);
+        if least > needed {
+            return true;
+        }
+        if field.most(least) <= self.clearance - course.error {
+            return false;
+        }
+        let divisible = reach > DIVISIBLE * field.radius();
+        (0..PIECES).all(|i| {
+            rooms[i] > needed
+                || if divisible {
+                    let first = from + (2 * i) as f64 * reach;
+                    self.free(course, first, first + 2.0 * reach)
+                } else {
+                    self.measure(middle(i), reach + course.error, course.error)
+                }
+        })
     }
-    builder.build().expect("as many boxes as announced, and not none")
+
+    fn measure(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
+        let (arc, clearance) = (self.arc, self.clearance);
+        let unrolled = &mut self.unrolled;
+        let (near, touching) = (reach + clearance, (clearance - error).max(0.0));
+        self.plan.walls_keep(middle, near, &mut self.wall_tests, |wall| {
+            let square = wall.squared_distance_to_point(middle);
+            if square > near * near || square < touching * touching {
+                return square > near * near;
+            }
+            wall.distance_to_unrolled(unrolled.get_or_insert_with(|| arc.unrolled())) > clearance
+        })
+    }
+}
+
+/// Pieces that walls which lie across the axes are cut into, for each wall on average and in all besides: their boxes
+/// would otherwise be large and mostly empty. Fewer would leave larger boxes, more would need more memory.
+const PIECES_A_WALL: usize = 4;
+const PIECES_BESIDES: usize = 256;
+
+/// The boxes of all walls, cut into pieces, and the wall of each.
+fn index_of(walls: &[Segment]) -> (StaticAABB2DIndex<f64>, Vec<u32>) {
+    // The lesser side of a wall's box: 0 where it lies along an axis.
+    let lesser = |Segment { from, to }: &Segment| (to[0] - from[0]).abs().min((to[1] - from[1]).abs());
+    let pieces = (PIECES_A_WALL * walls.len() + PIECES_BESIDES) as f64;
+    let longest = walls.iter().map(lesser).sum::<f64>() / pieces;
+    let count =
+        |wall: &Segment| if longest > 0.0 { (lesser(wall) / longest).ceil().max(1.0) as u32 } else { 1 };
+    let total: u32 = walls.iter().map(count).sum();
+    let mut builder = StaticAABB2DIndexBuilder::new(total as usize);
+    let mut wall_of = Vec::with_capacity(total as usize);
+    for (index, wall) in walls.iter().enumerate() {
+        let count = count(wall);
+        let at = |i: u32, axis: usize| {
+            // Exact at both ends, and the same for the two pieces that meet.
+            let fraction = f64::from(i) / f64::from(count);
+            wall.from[axis] * (1.0 - fraction) + wall.to[axis] * fraction
+        };
+        for i in 0..count {
+            let [x, y] =
+                [0, 1].map(|axis| [at(i, axis).min(at(i + 1, axis)), at(i, axis).max(at(i + 1, axis))]);
+            builder.add(x[0], y[0], x[1], y[1]);
+            wall_of.push(index as u32);
+        }
+    }
+    (builder.build().expect("as many boxes as announced, and not none"), wall_of)
 }

@@ -2,11 +2,12 @@
 
 mod apartment;
 mod conditioned;
+mod distance_field;
 mod floor_plan;
 mod occupancy;
 mod pgm;
 
-pub use conditioned::{Accepted, Cost, Draw, MOST_DRAWS, MapConditioned, Sampler, Wedged};
+pub use conditioned::{Accepted, Cost, Draw, Judging, MOST_DRAWS, MapConditioned, Sampler, Wedged};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
 pub use occupancy::{Image, Interpretation, Mode, OccupancyGrid, Pixel};
 pub use pgm::{MOST_PIXELS, PgmError, read_pgm};

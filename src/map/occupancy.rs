@@ -1,5 +1,6 @@
 //! Occupancy grids as ROS `map_server` stores them.
 
+use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 
@@ -63,6 +64,8 @@ pub struct OccupancyGrid {
     resolution: f64,
     /// The lower left corner of the lower left cell, rows and columns along its axes.
     origin: SE2,
+    /// The plane in the frame of the origin.
+    to_local: Departure,
     /// Row by row from the bottom.
     occupied: Vec<bool>,
 }
@@ -86,7 +89,7 @@ impl OccupancyGrid {
             .rev()
             .flat_map(|row| row.iter().map(|pixel| interpretation.occupied(seen(pixel))))
             .collect();
-        Self { width, height, resolution, origin, occupied }
+        Self { width, height, resolution, origin, to_local: Departure::new(origin.inverse()), occupied }
     }
 
     /// Columns and rows.
@@ -134,8 +137,7 @@ impl OccupancyGrid {
     }
 
     fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let local = self.origin.inverse() * SE2::new(x, y, 0.0);
-        [local.x() / self.resolution, local.y() / self.resolution]
+        self.to_local.transform([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
     fn cell(&self, column: usize, row: usize) -> bool {

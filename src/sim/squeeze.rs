@@ -6,7 +6,7 @@ use super::settings::{
 };
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
-use crate::map::{Accepted, Cost, FloorPlan, MOST_DRAWS, MapConditioned, Sampler, Wedged};
+use crate::map::{Accepted, Cost, FloorPlan, Judging, MOST_DRAWS, MapConditioned, Sampler, Wedged};
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use rand::SeedableRng;
@@ -90,6 +90,11 @@ impl Settings {
     fn start(&self) -> SE2 {
         let [x, y, theta] = self.start;
         SE2::new(x, y, theta)
+    }
+
+    fn conditioned_on<'a>(&self, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
+        let model = VelocityModel { alphas: VelocityAlphas(self.alphas), noise: NoiseKind::Normal };
+        MapConditioned { model, plan, clearance: self.clearance, sampler }
     }
 }
 
@@ -228,14 +233,17 @@ impl MapSqueeze {
     pub fn grow(&mut self, count: usize) -> usize {
         let end = self.attempts.len().saturating_add(count).min(self.settings.samples);
         let steps = self.settings.parts() as usize;
-        while self.attempts.len() < end && !self.gave_up {
-            let (attempt, cost) = self.attempt(self.attempts.len());
-            self.tally.draws += cost.draws;
-            self.tally.wall_tests += cost.wall_tests;
-            self.tally.accepted += usize::from(attempt.accepted);
-            self.tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
-            self.attempts.push(attempt);
-            self.gave_up = self.tally.draws > MOST_DRAWS + PATIENCE * steps * self.attempts.len();
+        let Self { plan, settings, draws, attempts, tally, gave_up } = self;
+        let model = settings.conditioned_on(plan, settings.sampler);
+        let driver = Driver::new(&model, settings, draws);
+        while attempts.len() < end && !*gave_up {
+            let (attempt, cost) = driver.drive(attempts.len(), |_| ());
+            tally.draws += cost.draws;
+            tally.wall_tests += cost.wall_tests;
+            tally.accepted += usize::from(attempt.accepted);
+            tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
+            attempts.push(attempt);
+            *gave_up = tally.draws > MOST_DRAWS + PATIENCE * steps * attempts.len();
         }
         self.attempts.len()
     }
@@ -258,7 +266,8 @@ impl MapSqueeze {
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
         let mut arcs = Vec::new();
         if index < self.attempts.len() {
-            self.drive(index, |arc| arcs.push(*arc));
+            let model = self.settings.conditioned_on(&self.plan, self.settings.sampler);
+            Driver::new(&model, &self.settings, &self.draws).drive(index, |arc| arcs.push(*arc));
         }
         arcs
     }
@@ -269,7 +278,7 @@ impl MapSqueeze {
     /// [`Wedged`] where one of them is not to be had, or where all of them take so many draws that the machine would give
     /// up.
     pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, Wedged> {
-        let conditioned = self.conditioned(sampler);
+        let conditioned = self.settings.conditioned_on(&self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total = Cost::default();
         let parts = if let Sampler::SubStepped(steps) = sampler { steps as usize } else { 1 };
@@ -296,42 +305,34 @@ impl MapSqueeze {
         let VelocityCmd { v, omega, dt } = self.settings.command;
         Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
     }
+}
 
-    fn conditioned(&self, sampler: Sampler) -> MapConditioned<'_> {
-        let model = VelocityModel { alphas: VelocityAlphas(self.settings.alphas), noise: NoiseKind::Normal };
-        MapConditioned { model, plan: &self.plan, clearance: self.settings.clearance, sampler }
+/// Makes attempts, each from its own noise.
+struct Driver<'a> {
+    model: &'a MapConditioned<'a>,
+    judging: Judging<'a>,
+    settings: &'a Settings,
+    draws: &'a Draws,
+}
+
+impl<'a> Driver<'a> {
+    fn new(model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
+        Self { model, judging: model.judging(&settings.command, &settings.start()), settings, draws }
     }
 
-    fn attempt(&self, index: usize) -> (Attempt, Cost) {
-        self.drive(index, |_| ())
-    }
-
-    /// One attempt from its own noise, showing its arcs to `along`.
-    fn drive(&self, index: usize, mut along: impl FnMut(&Arc)) -> (Attempt, Cost) {
-        let Settings { command, conditioned, sampler, seed, .. } = self.settings;
-        let start = self.settings.start();
-        let model = self.conditioned(sampler);
-        if let Sampler::SubStepped(steps) = sampler {
-            // How many numbers an attempt uses depends on the walls, so that each has a stream of its own.
-            let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
-            if !conditioned {
-                let (end, path_free) = model.sample_unconditioned(&command, &start, &mut rng, along);
-                let attempt = Attempt { pose: end.pose, accepted: true, end_free: end.end.free, path_free };
-                return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
-            }
-            return match model.sample_along(&command, &start, &mut rng, along) {
-                Ok(done) => {
-                    let Accepted { pose, path_free, cost } = done;
-                    (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
-                }
-                Err(Wedged(cost)) => {
-                    (Attempt { pose: start, accepted: false, end_free: false, path_free: false }, cost)
-                }
-            };
+    /// One attempt, showing its arcs to `along`.
+    fn drive(&self, index: usize, along: impl FnMut(&Arc)) -> (Attempt, Cost) {
+        match self.settings.sampler {
+            Sampler::SubStepped(steps) => self.drive_parts(index, steps, along),
+            Sampler::Endpoint | Sampler::WholeArc => self.drive_once(index, along),
         }
-        let draw = model.judge(&command, &start, self.draws.of(index));
+    }
+
+    fn drive_once(&self, index: usize, mut along: impl FnMut(&Arc)) -> (Attempt, Cost) {
+        let conditioned = self.settings.conditioned;
+        let draw = self.judging.judge(self.draws.of(index));
         along(&draw.arc);
-        let deciding = model.deciding(&draw);
+        let deciding = self.model.deciding(&draw);
         let attempt = Attempt {
             pose: draw.pose,
             accepted: !conditioned || deciding.free,
@@ -339,5 +340,25 @@ impl MapSqueeze {
             path_free: draw.path.free,
         };
         (attempt, Cost { draws: 1, wall_tests: if conditioned { deciding.wall_tests } else { 0 } })
+    }
+
+    fn drive_parts(&self, index: usize, steps: u32, along: impl FnMut(&Arc)) -> (Attempt, Cost) {
+        let Settings { command, conditioned, seed, .. } = *self.settings;
+        let start = self.settings.start();
+        // How many numbers an attempt uses depends on the walls, so that each has a stream of its own.
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
+        if !conditioned {
+            let (end, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, along);
+            let attempt = Attempt { pose: end.pose, accepted: true, end_free: end.end.free, path_free };
+            return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
+        }
+        match self.model.sample_along(&command, &start, &mut rng, along) {
+            Ok(Accepted { pose, path_free, cost }) => {
+                (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
+            }
+            Err(Wedged(cost)) => {
+                (Attempt { pose: start, accepted: false, end_free: false, path_free: false }, cost)
+            }
+        }
     }
 }

@@ -107,10 +107,10 @@ pub fn squeeze_settings() -> [squeeze::Settings; 5] {
 
 /// [`squeeze_fingerprint`] of each of [`squeeze_settings`].
 pub const SQUEEZE_FINGERPRINTS: [u64; 5] = [
-    0x42f0_997c_ed8c_b5be,
-    0xa81e_dabb_7e45_8d39,
-    0x1c5f_5524_778c_897a,
-    0xc0ac_10f4_d497_145f,
+    0xe40f_039b_4c89_083e,
+    0x3c71_1d22_275c_fd1c,
+    0xb228_686e_93cb_30b6,
+    0x5a2d_75ba_6da9_0ad3,
     0xc9f4_7f6c_0839_0e5d,
 ];
 

@@ -158,7 +158,7 @@ fn unreadable(field: &str) -> JsValue {
 /// A number as JavaScript prints it.
 fn printed(number: f64) -> String {
     // Only another radix could throw.
-    Number::from(number).to_string(10).map_or_else(|_| String::new(), String::from)
+    Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
 
 /// A text between quotation marks. Not as `Debug` has it, which knows all of Unicode and takes a twentieth of the module.

@@ -108,6 +108,7 @@ export class BananaMachineElement extends CloudElement {
   #figures;
   /** @type {Float64Array | undefined} skew against ω, which only a change of settings alters */
   #curve;
+  #curveHolds = false;
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   #handle = new ArcHandle({
@@ -146,7 +147,7 @@ export class BananaMachineElement extends CloudElement {
   }
 
   machineReady() {
-    this.#curve = undefined;
+    this.#curveHolds = false;
     super.machineReady();
   }
 
@@ -270,7 +271,7 @@ export class BananaMachineElement extends CloudElement {
   }
 
   configured() {
-    this.#curve = undefined;
+    this.#curveHolds = false;
     const { model, alphas } = /** @type {BananaMachine} */ (this.machine).config;
     this.#alphas = { ...this.#alphas, [model]: alphas };
   }
@@ -285,7 +286,8 @@ export class BananaMachineElement extends CloudElement {
   read() {
     if (!this.machine) return;
     if (this.markedIndex >= this.machine.shown) this.mark(-1);
-    this.#curve ??= this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
+    if (!this.#curveHolds) this.#curve = this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
+    this.#curveHolds = true;
     this.#figures = read(this.machine);
     this.stale = false;
     const { config, stats, note } = this.#figures;

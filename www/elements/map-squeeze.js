@@ -189,7 +189,7 @@ export class MapSqueezeElement extends CloudElement {
     this.whenReady('preset', name, () => {
       const { presets } = /** @type {Motion} */ (this.motion).MapSqueeze;
       const known = word('preset', name, presets.map((preset) => preset.name));
-      this.attempt(() => this.#leaveOwn());
+      this.#leaveOwn();
       for (const preset of presets) if (preset.name === known) this.assign({ start: preset.start });
     });
   }
@@ -210,7 +210,7 @@ export class MapSqueezeElement extends CloudElement {
   }
 
   set map(map) {
-    this.whenReady('map', map, () => this.attempt(() => this.#put(map)));
+    this.whenReady('map', map, () => this.#put(map));
   }
 
   /** A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted. */

@@ -1,3 +1,4 @@
+import AxeBuilder from '@axe-core/playwright';
 import { expect } from '@playwright/test';
 import { NAMES, heard, ready, show, stateOf } from './element-support.js';
 import { STILL, frames, test } from './support.js';
@@ -101,3 +102,35 @@ for (const name of NAMES) {
     expect(refused).toContain('share');
   });
 }
+
+test.describe('the menu', () => {
+  test.use({ permissions: ['clipboard-read', 'clipboard-write'] });
+
+  test('copies a link where the address is shared, and the code to embed', async ({ page }) => {
+    await show(page, '<banana-machine share></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    await widget.getByRole('button', { name: 'Pivot' }).click();
+    await frames(page);
+    await widget.getByText('Share the figure').click();
+    const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
+    await widget.getByRole('button', { name: 'Copy link' }).click();
+    await expect(widget.getByText('Copied.')).toBeVisible();
+    expect(await clipboard()).toBe(await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink()));
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect.poll(clipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
+    await widget.evaluate((element) => element.removeAttribute('share'));
+    await expect(widget.getByRole('button', { name: 'Copy link' })).toHaveCount(0);
+  });
+
+  test('shows what the clipboard does not take', async ({ page }) => {
+    await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
+    await show(page, '<map-squeeze seed="4"></map-squeeze>');
+    const widget = page.locator('map-squeeze');
+    await ready(widget);
+    await widget.getByText('Share the figure').click();
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect(widget.getByRole('textbox', { name: 'Copy it from here' })).toHaveValue(/<map-squeeze seed="4"><\/map-squeeze>/);
+    expect((await new AxeBuilder({ page }).include('map-squeeze').analyze()).violations).toEqual([]);
+  });
+});

@@ -294,6 +294,7 @@ export class MapSqueezeElement extends CloudElement {
       () => this.machine,
       SAMPLERS,
       () => this.requestUpdate(),
+      (work) => this.attempt(work),
     );
   }
 

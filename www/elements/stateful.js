@@ -200,7 +200,9 @@ export class StatefulElement extends ConfigurableElement {
    */
   attributeChangedCallback(name, old, text) {
     super.attributeChangedCallback(name, old, text);
-    if (name === 'share' && old === null) this.#follow();
+    if (name !== 'share') return;
+    this.requestUpdate();
+    if (old === null) this.#follow();
   }
 
   /** The page's address may carry another state. */

@@ -169,14 +169,17 @@ test('custom-elements.json says what the elements have', async () => {
   assert.deepEqual(declared.map(({ tagName }) => tagName).sort(), ['banana-machine', 'map-squeeze']);
   const page = await browser.newPage();
   await page.goto(`${server.address}plain/`);
-  for (const { tagName, attributes, members, events, cssParts = [] } of declared) {
+  for (const { tagName, attributes, members, events, cssParts, cssProperties } of declared) {
     const live = await page.evaluate(async (tag) => {
       const Class = /** @type {any} */ (await customElements.whenDefined(tag));
       const element = document.createElement(tag);
       document.body.prepend(element);
       await new Promise((resolve) => element.addEventListener('load', resolve));
+      for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
       const parts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('[part]')];
-      return { attributes: [...Class.observedAttributes], parts: parts.flatMap(({ part }) => [...part]) };
+      const styles = [...new Set(Class.elementStyles.map(String))].join('');
+      const properties = [...new Set(styles.match(/--motion-[a-z]+/g))];
+      return { attributes: [...Class.observedAttributes], parts: parts.flatMap(({ part }) => [...part]), properties };
     }, tagName);
     const names = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
     assert.deepEqual(names(attributes), live.attributes.sort(), tagName);
@@ -186,6 +189,7 @@ test('custom-elements.json says what the elements have', async () => {
     }
     assert.deepEqual(names(events), ['change', 'error', 'input', 'load', 'stats']);
     assert.deepEqual(names(cssParts), [...new Set(live.parts)].sort(), `parts of ${tagName}`);
+    assert.deepEqual(names(cssProperties), live.properties.sort(), `properties of ${tagName}`);
   }
   await page.close();
 });

@@ -14,7 +14,7 @@ export async function build() {
   await ensurePackages();
   const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs']);
   await whenStale('build/core.sha256', core, ['build/motion.js', 'build/motion_bg.wasm'], buildCore);
-  const pages = digest(['www', 'package.json', 'package-lock.json', 'scripts/bundle.mjs'], core);
+  const pages = digest(['www', 'package.json', 'package-lock.json', 'scripts/bundle.mjs', 'scripts/manifest.mjs'], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html'], bundle);
 }
 

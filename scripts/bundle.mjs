@@ -2,6 +2,7 @@
 
 import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
+import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
@@ -92,6 +93,7 @@ export async function bundle() {
   write(at('dist/core.d.ts'), readFileSync(at('www/types.d.ts')));
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
   write(at('dist/classroom.html'), inOneFile('index.html'));
+  write(at('dist/custom-elements.json'), await manifest());
   // What weighs how much: read by scripts/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));

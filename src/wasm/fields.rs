@@ -4,7 +4,7 @@
 
 use crate::models::VelocityCmd;
 use crate::sim::settings::{SettingsError, check_real, check_whole};
-use js_sys::{RangeError, Reflect, TypeError};
+use js_sys::{Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
@@ -95,7 +95,7 @@ pub fn whole(field: &str, value: &JsValue, least: u64, most: u64) -> Result<u64,
 
 /// One of a few words.
 pub fn word<T: Copy>(field: &str, value: &JsValue, words: &[(&str, T)]) -> Result<T, JsValue> {
-    let allowed = || words.iter().map(|(word, _)| format!("{word:?}")).collect::<Vec<_>>().join(" or ");
+    let allowed = || words.iter().map(|(word, _)| quoted(word)).collect::<Vec<_>>().join(" or ");
     let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed()))?;
     words.iter().find(|(word, _)| *word == text).map(|(_, meaning)| *meaning).ok_or_else(|| {
         RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed())).into()
@@ -155,16 +155,35 @@ fn unreadable(field: &str) -> JsValue {
     TypeError::new(&format!("{field} is a property that throws; allowed is a plain value")).into()
 }
 
+/// A number as JavaScript prints it.
+fn printed(number: f64) -> String {
+    // Only another radix could throw.
+    Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
+}
+
+/// A text between quotation marks. Not as `Debug` has it, which knows all of Unicode and takes a twentieth of the module.
+fn quoted(text: &str) -> String {
+    let mut result = String::from('"');
+    for character in text.chars() {
+        if matches!(character, '"' | '\\') {
+            result.push('\\');
+        }
+        result.push(if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
+    }
+    result.push('"');
+    result
+}
+
 /// The value as a sentence can hold it, without running any of the caller's code.
 fn describe(value: &JsValue) -> String {
     /// Characters of a string that are quoted: enough to recognize it.
     const MOST_CHARACTERS: usize = 40;
     if let Some(text) = value.as_string() {
         let shown: String = text.chars().take(MOST_CHARACTERS).collect();
-        return if shown.len() < text.len() { format!("{shown:?}…") } else { format!("{shown:?}") };
+        return quoted(&shown) + if shown.len() < text.len() { "…" } else { "" };
     }
     if let Some(number) = value.as_f64() {
-        return number.to_string();
+        return printed(number);
     }
     if let Some(truth) = value.as_bool() {
         return truth.to_string();

@@ -1,5 +1,5 @@
-import AxeBuilder from '@axe-core/playwright';
 import { expect, test as plain } from '@playwright/test';
+import { expectAccessible } from './axe.js';
 import { STILL, boxOf, frames, open, pictureOf, pixelsOf, state, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
@@ -22,19 +22,6 @@ test.describe('the page', () => {
     expect(Math.abs(table.exact.crossTrackSkew + 0.43093)).toBeLessThan(5e-6);
     await expect(page.getByRole('heading', { level: 1 })).toHaveText('The Banana Machine');
   });
-
-  for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
-    test(`has no accessibility violations in ${colorScheme}`, async ({ page }) => {
-      await page.emulateMedia({ colorScheme });
-      const widget = await open(page);
-      expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
-
-      await widget.getByRole('button', { name: 'Straight' }).click();
-      await widget.getByLabel('Isolate one').check();
-      await expect(widget.locator('.note')).toBeVisible();
-      expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
-    });
-  }
 
   test('repaints its canvases when the colour scheme changes', async ({ page }) => {
     const widget = await open(page);
@@ -64,7 +51,7 @@ test.describe('the page', () => {
     const withTrack = await slider.screenshot();
     await slider.evaluate((element) => element.style.setProperty('--muted', 'Canvas'));
     expect(withTrack.equals(await slider.screenshot())).toBe(false);
-    expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
+    await expectAccessible(page);
   });
 
   for (const width of [375, 320]) {
@@ -80,7 +67,7 @@ test.describe('the page', () => {
       });
       expect(right).toBeLessThanOrEqual(0.5);
       expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
-      expect((await new AxeBuilder({ page }).analyze()).violations).toEqual([]);
+      await expectAccessible(page);
     });
   }
 

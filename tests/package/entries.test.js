@@ -161,6 +161,39 @@ test('all elements of a page share one compiled module', async () => {
   }
 });
 
+test('custom-elements.json says what the elements have', async () => {
+  const path = join(project.directory, 'node_modules/motion-widgets/dist/custom-elements.json');
+  const { modules } = JSON.parse(readFileSync(path, 'utf8'));
+  /** @type {any[]} */
+  const declared = modules[0].declarations;
+  assert.deepEqual(declared.map(({ tagName }) => tagName).sort(), ['banana-machine', 'map-squeeze']);
+  const page = await browser.newPage();
+  await page.goto(`${server.address}plain/`);
+  for (const { tagName, attributes, members, events, cssParts, cssProperties } of declared) {
+    const live = await page.evaluate(async (tag) => {
+      const Class = /** @type {any} */ (await customElements.whenDefined(tag));
+      const element = document.createElement(tag);
+      document.body.prepend(element);
+      await new Promise((resolve) => element.addEventListener('load', resolve));
+      for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+      const parts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('[part]')];
+      const styles = [...new Set(Class.elementStyles.map(String))].join('');
+      const properties = [...new Set(styles.match(/--motion-[a-z]+/g))];
+      return { attributes: [...Class.observedAttributes], parts: parts.flatMap(({ part }) => [...part]), properties };
+    }, tagName);
+    const names = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
+    assert.deepEqual(names(attributes), live.attributes.sort(), tagName);
+    for (const name of names(members)) {
+      const there = await page.evaluate(([tag, key]) => key in /** @type {Element} */ (document.querySelector(tag)), [tagName, name]);
+      assert.ok(there, `${tagName} has ${name}`);
+    }
+    assert.deepEqual(names(events), ['change', 'error', 'input', 'load', 'stats']);
+    assert.deepEqual(names(cssParts), [...new Set(live.parts)].sort(), `parts of ${tagName}`);
+    assert.deepEqual(names(cssProperties), live.properties.sort(), `properties of ${tagName}`);
+  }
+  await page.close();
+});
+
 test('two copies of the bundle on a page get along', async () => {
   for (const [first, second] of [['motion-widgets.js', 'external.js'], ['external.js', 'motion-widgets.iife.js'], ['motion-widgets.js', 'motion-widgets.js?copy']]) {
     const { complaints } = await pageWith(script(first) + script(second));

@@ -90,6 +90,31 @@ const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
  * @fires change - What the reader changed has come to rest.
  * @fires {CustomEvent<Stats>} stats - There are fresh statistics; the detail has them.
  *
+ * @csspart picture - A canvas with what stands on it.
+ * @csspart caption - The sentences below a picture.
+ * @csspart legend - What the lines and dots are, and which are shown.
+ * @csspart controls - All controls.
+ * @csspart slider - A slider with its name, value and effect.
+ * @csspart button - A button.
+ * @csspart figures - Readouts, chart and table.
+ * @csspart readouts - The figures about the cloud.
+ * @csspart table - A table of figures.
+ * @csspart chart - The chart of the skew.
+ * @csspart exports - Pictures and data to take along.
+ * @csspart copies - The page's address and HTML to copy.
+ *
+ * @cssprop --motion-paper - Background.
+ * @cssprop --motion-ink - Text.
+ * @cssprop --motion-muted - Text of less weight.
+ * @cssprop --motion-rule - Hairlines.
+ * @cssprop --motion-prior - The commanded motion.
+ * @cssprop --motion-prediction - What the model predicts: lines and text.
+ * @cssprop --motion-cloud - The samples.
+ * @cssprop --motion-truth - What is so, apart from any model.
+ * @cssprop --motion-posterior - What exponential coordinates, or the map, make of it.
+ * @cssprop --motion-accent - Annotations.
+ * @cssprop --motion-font - Families of type.
+ *
  * @extends {CloudElement<BananaMachine, Settings>}
  */
 export class BananaMachineElement extends CloudElement {
@@ -108,6 +133,7 @@ export class BananaMachineElement extends CloudElement {
   #figures;
   /** @type {Float64Array | undefined} skew against ω, which only a change of settings alters */
   #curve;
+  #curveHolds = false;
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   #handle = new ArcHandle({
@@ -146,7 +172,7 @@ export class BananaMachineElement extends CloudElement {
   }
 
   machineReady() {
-    this.#curve = undefined;
+    this.#curveHolds = false;
     super.machineReady();
   }
 
@@ -276,7 +302,7 @@ export class BananaMachineElement extends CloudElement {
   }
 
   configured() {
-    this.#curve = undefined;
+    this.#curveHolds = false;
     const { model, alphas } = /** @type {BananaMachine} */ (this.machine).config;
     this.#alphas = { ...this.#alphas, [model]: alphas };
   }
@@ -291,7 +317,8 @@ export class BananaMachineElement extends CloudElement {
   read() {
     if (!this.machine) return;
     if (this.markedIndex >= this.machine.shown) this.mark(-1);
-    this.#curve ??= this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
+    if (!this.#curveHolds) this.#curve = this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
+    this.#curveHolds = true;
     this.#figures = read(this.machine);
     this.stale = false;
     const { config, stats, note } = this.#figures;

@@ -185,7 +185,7 @@ export function readouts(stats, samples) {
 
 /** @param {[string, string, string?][]} rows name, value, and the longest value there is to keep room for */
 export function readoutList(rows) {
-  return html`<dl class="readouts">
+  return html`<dl class="readouts" part="readouts">
     ${rows.map(
       ([name, value, room = value]) =>
         html`<div><dt>${rich(name)}</dt><dd class="roomy" data-room=${room}>${value}</dd></div>`,
@@ -252,9 +252,11 @@ const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
  */
 export function workedExample({ linearized, exact, measured }, stats) {
   const computed = [linearized, exact];
-  const skew = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3);
+  const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
+  // Of two lines also while there is none.
+  const measuredSkew = html`${skew}<br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
-  /** @type {[unknown, (column: Table['exact']) => number, string?][]} */
+  /** @type {[unknown, (column: Table['exact']) => number, unknown?][]} */
   const rows = [
     [rich(say.mean('*x*')), ({ mean }) => mean[0]],
     [rich(say.mean('*y*')), ({ mean }) => mean[1]],
@@ -266,7 +268,7 @@ export function workedExample({ linearized, exact, measured }, stats) {
     [sigma('yθ'), ({ cov }) => cov[1][2]],
     [sigma('θθ'), ({ cov }) => cov[2][2]],
     [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
-    [say.skew, ({ crossTrackSkew }) => crossTrackSkew, skew],
+    [say.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
   ];
   return momentTable({
     caption: say.caption,
@@ -308,7 +310,9 @@ export function twistTable({ tangent }, { exponential }) {
  * @param {{ caption: string, columns: string[], rows: unknown[][] }} table the name of each row first
  */
 function momentTable({ caption, columns, rows }) {
-  return html`<table>
+  // As wide as any of what is measured: while the cloud grows, no column does.
+  const room = significant(-1e-5, MEASURED_DIGITS);
+  return html`<table part="table">
     <caption>${caption}</caption>
     <thead>
       <tr>
@@ -320,7 +324,7 @@ function momentTable({ caption, columns, rows }) {
       ${rows.map(
         ([name, ...cells]) => html`<tr>
           <th scope="row">${name}</th>
-          ${cells.map((cell) => html`<td>${cell}</td>`)}
+          ${cells.map((cell) => html`<td class="roomy" data-room=${room}>${cell}</td>`)}
         </tr>`,
       )}
     </tbody>

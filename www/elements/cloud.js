@@ -8,6 +8,7 @@ import { html } from 'lit';
 import { words } from '../messages/registry.js';
 import { button, sliderRow } from '../ui/controls.js';
 import { whole } from '../ui/format.js';
+import { CopyMenu } from './copy.js';
 import { csvOf, exportMenu, pngOf, svgOf } from './export.js';
 import { onPrint } from './print.js';
 import { truth, whole as wholeNumber } from './state.js';
@@ -40,6 +41,7 @@ export class CloudElement extends StatefulElement {
   /** The sample that is marked; −1 for none. */
   markedIndex = -1;
   #toAnnounce = false;
+  #copies = new CopyMenu(this, () => this.requestUpdate());
 
   /** Ends listening for the printer. @type {(() => void) | undefined} */
   #unprint;
@@ -288,7 +290,7 @@ export class CloudElement extends StatefulElement {
         },
         commit: () => this.commit(),
       })}
-      ${exportMenu(this, seed)}
+      ${exportMenu(this, seed)} ${this.#copies.render()}
     </fieldset>`;
   }
 }

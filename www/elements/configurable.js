@@ -94,7 +94,7 @@ export class ConfigurableElement extends WidgetElement {
       if (text !== undefined) this.#takeAttribute(name, text);
     }
     this.#early.clear();
-    for (const { take } of this.#wishes.splice(0)) this.tolerate(take);
+    for (const { take } of this.#wishes.splice(0)) this.tolerate(() => this.attempt(take));
   }
 
   /** Properties that were set before the element was one. */
@@ -236,7 +236,7 @@ export class ConfigurableElement extends WidgetElement {
    * @param {() => void} take
    */
   whenReady(property, value, take) {
-    if (this.machine) take();
+    if (this.machine) this.attempt(take);
     else this.#wishes.push({ property, value, take });
   }
 

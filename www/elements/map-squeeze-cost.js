@@ -88,8 +88,9 @@ export class CostMeter {
    * @param {() => MapSqueeze | undefined} machine
    * @param {SamplerName[]} samplers
    * @param {() => void} told called after each
+   * @param {(work: () => void) => void} attempt does what may trap
    */
-  measureSoon(machine, samplers, told) {
+  measureSoon(machine, samplers, told, attempt) {
     this.outdate();
     const measured = machine();
     if (!measured) return;
@@ -105,9 +106,10 @@ export class CostMeter {
         this.current = index === samplers.length - 1;
         told();
       }
-      if (!this.current) this.#timer = setTimeout(next, 0, done ? index + 1 : index);
+      if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
     };
-    this.#timer = setTimeout(next, REST, 0);
+    const step = (/** @type {number} */ index) => attempt(() => next(index));
+    this.#timer = setTimeout(step, REST, 0);
   }
 }
 

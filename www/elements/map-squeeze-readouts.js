@@ -28,7 +28,7 @@ import { SAMPLERS, keptWords, shareOf } from './map-squeeze-words.js';
 export function key(config) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;
-  return html`<ul class="key">
+  return html`<ul class="key" part="legend">
     <li>
       <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
       ${rejected}
@@ -72,11 +72,11 @@ export function tally(stats, config, paths) {
     [say.drawn, whole(stats.drawn), all],
     [kept, whole(stats.accepted), all],
     [config.sampler === 'sub-stepped' ? say.rateOfParts : say.rate, percent(stats.acceptanceRate), percent(1)],
-    [say.draws(kept), fixed(stats.drawsPerAccepted, 2)],
+    [say.draws(kept), fixed(stats.drawsPerAccepted, 2), fixed(10, 2)],
     [through, whole(stats.throughWall), all],
     [say.share(kept) + (share.interval ? say.interval : ''), share.text, shareOf(CERTAIN, config).text],
-    [say.paths, paths < stats.throughWall ? say.first(whole(paths)) : whole(paths)],
-    [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2)],
+    [say.paths, paths < stats.throughWall ? say.first(whole(paths)) : whole(paths), say.first(all)],
+    [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2), fixed(10, 2)],
   ]);
 }
 
@@ -118,10 +118,11 @@ export function markedDraw({ index, shown, verdict, mark }) {
  */
 export function costTable({ costs, current }, steps) {
   const { samplers, costs: say } = words.squeeze;
+  const room = fixed(10, 2);
   const name = (/** @type {import('../types.d.ts').SamplerName} */ sampler) =>
     sampler === 'sub-stepped' ? html`${samplers[sampler]}, <i>k</i> = ${steps}` : samplers[sampler];
   return html`<div class="table" aria-busy=${!current}>
-    <table class=${current ? '' : 'outdated'}>
+    <table part="table" class=${current ? '' : 'outdated'}>
       <caption>${say.caption}</caption>
       <thead>
         <tr>
@@ -139,10 +140,12 @@ export function costTable({ costs, current }, steps) {
             <th scope="row">${name(sampler)}</th>
             ${typeof cost === 'string'
               ? html`<td colspan="4">${say[cost]}</td>`
-              : html`<td>${fixed(cost.draws, 2)}</td>
-                  <td>${fixed(cost.wallTests, 2)}</td>
-                  <td>${rounded(cost.micros, 2)}</td>
-                  <td>${rounded(100 * cost.micros * 1e-6 * DEMAND, 2)}&#8239;%</td>`}
+              : [
+                  fixed(cost.draws, 2),
+                  fixed(cost.wallTests, 2),
+                  rounded(cost.micros, 2),
+                  `${rounded(100 * cost.micros * 1e-6 * DEMAND, 2)}\u202f%`,
+                ].map((text) => html`<td class="roomy" data-room=${room}>${text}</td>`)}
           </tr>`;
         })}
       </tbody>

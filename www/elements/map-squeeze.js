@@ -80,6 +80,29 @@ const MOST_PATHS = 150;
  * @fires change - What the reader changed has come to rest.
  * @fires {CustomEvent<SqueezeStats>} stats - There are fresh statistics; the detail has them.
  *
+ * @csspart picture - A canvas with what stands on it.
+ * @csspart caption - The sentences below a picture.
+ * @csspart legend - What the lines and dots are, and which are shown.
+ * @csspart controls - All controls.
+ * @csspart slider - A slider with its name, value and effect.
+ * @csspart button - A button.
+ * @csspart figures - Readouts, chart and table.
+ * @csspart table - A table of figures.
+ * @csspart exports - Pictures and data to take along.
+ * @csspart copies - The page's address and HTML to copy.
+ *
+ * @cssprop --motion-paper - Background.
+ * @cssprop --motion-ink - Text.
+ * @cssprop --motion-muted - Text of less weight.
+ * @cssprop --motion-rule - Hairlines.
+ * @cssprop --motion-prior - The commanded motion.
+ * @cssprop --motion-prediction - What the model predicts: lines and text.
+ * @cssprop --motion-cloud - The samples.
+ * @cssprop --motion-truth - What is so, apart from any model.
+ * @cssprop --motion-posterior - What exponential coordinates, or the map, make of it.
+ * @cssprop --motion-accent - Annotations.
+ * @cssprop --motion-font - Families of type.
+ *
  * @extends {CloudElement<MapSqueeze, Settings>}
  */
 export class MapSqueezeElement extends CloudElement {
@@ -189,7 +212,7 @@ export class MapSqueezeElement extends CloudElement {
     this.whenReady('preset', name, () => {
       const { presets } = /** @type {Motion} */ (this.motion).MapSqueeze;
       const known = word('preset', name, presets.map((preset) => preset.name));
-      this.attempt(() => this.#leaveOwn());
+      this.#leaveOwn();
       for (const preset of presets) if (preset.name === known) this.assign({ start: preset.start });
     });
   }
@@ -210,7 +233,7 @@ export class MapSqueezeElement extends CloudElement {
   }
 
   set map(map) {
-    this.whenReady('map', map, () => this.attempt(() => this.#put(map)));
+    this.whenReady('map', map, () => this.#put(map));
   }
 
   /** A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted. */
@@ -294,6 +317,7 @@ export class MapSqueezeElement extends CloudElement {
       () => this.machine,
       SAMPLERS,
       () => this.requestUpdate(),
+      (work) => this.attempt(work),
     );
   }
 

@@ -21,7 +21,6 @@ export const schemeStyles = css`
     forced-color-adjust: none;
     background-color: light-dark(#ffffff, #000000);
     transition: 1ms;
-    transition-property: color, background-color;
   }
 
   .surface.light {

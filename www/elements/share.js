@@ -31,9 +31,12 @@ export function fragmentOf(key) {
  * @returns {string} the page's address with it
  */
 export function addressWith(key, text) {
-  const others = parts().filter((part) => !part.startsWith(`${key}=`));
+  const part = `${key}=${text}`;
+  const all = parts();
+  const at = all.findIndex((each) => each.startsWith(`${key}=`));
+  const next = at < 0 ? [...all, part] : all.with(at, part);
   // In full: a base element of the page does not matter then.
-  return `${location.href.replace(/#.*$/s, '')}#${[...others, `${key}=${text}`].join('&')}`;
+  return `${location.href.replace(/#.*$/s, '')}#${next.join('&')}`;
 }
 
 /**

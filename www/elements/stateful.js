@@ -152,7 +152,7 @@ export class StatefulElement extends ConfigurableElement {
    * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then
    */
   setState(state) {
-    this.whenReady('state', state, () => this.attempt(() => this.#enter(state)));
+    this.whenReady('state', state, () => this.#enter(state));
   }
 
   /** @param {unknown} state */
@@ -178,8 +178,8 @@ export class StatefulElement extends ConfigurableElement {
     this.adopt(next);
     this.stale = true;
     this.#begun = true;
-    this.begin(next);
     this.configured();
+    this.begin(next);
     this.tell();
     this.refresh();
   }
@@ -200,7 +200,9 @@ export class StatefulElement extends ConfigurableElement {
    */
   attributeChangedCallback(name, old, text) {
     super.attributeChangedCallback(name, old, text);
-    if (name === 'share' && old === null) this.#follow();
+    if (name !== 'share') return;
+    this.requestUpdate();
+    if (old === null) this.#follow();
   }
 
   /** The page's address may carry another state. */

@@ -44,6 +44,15 @@ export const de = {
     svgTitle: 'Das Bild als Vektorgrafik',
     csvTitle: 'Jede Stichprobe, mit den Parametern und dem Startwert',
   },
+  copies: {
+    label: 'Abbildung weitergeben',
+    link: 'Link kopieren',
+    linkTitle: 'Die Adresse dieser Seite mit der Abbildung, wie sie jetzt ist',
+    code: 'Code zum Einbetten kopieren',
+    codeTitle: 'HTML, das die Abbildung, wie sie jetzt ist, auf einer eigenen Seite zeigt',
+    done: 'Kopiert.',
+    byHand: 'Von hier kopieren:',
+  },
   banana: {
     title: 'Die Bananenmaschine',
     presets: { straight: 'Geradeaus', gentle: 'Sanfter Bogen', hard: 'Enger Bogen', pivot: 'Auf der Stelle' },

@@ -49,6 +49,15 @@ export const en = /** @satisfies {Message} */ ({
     svgTitle: 'The picture as vector graphics',
     csvTitle: 'Every sample, with the parameters and the seed',
   },
+  copies: {
+    label: 'Share the figure',
+    link: 'Copy link',
+    linkTitle: 'The address of this page with the figure as it is now',
+    code: 'Copy embed code',
+    codeTitle: 'HTML that shows the figure as it is now on a page of your own',
+    done: 'Copied.',
+    byHand: 'Copy it from here:',
+  },
   banana: {
     title: 'The Banana Machine',
     presets: { straight: 'Straight', gentle: 'Gentle arc', hard: 'Hard arc', pivot: 'Pivot' },

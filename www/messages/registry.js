@@ -126,6 +126,11 @@ function languageOf(element) {
 /** @type {MutationObserver | undefined} */
 let observer;
 
+/** On its own: made among an element's variables, it would hold the element for as long as the page lives. */
+function tellAll() {
+  for (const listener of shared.listeners) listener();
+}
+
 /**
  * Calls back when an element may have to speak again: on other words, or another language.
  *
@@ -135,9 +140,7 @@ let observer;
  */
 export function onLanguage(element, listener) {
   const { listeners } = shared;
-  observer ??= new MutationObserver(() => {
-    for (const each of listeners) each();
-  });
+  observer ??= new MutationObserver(tellAll);
   const watch = { attributeFilter: ['lang'], subtree: true };
   observer.observe(document, watch);
   const root = element.getRootNode();

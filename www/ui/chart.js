@@ -6,6 +6,7 @@
 
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg } from 'lit';
+import { finger } from './finger.js';
 import { fixed, tick } from './format.js';
 
 const WIDTH = 380;
@@ -118,6 +119,24 @@ export function skewChart(chart) {
     const pixel = ((event.clientX - box.left) / box.width) * WIDTH;
     chart.move(() => onStep(min + (pixel - INSET.left) / perX));
   };
+  /** @param {PointerEvent} event */
+  const down = (event) => {
+    if (event.button !== 0) return;
+    finger.comes(event);
+    if (finger.waits) return;
+    /** @type {Element} */ (event.currentTarget).setPointerCapture(event.pointerId);
+    follow(event);
+  };
+  /** @param {PointerEvent} event */
+  const move = (event) => {
+    finger.moves(event);
+    if (event.buttons & 1 && !finger.waits) follow(event);
+  };
+  /** @param {PointerEvent} event */
+  const up = (event) => {
+    if (finger.goes()) follow(event);
+    chart.commit();
+  };
   /** @param {KeyboardEvent} event */
   const key = (event) => {
     const steps = /** @type {Record<string, number>} */ ({
@@ -142,13 +161,11 @@ export function skewChart(chart) {
       viewBox="0 0 ${WIDTH} ${HEIGHT}"
       role="group"
       aria-label=${chart.label}
-      @pointerdown=${(/** @type {PointerEvent} */ event) => {
-        if (event.button !== 0) return;
-        /** @type {Element} */ (event.currentTarget).setPointerCapture(event.pointerId);
-        follow(event);
-      }}
-      @pointermove=${(/** @type {PointerEvent} */ event) => event.buttons & 1 && follow(event)}
-      @pointerup=${chart.commit}
+      part="chart"
+      @pointerdown=${down}
+      @pointermove=${move}
+      @pointerup=${up}
+      @pointercancel=${finger.goes}
     >
       <g aria-hidden="true">
         ${ticks(min, max, 5).map(

@@ -7,6 +7,7 @@
 
 import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
+import { finger } from './finger.js';
 
 export const controlStyles = css`
   /* The sliders of a group share their columns, each as wide as its widest text in whatever font. */
@@ -247,9 +248,13 @@ export const controlStyles = css`
 export function sliderRow(row) {
   const classes = `slider${row.pick ? ' picking' : ''}${row.off ? ' off' : ''}`;
   const shown = row.show(row.value);
+  const set = (/** @type {Event} */ event) => {
+    // A browser sets a slider as soon as a finger comes down on it.
+    if (!finger.waits) row.input(numberOf(event));
+  };
   const room = longest([shown, row.show(row.min), row.show(row.max)]);
   return html`
-    <div class=${classes} .style=${`--thumb: var(--${row.role})`}>
+    <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}
       <label for=${row.id}>${row.symbol}</label>
       <input
@@ -262,7 +267,16 @@ export function sliderRow(row) {
         aria-label=${row.name ?? nothing}
         aria-valuetext=${shown}
         aria-describedby="${row.id}-effect"
-        @input=${(/** @type {Event} */ event) => row.input(numberOf(event))}
+        @pointerdown=${finger.comes}
+        @pointermove=${(/** @type {PointerEvent} */ event) => {
+          finger.moves(event);
+          if (event.pointerType === 'touch' && !finger.waits) set(event);
+        }}
+        @pointerup=${(/** @type {PointerEvent} */ event) => finger.goes() && set(event)}
+        @pointercancel=${(/** @type {PointerEvent} */ event) => {
+          if (finger.goes()) inputOf(event).value = String(row.value);
+        }}
+        @input=${set}
         @change=${row.commit}
       />
       <span class="value roomy" data-room=${room}>${shown}</span>
@@ -327,6 +341,7 @@ export function toggle({ label, checked, change }) {
 export function button(label, press, { pressed, disabled = false, title } = {}) {
   return html`<button
     type="button"
+    part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}
     aria-pressed=${pressed ?? nothing}

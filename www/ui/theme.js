@@ -2,7 +2,8 @@
  * The palette: one colour a role, the same in every view, for light and dark paper. The hues are
  * Okabe and Ito's, with lightness spread so that the roles stay apart under every common form of
  * colour blindness; each role also has a dash or a shape of its own. Text on the paper keeps a
- * contrast of at least 4.5, and lines at least 3.
+ * contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
+ * custom property that begins with --motion.
  *
  * @module
  */
@@ -25,23 +26,23 @@ const ROLES = /** @type {const} */ ([
 
 export const theme = css`
   :host {
-    --paper: light-dark(#fffefb, #16181b);
-    --ink: light-dark(#1f1e1b, #ebe9e3);
-    --muted: light-dark(#5e5b54, #a8a59c);
-    --rule: light-dark(#d9d5cb, #3a3d42);
-    --prior: light-dark(#0b61b0, #5a9ff0);
-    --prediction: light-dark(#b85300, #f0963a);
-    --cloud: light-dark(#dd6f00, #f0963a);
-    --truth: light-dark(#8a8a8a, #8e8e8e);
-    --posterior: light-dark(#00694a, #4fe3b0);
-    --accent: light-dark(#7a1560, #fbb4e0);
-    --serif:
-      'Iowan Old Style', 'Palatino Linotype', Palatino, 'URW Palladio L', 'Source Serif 4',
-      'Times New Roman', serif;
-
+    --paper: var(--motion-paper, light-dark(#fffefb, #16181b));
+    --ink: var(--motion-ink, light-dark(#1f1e1b, #ebe9e3));
+    --muted: var(--motion-muted, light-dark(#5e5b54, #a8a59c));
+    --rule: var(--motion-rule, light-dark(#d9d5cb, #3a3d42));
+    --prior: var(--motion-prior, light-dark(#0b61b0, #5a9ff0));
+    --prediction: var(--motion-prediction, light-dark(#b85300, #f0963a));
+    --cloud: var(--motion-cloud, light-dark(#dd6f00, #f0963a));
+    --truth: var(--motion-truth, light-dark(#8a8a8a, #8e8e8e));
+    --posterior: var(--motion-posterior, light-dark(#00694a, #4fe3b0));
+    --accent: var(--motion-accent, light-dark(#7a1560, #fbb4e0));
     display: block;
     container-type: inline-size;
-    font: 1rem/1.4 var(--serif);
+    font: 1rem/1.4 var(
+        --motion-font,
+        'Iowan Old Style', 'Palatino Linotype', Palatino, 'URW Palladio L', 'Source Serif 4',
+        'Times New Roman', serif
+      );
     font-variant-numeric: lining-nums tabular-nums;
     text-align: start;
   }
@@ -58,6 +59,17 @@ export const theme = css`
       --muted: CanvasText;
       --rule: color-mix(in srgb, CanvasText 35%, Canvas);
     }
+  }
+
+  /* A change of any role is an event: see schemeStyles. */
+  .scheme-probe {
+    border-color: var(--paper) var(--ink) var(--muted) var(--rule);
+    caret-color: var(--truth);
+    column-rule-color: var(--cloud);
+    fill: var(--posterior);
+    outline-color: var(--prior);
+    stroke: var(--accent);
+    text-decoration-color: var(--prediction);
   }
 
   .surface {
@@ -78,6 +90,45 @@ export const theme = css`
     overflow: hidden;
     clip-path: inset(50%);
     white-space: nowrap;
+  }
+
+  /* On paper: the figure and what it was made with, and nothing that wants to be pressed. */
+  @media print {
+    .surface {
+      color-scheme: light !important;
+    }
+
+    .stage {
+      position: static !important;
+    }
+
+    :is(button, input, textarea, details, .handle, .effect, .marked, .visually-hidden),
+    label:has(input:not(:checked)),
+    .own-map :not(.present, :has(.present)) {
+      display: none !important;
+    }
+
+    fieldset {
+      display: block !important;
+    }
+
+    .slider {
+      display: inline-flex !important;
+      gap: 0.4rem;
+      margin: 0 1.5rem 0 0 !important;
+    }
+
+    .roomy::after,
+    .reserved {
+      display: none !important;
+    }
+
+    figure,
+    table,
+    .stage,
+    fieldset {
+      break-inside: avoid;
+    }
   }
 `;
 
@@ -102,11 +153,19 @@ export function resolvePalette(surface) {
   return Object.fromEntries(colours);
 }
 
+/** @type {OffscreenCanvasRenderingContext2D | undefined} */
+let pixel;
+
 /**
- * @param {string} colour as `getComputedStyle` prints it, "rgb(r, g, b)"
- * @returns {[number, number, number]}
+ * @param {string} colour in any form that the browser knows: a page may have named it
+ * @returns {[number, number, number]} red, green, blue, 0 to 255
  */
 export function channels(colour) {
-  const [red = 0, green = 0, blue = 0] = (colour.match(/[\d.]+/g) ?? []).map(Number);
+  const context = (pixel ??= /** @type {OffscreenCanvasRenderingContext2D} */ (
+    new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })
+  ));
+  context.fillStyle = colour;
+  context.fillRect(0, 0, 1, 1);
+  const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;
   return [red, green, blue];
 }

@@ -1,0 +1,200 @@
+import { readFileSync } from 'node:fs';
+import { expect } from '@playwright/test';
+import { NAMES, assign, heard, property, ready, show } from './element-support.js';
+import { STILL, frames, test } from './support.js';
+
+/** @typedef {import('./element-support.js').AnyElement} AnyElement */
+
+test.use(STILL);
+
+test.describe('attributes', () => {
+  test('of every kind say how the figure opens', async ({ page }) => {
+    await show(
+      page,
+      `<banana-machine seed="11" samples="300" alpha4="0.125" model="odometry" noise="triangular" preset="hard" v="-0.5"
+         isolate="3" overlays="linearized command"></banana-machine>
+       <map-squeeze preset="wall" x="3.25" noise="0.2" conditioned="false" sampler="sub-stepped" steps="4"
+         clearance="0.2" samples="77" seed="5" view="close"></map-squeeze>`,
+    );
+    const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+    await ready(banana);
+    await squeeze.scrollIntoViewIfNeeded();
+    await ready(squeeze);
+    const config = await banana.evaluate((element) => Reflect.get(element, 'machine').config);
+    expect(config).toMatchObject({
+      model: 'odometry',
+      noise: 'triangular',
+      command: { v: -0.5, omega: 1.2, dt: 1.4 },
+      isolate: 3,
+      samples: 300,
+      seed: 11,
+    });
+    expect(config.alphas[3]).toBe(0.125);
+    expect(await property(banana, 'overlays')).toEqual(['command', 'linearized']);
+    expect(await squeeze.evaluate((element) => Reflect.get(element, 'machine').config)).toMatchObject({
+      start: { x: 3.25, y: 2.6, theta: Math.PI / 2 },
+      alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05],
+      conditioned: false,
+      sampler: 'sub-stepped',
+      steps: 4,
+      clearance: 0.2,
+      samples: 77,
+      seed: 5,
+    });
+    expect(await property(squeeze, 'view')).toBe('close');
+    expect((await heard(page)).map(({ name, target }) => [name, target])).toEqual(NAMES.map((name) => ['load', name]));
+  });
+
+  test('stay as they are until something changes, and then say it', async ({ page }) => {
+    await show(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
+    const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+    await ready(banana);
+    const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
+      widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
+    expect(await attributes(banana)).toEqual({ preset: 'hard', seed: '3' });
+    await banana.locator('#v').fill('0.5');
+    await frames(page);
+    expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3' });
+    await banana.getByRole('button', { name: 'Pivot' }).click();
+    await frames(page);
+    expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3' });
+    await banana.getByLabel('Isolate one').check();
+    await banana.getByRole('checkbox', { name: 'linearized' }).check();
+    await frames(page);
+    expect(await attributes(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse linearized exponential' });
+    await banana.getByLabel('Isolate one').uncheck();
+    await frames(page);
+    expect(await attributes(banana)).not.toHaveProperty('isolate');
+
+    await squeeze.scrollIntoViewIfNeeded();
+    await ready(squeeze);
+    await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
+    await squeeze.getByLabel('Condition on it').uncheck();
+    await frames(page);
+    expect(await attributes(squeeze)).toEqual({ preset: 'wall', x: '3.3', conditioned: 'false' });
+  });
+
+  test('and the page that they are copied to shows the same', async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>');
+    const widget = page.locator('banana-machine').first();
+    await ready(widget);
+    await widget.getByRole('button', { name: 'Hard arc' }).click();
+    await widget.locator('#alpha2').fill('0.111');
+    await frames(page);
+    const code = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
+    expect(code).toContain('<script type="module" src="motion-widgets.js"></script>');
+    expect(code).toContain('<banana-machine preset="hard" alpha2="0.111"></banana-machine>');
+    const same = await widget.evaluate(async (element, html) => {
+      const copies = [html, element.outerHTML].map((text) => {
+        const box = document.createElement('div');
+        box.style.cssText = 'position: fixed; inset: 0';
+        box.innerHTML = text;
+        element.before(box);
+        return /** @type {any} */ (box.querySelector('banana-machine'));
+      });
+      await Promise.all(copies.map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve))));
+      return [element, ...copies].map((each) => JSON.stringify(/** @type {AnyElement} */ (each).getState()));
+    }, code);
+    expect(same[1]).toBe(same[0]);
+    expect(same[2]).toBe(same[0]);
+  });
+
+  test('that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
+    await show(page, '<banana-machine v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const errors = (await heard(page, ['error'])).map(({ message }) => message);
+    expect(errors).toEqual([
+      'model is "walking"; allowed is "velocity" or "odometry"',
+      'command.v is "fast"; allowed is a number',
+      'samples is 0; allowed is a whole number from 1 to 1000000',
+      'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "exponential"',
+    ]);
+    const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
+    expect(await values()).toEqual([1, 0.7, 'velocity', 2000]);
+    await widget.evaluate((element) => element.setAttribute('dt', '-1'));
+    expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual([
+      'command.dt is -1; allowed is a number from 0.000001 to 1000000',
+    ]);
+    expect(await property(widget, 'dt')).toBe(1);
+    await widget.evaluate((element) => element.setAttribute('dt', '2'));
+    expect(await property(widget, 'dt')).toBe(2);
+    await widget.getByRole('button', { name: 'Pivot' }).click();
+    expect(await values()).toEqual([0.06, 1.5, 'velocity', 2000]);
+  });
+
+  test('that are removed leave what the figure opens with', async ({ page }) => {
+    await show(page, '<banana-machine v="2" alpha1="0.2" overlays="ellipse" isolate="2"></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    await widget.evaluate((element) => {
+      for (const name of ['v', 'alpha1', 'overlays', 'isolate']) element.removeAttribute(name);
+    });
+    const values = await Promise.all(['v', 'alpha1', 'overlays', 'isolate'].map((name) => property(widget, name)));
+    expect(values).toEqual([1, 0.05, ['command', 'ellipse', 'exponential'], null]);
+  });
+
+  for (const name of NAMES) {
+    test(`of ${name} are all documented on its class`, async ({ page }) => {
+      await show(page, '');
+      await page.waitForFunction((tag) => customElements.get(tag), name);
+      const observed = await page.evaluate((tag) => /** @type {any} */ (customElements.get(tag)).observedAttributes, name);
+      const source = readFileSync(new URL(`../../www/elements/${name}.js`, import.meta.url), 'utf8');
+      const documented = [...source.matchAll(/^ \* @attr \{[^}]+\} ([\w-]+) - /gm)].map(([, attribute]) => attribute);
+      expect(documented.sort()).toEqual([...observed].sort());
+    });
+  }
+});
+
+test.describe('properties', () => {
+  test('that were set before the element was one are taken up', async ({ page }) => {
+    await show(page, '<banana-machine v="2"></banana-machine>', { script: '' });
+    expect(await page.evaluate(() => customElements.get('banana-machine') === undefined)).toBe(true);
+    await page.evaluate(async () => {
+      Object.assign(document.querySelector('banana-machine') ?? {}, {
+        v: 3, omega: 0.25, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0], overlays: ['ellipse'], theme: 'dark', marked: 4,
+      });
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+    });
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const values = await widget.evaluate((element) => {
+      const { v, omega, alphas, overlays, theme, marked } = /** @type {any} */ (element);
+      return { v, omega, alphas, overlays, theme, marked, own: Object.hasOwn(element, 'v') };
+    });
+    expect(values).toEqual({ v: 3, omega: 0.25, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0], overlays: ['ellipse'], theme: 'dark', marked: 4, own: false });
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  test('take effect at once and reflect; those out of range throw and change nothing', async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
+    const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+    await ready(banana);
+    expect(await assign(banana, 'omega', 1.1)).toBe('');
+    expect(await banana.getAttribute('omega')).toBe('1.1');
+    const { stats } = await banana.evaluate((element) => ({ stats: /** @type {AnyElement} */ (element).stats }));
+    expect(stats?.n).toBe(2000);
+    await squeeze.scrollIntoViewIfNeeded();
+    await ready(squeeze);
+    for (const [widget, name, value, message] of /** @type {const} */ ([
+      [banana, 'v', 'fast', 'TypeError: command.v is "fast"; allowed is a number'],
+      [banana, 'v', 1e7, 'RangeError: command.v is 10000000; allowed is a number from -1000000 to 1000000'],
+      [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot"'],
+      [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
+      [banana, 'marked', 2000, 'RangeError: marked is 2000; allowed is a whole number from 0 to 1999'],
+      [banana, 'alphas', [1, 2], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
+      [squeeze, 'noise', -1, 'RangeError: alphas[0] is -1; allowed is a number from 0 to 1000000'],
+      [squeeze, 'conditioned', 'maybe', 'TypeError: conditioned is "maybe"; allowed is true or false'],
+      [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "whole" or "close"'],
+      [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: bounds has length 3; allowed is an array of 4 numbers'],
+    ])) {
+      const before = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));
+      expect(await assign(widget, name, value)).toBe(message);
+      expect(await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()))).toBe(before);
+    }
+    expect(await assign(banana, 'model', 'odometry')).toBe('');
+    expect(await property(banana, 'alpha5')).toBe(null);
+    expect(await assign(banana, 'alpha5', 0.1)).toContain('alpha5 is 0.1; allowed is none');
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+});

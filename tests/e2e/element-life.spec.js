@@ -1,0 +1,253 @@
+import { expect } from '@playwright/test';
+import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
+import { STILL, frames, pictureOf, state, test } from './support.js';
+
+/** @typedef {import('./element-support.js').AnyElement} AnyElement */
+/** @typedef {import('@playwright/test').Page} Page */
+
+/**
+ * Counts calls of what starts work.
+ *
+ * @param {Page} page
+ */
+async function count(page) {
+  await page.addInitScript(() => {
+    const counts = { frames: 0, compiled: 0, instances: 0 };
+    Object.assign(window, { counts, quietFrame: requestAnimationFrame.bind(window) });
+    const { requestAnimationFrame: request } = window;
+    window.requestAnimationFrame = (callback) => {
+      counts.frames++;
+      return request.call(window, callback);
+    };
+    const { compile, compileStreaming, instantiate } = WebAssembly;
+    WebAssembly.compile = (...given) => (counts.compiled++, compile.apply(WebAssembly, given));
+    WebAssembly.compileStreaming = (...given) => (counts.compiled++, compileStreaming.apply(WebAssembly, given));
+    WebAssembly.instantiate = /** @type {any} */ (
+      (/** @type {[any, any]} */ ...given) => (counts.instances++, instantiate.apply(WebAssembly, given))
+    );
+  });
+}
+
+/**
+ * @param {Page} page
+ * @returns {Promise<{ frames: number, compiled: number, instances: number }>}
+ */
+const counted = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
+
+/**
+ * Lets frames pass that are nobody's.
+ *
+ * @param {Page} page
+ */
+const pass = (page) =>
+  page.evaluate(async () => {
+    for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'quietFrame'));
+  });
+
+test.describe('far from the window', () => {
+  test.use(STILL);
+
+  test('nothing is fetched or computed, and one module serves all', async ({ page }) => {
+    /** @type {string[]} */
+    const fetched = [];
+    page.on('request', (request) => fetched.push(new URL(request.url()).pathname));
+    await count(page);
+    await show(page, `<div style="height: 5000px"></div>${NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
+      script: '<script type="module" src="/external.js"></script>',
+    });
+    await page.waitForFunction(() => customElements.get('map-squeeze'));
+    await pass(page);
+    expect(await counted(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
+    expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual([]);
+    for (const name of NAMES) {
+      await page.locator(name).scrollIntoViewIfNeeded();
+      await ready(page.locator(name));
+    }
+    expect(await counted(page)).toMatchObject({ compiled: 1, instances: 2 });
+    expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
+  });
+
+  for (const width of [320, 375, 768, 1280]) {
+    test(`room is kept, ${width} px wide: nothing moves when the figure comes`, async ({ page }) => {
+      await page.setViewportSize({ width, height: 800 });
+      await page.addInitScript(() => {
+        const shifts = /** @type {string[]} */ ([]);
+        Object.assign(window, { shifts });
+        new PerformanceObserver((list) => {
+          for (const entry of list.getEntries()) {
+            // What is inside of an element has no node here; of the page, nothing may move.
+            for (const { node } of Reflect.get(entry, 'sources')) if (node) shifts.push(String(node.textContent));
+          }
+        }).observe({ type: 'layout-shift', buffered: true });
+      });
+      // The script comes after the page is there, as it does on a slow line.
+      await show(page, `<p>Before</p><banana-machine></banana-machine><p>Between</p><map-squeeze></map-squeeze><p>After</p>`, {
+        // As doc/embedding.md tells pages to: before the script is there, nobody else can.
+        head: '<style>banana-machine, map-squeeze { display: block } :is(banana-machine, map-squeeze):not(:defined) { min-height: 150vh }</style>',
+      });
+      const heights = async () =>
+        Promise.all(NAMES.map((name) => page.locator(name).evaluate((element) => element.getBoundingClientRect().height)));
+      await page.waitForFunction(() => document.querySelector('map-squeeze')?.shadowRoot?.querySelector('.reserved'));
+      const [, reserved] = await heights();
+      await ready(page.locator('banana-machine'));
+      await page.evaluate(async () => {
+        for (let y = 0; y < document.body.scrollHeight; y += 400) {
+          scrollTo(0, y);
+          for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+        }
+      });
+      await ready(page.locator('map-squeeze'));
+      const [, height] = await heights();
+      expect(Math.abs(reserved - height) / height).toBeLessThan(0.15);
+      await frames(page);
+      expect(await page.evaluate(() => Reflect.get(window, 'shifts'))).toEqual([]);
+    });
+  }
+});
+
+test.describe('out of sight', () => {
+  for (const name of NAMES) {
+    test(`${name} asks for no frames while it grows, and goes on where it was`, async ({ page }) => {
+      await count(page);
+      await show(page, `<${name}></${name}><div style="height: 6000px"></div>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      const shown = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
+      const samples = Number(await property(widget, 'samples'));
+      expect(await property(widget, 'playing')).toBe(true);
+      await page.evaluate(() => scrollTo(0, 6000));
+      await pass(page);
+      const before = [(await counted(page)).frames, await shown()];
+      expect(before[1]).toBeLessThan(samples);
+      await pass(page);
+      expect([(await counted(page)).frames, await shown()]).toEqual(before);
+      await page.evaluate(() => scrollTo(0, 0));
+      await expect.poll(shown, { timeout: 20_000 }).toBe(samples);
+    });
+  }
+
+  test('nor does a hidden page', async ({ page }) => {
+    await count(page);
+    await show(page, '<banana-machine></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const hide = (/** @type {boolean} */ hidden) =>
+      page.evaluate((value) => {
+        Object.defineProperty(document, 'hidden', { configurable: true, value });
+        document.dispatchEvent(new Event('visibilitychange'));
+      }, hidden);
+    await hide(true);
+    await pass(page);
+    const before = await counted(page);
+    const shown = await widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
+    await pass(page);
+    expect(await counted(page)).toEqual(before);
+    expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown)).toBe(shown);
+    await hide(false);
+    await expect.poll(() => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown)).toBeGreaterThan(shown);
+  });
+});
+
+test.describe('moved and removed', () => {
+  for (const name of NAMES) {
+    test.describe('with less motion', () => {
+      test.use(STILL);
+
+      test(`${name} keeps its cloud, half grown, over a move and over a removal`, async ({ page }) => {
+        await show(page, `<div id="a"><${name}></${name}></div><div id="b"></div>`);
+        const widget = page.locator(name);
+        await ready(widget);
+        await widget.getByRole('button', { name: 'New seed' }).click();
+        await widget.getByRole('button', { name: 'Reset' }).click();
+        for (let i = 0; i < 5; i++) await widget.getByRole('button', { name: 'Step' }).click();
+        const before = await stateOf(widget);
+        expect(/** @type {any} */ (before).shown).toBeGreaterThan(0);
+        expect(/** @type {any} */ (before).shown).toBeLessThan(/** @type {any} */ (before).samples);
+        const picture = await pictureOf(widget.locator('canvas.plane'));
+        const kept = await widget.evaluate((element) => {
+          const { machine } = /** @type {AnyElement} */ (element);
+          document.querySelector('#b')?.append(element);
+          return machine === /** @type {AnyElement} */ (element).machine;
+        });
+        expect(kept).toBe(true);
+        await frames(page);
+        expect(await stateOf(widget)).toEqual(before);
+        await widget.evaluate(async (element) => {
+          element.remove();
+          await new Promise(requestAnimationFrame);
+          document.querySelector('#a')?.append(element);
+        });
+        await ready(widget);
+        expect(await stateOf(widget)).toEqual(before);
+        await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
+      });
+    });
+
+    test(`${name} goes on growing after a removal`, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      const [shown, samples] = await widget.evaluate(async (element) => {
+        const parent = /** @type {Element} */ (element.parentElement);
+        const { machine } = /** @type {AnyElement} */ (element);
+        const before = machine.shown;
+        element.remove();
+        await new Promise(requestAnimationFrame);
+        const again = new Promise((resolve) => element.addEventListener('load', resolve));
+        parent.append(element);
+        await again;
+        const now = /** @type {AnyElement} */ (element).machine;
+        return [now.shown - before, now.config.samples];
+      });
+      expect(shown).toBeGreaterThanOrEqual(0);
+      await expect.poll(() => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown), { timeout: 20_000 }).toBe(samples);
+    });
+
+    test(`${name}, removed, leaves nothing behind`, async ({ page }) => {
+      await count(page);
+      await show(page, `<${name} share></${name}><p>Stays</p>`);
+      await ready(page.locator(name));
+      await page.evaluate(async (tag) => {
+        const element = /** @type {AnyElement} */ (/** @type {unknown} */ (document.querySelector(tag)));
+        const { machine, motion } = element;
+        Object.assign(window, { freed: 0 });
+        const { free } = machine;
+        /** @this {object} */
+        machine.free = function () {
+          Object.assign(window, { freed: Reflect.get(window, 'freed') + 1 });
+          free.call(this);
+        };
+        const refs = [element, machine, motion, element.shadowRoot].map((each) => new WeakRef(each));
+        element.remove();
+        await new Promise(requestAnimationFrame);
+        Object.assign(window, { refs });
+      }, name);
+      expect(await page.evaluate(() => Reflect.get(window, 'freed'))).toBe(1);
+      await pass(page);
+      const before = await counted(page);
+      await pass(page);
+      expect(await counted(page)).toEqual(before);
+      const session = await page.context().newCDPSession(page);
+      await expect
+        .poll(async () => {
+          await session.send('HeapProfiler.collectGarbage');
+          return page.evaluate(() => Reflect.get(window, 'refs').map((/** @type {WeakRef<object>} */ ref) => ref.deref() !== undefined));
+        })
+        .toEqual([false, false, false, false]);
+    });
+  }
+});
+
+test('two copies of the bundle on one page are one', async ({ page }) => {
+  await page.route('**/copy.js', async (route) => {
+    const original = await page.request.get('/motion-widgets.js');
+    await route.fulfill({ contentType: 'text/javascript', body: await original.text() });
+  });
+  await show(page, NAMES.map((name) => `<${name}></${name}>`).join(''), {
+    script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/copy.js"></script><script src="/motion-widgets.iife.js" defer></script>',
+  });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  expect((await state(widget)).config.samples).toBe(2000);
+  expect((await heard(page, ['error'])).length).toBe(0);
+});

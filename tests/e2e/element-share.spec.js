@@ -1,0 +1,136 @@
+import AxeBuilder from '@axe-core/playwright';
+import { expect } from '@playwright/test';
+import { NAMES, heard, ready, show, stateOf } from './element-support.js';
+import { STILL, frames, test } from './support.js';
+
+/** @typedef {import('./element-support.js').AnyElement} AnyElement */
+
+test.use(STILL);
+
+const THREE = `<banana-machine share></banana-machine>
+  <h2 id="what-to-try" style="margin-top: 3000px">What to try</h2>
+  <banana-machine share id="second one"></banana-machine>
+  <banana-machine></banana-machine>`;
+
+test('two widgets and an anchor share the fragment, and the link shows what was there', async ({ page, context }) => {
+  await show(page, THREE, { fragment: '#what-to-try&theme=a%20b' });
+  // The anchor is found though the fragment has more in it.
+  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
+  const [first, second, third] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
+  await first.scrollIntoViewIfNeeded();
+  await ready(first);
+  const hash = () => page.evaluate(() => location.hash);
+  expect(await hash()).toBe('#what-to-try&theme=a%20b');
+  const entries = await page.evaluate(() => history.length);
+
+  await first.getByRole('button', { name: 'Hard arc' }).click();
+  await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+$/);
+  await second.scrollIntoViewIfNeeded();
+  await ready(second);
+  await second.getByRole('button', { name: 'Pivot' }).click();
+  await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+&banana-machine:second%20one=[\w-]+$/);
+  await third.scrollIntoViewIfNeeded();
+  await ready(third);
+  const before = await hash();
+  await third.getByRole('button', { name: 'Straight' }).click();
+  await frames(page);
+  expect(await hash()).toBe(before);
+  expect(await page.evaluate(() => history.length)).toBe(entries);
+
+  const link = await first.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
+  expect(new URL(link).hash).toBe(before);
+  const other = await context.newPage();
+  await show(other, THREE, { fragment: new URL(link).hash });
+  const [one, two, three] = [0, 1, 2].map((i) => other.locator('banana-machine').nth(i));
+  for (const [copy, original] of [[one, first], [two, second]]) {
+    await copy.scrollIntoViewIfNeeded();
+    await ready(copy);
+    expect(await stateOf(copy)).toEqual(await stateOf(original));
+  }
+  await three.scrollIntoViewIfNeeded();
+  await ready(three);
+  expect(/** @type {any} */ (await stateOf(three)).command).toEqual({ v: 1, omega: 0.5, dt: 1 });
+  expect(await heard(other, ['error', 'input', 'change'])).toEqual([]);
+});
+
+test('a link that is followed on the page, and a plain anchor', async ({ page }) => {
+  await show(page, '<banana-machine share></banana-machine><p id="end">The end</p>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await widget.getByRole('button', { name: 'Pivot' }).click();
+  const link = await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
+  await widget.getByRole('button', { name: 'Straight' }).click();
+  await page.evaluate(() => (location.hash = '#end'));
+  await frames(page);
+  expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
+  expect(/** @type {any} */ (await stateOf(widget)).command).toEqual({ v: 1, omega: 0, dt: 2 });
+  await page.evaluate((hash) => (location.hash = hash), new URL(link).hash);
+  await expect.poll(async () => /** @type {any} */ (await stateOf(widget)).command).toEqual({ v: 0.06, omega: 1.5, dt: 1 });
+});
+
+test('a link that is broken is reported, and the figure opens as its attributes say', async ({ page }) => {
+  for (const text of ['nonsense!', 'AAAA', '', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
+    await page.goto('about:blank');
+    await show(page, '<banana-machine share v="0.5"></banana-machine>', { fragment: `#banana-machine.1=${text}` });
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const errors = await heard(page, ['error']);
+    expect(errors.length, text).toBe(1);
+    expect(errors[0].message).toMatch(/^state.*; allowed (is|are) /);
+    expect(/** @type {any} */ (await stateOf(widget)).command.v).toBe(0.5);
+  }
+});
+
+test('a page with a base of its own keeps its address', async ({ page }) => {
+  await show(page, '<map-squeeze share></map-squeeze>', { head: '<base href="/somewhere/else/">' });
+  const widget = page.locator('map-squeeze');
+  await ready(widget);
+  await widget.getByRole('button', { name: 'Facing a wall' }).click();
+  await expect.poll(() => page.evaluate(() => location.href)).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
+});
+
+for (const name of NAMES) {
+  test(`${name} without share leaves the address alone and makes no links`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`, { fragment: `#${name}.1=nonsense` });
+    const widget = page.locator(name);
+    await ready(widget);
+    expect(await heard(page, ['error'])).toEqual([]);
+    await widget.getByRole('button', { name: 'Reset' }).click();
+    await frames(page);
+    expect(await page.evaluate(() => location.hash)).toBe(`#${name}.1=nonsense`);
+    const refused = await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink().catch(String));
+    expect(refused).toContain('share');
+  });
+}
+
+test.describe('the menu', () => {
+  test.use({ permissions: ['clipboard-read', 'clipboard-write'] });
+
+  test('copies a link where the address is shared, and the code to embed', async ({ page }) => {
+    await show(page, '<banana-machine share></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    await widget.getByRole('button', { name: 'Pivot' }).click();
+    await frames(page);
+    await widget.getByText('Share the figure').click();
+    const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
+    await widget.getByRole('button', { name: 'Copy link' }).click();
+    await expect(widget.getByText('Copied.')).toBeVisible();
+    expect(await clipboard()).toBe(await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink()));
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect.poll(clipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
+    await widget.evaluate((element) => element.removeAttribute('share'));
+    await expect(widget.getByRole('button', { name: 'Copy link' })).toHaveCount(0);
+  });
+
+  test('shows what the clipboard does not take', async ({ page }) => {
+    await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
+    await show(page, '<map-squeeze seed="4"></map-squeeze>');
+    const widget = page.locator('map-squeeze');
+    await ready(widget);
+    await widget.getByText('Share the figure').click();
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect(widget.getByRole('textbox', { name: 'Copy it from here' })).toHaveValue(/<map-squeeze seed="4"><\/map-squeeze>/);
+    expect((await new AxeBuilder({ page }).include('map-squeeze').analyze()).violations).toEqual([]);
+  });
+});

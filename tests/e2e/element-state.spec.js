@@ -1,0 +1,163 @@
+import { expect } from '@playwright/test';
+import { NAMES, heard, ready, show, stateOf } from './element-support.js';
+import { STILL, frames, test } from './support.js';
+
+/** @typedef {import('./element-support.js').AnyElement} AnyElement */
+/** @typedef {() => number} Random from 0 to 1 */
+
+test.use(STILL);
+
+const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
+
+/**
+ * Marsaglia's xorshift, so that a state that fails can be had again.
+ *
+ * @param {number} seed
+ * @returns {Random}
+ */
+function randomOf(seed) {
+  let state = seed * 2654435761;
+  return () => {
+    state ^= state << 13;
+    state ^= state >>> 17;
+    state ^= state << 5;
+    return (state >>> 0) / 2 ** 32;
+  };
+}
+
+/** @param {number} seed */
+function anyOf(seed) {
+  const random = randomOf(seed);
+  const real = (/** @type {number} */ least, /** @type {number} */ most) => least + (most - least) * random();
+  const whole = (/** @type {number} */ least, /** @type {number} */ most) => Math.floor(real(least, most + 1));
+  const one = (/** @type {unknown[]} */ of) => of[whole(0, of.length - 1)];
+  const alphas = (/** @type {number} */ count) => Array.from({ length: count }, () => real(0, 0.2));
+  const samples = whole(2, 3000);
+  const shown = one([samples, whole(2, samples)]);
+  const common = {
+    version: 1,
+    command: { v: real(-1, 2), omega: real(-2, 2), dt: real(0.1, 3) },
+    samples,
+    seed: whole(0, 2 ** 53 - 1),
+    shown,
+    playing: false,
+    marked: one([null, whole(0, 1)]),
+  };
+  const model = one(['velocity', 'odometry']);
+  return {
+    'banana-machine': {
+      ...common,
+      widget: 'banana-machine',
+      model,
+      noise: one(['normal', 'triangular']),
+      alphas: { velocity: alphas(6), odometry: alphas(4) },
+      isolate: one([null, whole(1, 4)]),
+      isolateChoice: whole(1, 6),
+      overlays: ['command', 'ellipse', 'linearized', 'exponential'].filter(() => random() < 0.5),
+    },
+    'map-squeeze': {
+      ...common,
+      widget: 'map-squeeze',
+      start: { x: real(1, 5), y: real(1, 3), theta: real(-3, 3) },
+      alphas: alphas(6),
+      clearance: real(0, 0.2),
+      conditioned: one([true, false]),
+      // One after the other, and none of them gives up.
+      sampler: 'whole-arc',
+      steps: whole(1, 64),
+      view: one(['whole', 'close']),
+      map: one([
+        null,
+        { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },
+        { name: 'grid.yaml', columns: 13, rows: 9, resolution: 0.5, origin: [-0.5, 0.25, 0.1], occupied: btoa(Array.from({ length: 15 }, (_, i) => String.fromCharCode(i < 14 ? whole(0, 255) : whole(0, 31) << 3)).join('')) },
+      ]),
+    },
+  };
+}
+
+for (const name of NAMES) {
+  test(`any state of ${name} goes in and comes out, and a second element is the same then`, async ({ page }) => {
+    await show(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
+    const [one, two] = ['#one', '#two'].map((id) => page.locator(id));
+    await ready(one);
+    await ready(two);
+    for (const seed of SEEDS) {
+      const state = anyOf(seed)[name];
+      const [first, second] = await page.evaluate(async (given) => {
+        const elements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));
+        elements[0].setState(given);
+        elements[1].setState(JSON.parse(JSON.stringify(elements[0].getState())));
+        return elements.map((element) => ({ state: element.getState(), stats: element.stats, poses: [...(element.poses ?? [])] }));
+      }, /** @type {any} */ (state));
+      expect(first.state, `seed ${seed}`).toEqual(state);
+      expect(second).toEqual(first);
+      expect(first.poses.length).toBeGreaterThan(0);
+    }
+    await frames(page);
+    expect(await heard(page, ['error', 'input', 'change'])).toEqual([]);
+  });
+}
+
+test('a state that is refused names the field, and changes nothing', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
+  const cases = /** @type {[string, object, string][]} */ ([
+    ['banana-machine', { version: 2 }, 'RangeError: state.version is 2; allowed is 1'],
+    ['banana-machine', { widget: 'map-squeeze' }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
+    ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
+    ['banana-machine', { samples: 0 }, 'RangeError: samples is 0; allowed is a whole number from 1 to 1000000'],
+    ['banana-machine', { command: { v: 'fast', omega: 0, dt: 1 } }, 'TypeError: command.v is "fast"; allowed is a number'],
+    ['banana-machine', { alphas: { walking: [] } }, 'TypeError: state.alphas.walking is an unknown key; allowed are velocity, odometry'],
+    ['banana-machine', { alphas: { odometry: [1] } }, 'RangeError: alphas has length 1; allowed is an array of 4 numbers'],
+    ['banana-machine', { shown: 3000 }, 'RangeError: state.shown is 3000; allowed is a whole number from 0 to 2000'],
+    ['banana-machine', { shown: 10, marked: 10 }, 'RangeError: state.marked is 10; allowed is a whole number from 0 to 9'],
+    ['banana-machine', { overlays: ['stars'] }, 'RangeError: state.overlays[0] is "stars"; allowed is'],
+    ['banana-machine', { playing: 'yes' }, 'TypeError: state.playing is "yes"; allowed is true or false'],
+    ['banana-machine', { isolateChoice: 7 }, 'RangeError: state.isolateChoice is 7; allowed is a whole number from 1 to 6'],
+    ['map-squeeze', { sampler: 'guess' }, 'RangeError: sampler is "guess"; allowed is'],
+    ['map-squeeze', { view: 1 }, 'TypeError: state.view is 1; allowed is "whole" or "close"'],
+    ['map-squeeze', { map: 'apartment' }, 'TypeError: map is "apartment"; allowed is an object'],
+    ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
+    ['map-squeeze', { map: { columns: 1e9, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '' } }, 'RangeError: map.columns is 1000000000; allowed is a whole number'],
+  ]);
+  for (const [name, change, message] of cases) {
+    const widget = page.locator(name);
+    await widget.scrollIntoViewIfNeeded();
+    await ready(widget);
+    const before = await stateOf(widget);
+    const thrown = await widget.evaluate((element, part) => {
+      try {
+        /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, ...part });
+        return 'nothing';
+      } catch (error) {
+        return String(error);
+      }
+    }, change);
+    expect(thrown).toContain(message);
+    expect(await stateOf(widget)).toEqual(before);
+  }
+});
+
+test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await widget.locator('#alpha1').fill('0.15');
+  await widget.getByLabel('odometry').check();
+  await widget.locator('#alpha2').fill('0.07');
+  const before = /** @type {any} */ (await stateOf(widget));
+  expect(before.alphas.velocity[0]).toBe(0.15);
+  expect(before.alphas.odometry[1]).toBe(0.07);
+  await widget.evaluate((element) => /** @type {AnyElement} */ (element).setState({ widget: 'banana-machine', version: 1, model: 'velocity', samples: 500 }));
+  expect(await stateOf(widget)).toEqual({ ...before, model: 'velocity', samples: 500, shown: 500 });
+  expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).alphas[0])).toBe(0.15);
+  // Over a removal too.
+  const after = await stateOf(widget);
+  await widget.evaluate(async (element) => {
+    const parent = /** @type {Element} */ (element.parentElement);
+    element.remove();
+    await new Promise(requestAnimationFrame);
+    parent.append(element);
+  });
+  await ready(widget);
+  expect(await stateOf(widget)).toEqual(after);
+});

@@ -1,0 +1,67 @@
+import { expect } from '@playwright/test';
+import { ready, show } from './element-support.js';
+import { STILL, frames, pixelsOf, test } from './support.js';
+
+/** @typedef {import('@playwright/test').Locator} Locator */
+
+test.use(STILL);
+
+/** @param {Locator} widget */
+async function lookOf(widget) {
+  await frames(widget.page());
+  return widget.evaluate((element) => {
+    const surface = /** @type {Element} */ (element.shadowRoot?.querySelector('.surface'));
+    const [red] = (getComputedStyle(surface).backgroundColor.match(/[\d.]+/g) ?? []).map(Number);
+    return red > 128 ? 'light' : 'dark';
+  });
+}
+
+/** @param {Locator} widget */
+async function expectDrawn(widget) {
+  // Paths and frames in the colours of the present look, not of the one before.
+  await expect.poll(() => pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+}
+
+const SETTINGS = /** @type {[string, string, (scheme: 'light' | 'dark') => string][]} */ ([
+  ['the inherited color-scheme', '<style>body { color: #333 }</style>', (scheme) => `document.body.style.colorScheme = '${scheme}'`],
+  [
+    'a switch of the page that changes colours alone',
+    '<style>body { background: white; color: #222 } .night body { background: #111; color: oklch(0.9 0 0) }</style>',
+    (scheme) => `document.documentElement.classList.toggle('night', ${scheme === 'dark'})`,
+  ],
+  ['the attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('banana-machine').theme = '${scheme}'`],
+]);
+
+for (const [name, head, to] of SETTINGS) {
+  test(`follows ${name}`, async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>', { head });
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    expect(await lookOf(widget)).toBe('light');
+    for (const scheme of /** @type {const} */ (['dark', 'light', 'dark'])) {
+      await page.evaluate(to(scheme));
+      await expect.poll(() => lookOf(widget)).toBe(scheme);
+      await expectDrawn(widget);
+    }
+  });
+}
+
+test('follows the system where the page does', async ({ page }) => {
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await show(page, '<banana-machine></banana-machine>', { head: '<style>:root { color-scheme: light dark }</style>' });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  expect(await lookOf(widget)).toBe('dark');
+  await page.emulateMedia({ colorScheme: 'light' });
+  await expect.poll(() => lookOf(widget)).toBe('light');
+  await expectDrawn(widget);
+});
+
+test('its own theme stands against everything around it', async ({ page }) => {
+  await show(page, '<banana-machine theme="light"></banana-machine>', { head: '<style>:root { color-scheme: dark; color: white }</style>' });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  expect(await lookOf(widget)).toBe('light');
+  await widget.evaluate((element) => element.removeAttribute('theme'));
+  await expect.poll(() => lookOf(widget)).toBe('dark');
+});

@@ -1,0 +1,108 @@
+import { expect } from '@playwright/test';
+import { NAMES, heard, ready, show, stateOf } from './element-support.js';
+import { STILL, frames, pictureOf, test } from './support.js';
+
+/** @typedef {import('./element-support.js').AnyElement} AnyElement */
+/** @typedef {import('@playwright/test').Locator} Locator */
+
+test.use(STILL);
+
+/**
+ * Makes the next call into the core touch memory that is not there.
+ *
+ * @param {Locator} widget
+ */
+function damage(widget) {
+  return widget.evaluate((element) => {
+    const { machine } = /** @type {AnyElement} */ (element);
+    Object.assign(window, { damaged: machine });
+    machine.__wbg_ptr = 0x7ffffff0;
+  });
+}
+
+/** @param {Locator} widget */
+function mended(widget) {
+  return expect
+    .poll(() => widget.evaluate((element) => {
+      const { machine } = /** @type {AnyElement} */ (element);
+      return machine !== undefined && machine !== Reflect.get(window, 'damaged');
+    }))
+    .toBe(true);
+}
+
+for (const name of NAMES) {
+  const other = NAMES.find((each) => each !== name) ?? name;
+
+  test(`a trap in ${name} is told, mended from its state and seed, and no other element notices`, async ({ page }) => {
+    await show(page, `<${name}></${name}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${other} id="other"></${other}></div>`);
+    const widget = page.locator(name).first();
+    const neighbour = page.locator('#other');
+    await ready(widget);
+    await ready(neighbour);
+    await neighbour.evaluate((element) => {
+      element.parentElement?.style.setProperty('top', '5000px');
+      Object.assign(window, { neighbour: /** @type {AnyElement} */ (element).machine });
+    });
+    await widget.locator('#v').fill('0.7');
+    await widget.getByRole('button', { name: 'New seed' }).click();
+    await frames(page);
+    const before = await stateOf(widget);
+    const picture = await pictureOf(widget.locator('canvas.plane'));
+    const poses = await widget.evaluate((element) => [...(/** @type {AnyElement} */ (element).poses ?? [])]);
+
+    const ways = /** @type {[string, () => Promise<unknown>][]} */ ([
+      ['a pointer over the picture', () => widget.locator('canvas.plane').hover({ position: { x: 20, y: 20 } })],
+      ['a button', () => widget.getByRole('button', { name: 'Step' }).dispatchEvent('click')],
+      ['a slider', () => widget.locator('#dt').evaluate((slider) => slider.dispatchEvent(new Event('input', { bubbles: true, composed: true })))],
+      ['a frame', () => widget.evaluate((element) => /** @type {any} */ (element).commit())],
+      ['a property', () => widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1))],
+      ['a question', () => widget.evaluate((element) => void (/** @type {AnyElement} */ (element).stats))],
+    ]);
+    for (const [way, go] of ways) {
+      // Step has something to do where not all of the cloud is shown.
+      await heard(page);
+      await damage(widget);
+      if (way === 'a button') await widget.evaluate((element) => void element.shadowRoot?.querySelectorAll('button').forEach((button) => (button.disabled = false)));
+      await go();
+      await mended(widget);
+      const told = await heard(page);
+      const errors = told.filter(({ name }) => name === 'error');
+      expect(errors.map(({ target }) => target), way).toEqual([name]);
+      expect(errors[0].message, way).toMatch(/memory access out of bounds|unreachable/);
+      expect(told.some(({ name }) => name === 'load')).toBe(false);
+      expect(await stateOf(widget), way).toEqual(before);
+      expect(await widget.evaluate((element) => [...(/** @type {AnyElement} */ (element).poses ?? [])])).toEqual(poses);
+      await frames(page);
+    }
+    await page.mouse.move(0, 0);
+    await widget.evaluate((element) => (/** @type {AnyElement} */ (element).marked = null));
+    expect(await pictureOf(widget.locator('canvas.plane'))).toBe(picture);
+    expect(await neighbour.evaluate((element) => /** @type {AnyElement} */ (element).machine === Reflect.get(window, 'neighbour'))).toBe(true);
+    expect(/** @type {any} */ (await stateOf(neighbour)).widget).toBe(other);
+    await widget.locator('#v').fill('0.4');
+    expect(/** @type {any} */ (await stateOf(widget)).command.v).toBe(0.4);
+  });
+}
+
+test('a core that traps again and again ends in a sentence, not in a loop', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await heard(page);
+  await widget.evaluate((element) => {
+    const widget = /** @type {any} */ (element);
+    const { createMachine } = widget;
+    widget.createMachine = (/** @type {unknown[]} */ ...given) => {
+      const machine = createMachine.apply(widget, given);
+      machine.__wbg_ptr = 0x7ffffff0;
+      return machine;
+    };
+    widget.machine.__wbg_ptr = 0x7ffffff0;
+    widget.commit();
+  });
+  await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
+  const errors = (await heard(page, ['error'])).length;
+  expect(errors).toBeGreaterThan(1);
+  await frames(page);
+  expect(await heard(page, ['error'])).toEqual([]);
+});

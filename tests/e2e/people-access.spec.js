@@ -1,0 +1,325 @@
+import { expect } from '@playwright/test';
+import { expectAccessible } from './axe.js';
+import { openSqueeze, squeezed } from './squeeze-support.js';
+import { STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('../../www/types.d.ts').BananaMachineElement} BananaMachineElement
+ * @typedef {import('../../www/types.d.ts').MapSqueezeElement} MapSqueezeElement
+ */
+
+/**
+ * Whatever differs in looks: colours, size, words.
+ *
+ * @type {Record<string, { media?: Parameters<Page['emulateMedia']>[0], width?: number, german?: boolean }>}
+ */
+const LOOKS = {
+  light: { media: { colorScheme: 'light' } },
+  dark: { media: { colorScheme: 'dark' } },
+  'forced colours, light': { media: { forcedColors: 'active', colorScheme: 'light' } },
+  'forced colours, dark': { media: { forcedColors: 'active', colorScheme: 'dark' } },
+  'a phone of 320 px, German': { width: 320, german: true },
+};
+
+/** The states of both widgets that have something of their own to show; each goes on from the one before. */
+const STATES = /** @type {[string, (banana: Locator, squeeze: Locator) => Promise<unknown>][]} */ ([
+  ['as it opens', async () => {}],
+  ['isolated, with a note', async (banana) => {
+    await banana.locator('.alphas .toggle input').check();
+    await banana.locator('#omega').fill('0');
+    await expect(banana.locator('.note')).toBeVisible();
+  }],
+  ['odometry, with a mark', async (banana) => {
+    await banana.locator('input[name=model]').nth(1).check();
+    await banana.locator('#robot').fill('7');
+  }],
+  ['a robot that stands still', async (banana) => {
+    await banana.locator('#v').fill('0');
+  }],
+  ['as a density, with the menu open', async (banana) => {
+    await banana.locator('#v').fill('1');
+    await banana.locator('#samples').fill('9');
+    await banana.locator('summary').first().click();
+  }],
+  ['empty', async (banana) => {
+    await banana.locator('.cloud button').nth(2).click();
+  }],
+  ['in parts, costs measured', async (_, squeeze) => {
+    await squeeze.locator('input[name=sampler]').nth(2).check();
+    await expect(squeeze.locator('.table')).toHaveAttribute('aria-busy', 'false');
+  }],
+  ['close, without the condition', async (_, squeeze) => {
+    await squeeze.locator('input[name=view]').nth(1).check();
+    await squeeze.locator('.judge .toggle input').uncheck();
+    await squeeze.locator('#sample').fill('3');
+  }],
+  ['a map of one’s own, then one refused', async (_, squeeze) => {
+    await squeeze.locator('.own-map button').last().click();
+    await squeeze.locator('#map-files').setInputFiles({ name: 'a.txt', mimeType: 'text/plain', buffer: Buffer.from('') });
+    await expect(squeeze.locator('.own-map .note')).toBeVisible();
+  }],
+]);
+
+test.describe('no accessibility violations', () => {
+  test.use(STILL);
+  for (const [look, { media, width, german }] of Object.entries(LOOKS)) {
+    test(`in ${look}`, async ({ page }) => {
+      test.slow();
+      if (media) await page.emulateMedia(media);
+      if (width) await page.setViewportSize({ width, height: 812 });
+      const banana = await open(page);
+      const squeeze = await openSqueeze(page);
+      if (german) {
+        await page.addScriptTag({ type: 'module', url: '/de.js' });
+        await page.evaluate(() => (document.documentElement.lang = 'de'));
+      }
+      for (const [name, reach] of STATES) {
+        await reach(banana, squeeze);
+        await frames(page);
+        // A state of one widget leaves the rest of the page as it was.
+        await expectAccessible(page, name, [':root', 'banana-machine', 'map-squeeze'][reach.length]);
+        if (width) expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), name).toBeLessThanOrEqual(0);
+      }
+    });
+  }
+});
+
+/** @param {Locator} widget */
+const stateOf = (widget) =>
+  widget.evaluate((element) => /** @type {BananaMachineElement | MapSqueezeElement} */ (element).getState());
+
+test.describe('from the keyboard alone', () => {
+  test.use(STILL);
+
+  /**
+   * Goes on by Tab until the focus is there.
+   *
+   * @param {Locator} target
+   */
+  async function tabTo(target) {
+    const page = target.page();
+    for (let presses = 0; presses < 120; presses++) {
+      if (await target.evaluate((element) => element.matches(':focus'))) return;
+      await page.keyboard.press('Tab');
+    }
+    throw new Error(`Tab does not lead to ${target}.`);
+  }
+
+  test('the Banana Machine comes to the state that a pointer brings it to', async ({ page }) => {
+    const widget = await open(page);
+    const opening = await stateOf(widget);
+    await widget.getByRole('button', { name: 'Hard arc' }).click();
+    await widget.getByLabel('triangular').click();
+    await widget.getByLabel('Isolate one').click();
+    await widget.getByRole('radio', { name: 'Only α₂' }).click();
+    await widget.getByRole('checkbox', { name: 'linearized' }).click();
+    await widget.getByRole('button', { name: 'Reset' }).click();
+    await widget.getByRole('button', { name: 'Step' }).click();
+    const byPointer = await stateOf(widget);
+    expect(byPointer).not.toEqual(opening);
+
+    await open(page);
+    expect(await stateOf(widget)).toEqual(opening);
+    const press = async (/** @type {Locator} */ target, /** @type {string[]} */ ...keys) => {
+      await tabTo(target);
+      for (const key of keys) await page.keyboard.press(key);
+    };
+    await press(widget.getByRole('checkbox', { name: 'linearized' }), 'Space');
+    await press(widget.getByRole('button', { name: 'Hard arc' }), 'Enter');
+    await press(widget.getByLabel('normal'), 'ArrowRight');
+    await press(widget.getByLabel('Isolate one'), 'Space');
+    // The isolated one of the group has the focus; the arrows go through them.
+    await press(widget.getByRole('radio', { name: 'Only α₄' }), 'ArrowUp', 'ArrowUp');
+    await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
+    await press(widget.getByRole('button', { name: 'Reset' }), 'Enter');
+    await page.keyboard.press('Shift+Tab');
+    await press(widget.getByRole('button', { name: 'Step' }), 'Enter');
+    expect(await stateOf(widget)).toEqual(byPointer);
+  });
+
+  test('the robot in the map comes to the place that a pointer drags it to', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const body = widget.getByRole('slider', { name: 'Robot', exact: true });
+    await body.focus();
+    for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', '[']) await page.keyboard.press(key);
+    const byKeys = await squeezed(widget);
+    expect(byKeys.config.start.x).toBeCloseTo(2.15, 9);
+    expect(byKeys.config.start.y).toBeCloseTo(2.65, 9);
+    await widget.getByRole('button', { name: 'Facing a doorway' }).click();
+    const from = await centreOf(body);
+    const before = (await squeezed(widget)).config.start;
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(from.x + 10, from.y, { steps: 3 });
+    await page.mouse.up();
+    const perPixel = ((await squeezed(widget)).config.start.x - before.x) / 10;
+    // To the nearest pixel, the pointer brings it where the keys did.
+    await page.mouse.move(from.x + 10, from.y);
+    await page.mouse.down();
+    await page.mouse.move(from.x + Math.round(0.1 / perPixel), from.y - Math.round(0.05 / perPixel), { steps: 4 });
+    await page.mouse.up();
+    const { start } = (await squeezed(widget)).config;
+    expect(Math.abs(start.x - byKeys.config.start.x)).toBeLessThanOrEqual(perPixel);
+    expect(Math.abs(start.y - byKeys.config.start.y)).toBeLessThanOrEqual(perPixel);
+  });
+});
+
+test.describe('what is said', () => {
+  test.use(STILL);
+
+  test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {
+    const widget = await open(page);
+    const status = widget.locator('p[role=status]');
+    const slider = widget.locator('#v');
+    await expect(slider).toHaveAttribute('aria-valuetext', '1.00 m/s');
+    const before = await status.textContent();
+    const { x, y, width, height } = await boxOf(slider);
+    await page.mouse.move(x + 0.83 * width, y + height / 2);
+    await page.mouse.down();
+    for (const share of [0.7, 0.6, 0.5]) {
+      await page.mouse.move(x + share * width, y + height / 2);
+      await frames(page);
+      expect(await status.textContent()).toBe(before);
+    }
+    const { config } = await state(widget);
+    await page.mouse.up();
+    await expect(status).toContainText(`v = ${config.command.v.toFixed(2).replace('-', '−')} m/s`);
+    for (const each of await widget.locator('input[type=range]').all()) {
+      expect(await each.getAttribute('aria-valuetext')).toMatch(/\d/);
+    }
+  });
+});
+
+test.describe('a finger', () => {
+  test.use({ ...STILL, hasTouch: true, viewport: { width: 375, height: 812 } });
+
+  /**
+   * Swipes upwards from a place, as fingers do.
+   *
+   * @param {Page} page
+   * @param {{ x: number, y: number }} from
+   */
+  async function swipe(page, from) {
+    const client = await page.context().newCDPSession(page);
+    await client.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [from] });
+    for (let step = 1; step <= 10; step++) {
+      const point = { x: from.x + step / 5, y: from.y - 16 * step };
+      await client.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [point] });
+    }
+    await client.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await frames(page);
+  }
+
+  for (const target of ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', 'svg.chart']) {
+    test(`that swipes over ${target} scrolls the page and changes nothing`, async ({ page }) => {
+      const widget = await open(page);
+      const place = widget.locator(target);
+      // Into the lower half of the screen, clear of the floor that stays in sight above.
+      await place.evaluate((element) => {
+        const { top, height } = element.getBoundingClientRect();
+        scrollBy({ top: top + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
+      });
+      await frames(page);
+      const before = await stateOf(widget);
+      const { x, y, width, height } = await boxOf(place);
+      const scrolled = await page.evaluate(() => scrollY);
+      // A third from its left: no thumb is there.
+      await swipe(page, { x: x + 0.3 * width, y: y + height / 2 });
+      await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrolled + 60);
+      expect(await stateOf(widget)).toEqual(before);
+    });
+  }
+
+  test('that taps sets the chart and marks a robot', async ({ page }) => {
+    const widget = await open(page);
+    const chart = widget.locator('svg.chart');
+    await chart.scrollIntoViewIfNeeded();
+    const { x, y, width, height } = await boxOf(chart);
+    await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
+    expect((await state(widget)).config.command.omega).toBeGreaterThan(1);
+    const canvas = widget.locator('canvas.twist');
+    await canvas.scrollIntoViewIfNeeded();
+    const centre = await centreOf(canvas);
+    await page.touchscreen.tap(centre.x, centre.y);
+    await expect(widget.locator('#robot')).not.toHaveValue('');
+  });
+});
+
+for (const width of [1280, 375]) {
+  test(`nothing shifts while the page loads and both widgets start, at ${width} px`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 812 });
+    await page.addInitScript(() => {
+      const shifts = /** @type {{ value: number, what: string[] }[]} */ ([]);
+      Object.assign(window, { shifts });
+      new PerformanceObserver((list) => {
+        for (const entry of /** @type {any[]} */ (list.getEntries())) {
+          const what = entry.sources.map((/** @type {any} */ { node, previousRect, currentRect }) => [node?.outerHTML?.slice(0, 80) ?? node?.textContent, JSON.stringify(previousRect), JSON.stringify(currentRect)]);
+          shifts.push({ value: entry.value, what });
+        }
+      }).observe({ type: 'layout-shift', buffered: true });
+    });
+    await open(page);
+    await page.evaluate(async () => {
+      for (let y = 0; y < document.documentElement.scrollHeight; y += 400) {
+        scrollTo({ top: y, behavior: 'instant' });
+        for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame);
+      }
+    });
+    await expect(page.locator('map-squeeze').getByRole('button', { name: /^(Play|Pause)$/ })).toBeVisible();
+    await frames(page);
+    expect(await page.evaluate(() => Reflect.get(window, 'shifts'))).toEqual([]);
+  });
+}
+
+test.describe('on paper', () => {
+  test.use(STILL);
+
+  test('there are the figure and what it was made with, light, and nothing to press', async ({ page }) => {
+    await page.emulateMedia({ colorScheme: 'light' });
+    const widget = await open(page);
+    const canvas = widget.locator('canvas.plane');
+    const light = await pictureOf(canvas);
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await expect.poll(() => pictureOf(canvas)).not.toBe(light);
+    await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
+    expect(await pictureOf(canvas)).toBe(light);
+    expect(await widget.locator('.surface').evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(255, 254, 251)');
+    for (const control of await widget.locator('button, input, summary, .handle').all()) await expect(control).toBeHidden();
+    for (const value of ['1.00 m/s', '0.50 rad/s', '0.090']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
+    await page.emulateMedia({ colorScheme: 'dark', media: 'screen' });
+    expect(await pictureOf(canvas)).not.toBe(light);
+  });
+});
+
+test.describe('theming', () => {
+  test.use(STILL);
+
+  test('custom properties colour controls and canvases alike, also when they change', async ({ page }) => {
+    const widget = await open(page);
+    const canvas = widget.locator('canvas.plane');
+    const before = await pictureOf(canvas);
+    await page.addStyleTag({ content: 'banana-machine { --motion-posterior: rgb(200, 20, 90); --motion-font: monospace }' });
+    await expect.poll(() => pictureOf(canvas)).not.toBe(before);
+    expect(await pixelsOf(canvas, 'posterior')).toBeGreaterThan(100);
+    expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
+  });
+
+  test('parts can be styled from outside', async ({ page }) => {
+    await open(page);
+    await openSqueeze(page);
+    const parts = { 'banana-machine': ['picture', 'caption', 'legend', 'readouts', 'controls', 'figures', 'chart', 'table', 'slider', 'button', 'exports'], 'map-squeeze': ['picture', 'caption', 'legend', 'readouts', 'controls', 'table', 'slider', 'button', 'exports'] };
+    for (const [name, all] of Object.entries(parts)) {
+      await page.addStyleTag({ content: all.map((part) => `${name}::part(${part}) { outline-color: rgb(1, 2, 3) }`).join('\n') });
+      const styled = await page.locator(name).evaluate(
+        (element, wanted) => wanted.filter((part) => {
+          const found = element.shadowRoot?.querySelector(`[part=${part}]`);
+          return !found || getComputedStyle(found).outlineColor !== 'rgb(1, 2, 3)';
+        }),
+        all,
+      );
+      expect(styled, name).toEqual([]);
+    }
+  });
+});

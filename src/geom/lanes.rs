@@ -7,6 +7,9 @@ use super::angle::wrap_angle;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use wide::{bytemuck, f64x2, f64x4};
 
+/// Numbers that are worked on at a time.
+pub const LANES: usize = 4;
+
 /// Largest error of sine, cosine and sinc here, absolute: five halves of a unit in the last place of 1, and a bit. The
 /// polynomials miss by 1.9e-16 at most, the rest is rounding.
 pub const ACCURACY: f64 = 6e-16;
@@ -134,7 +137,7 @@ pub(crate) fn halves(lanes: f64x4) -> [f64x2; 2] {
     bytemuck::cast(lanes)
 }
 
-/// Four lanes made one by one.
+/// Lanes made one by one.
 pub(crate) fn lanes(lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(lane))
 }

@@ -1,12 +1,12 @@
 //! The Banana Machine: one command from the origin, thousands of outcomes.
 
 use super::cloud::Cloud;
-use super::draws::LANES;
 use super::drive::Drive;
 use super::picture::{Picture, Ramp};
 use super::settings::{MAX_SAMPLES, SettingsError, check_alphas, check_command, check_whole};
 use super::views::{Grid, Nearest, View};
 use crate::geom::arc::{Arc, ArcInversion, invert_arc};
+use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
 use crate::models::{
     MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd,

@@ -1,9 +1,9 @@
 //! A cloud of robots from the origin: their draws, where they end, and what they say, refreshed in slices.
 
-use super::draws::{Draws, LANES};
+use super::draws::Draws;
 use super::drive::Drive;
 use super::views::View;
-use crate::geom::lanes::lanes;
+use crate::geom::lanes::{LANES, lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
 use crate::stats::fused::{CloudFigures, Shape, Spread};

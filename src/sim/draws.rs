@@ -1,13 +1,11 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
+use crate::geom::lanes::LANES;
 use crate::noise::{NoiseKind, centred_uniform};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
-
-/// Samples that are worked on at a time: the lanes of a vector.
-pub const LANES: usize = 4;
 
 /// Three unit-variance variates a sample, in sample order. Depends on seed and kind alone, so that a slider moves the
 /// same robots, a larger cloud begins with the smaller one, and both kinds of noise come from the same uniforms.

@@ -10,7 +10,7 @@ use common::{seeded, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{FloorPlan, FloorPlanError};
+use motion::map::{FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel};
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -225,6 +225,71 @@ fn no_wall_is_overlooked() {
     }
     assert!(free.iter().chain(&blocked).all(|count| *count > 2000), "{free:?} {blocked:?}");
     assert!(measured > 1000 && measured < met / 10, "{measured} of {met}");
+}
+
+/// The verdicts are those of a plain loop over all walls, in the apartment, among long slanted walls close together, and
+/// in a grid that is turned; for arcs of up to two circles, of every size and of robots of every size.
+#[test]
+fn verdicts_are_those_of_a_loop_over_all_walls() {
+    let mut rng = seeded(9650);
+    let diagonals = |count: u32| -> Vec<Segment> {
+        let end = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
+        let offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
+        offsets.map(end).map(|(far, near)| wall(near, far, far, near)).collect()
+    };
+    let pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
+    let pixels = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
+    let interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 };
+    let image = Image { width: 40, height: 40, pixels };
+    let grid = OccupancyGrid::new(&image, &interpretation, 0.25, SE2::new(3.0, -2.0, 0.4));
+    let room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
+    let long = scattered(12, 10.0, ROOM, &mut rng);
+    let plans = [
+        FloorPlan::apartment(),
+        room(diagonals(20)),
+        room(diagonals(300)),
+        room(long),
+        room(vec![wall(2.0, 2.0, 9.0, 9.0); 300]),
+        FloorPlan::from_grid(grid).expect("a small grid"),
+    ];
+    for (number, plan) in plans.iter().enumerate() {
+        let [left, bottom, right, top] = plan.bounds();
+        let of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let corners = plan.grid().map_or(of_bounds, OccupancyGrid::corners);
+        let mut counts = [0; 3];
+        for _ in 0..12_000 {
+            let start = in_box(plan.bounds(), &mut rng);
+            let size = signed_log_uniform(&mut rng, 1e-3, 1.0);
+            let arc = arc_from(start, &mut rng);
+            let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
+            let arc = Arc { length: size * arc.length, turn, ..arc };
+            let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
+            let end = [arc.end().x(), arc.end().y()];
+            let least = |distance: &dyn Fn(&Segment) -> f64| {
+                plan.walls().iter().map(distance).fold(f64::INFINITY, f64::min)
+            };
+            let to_end = least(&|wall| wall.distance_to_point(end));
+            let to_arc = least(&|wall| wall.distance_to_arc(&arc));
+            if (to_end - clearance).abs() < 1e-12 || (to_arc - clearance).abs() < 1e-12 {
+                continue;
+            }
+            let on_map = |point: [f64; 2]| {
+                (0..4).all(|i| {
+                    let ([x0, y0], [x1, y1]) = (corners[i], corners[(i + 1) % 4]);
+                    (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0) >= 0.0
+                })
+            };
+            let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
+            let crosses = edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
+            let buried = |point| plan.grid().is_some_and(|grid| grid.holds(point));
+            let end_free = on_map(end) && !buried(end) && to_end > clearance;
+            let path_free = on_map(start) && !crosses && !buried(start) && end_free && to_arc > clearance;
+            assert_eq!(plan.point_free(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");
+            assert_eq!(plan.arc_free(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
+            counts[usize::from(end_free) + usize::from(path_free)] += 1;
+        }
+        assert!(counts.iter().all(|count| *count > 100), "{number}: {counts:?}");
+    }
 }
 
 #[test]

@@ -20,9 +20,9 @@ pub(super) struct DistanceField {
 }
 
 /// Cells a wall, and of a map at least and at most. Fewer would leave more to be measured, more would take longer to
-/// fill: 2¹⁶ cells of the apartment have sides of 4 cm and take a millisecond, 2²⁰ have 4 MB.
+/// fill: the apartment's cells have sides of 4 cm and take a millisecond, 2²⁰ cells have 4 MB.
 const CELLS_A_WALL: f64 = 4096.0;
-const LEAST_CELLS: f64 = 65_536.0;
+const LEAST_CELLS: f64 = 4096.0;
 const MOST_CELLS: f64 = 1_048_576.0;
 
 /// Walls that may be measured for one cell. Where more of them are equally near (a hundred thousand copies of one) the
@@ -70,7 +70,8 @@ impl DistanceField {
 
     /// A lower bound (m) on the distance from a point inside the bounds to the nearest wall.
     pub fn least(&self, [x, y]: [f64; 2]) -> f64 {
-        let column = ((x - self.corner[0]) * self.cells_per_metre) as u32 as usize;
+        // A point that rounding has put a little outside belongs to the nearest cell.
+        let column = (((x - self.corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
         let row = ((y - self.corner[1]) * self.cells_per_metre) as u32 as usize;
         f64::from(self.least.get(row * self.columns + column).copied().unwrap_or(UNKNOWN))
     }

@@ -8,6 +8,7 @@ use crate::geom::segment::Segment;
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 use std::fmt;
 use std::ops::RangeInclusive;
+use std::sync::OnceLock;
 
 /// Walls without thickness inside a rectangle.
 #[derive(Clone, Debug)]
@@ -19,7 +20,8 @@ pub struct FloorPlan {
     index: Option<(StaticAABB2DIndex<f64>, Vec<u32>)>,
     /// The cells that the walls outline, where they do: inside of one nobody is free, however far its sides.
     solid: Option<OccupancyGrid>,
-    field: DistanceField,
+    /// Made when the first motion is judged.
+    field: OnceLock<DistanceField>,
 }
 
 /// Why a floor plan is refused.
@@ -124,8 +126,7 @@ impl FloorPlan {
             }
         }
         let index = (!walls.is_empty()).then(|| index_of(&walls));
-        let field = DistanceField::new(&walls, bounds, solid.as_ref());
-        Ok(Self { walls, bounds, index, solid, field })
+        Ok(Self { walls, bounds, index, solid, field: OnceLock::new() })
     }
 
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
@@ -152,11 +153,12 @@ impl FloorPlan {
         if !self.holds(point) {
             return Verdict::BLOCKED;
         }
-        let least = self.field.least(point);
+        let field = self.field();
+        let least = field.least(point);
         if least > clearance {
             return Verdict::FREE;
         }
-        if self.field.most(least) <= clearance || self.buried(point) {
+        if field.most(least) <= clearance || self.buried(point) {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
@@ -178,8 +180,14 @@ impl FloorPlan {
         if !end.free || self.leaves_bounds(driven) || self.buried(start) {
             return Verdict { free: false, ..end };
         }
-        let mut sweep =
-            Sweep { plan: self, arc: &driven.arc, clearance, unrolled: None, wall_tests: end.wall_tests };
+        let mut sweep = Sweep {
+            plan: self,
+            field: self.field(),
+            arc: &driven.arc,
+            clearance,
+            unrolled: None,
+            wall_tests: end.wall_tests,
+        };
         let free = driven.courses().all(|course| sweep.free(&course, -course.half, course.half));
         Verdict { free, wall_tests: sweep.wall_tests }
     }
@@ -196,6 +204,10 @@ impl FloorPlan {
         points.push([0.0, 0.0]);
         points.sort_by(|[ax, ay], [bx, by]| libm::hypot(*ax, *ay).total_cmp(&libm::hypot(*bx, *by)));
         points.into_iter().find(|point| self.point_free(*point, clearance).free)
+    }
+
+    fn field(&self) -> &DistanceField {
+        self.field.get_or_init(|| DistanceField::new(&self.walls, self.bounds, self.solid.as_ref()))
     }
 
     /// Whether a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
@@ -274,6 +286,7 @@ const DIVISIBLE: f64 = 2.0;
 /// A disc that is moved along an arc.
 struct Sweep<'a> {
     plan: &'a FloorPlan,
+    field: &'a DistanceField,
     arc: &'a Arc,
     clearance: f64,
     /// The arc as walls are measured to it, once there is one to measure.
@@ -284,7 +297,7 @@ struct Sweep<'a> {
 impl Sweep<'_> {
     /// Whether a course is free between `from` and `to` metres after its middle.
     fn free(&mut self, course: &Course, from: f64, to: f64) -> bool {
-        let field = &self.plan.field;
+        let field = self.field;
         let reach = (to - from) / (2 * PIECES) as f64;
         let needed = self.clearance + course.error + reach;
         let middle = |i: usize| course.at(from + (2 * i + 1) as f64 * reach);

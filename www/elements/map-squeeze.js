@@ -86,7 +86,7 @@ const MOST_PATHS = 150;
  * @csspart controls - All controls.
  * @csspart slider - A slider with its name, value and effect.
  * @csspart button - A button.
- * @csspart figures - Readouts, chart and table.
+ * @csspart readouts - The figures about the cloud.
  * @csspart table - A table of figures.
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.

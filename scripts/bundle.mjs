@@ -140,5 +140,5 @@ function inOneFile(name) {
     `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
   return page
     .replace(style, (_, path) => `<style>\n${read(path)}</style>`)
-    .replace(script, (_, path) => (path === 'motion-widgets.js' ? inline('motion-widgets.iife.js') + inline('de.js') : inline(path)));
+    .replace(script, (_, path) => inline(path === 'motion-widgets.js' ? 'motion-widgets.iife.js' : path));
 }

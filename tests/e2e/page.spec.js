@@ -228,7 +228,7 @@ test.describe('the element', () => {
   test('stands twice on a page without sharing anything', async ({ page }) => {
     const first = await open(page);
     await page.evaluate(() => document.querySelector('main')?.append(document.createElement('banana-machine')));
-    const second = page.locator('banana-machine').nth(1);
+    const second = page.locator('banana-machine').last();
     await second.scrollIntoViewIfNeeded();
     await second.getByRole('button', { name: 'Pivot' }).click();
     expect((await state(second)).config.command).toEqual({ v: 0.06, omega: 1.5, dt: 1 });
@@ -276,7 +276,7 @@ test.describe('the element', () => {
       return [inPlace, answersNow()];
     });
     expect(answers).toEqual([true, false]);
-    await page.evaluate(() => document.querySelector('main')?.append(Reflect.get(window, 'kept')));
+    await page.evaluate(() => document.querySelector('main')?.prepend(Reflect.get(window, 'kept')));
     await widget.scrollIntoViewIfNeeded();
     await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
     expect((await state(widget)).config).toEqual(before.config);
@@ -290,7 +290,7 @@ plain('a browser that cannot run the module shows a sentence and tells the page'
     document.addEventListener('error', (event) => Reflect.get(window, 'failures').push(event), true);
   });
   await page.goto('/');
-  const sentence = page.locator('banana-machine').getByRole('alert');
+  const sentence = page.locator('banana-machine').first().getByRole('alert');
   await expect(sentence).toBeVisible();
   await expect(sentence).toHaveText('This interactive figure cannot run here. WebAssembly is not available here, and motion-widgets needs it.');
   await frames(page);

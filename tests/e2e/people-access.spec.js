@@ -267,7 +267,7 @@ for (const width of [1280, 375]) {
         for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame);
       }
     });
-    await expect(page.locator('map-squeeze').getByRole('button', { name: /^(Play|Pause)$/ })).toBeVisible();
+    await expect(page.locator('map-squeeze').first().getByRole('button', { name: /^(Play|Pause)$/ })).toBeVisible();
     await frames(page);
     expect(await page.evaluate(() => Reflect.get(window, 'shifts'))).toEqual([]);
   });
@@ -312,7 +312,7 @@ test.describe('theming', () => {
     const parts = { 'banana-machine': ['picture', 'caption', 'legend', 'readouts', 'controls', 'figures', 'chart', 'table', 'slider', 'button', 'exports'], 'map-squeeze': ['picture', 'caption', 'legend', 'readouts', 'controls', 'table', 'slider', 'button', 'exports'] };
     for (const [name, all] of Object.entries(parts)) {
       await page.addStyleTag({ content: all.map((part) => `${name}::part(${part}) { outline-color: rgb(1, 2, 3) }`).join('\n') });
-      const styled = await page.locator(name).evaluate(
+      const styled = await page.locator(name).first().evaluate(
         (element, wanted) => wanted.filter((part) => {
           const found = element.shadowRoot?.querySelector(`[part=${part}]`);
           return !found || getComputedStyle(found).outlineColor !== 'rgb(1, 2, 3)';

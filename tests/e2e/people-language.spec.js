@@ -124,7 +124,7 @@ test('the nearest lang decides, whenever it changes; a language without words is
   const play = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
   await play('Abspielen');
-  const other = page.locator('map-squeeze');
+  const other = page.locator('map-squeeze').first();
   await other.scrollIntoViewIfNeeded();
   await expect(other.getByRole('button', { name: 'Play' })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));

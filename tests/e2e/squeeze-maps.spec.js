@@ -308,7 +308,8 @@ test('the map survives the element’s removal', async ({ page }) => {
     element.remove();
     await new Promise(requestAnimationFrame);
   });
-  await page.evaluate(() => document.querySelector('main')?.append(Reflect.get(window, 'kept')));
+  await page.evaluate(() => document.querySelector('main')?.prepend(Reflect.get(window, 'kept')));
+  await widget.scrollIntoViewIfNeeded();
   await expect(present(widget)).toContainText('room.json');
   expect(await squeezed(widget)).toEqual(before);
 });

@@ -26,7 +26,7 @@ import { frames } from './support.js';
  */
 export async function openSqueeze(page) {
   await page.goto('/');
-  const widget = page.locator('map-squeeze');
+  const widget = page.locator('map-squeeze').first();
   await widget.scrollIntoViewIfNeeded();
   await expect(widget.getByRole('button', { name: 'Facing a doorway' })).toBeVisible();
   await widget.locator('canvas.plane').scrollIntoViewIfNeeded();

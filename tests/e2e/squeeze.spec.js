@@ -433,7 +433,7 @@ test.describe('in a closed tab', () => {
     await frames(page);
     await expect(canvas).toHaveCount(0);
     await hide(page, false);
-    await page.locator('map-squeeze').scrollIntoViewIfNeeded();
+    await page.locator('map-squeeze').first().scrollIntoViewIfNeeded();
     await expect.poll(() => pictureOf(canvas)).toBe(seen);
   });
 });

@@ -40,7 +40,7 @@ export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('r
  */
 export async function open(page) {
   await page.goto('/');
-  const widget = page.locator('banana-machine');
+  const widget = page.locator('banana-machine').first();
   await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
   await frames(page);
   return widget;

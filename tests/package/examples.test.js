@@ -60,6 +60,20 @@ test('a frame that takes the height of its widget', async () => {
   await page.close();
 });
 
+test('a frame names what is wrong with its address', async () => {
+  const page = await browser.newPage();
+  for (const [query, sentence] of [
+    ['', /widget is missing; allowed is banana-machine or map-squeeze/],
+    ['?widget=banana', /widget is "banana"; allowed is/],
+    ['?widget=banana-machine&omga=1', /omga is an unknown parameter of banana-machine; allowed are .*\bomega\b/],
+    ['?widget=map-squeeze&v=1&v=2', /v is given more than once/],
+  ]) {
+    await page.goto(`${server.address}iframe/node_modules/motion-widgets/dist/embed.html${query}`);
+    assert.match(await page.getByRole('alert').innerText(), /** @type {RegExp} */ (sentence));
+  }
+  await page.close();
+});
+
 test('a classic script, from a server and from a disk', async () => {
   const fromDisk = pathToFileURL(join(project.directory, 'classic-script/index.html')).href;
   for (const address of [`${server.address}classic-script/`, fromDisk]) {

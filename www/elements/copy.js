@@ -51,7 +51,7 @@ export class CopyMenu {
           : nothing}
         ${button(say.code, () => this.#copy(element.embedCode()), { title: say.codeTitle })}
       </div>
-      <p role="status">${copied ? (copied.done ? say.done : say.byHand) : nothing}</p>
+      <output>${copied ? (copied.done ? say.done : say.byHand) : nothing}</output>
       ${copied && !copied.done
         ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
         : nothing}

@@ -12,8 +12,8 @@ import { define } from './configurable.js';
 import { judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
 import { CostMeter } from './map-squeeze-cost.js';
 import { applyMap, mapData } from './map-squeeze-data.js';
-import { MapFileError, readMapFiles, readPlan } from './map-squeeze-files.js';
 import { RobotHandles } from './map-squeeze-handles.js';
+import { MapOpener } from './map-squeeze-open.js';
 import { FloorPicture, sort } from './map-squeeze-picture.js';
 import { costTable, key, markedDraw, tally } from './map-squeeze-readouts.js';
 import { squeezeStyles } from './map-squeeze-styles.js';
@@ -86,7 +86,7 @@ const MOST_PATHS = 150;
  * @csspart controls - All controls.
  * @csspart slider - A slider with its name, value and effect.
  * @csspart button - A button.
- * @csspart figures - Readouts, chart and table.
+ * @csspart readouts - The figures about the cloud.
  * @csspart table - A table of figures.
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.
@@ -117,10 +117,15 @@ export class MapSqueezeElement extends CloudElement {
   #map = null;
   /** @type {import('../types.d.ts').Plan} */
   #plan = { bounds: new Float64Array(4), walls: new Float64Array() };
-  /** Why the latest map was refused. @type {(() => string) | undefined} */
-  #complaint;
-  /** The latest attempt to read files: an earlier one that ends later is void. */
-  #reading = 0;
+  #opener = new MapOpener(
+    (map) => {
+      if (!this.machine) return;
+      this.attempt(() => this.#enter(map));
+      this.touch();
+      this.commit();
+    },
+    () => this.requestUpdate(),
+  );
   #close = false;
   #picture = new FloorPicture(this.#plan, null);
   #meter = new CostMeter();
@@ -191,7 +196,7 @@ export class MapSqueezeElement extends CloudElement {
     super.adopt(state);
     this.#close = state.view === 'close';
     this.#map = state.map;
-    this.#complaint = undefined;
+    this.#opener.forgive();
     this.#takePlan();
   }
 
@@ -336,7 +341,7 @@ export class MapSqueezeElement extends CloudElement {
   #leaveOwn() {
     const { machine } = this;
     if (!machine) return;
-    this.#complaint = undefined;
+    this.#opener.forgive();
     if (!this.#map) return;
     machine.setPlan(undefined);
     this.#map = null;
@@ -369,7 +374,7 @@ export class MapSqueezeElement extends CloudElement {
     machine.free();
     this.machine = next;
     this.stale = true;
-    this.#complaint = undefined;
+    this.#opener.forgive();
     this.#takePlan();
     this.mark(-1);
   }
@@ -387,59 +392,6 @@ export class MapSqueezeElement extends CloudElement {
     if (!machine) return;
     this.#plan = machine.plan;
     this.#picture = new FloorPicture(this.#plan, machine.grid);
-  }
-
-  /**
-   * Puts the robot into a map of the reader's, or says why not.
-   *
-   * @param {() => OwnMap | Promise<OwnMap>} find
-   */
-  async #openMap(find) {
-    const reading = ++this.#reading;
-    try {
-      const map = await find();
-      if (reading !== this.#reading || !this.machine) return;
-      this.attempt(() => this.#enter(map));
-      this.touch();
-      this.commit();
-    } catch (error) {
-      if (reading !== this.#reading) return;
-      const reason = error instanceof Error ? error.message : String(error);
-      this.#complaint = () => {
-        const { refused } = words.squeeze;
-        return error instanceof MapFileError ? error.sentence(refused) : refused.cannot(reason);
-      };
-      this.requestUpdate();
-    }
-  }
-
-  #paste() {
-    const field = /** @type {HTMLTextAreaElement} */ (this.renderRoot.querySelector('#map-text'));
-    this.#openMap(() => readPlan(words.squeeze.pasted, field.value));
-  }
-
-  /** @param {DragEvent} event */
-  #dragOver(event) {
-    if (!event.dataTransfer?.types.includes('Files')) return;
-    event.preventDefault();
-    /** @type {HTMLElement} */ (event.currentTarget).classList.add('dropping');
-  }
-
-  /** @param {DragEvent} event */
-  #dragLeave(event) {
-    const section = /** @type {HTMLElement} */ (event.currentTarget);
-    const to = /** @type {Node | null} */ (event.relatedTarget);
-    if (!section.contains(to)) section.classList.remove('dropping');
-  }
-
-  /** @param {DragEvent} event */
-  #drop(event) {
-    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
-    if (!event.dataTransfer?.types.includes('Files')) return;
-    // The browser would leave the page for the file.
-    event.preventDefault();
-    const files = [...event.dataTransfer.files];
-    this.#openMap(() => readMapFiles(files));
   }
 
   get #isMarked() {
@@ -477,9 +429,9 @@ export class MapSqueezeElement extends CloudElement {
       <section
         class="machine"
         aria-label=${words.squeeze.title}
-        @dragover=${this.#dragOver}
-        @dragleave=${this.#dragLeave}
-        @drop=${this.#drop}
+        @dragover=${this.#opener.over}
+        @dragleave=${this.#opener.leave}
+        @drop=${this.#opener.drop}
       >
         <div class="floor">
           ${this.#stage(pictureText(config, stats, map, note))}
@@ -501,9 +453,9 @@ export class MapSqueezeElement extends CloudElement {
         ${ownMap({
           map,
           own,
-          complaint: this.#complaint?.() ?? '',
-          choose: (files) => this.#openMap(() => readMapFiles(files)),
-          paste: () => this.#paste(),
+          complaint: this.#opener.complaint,
+          choose: (files) => this.#opener.choose(files),
+          paste: () => this.#opener.paste(/** @type {HTMLTextAreaElement} */ (this.renderRoot.querySelector('#map-text')).value),
           leave: () => this.#leaveMap(),
         })}
         <p class="visually-hidden" role="status">${this.announcement}</p>

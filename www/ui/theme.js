@@ -38,11 +38,13 @@ export const theme = css`
     --accent: var(--motion-accent, light-dark(#7a1560, #fbb4e0));
     display: block;
     container-type: inline-size;
-    font: 1rem/1.4 var(
-        --motion-font,
-        'Iowan Old Style', 'Palatino Linotype', Palatino, 'URW Palladio L', 'Source Serif 4',
-        'Times New Roman', serif
-      );
+    font-family: var(
+      --motion-font,
+      'Iowan Old Style', 'Palatino Linotype', Palatino, 'URW Palladio L', 'Source Serif 4',
+      'Times New Roman', serif
+    );
+    font-size: 1rem;
+    line-height: 1.4;
     font-variant-numeric: lining-nums tabular-nums;
     text-align: start;
   }

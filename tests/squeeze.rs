@@ -286,7 +286,8 @@ fn a_bad_setting_changes_nothing() {
     for (field, settings) in bad {
         let error = machine.configure(settings).expect_err(field);
         assert_eq!(error.field, field);
-        assert!(error.to_string().starts_with(&format!("{field} is {}", error.value)), "{error}");
+        let message = error.message(|number| format!("<{number}>"));
+        assert!(message.starts_with(&format!("{field} is <{}>; allowed is a ", error.value)), "{message}");
         assert_eq!(picture(&machine), before, "{field}");
         assert!(MapSqueeze::new(settings).is_err());
     }

@@ -35,25 +35,29 @@ pub enum FloorPlanError {
     TooManyWalls(usize),
 }
 
-impl fmt::Display for FloorPlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl FloorPlanError {
+    /// The message, with numbers as `number` prints them.
+    pub fn message(&self, number: impl Fn(f64) -> String) -> String {
+        let list = |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
         match self {
-            Self::BadBounds(bounds) => write!(
-                f,
-                "bounds is {bounds:?}; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to \
-                 1000000, the sides from 0.01 to 100000"
+            Self::BadBounds(bounds) => format!(
+                "bounds is [{}]; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to \
+                 1000000, the sides from 0.01 to 100000",
+                list(bounds)
             ),
             Self::BadWall { index, end } => {
-                write!(f, "walls[{index}] ends at {end:?}; allowed is a point inside the bounds")
+                format!("walls[{index}] ends at [{}]; allowed is a point inside the bounds", list(end))
             }
             Self::TooManyWalls(count) => {
-                write!(
-                    f,
-                    "walls has a length of {count} or more; allowed is at most {}",
-                    FloorPlan::MOST_WALLS
-                )
+                format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MOST_WALLS)
             }
         }
+    }
+}
+
+impl fmt::Display for FloorPlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message(|number| number.to_string()))
     }
 }
 
@@ -132,7 +136,8 @@ impl FloorPlan {
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
     pub fn apartment() -> Self {
         let walls = apartment::WALLS.map(|[x0, y0, x1, y1]| Segment { from: [x0, y0], to: [x1, y1] });
-        Self::new(walls.to_vec(), apartment::BOUNDS).expect("a constant that the tests build")
+        Self::new(walls.to_vec(), apartment::BOUNDS)
+            .unwrap_or_else(|_| unreachable!("a constant that the tests build"))
     }
 
     pub fn walls(&self) -> &[Segment] {
@@ -202,7 +207,11 @@ impl FloorPlan {
             .flat_map(|i| (0..=STEPS).map(move |j| [at(left, right, i), at(bottom, top, j)]))
             .collect();
         points.push([0.0, 0.0]);
-        points.sort_by(|[ax, ay], [bx, by]| libm::hypot(*ax, *ay).total_cmp(&libm::hypot(*bx, *by)));
+        // Without a place for ties this would depend on how the sort works; stable sorting takes more code.
+        points.sort_unstable_by(|a, b| {
+            let distance = |[x, y]: &[f64; 2]| libm::hypot(*x, *y);
+            distance(a).total_cmp(&distance(b)).then(a[0].total_cmp(&b[0])).then(a[1].total_cmp(&b[1]))
+        });
         points.into_iter().find(|point| self.point_free(*point, clearance).free)
     }
 
@@ -365,5 +374,6 @@ fn index_of(walls: &[Segment]) -> (StaticAABB2DIndex<f64>, Vec<u32>) {
             wall_of.push(index as u32);
         }
     }
-    (builder.build().expect("as many boxes as announced, and not none"), wall_of)
+    let index = builder.build().unwrap_or_else(|_| unreachable!("as many boxes as announced, and not none"));
+    (index, wall_of)
 }

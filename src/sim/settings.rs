@@ -5,27 +5,45 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 /// A parameter outside its range. The message names the field, the value and what is allowed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SettingsError {
     pub field: String,
-    pub value: String,
-    pub allowed: String,
+    pub value: f64,
+    pub allowed: Allowed,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Allowed {
+    Real(RangeInclusive<f64>),
+    /// A whole number from the first to the second.
+    Whole(u64, u64),
+    /// A number for which there is memory.
+    LessMemory,
 }
 
 impl SettingsError {
     /// A sample count for which memory does not suffice.
     pub(crate) fn no_memory(samples: usize) -> Self {
-        Self {
-            field: "samples".to_owned(),
-            value: samples.to_string(),
-            allowed: "a number for which there is memory".to_owned(),
-        }
+        Self { field: "samples".to_owned(), value: samples as f64, allowed: Allowed::LessMemory }
+    }
+
+    /// The message, with numbers as `number` prints them. WebAssembly leaves that to JavaScript: Rust's own printing of
+    /// floating point takes an eighth of the module.
+    pub fn message(&self, number: impl Fn(f64) -> String) -> String {
+        let allowed = match &self.allowed {
+            Allowed::Real(range) => {
+                format!("a number from {} to {}", number(*range.start()), number(*range.end()))
+            }
+            Allowed::Whole(least, most) => format!("a whole number from {least} to {most}"),
+            Allowed::LessMemory => "a number for which there is memory".to_owned(),
+        };
+        format!("{} is {}; allowed is {allowed}", self.field, number(self.value))
     }
 }
 
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} is {}; allowed is {}", self.field, self.value, self.allowed)
+        f.write_str(&self.message(number))
     }
 }
 
@@ -51,11 +69,7 @@ pub(crate) fn check_real(
     if allowed.contains(&value) {
         return Ok(());
     }
-    Err(SettingsError {
-        field: field.to_owned(),
-        value: number(value),
-        allowed: format!("a number from {} to {}", number(*allowed.start()), number(*allowed.end())),
-    })
+    Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Real(allowed.clone()) })
 }
 
 /// A whole number from `least` to `most`, both exact as doubles.
@@ -64,11 +78,7 @@ pub(crate) fn check_whole(field: &str, value: f64, least: u64, most: u64) -> Res
     if whole as f64 == value && (least..=most).contains(&whole) {
         return Ok(whole);
     }
-    Err(SettingsError {
-        field: field.to_owned(),
-        value: number(value),
-        allowed: format!("a whole number from {least} to {most}"),
-    })
+    Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Whole(least, most) })
 }
 
 pub(crate) fn check_command(command: &VelocityCmd) -> Result<(), SettingsError> {

@@ -10,7 +10,7 @@ use wasm_bindgen::prelude::*;
 
 impl From<SettingsError> for JsValue {
     fn from(error: SettingsError) -> Self {
-        RangeError::new(&error.to_string()).into()
+        RangeError::new(&error.message(printed)).into()
     }
 }
 
@@ -156,7 +156,7 @@ fn unreadable(field: &str) -> JsValue {
 }
 
 /// A number as JavaScript prints it.
-fn printed(number: f64) -> String {
+pub fn printed(number: f64) -> String {
     // Only another radix could throw.
     Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }

@@ -1,8 +1,8 @@
 //! `MapSqueeze` for JavaScript.
 
 use super::fields::{
-    Fields, boolean, in_range, item, length, no_memory, number, numbers, read_command, type_error, whole,
-    word,
+    Fields, boolean, in_range, item, length, no_memory, number, numbers, printed, read_command, type_error,
+    whole, word,
 };
 use super::values::{Command, bytes, doubles, object, to_js};
 use crate::geom::se2::SE2;
@@ -47,7 +47,7 @@ const MAX_TRIAL: u64 = 100_000;
 
 impl From<FloorPlanError> for JsValue {
     fn from(error: FloorPlanError) -> Self {
-        RangeError::new(&error.to_string()).into()
+        RangeError::new(&error.message(printed)).into()
     }
 }
 
@@ -400,8 +400,8 @@ fn read_grid(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, Js
     let threshold = |key: &str| fields.optional(key, |field, value| in_range(field, value, &(0.0..=1.0)));
     let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(0.65);
     if threshold("free_thresh")?.is_some_and(|free| free > occupied_thresh) {
-        let message =
-            format!("free_thresh is above occupied_thresh ({occupied_thresh}); allowed is at most that");
+        let limit = printed(occupied_thresh);
+        let message = format!("free_thresh is above occupied_thresh ({limit}); allowed is at most that");
         return Err(RangeError::new(&message).into());
     }
     let mode = fields.optional("mode", |field, value| word(field, value, &MODES))?.unwrap_or(Mode::Trinary);

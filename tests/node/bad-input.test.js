@@ -36,7 +36,7 @@ const BAD = [
   [{ command: { ...COMMAND, dt: 0 } }, RangeError, 'command.dt', '0'],
   [{ command: { ...COMMAND, dt: -0 } }, RangeError, 'command.dt', '0'],
   [{ command: { ...COMMAND, dt: -1 } }, RangeError, 'command.dt', '-1'],
-  [{ command: { ...COMMAND, v: 1e300 } }, RangeError, 'command.v', '1e300'],
+  [{ command: { ...COMMAND, v: 1e300 } }, RangeError, 'command.v', '1e+300'],
   [{ command: { ...COMMAND, v: '1' } }, TypeError, 'command.v', '"1"'],
   [{ command: { ...COMMAND, v: 1n } }, TypeError, 'command.v', 'bigint'],
   [{ command: { ...COMMAND, v: null } }, TypeError, 'command.v', 'null'],

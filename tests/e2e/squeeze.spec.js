@@ -428,8 +428,9 @@ test.describe('in a closed tab', () => {
       });
     });
     await page.goto('/');
-    const canvas = page.locator('map-squeeze canvas.plane');
-    await page.locator('map-squeeze .reserved').waitFor({ state: 'attached' });
+    const widget = page.locator('map-squeeze').first();
+    const canvas = widget.locator('canvas.plane');
+    await widget.locator('.reserved').waitFor({ state: 'attached' });
     await frames(page);
     await expect(canvas).toHaveCount(0);
     await hide(page, false);

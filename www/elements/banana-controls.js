@@ -1,5 +1,5 @@
 /**
- * The Banana Machine's controls: the command and the noise.
+ * The Banana Machine's controls: the command, the noise and the overlays.
  *
  * @module
  */
@@ -8,12 +8,15 @@ import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { words } from '../messages/registry.js';
 import { button, radioGroup, sliderRow, toggle } from '../ui/controls.js';
+import { DASHES } from '../ui/draw.js';
 import { fixed } from '../ui/format.js';
+import { OVERLAYS } from './banana-settings.js';
 import { COMMAND_SLIDERS, alphaName, alphaSymbol } from './banana-words.js';
 
 /**
  * @typedef {import('../types.d.ts').Settings} Settings
  * @typedef {import('../types.d.ts').Preset} Preset
+ * @typedef {import('../types.d.ts').OverlayName} Overlay
  *
  * @typedef {Partial<Settings> | ((wanted: Settings) => Partial<Settings>)} Change settings, or what
  *   makes them from those wanted so far
@@ -144,4 +147,25 @@ function isolateButton(index, checked, isolate) {
       @change=${() => isolate(index)}
     />
   </label>`;
+}
+
+/**
+ * The legend of the floor, in which each overlay can be turned off.
+ *
+ * @param {readonly Overlay[]} shown
+ * @param {(shown: Overlay[]) => void} change
+ */
+export function overlayToggles(shown, change) {
+  return html`<div class="legend" part="legend" role="group" aria-label=${words.banana.overlaysLabel}>
+    ${OVERLAYS.map((name) =>
+      toggle({
+        label: html`<svg class="swatch ${name}" viewBox="0 0 30 8" aria-hidden="true">
+            <line x1="1" x2="29" y1="4" y2="4" stroke-dasharray=${DASHES[name].join(' ')} />
+          </svg>
+          <span>${words.banana.overlays[name]}</span>`,
+        checked: shown.includes(name),
+        change: (checked) => change(OVERLAYS.filter((each) => (each === name ? checked : shown.includes(each)))),
+      }),
+    )}
+  </div>`;
 }

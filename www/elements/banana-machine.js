@@ -8,11 +8,11 @@
 import { html, nothing } from 'lit';
 import { speak, words } from '../messages/registry.js';
 import { skewChart } from '../ui/chart.js';
-import { rich, toggle } from '../ui/controls.js';
-import { DASHES } from '../ui/draw.js';
+import { rich } from '../ui/controls.js';
 import { fixed } from '../ui/format.js';
 import { theme } from '../ui/theme.js';
-import { commandControls, noiseControls } from './banana-controls.js';
+import { commandControls, noiseControls, overlayToggles } from './banana-controls.js';
+import { read } from './banana-figures.js';
 import { ArcHandle } from './banana-handle.js';
 import { PlanePicture, TwistPicture } from './banana-pictures.js';
 import { markedRobot, readoutStyles, readouts, twistTable, workedExample } from './banana-readouts.js';
@@ -23,7 +23,6 @@ import {
   announcementOf,
   captionOf,
   longestNote,
-  noteOn,
   planeText,
   skewText,
   twistCaption,
@@ -41,7 +40,7 @@ import { object, subset, whole } from './state.js';
  * @typedef {import('../types.d.ts').Motion} Motion
  * @typedef {import('../types.d.ts').Settings} Settings
  * @typedef {import('../types.d.ts').ModelName} ModelName
- * @typedef {keyof typeof DASHES} Overlay
+ * @typedef {import('../types.d.ts').OverlayName} Overlay
  * @typedef {import('./stateful.js').State} State
  */
 
@@ -366,6 +365,13 @@ export class BananaMachineElement extends CloudElement {
     });
   }
 
+  /** @param {readonly Overlay[]} overlays that the reader wants */
+  #overlay(overlays) {
+    this.#overlays = overlays;
+    this.touch();
+    this.rest();
+  }
+
   renderWidget() {
     const { machine, motion } = this;
     if (!machine || !motion || !this.#figures || !this.#curve) return nothing;
@@ -388,7 +394,7 @@ export class BananaMachineElement extends CloudElement {
               <span>${note || captionOf(stats)}</span>
             </p>
           </div>
-          ${this.#legend()} ${readouts(stats, config.samples)}
+          ${overlayToggles(this.#overlays, (overlays) => this.#overlay(overlays))} ${readouts(stats, config.samples)}
           ${markedRobot({
             index: this.markedIndex,
             shown,
@@ -438,44 +444,6 @@ export class BananaMachineElement extends CloudElement {
     `;
   }
 
-  #legend() {
-    return html`<div class="legend" part="legend" role="group" aria-label=${words.banana.overlaysLabel}>
-      ${OVERLAYS.map((name) =>
-        toggle({
-          label: html`<svg class="swatch ${name}" viewBox="0 0 30 8" aria-hidden="true">
-              <line x1="1" x2="29" y1="4" y2="4" stroke-dasharray=${DASHES[name].join(' ')} />
-            </svg>
-            <span>${words.banana.overlays[name]}</span>`,
-          checked: this.#overlays.includes(name),
-          change: (checked) => {
-            this.#overlays = OVERLAYS.filter((each) => (each === name ? checked : this.#overlays.includes(each)));
-            this.touch();
-            this.rest();
-          },
-        }),
-      )}
-    </div>`;
-  }
-}
-
-/**
- * Everything that the pictures and figures need of the machine, asked once a change.
- *
- * @param {BananaMachine} machine
- */
-function read(machine) {
-  const { config, shown, stats, contours, table, chartHolds } = machine;
-  return {
-    config,
-    shown,
-    stats,
-    contours,
-    table,
-    note: noteOn(config, table, stats, chartHolds),
-    exactSkew: table.exact.crossTrackSkew,
-    /** The end of the commanded arc, metres. */
-    end: /** @type {[number, number]} */ ([...contours.command.slice(-2)]),
-  };
 }
 
 /**

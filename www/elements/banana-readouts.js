@@ -254,7 +254,7 @@ export function workedExample({ linearized, exact, measured }, stats) {
   const computed = [linearized, exact];
   const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
   // Of two lines also while there is none.
-  const measuredSkew = html`${skew}<br />${error.join(' ') || '\u00a0'}`;
+  const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
   /** @type {[unknown, (column: Table['exact']) => number, unknown?][]} */
   const rows = [

@@ -6,7 +6,7 @@
  * @module
  */
 
-import { LitElement, html, nothing } from 'lit';
+import { LitElement, html, noChange, nothing } from 'lit';
 import { abandon, instantiate } from '../core.js';
 import { en } from '../messages/en.js';
 import { onLanguage, setMessages, speak, words } from '../messages/registry.js';
@@ -241,7 +241,13 @@ export class WidgetElement extends LitElement {
 
   #content() {
     if (this.#failure !== undefined) return html`<p class="failure" role="alert">${words.failure(this.#failure)}</p>`;
-    return this.machine ? this.renderWidget() : html`<div class="reserved"></div>`;
+    if (!this.machine) return html`<div class="reserved"></div>`;
+    try {
+      return this.renderWidget();
+    } catch (error) {
+      if (!this.mend(error)) this.fail(error);
+      return noChange;
+    }
   }
 
   updated() {

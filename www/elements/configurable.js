@@ -349,7 +349,9 @@ export class ConfigurableElement extends WidgetElement {
 
   /** Lets the attributes say what has changed. */
   tell() {
-    if (this.machine) this.#reflection.tell(this.texts());
+    this.attempt(() => {
+      if (this.machine) this.#reflection.tell(this.texts());
+    });
   }
 
   /** Something of the element itself was changed by the page. */

@@ -43,7 +43,7 @@ export class CopyMenu {
     const say = words.copies;
     const element = this.#element;
     const copied = this.#copied;
-    return html`<details class="exports" part="copies">
+    return html`<details class="copies" part="copies">
       <summary>${say.label}</summary>
       <div class="buttons">
         ${element.share

@@ -63,16 +63,28 @@ export async function pngOf(figure) {
   });
 }
 
+/**
+ * Tells figures apart whose ids would clash on one page, and is the same for the same figure.
+ *
+ * @param {string} text
+ */
+function hash(text) {
+  let value = 7;
+  for (let i = 0; i < text.length; i++) value = (Math.imul(value, 31) + text.charCodeAt(i)) >>> 0;
+  return value.toString(36);
+}
+
 /** @param {Figure} figure */
 export function svgOf(figure) {
-  const context = new SvgContext();
+  const name = `figure-${hash(JSON.stringify(figure.settings))}`;
+  const context = new SvgContext(name);
   const surface = surfaceLike(figure, 1, () => context);
   figure.paint(surface);
   const { width, height } = surface;
   const description = figure.canvas.getAttribute('aria-label') ?? '';
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-labelledby="title description">
-<title id="title">${escaped(figure.title)}</title>
-<desc id="description">${escaped(description)}</desc>
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-labelledby="${name}-title ${name}-text">
+<title id="${name}-title">${escaped(figure.title)}</title>
+<desc id="${name}-text">${escaped(description)}</desc>
 <rect width="100%" height="100%" fill="${figure.palette.paper}"/>
 ${context.markup}
 </svg>

@@ -12,9 +12,10 @@ import { define } from './configurable.js';
 import { judgeControls, motionControls, ownMap, placeControls } from './map-squeeze-controls.js';
 import { CostMeter } from './map-squeeze-cost.js';
 import { applyMap, mapData } from './map-squeeze-data.js';
+import { read } from './map-squeeze-figures.js';
 import { RobotHandles } from './map-squeeze-handles.js';
 import { MapOpener } from './map-squeeze-open.js';
-import { FloorPicture, sort } from './map-squeeze-picture.js';
+import { FloorPicture } from './map-squeeze-picture.js';
 import { costTable, key, markedDraw, tally } from './map-squeeze-readouts.js';
 import { squeezeStyles } from './map-squeeze-styles.js';
 import {
@@ -23,7 +24,6 @@ import {
   VERDICT,
   announcementOf,
   mapText,
-  noteOn,
   pictureText,
   verdictText,
 } from './map-squeeze-words.js';
@@ -45,9 +45,6 @@ import { word } from './state.js';
 const REACH = 12;
 
 const ROOM = reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]);
-
-/** Paths drawn at most: more would be one blot, and cost more than a frame. */
-const MOST_PATHS = 150;
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.
@@ -476,26 +473,6 @@ export class MapSqueezeElement extends CloudElement {
       ${this.#handles.render(this.wanted().start)}
     </div>`;
   }
-}
-
-/**
- * Everything that the picture and the figures need of the machine, asked once a change.
- *
- * @param {MapSqueeze} machine
- */
-function read(machine) {
-  const { config, stats, verdicts, poses, commanded, startFree } = machine;
-  const sorted = sort(poses, verdicts);
-  return {
-    config,
-    stats,
-    verdicts,
-    poses,
-    commanded,
-    sorted,
-    paths: sorted.through.slice(0, MOST_PATHS).map((index) => machine.path(index)),
-    note: noteOn(config, stats, startFree),
-  };
 }
 
 define('map-squeeze', MapSqueezeElement);

@@ -36,7 +36,13 @@ export class SvgContext {
   /** Groups to be closed by each `restore`. @type {number[]} */
   #open = [];
   #clips = 0;
+  #name;
   #ruler = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d'));
+
+  /** @param {string} name that the ids begin with: several figures may stand on one page */
+  constructor(name) {
+    this.#name = name;
+  }
 
   /** What was drawn, as elements of SVG. */
   get markup() {
@@ -110,7 +116,7 @@ export class SvgContext {
   }
 
   clip() {
-    const id = `clip${++this.#clips}`;
+    const id = `${this.#name}-clip${++this.#clips}`;
     this.#marks.push(`<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
     if (this.#open.length) this.#open[this.#open.length - 1]++;
   }

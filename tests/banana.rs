@@ -307,6 +307,11 @@ fn isolating_an_alpha_silences_the_others() {
     let end = SE2::new(2.0, 0.0, 0.0);
     assert!(machine.poses().all(|pose| pose == end), "α₄ is silent where nothing is turned");
     assert!(machine.figures().cross_track.skew.is_nan());
+    assert_eq!(machine.figures().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
+    let curved = Settings { isolate: Some(1), ..Settings::default() };
+    machine.configure(curved).unwrap();
+    let cov = machine.figures().cartesian.cov;
+    assert_eq!(cov.column(2), Matrix3::zeros().column(2), "α₁ turns nobody");
     machine.configure(Settings { isolate: Some(6), ..straight }).unwrap();
     assert!(machine.poses().all(|pose| pose == end), "and so is α₆");
     machine.configure(Settings { isolate: Some(5), ..straight }).unwrap();

@@ -131,7 +131,9 @@ impl Spread {
         let (sin, cos) = libm::sincos(2.0 * half);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
         let turned = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
-        let mean_turn = 2.0 * half + libm::atan2(turned.0, turned.1);
+        // Equal headings have no spread, whatever rounding leaves of their sines.
+        let turn = if hh == 0.0 { 0.0 } else { libm::atan2(turned.0, turned.1) };
+        let mean_turn = 2.0 * half + turn;
         let position = [cov(xx, x, x), cov(xy, x, y), cov(yy, y, y)];
         let [aa, al, ll] = [cov(aa, a, a), cov(al, a, l), cov(ll, l, l)];
         let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * cov(hh, h, h)];

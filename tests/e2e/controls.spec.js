@@ -168,10 +168,10 @@ test.describe('noise', () => {
       const element = /** @type {BananaMachineElement} */ (node);
       const { machine } = element;
       let count = 0;
-      Object.defineProperty(machine, 'configure', {
+      Object.defineProperty(machine, 'begin', {
         value(/** @type {object} */ settings) {
           count++;
-          Object.getPrototypeOf(machine).configure.call(machine, settings);
+          Object.getPrototypeOf(machine).begin.call(machine, settings);
         },
       });
       const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha1'));

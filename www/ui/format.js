@@ -54,7 +54,7 @@ export function significant(value, digits) {
   const size = Math.abs(value);
   if (size < NOTHING_BELOW) return '0';
   const options = { minimumSignificantDigits: digits, maximumSignificantDigits: digits, useGrouping: false };
-  if (!(size < 1e-4 || size >= 1e5)) return print(value, options);
+  if (!Number.isFinite(size) || (size >= 1e-4 && size < 1e5)) return print(value, options);
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
   const power = exponent.replace(/[-+]/, '').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
   return `${print(Number(mantissa), options)}·10${exponent.startsWith('-') ? '⁻' : ''}${power}`;

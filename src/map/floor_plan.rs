@@ -59,7 +59,8 @@ impl fmt::Display for FloorPlanError {
 
 impl std::error::Error for FloorPlanError {}
 
-/// An answer, and how many walls were measured for it.
+/// An answer, and how many walls were measured for it: those that what is known about the room around did not decide on.
+/// A wall that several pieces of a motion pass closely is measured for each of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Verdict {
     pub free: bool,
@@ -244,9 +245,7 @@ impl FloorPlan {
         }
         // Both ends are inside, so that an arc which leaves crosses an edge.
         let (corners, unrolled) = (self.corners(), arc.unrolled());
-        (0..4).any(|i| {
-            Segment { from: corners[i], to: corners[(i + 1) % 4] }.distance_to_unrolled(&unrolled) == 0.0
-        })
+        (0..4).any(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }.crosses_unrolled(&unrolled))
     }
 
     /// Whether every wall that has a piece whose box comes within `reach` (m) of the point, by both coordinates, is
@@ -321,6 +320,8 @@ impl Sweep<'_> {
         })
     }
 
+    /// Whether the walls around a piece are all clear of the arc. They are measured to the middle of the piece first, which
+    /// decides on most.
     fn measure(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let unrolled = &mut self.unrolled;

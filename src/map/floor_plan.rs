@@ -280,7 +280,7 @@ const PIECES: usize = 4;
 
 /// A piece whose half is shorter than this many times the radius of the field's cells is measured: to divide it would
 /// tell less about it than is known about its walls.
-const DIVISIBLE: f64 = 2.0;
+const DIVISIBLE: f64 = 4.0;
 
 /// A disc that is moved along an arc.
 struct Sweep<'a> {

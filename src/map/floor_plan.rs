@@ -270,7 +270,9 @@ impl FloorPlan {
             all_free = free(&self.walls[wall]);
             if all_free { Control::Continue } else { Control::Break(()) }
         };
-        index.visit_query(x - reach, y - reach, x + reach, y + reach, &mut visit);
+        // A stack of its own would be allocated even where a plan has but one node.
+        let mut stack = Vec::new();
+        index.visit_query_with_stack(x - reach, y - reach, x + reach, y + reach, &mut visit, &mut stack);
         all_free
     }
 }
@@ -350,7 +352,9 @@ fn index_of(walls: &[Segment]) -> (StaticAABB2DIndex<f64>, Vec<u32>) {
     let count =
         |wall: &Segment| if longest > 0.0 { (lesser(wall) / longest).ceil().max(1.0) as u32 } else { 1 };
     let total: u32 = walls.iter().map(count).sum();
-    let mut builder = StaticAABB2DIndexBuilder::new(total as usize);
+    // A small plan such as the apartment is one node: there is then nothing to descend. 16 is the index's own choice.
+    let node_size = if total <= 32 { 32 } else { 16 };
+    let mut builder = StaticAABB2DIndexBuilder::new_with_node_size(total as usize, node_size);
     let mut wall_of = Vec::with_capacity(total as usize);
     for (index, wall) in walls.iter().enumerate() {
         let count = count(wall);

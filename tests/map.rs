@@ -172,8 +172,8 @@ fn no_plan_is_too_strange_for_the_index() {
 
 // ------------------------------------------------------------------------------------------------------ verdicts
 
-/// The verdicts are those of measuring every wall. Walls are measured only where the box of one meets the box of the
-/// motion, and in all far fewer than do.
+/// The verdicts are those of measuring every wall. Far fewer walls are measured than have a box that meets the box of the
+/// motion.
 #[test]
 fn no_wall_is_overlooked() {
     let mut rng = seeded(9600);
@@ -212,7 +212,6 @@ fn no_wall_is_overlooked() {
                 }
                 let expected = distances.iter().all(|distance| *distance > clearance);
                 assert_eq!(verdict.free, expected, "{arc:?} {clearance} {walls:?}");
-                assert!(if near == 0 { expected && verdict.wall_tests == 0 } else { true });
                 measured += verdict.wall_tests;
                 met += near;
                 if expected {

@@ -224,6 +224,7 @@ export interface SqueezeStats {
   /** 95 %. */
   throughWallInterval: [number, number];
   drawsPerAccepted: number;
+  /** Walls whose distance was computed; most verdicts need none. */
   wallTestsPerAccepted: number;
   /** Whether the machine stopped short of its samples. */
   gaveUp: boolean;

@@ -181,10 +181,16 @@ impl Driven {
             return self.arc.bounding_box();
         }
         let ([x0, y0], [x1, y1]) = ([self.arc.start.x(), self.arc.start.y()], self.end);
-        // No point of the arc is further from its chord than its middle is: tan(φ/4)/2 chords, at most φ/2π of them.
-        let bend = self.arc.turn.abs() / TAU;
-        let rise = bend * ((x1 - x0).abs() + (y1 - y0).abs());
-        [x0.min(x1) - rise, y0.min(y1) - rise, x0.max(x1) + rise, y0.max(y1) + rise]
+        // The arc lies in the rectangle on its chord that reaches to its middle: tan(φ/4)/2 chords to the right, which is at
+        // most φ/2π of them.
+        let bend = self.arc.turn / TAU;
+        let (rise_x, rise_y) = (bend * (y1 - y0), bend * (x0 - x1));
+        [
+            x0.min(x1) + rise_x.min(0.0),
+            y0.min(y1) + rise_y.min(0.0),
+            x0.max(x1) + rise_x.max(0.0),
+            y0.max(y1) + rise_y.max(0.0),
+        ]
     }
 }
 

@@ -42,32 +42,49 @@ impl Segment {
 
     /// [`Segment::distance_to_arc`] of an arc that several segments are measured to.
     pub(crate) fn distance_to_unrolled(&self, local: &Unrolled) -> f64 {
-        let (from, to) = (local.transform(self.from), local.transform(self.to));
-        let mirrored = Segment { from, to };
-        let along = [to[0] - from[0], to[1] - from[1]];
+        let mirrored = self.unrolled(local);
+        if mirrored.crosses(local) { 0.0 } else { mirrored.distance_apart(local) }
+    }
 
+    pub(crate) fn crosses_unrolled(&self, local: &Unrolled) -> bool {
+        self.unrolled(local).crosses(local)
+    }
+
+    /// The segment in the frame of an arc.
+    fn unrolled(&self, local: &Unrolled) -> Self {
+        Self { from: local.transform(self.from), to: local.transform(self.to) }
+    }
+
+    /// Whether a segment in the frame of an arc has a point in common with it.
+    fn crosses(&self, local: &Unrolled) -> bool {
+        let Self { from, to } = *self;
+        let along = [to[0] - from[0], to[1] - from[1]];
         // Points of the segment on the circle: the circle's equation is quadratic along it.
-        let squared = dot(along, along);
-        let a = 0.5 * local.curvature * squared;
+        let a = 0.5 * local.curvature * dot(along, along);
         let b = local.curvature * dot(from, along) - along[1];
         let c = local.circle(from);
         // b² − 4ac, rearranged: a wall much longer than the radius would lose the difference.
         let offset = local.curvature * (from[0] * along[1] - from[1] * along[0]);
         let discriminant = along[1] * along[1] - offset * (offset + 2.0 * along[0]);
-        if discriminant >= 0.0 {
-            let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-            let crosses = |t: f64| {
-                (0.0..=1.0).contains(&t) && local.passes([from[0] + t * along[0], from[1] + t * along[1]])
-            };
-            if crosses(q / a) || crosses(c / q) {
-                return 0.0;
-            }
+        if discriminant < 0.0 {
+            return false;
         }
+        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+        [q / a, c / q].into_iter().any(|t| {
+            (0.0..=1.0).contains(&t) && local.passes([from[0] + t * along[0], from[1] + t * along[1]])
+        })
+    }
+
+    /// The distance of a segment in the frame of an arc from the arc that it does not cross.
+    fn distance_apart(&self, local: &Unrolled) -> f64 {
+        let Self { from, to } = *self;
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let squared = dot(along, along);
         let mut least = [
             local.distance(from),
             local.distance(to),
-            mirrored.distance_to_point([0.0, 0.0]),
-            mirrored.distance_to_point(local.end),
+            self.distance_to_point([0.0, 0.0]),
+            self.distance_to_point(local.end),
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min);

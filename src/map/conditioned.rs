@@ -55,7 +55,7 @@ pub struct Accepted {
 pub struct Cost {
     /// Draws of the model, accepted or not.
     pub draws: usize,
-    /// Walls measured to decide on them.
+    /// Walls measured to decide on them, see [`Verdict`].
     pub wall_tests: usize,
 }
 

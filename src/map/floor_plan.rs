@@ -63,7 +63,8 @@ impl fmt::Display for FloorPlanError {
 
 impl std::error::Error for FloorPlanError {}
 
-/// An answer, and how many walls were measured for it.
+/// An answer, and how many walls were measured for it: those that what is known about the room around did not decide on.
+/// A wall that several pieces of a motion pass closely is measured for each of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Verdict {
     pub free: bool,
@@ -253,9 +254,7 @@ impl FloorPlan {
         }
         // Both ends are inside, so that an arc which leaves crosses an edge.
         let (corners, unrolled) = (self.corners(), arc.unrolled());
-        (0..4).any(|i| {
-            Segment { from: corners[i], to: corners[(i + 1) % 4] }.distance_to_unrolled(&unrolled) == 0.0
-        })
+        (0..4).any(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }.crosses_unrolled(&unrolled))
     }
 
     /// Whether every wall that has a piece whose box comes within `reach` (m) of the point, by both coordinates, is
@@ -280,7 +279,9 @@ impl FloorPlan {
             all_free = free(&self.walls[wall]);
             if all_free { Control::Continue } else { Control::Break(()) }
         };
-        index.visit_query(x - reach, y - reach, x + reach, y + reach, &mut visit);
+        // A stack of its own would be allocated even where a plan has but one node.
+        let mut stack = Vec::new();
+        index.visit_query_with_stack(x - reach, y - reach, x + reach, y + reach, &mut visit, &mut stack);
         all_free
     }
 }
@@ -290,7 +291,7 @@ const PIECES: usize = 4;
 
 /// A piece whose half is shorter than this many times the radius of the field's cells is measured: to divide it would
 /// tell less about it than is known about its walls.
-const DIVISIBLE: f64 = 2.0;
+const DIVISIBLE: f64 = 4.0;
 
 /// A disc that is moved along an arc.
 struct Sweep<'a> {
@@ -330,6 +331,8 @@ impl Sweep<'_> {
         })
     }
 
+    /// Whether the walls around a piece are all clear of the arc. They are measured to the middle of the piece first, which
+    /// decides on most.
     fn measure(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let unrolled = &mut self.unrolled;
@@ -358,7 +361,9 @@ fn index_of(walls: &[Segment]) -> (StaticAABB2DIndex<f64>, Vec<u32>) {
     let count =
         |wall: &Segment| if longest > 0.0 { (lesser(wall) / longest).ceil().max(1.0) as u32 } else { 1 };
     let total: u32 = walls.iter().map(count).sum();
-    let mut builder = StaticAABB2DIndexBuilder::new(total as usize);
+    // A small plan such as the apartment is one node: there is then nothing to descend. 16 is the index's own choice.
+    let node_size = if total <= 32 { 32 } else { 16 };
+    let mut builder = StaticAABB2DIndexBuilder::new_with_node_size(total as usize, node_size);
     let mut wall_of = Vec::with_capacity(total as usize);
     for (index, wall) in walls.iter().enumerate() {
         let count = count(wall);

@@ -108,9 +108,9 @@ pub fn squeeze_settings() -> [squeeze::Settings; 5] {
 /// [`squeeze_fingerprint`] of each of [`squeeze_settings`].
 pub const SQUEEZE_FINGERPRINTS: [u64; 5] = [
     0xe40f_039b_4c89_083e,
-    0x3c71_1d22_275c_fd1c,
+    0x9148_cbe7_5712_052b,
     0xb228_686e_93cb_30b6,
-    0x5a2d_75ba_6da9_0ad3,
+    0x7f65_a443_620e_950f,
     0xc9f4_7f6c_0839_0e5d,
 ];
 

@@ -115,7 +115,7 @@ test('the statistics count the verdicts', () => {
     assert.equal(stats.throughWallRate, stats.throughWall / stats.accepted);
     assert.equal(stats.acceptanceRate, (stats.accepted * parts) / stats.drawn);
     assert.equal(stats.drawsPerAccepted, stats.drawn / stats.accepted);
-    assert.ok(stats.wallTestsPerAccepted > 0 && stats.gaveUp === false);
+    assert.ok(stats.wallTestsPerAccepted > 0 && stats.wallTestsPerAccepted < 1 && stats.gaveUp === false);
     const [low, high] = stats.throughWallInterval;
     assert.ok(low <= stats.throughWallRate && stats.throughWallRate <= high && high - low < 0.05);
     if (sampler === 'endpoint') assert.ok(verdicts.every((verdict) => (verdict & 4) / 4 === (verdict & 1)));

@@ -10,8 +10,8 @@ use common::{golden, seeded};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, MOST_DRAWS, MapConditioned, Sampler};
-use motion::sim::settings::{MAX_SAMPLES, MAX_SEED};
-use motion::sim::squeeze::{Attempt, MAX_STEPS, MapSqueeze, PRESETS, Settings, Tally};
+use motion::sim::settings::MAX_SEED;
+use motion::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MapSqueeze, PRESETS, Settings, Tally};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
 const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];

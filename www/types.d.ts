@@ -26,7 +26,7 @@ export interface Settings {
   alphas: number[];
   /** Index, from 1, of the only α that is in effect; null for all of them. */
   isolate: number | null;
-  /** Robots in the whole cloud. A whole number, 1 to 1 000 000. */
+  /** Robots in the whole cloud. A whole number, 1 to 10 000 000. */
   samples: number;
   /** The same seed is the same robots. A whole number, 0 to 2⁵³ − 1. */
   seed: number;

@@ -1,9 +1,7 @@
 //! Map Squeeze: motion conditioned on a floor plan, and what the condition cannot see.
 
 use super::draws::Draws;
-use super::settings::{
-    MAX_SAMPLES, MAX_SEED, SPEED, SettingsError, check_alphas, check_command, check_real, check_whole,
-};
+use super::settings::{MAX_SEED, SPEED, SettingsError, check_alphas, check_command, check_real, check_whole};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
 use crate::map::{Accepted, Cost, FloorPlan, Judging, MOST_DRAWS, MapConditioned, Sampler, Wedged};
@@ -58,6 +56,8 @@ impl Default for Settings {
 
 /// From a point to a robot of ten metres.
 pub const CLEARANCE: RangeInclusive<f64> = 0.0..=10.0;
+/// A million attempts take 56 MB, and some seconds where the map is hard.
+pub const MAX_SAMPLES: usize = 1_000_000;
 /// Parts of a command: at a thousand the sampler is as good as judging the arc, and a thousand times as dear.
 pub const MAX_STEPS: u64 = 1000;
 

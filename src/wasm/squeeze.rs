@@ -11,9 +11,9 @@ use crate::map::{
     FloorPlan, FloorPlanError, Image, Interpretation, MOST_PIXELS, Mode, OccupancyGrid, Pixel, Sampler,
     Wedged, read_pgm,
 };
-use crate::sim::settings::{MAX_SAMPLES, MAX_SEED, SPEED};
+use crate::sim::settings::{MAX_SEED, SPEED};
 use crate::sim::squeeze::{
-    Attempt, CLEARANCE, MAX_STEPS, MapSqueeze, PRESETS, Settings, Tally, alphas_of_noise,
+    Attempt, CLEARANCE, MAX_SAMPLES, MAX_STEPS, MapSqueeze, PRESETS, Settings, Tally, alphas_of_noise,
 };
 use crate::sim::views::Nearest;
 use js_sys::{Float64Array, RangeError, Uint8Array};

@@ -107,7 +107,7 @@ test.describe('attributes', () => {
     expect(errors).toEqual([
       'model is "walking"; allowed is "velocity" or "odometry"',
       'command.v is "fast"; allowed is a number',
-      'samples is 0; allowed is a whole number from 1 to 1000000',
+      'samples is 0; allowed is a whole number from 1 to 10000000',
       'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "exponential"',
     ]);
     const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));

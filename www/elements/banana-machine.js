@@ -77,7 +77,7 @@ const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
  * @attr {number} alpha5 - Noise parameter of the velocity model.
  * @attr {number} alpha6 - Noise parameter of the velocity model.
  * @attr {number} isolate - Index, from 1, of the only noise parameter in effect; none for all of them.
- * @attr {number} samples - Robots in the whole cloud, 1 to 1 000 000.
+ * @attr {number} samples - Robots in the whole cloud, 1 to 10 000 000.
  * @attr {number} seed - The same seed is the same robots.
  * @attr {string} overlays - Which of command, ellipse, linearized, exponential are drawn, with spaces between.
  * @attr {"auto" | "light" | "dark"} theme - Auto, the default, is as the surroundings are.

@@ -75,7 +75,7 @@ export const readoutStyles = css`
   }
 
   .marked input {
-    width: 5.2rem;
+    width: 8rem;
     min-height: 1.75rem;
     margin-left: 0.3rem;
     padding: 0 0.3rem;

@@ -43,6 +43,9 @@ export function fixed(value, decimals) {
 /** Below this a number is taken for a 0 that rounding has passed over. */
 const NOTHING_BELOW = 1e-13;
 
+/** Of an error: ten million robots leave 0.0008. */
+const MOST_DECIMALS = 5;
+
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /**
@@ -90,12 +93,13 @@ export function percent(share) {
 /**
  * @param {number} value
  * @param {number} error its standard error
- * @param {number} decimals
+ * @param {number} decimals at least: a small error has as many as show its first digit
  * @returns {string} "−0.412 ± 0.031"
  */
 export function withError(value, error, decimals) {
   if (Number.isNaN(value)) return NOTHING;
-  return `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
+  const needed = error > 0 ? Math.max(decimals, Math.min(MOST_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
+  return `${fixed(value, needed)} ± ${fixed(error, needed)}`;
 }
 
 /**

@@ -42,6 +42,7 @@ pub mod geom;
 pub mod map;
 pub mod models;
 pub mod noise;
+mod printed;
 pub mod sim;
 pub mod stats;
 

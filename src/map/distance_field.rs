@@ -69,6 +69,7 @@ impl DistanceField {
     }
 
     /// A lower bound (m) on the distance from a point inside the bounds to the nearest wall.
+    #[inline(always)]
     pub fn least(&self, [x, y]: [f64; 2]) -> f64 {
         let column = ((x - self.corner[0]) * self.cells_per_metre) as u32 as usize;
         let row = ((y - self.corner[1]) * self.cells_per_metre) as u32 as usize;
@@ -102,6 +103,7 @@ impl Line {
     }
 
     /// The square of the distance to a point, m².
+    #[inline(always)]
     fn square(&self, point: [f64; 2]) -> f64 {
         let Self { from, along, per_square } = *self;
         let offset = [point[0] - from[0], point[1] - from[1]];

@@ -5,6 +5,7 @@ use super::distance_field::DistanceField;
 use super::occupancy::OccupancyGrid;
 use crate::geom::arc::{Arc, Course, Departure, Driven, Unrolled};
 use crate::geom::segment::Segment;
+use crate::printed::printed_all;
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -38,11 +39,12 @@ impl fmt::Display for FloorPlanError {
         match self {
             Self::BadBounds(bounds) => write!(
                 f,
-                "bounds is {bounds:?}; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to \
-                 1000000, the sides from 0.01 to 100000"
+                "bounds is {}; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to 1000000, \
+                 the sides from 0.01 to 100000",
+                printed_all(bounds)
             ),
             Self::BadWall { index, end } => {
-                write!(f, "walls[{index}] ends at {end:?}; allowed is a point inside the bounds")
+                write!(f, "walls[{index}] ends at {}; allowed is a point inside the bounds", printed_all(end))
             }
             Self::TooManyWalls(count) => {
                 write!(
@@ -131,7 +133,11 @@ impl FloorPlan {
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
     pub fn apartment() -> Self {
         let walls = apartment::WALLS.map(|[x0, y0, x1, y1]| Segment { from: [x0, y0], to: [x1, y1] });
-        Self::new(walls.to_vec(), apartment::BOUNDS).expect("a constant that the tests build")
+        // `expect` would print the error, and the code that prints numbers is large.
+        let Ok(plan) = Self::new(walls.to_vec(), apartment::BOUNDS) else {
+            unreachable!("a constant that the tests build")
+        };
+        plan
     }
 
     pub fn walls(&self) -> &[Segment] {
@@ -190,15 +196,15 @@ impl FloorPlan {
         const STEPS: u32 = 100;
         let [left, bottom, right, top] = self.bounds;
         let at = |from: f64, to: f64, i: u32| from + (to - from) * f64::from(i) / f64::from(STEPS);
-        let mut points: Vec<[f64; 2]> = (0..=STEPS)
+        (0..=STEPS)
             .flat_map(|i| (0..=STEPS).map(move |j| [at(left, right, i), at(bottom, top, j)]))
-            .collect();
-        points.push([0.0, 0.0]);
-        points.sort_by(|[ax, ay], [bx, by]| libm::hypot(*ax, *ay).total_cmp(&libm::hypot(*bx, *by)));
-        points.into_iter().find(|point| self.point_free(*point, clearance).free)
+            .chain([[0.0, 0.0]])
+            .filter(|point| self.point_free(*point, clearance).free)
+            .min_by(|[ax, ay], [bx, by]| libm::hypot(*ax, *ay).total_cmp(&libm::hypot(*bx, *by)))
     }
 
     /// Whether a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
+    #[inline(always)]
     fn holds(&self, point: [f64; 2]) -> bool {
         if let Some(grid) = &self.solid {
             return grid.spans(point);
@@ -214,6 +220,7 @@ impl FloorPlan {
         self.solid.as_ref().map_or(of_bounds, OccupancyGrid::corners)
     }
 
+    #[inline(always)]
     fn buried(&self, point: [f64; 2]) -> bool {
         self.solid.as_ref().is_some_and(|solid| solid.holds(point))
     }
@@ -352,5 +359,6 @@ fn index_of(walls: &[Segment]) -> (StaticAABB2DIndex<f64>, Vec<u32>) {
             wall_of.push(index as u32);
         }
     }
-    (builder.build().expect("as many boxes as announced, and not none"), wall_of)
+    let Ok(index) = builder.build() else { unreachable!("as many boxes as announced, and not none") };
+    (index, wall_of)
 }

@@ -1,6 +1,7 @@
 //! What a user may ask for: the limits of every parameter, checked once.
 
 use crate::models::VelocityCmd;
+use crate::printed::printed;
 use std::fmt;
 use std::ops::RangeInclusive;
 
@@ -53,8 +54,8 @@ pub(crate) fn check_real(
     }
     Err(SettingsError {
         field: field.to_owned(),
-        value: number(value),
-        allowed: format!("a number from {} to {}", number(*allowed.start()), number(*allowed.end())),
+        value: printed(value),
+        allowed: format!("a number from {} to {}", printed(*allowed.start()), printed(*allowed.end())),
     })
 }
 
@@ -66,7 +67,7 @@ pub(crate) fn check_whole(field: &str, value: f64, least: u64, most: u64) -> Res
     }
     Err(SettingsError {
         field: field.to_owned(),
-        value: number(value),
+        value: printed(value),
         allowed: format!("a whole number from {least} to {most}"),
     })
 }
@@ -82,13 +83,4 @@ pub(crate) fn check_alphas(alphas: &[f64]) -> Result<(), SettingsError> {
         Some(i) => check_real(&format!("alphas[{i}]"), alphas[i], &ALPHA),
         None => Ok(()),
     }
-}
-
-/// A number as JavaScript would print it.
-fn number(value: f64) -> String {
-    if value.is_infinite() {
-        return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
-    }
-    let plain = value.abs() >= 1e-6 && value.abs() < 1e21;
-    if plain || value == 0.0 || value.is_nan() { format!("{value}") } else { format!("{value:e}") }
 }

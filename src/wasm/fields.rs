@@ -3,8 +3,9 @@
 //! by `Reflect`, whose exceptions come back as values.
 
 use crate::models::VelocityCmd;
+use crate::printed::printed;
 use crate::sim::settings::{SettingsError, check_real, check_whole};
-use js_sys::{Number, RangeError, Reflect, TypeError};
+use js_sys::{RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
@@ -153,12 +154,6 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
 
 fn unreadable(field: &str) -> JsValue {
     TypeError::new(&format!("{field} is a property that throws; allowed is a plain value")).into()
-}
-
-/// A number as JavaScript prints it.
-fn printed(number: f64) -> String {
-    // Only another radix could throw.
-    Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
 
 /// A text between quotation marks. Not as `Debug` has it, which knows all of Unicode and takes a twentieth of the module.

@@ -52,7 +52,8 @@ async function buildCore() {
   progress(`Compiling the core to WebAssembly (${rust.description})`);
   const cargo = join(rust.bin, 'cargo');
   const failed = 'The core does not compile: see the errors above.';
-  await mustRun(failed, cargo, ['build', '--locked', '--release', '--lib', ...rust.target], { env: rust.env });
+  // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
+  await mustRun(failed, cargo, ['rustc', '--locked', '--release', '--lib', '--crate-type', 'cdylib', ...rust.target], { env: rust.env });
   const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
   const wasm = join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
 

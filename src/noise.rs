@@ -134,6 +134,7 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
 
 /// A uniform number in (−½, ½): one of the 2⁵³ odd multiples of 2⁻⁵⁴ there, each equally likely, so that 0 and the
 /// ends (where a quantile is infinite) cannot come up and the distribution is exactly symmetric.
+#[inline(always)]
 pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     const SCALE: f64 = 1.0 / (1u64 << 53) as f64;
     let signed = rng.next_u64() as i64 >> 11;

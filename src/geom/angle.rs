@@ -6,11 +6,14 @@ use std::f64::consts::{PI, TAU};
 ///
 /// Exact for |angle| ≤ π; beyond that the remainder is taken against the double nearest to 2π, so that the result
 /// is off by about 1.2e-16 · |angle|. NaN and infinities give NaN.
+#[inline(always)]
 pub fn wrap_angle(angle: f64) -> f64 {
     // Most angles are in range, and a remainder takes longer than everything else here.
-    if -PI < angle && angle <= PI {
-        return angle;
-    }
+    if -PI < angle && angle <= PI { angle } else { wrap_far_angle(angle) }
+}
+
+#[inline(never)]
+fn wrap_far_angle(angle: f64) -> f64 {
     let turned = angle % TAU;
     if turned > PI {
         turned - TAU

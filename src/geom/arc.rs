@@ -139,11 +139,13 @@ impl Departure {
     }
 
     /// A point in the frame of the pose, told in the frame that the pose is in.
+    #[inline(always)]
     pub fn transform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
     }
 
     /// The arc of [`chord`], composed with the pose.
+    #[inline(always)]
     pub fn drive(&self, length: f64, turn: f64) -> Driven {
         let half = 0.5 * turn;
         let half_sine = libm::sin(half);
@@ -228,6 +230,7 @@ impl Course {
         Self { middle, error: half * square * square * square / 2000.0, ..ends }
     }
 
+    #[inline(always)]
     fn local(&self, s: f64) -> [f64; 2] {
         let angle = self.curvature * s;
         let square = angle * angle;
@@ -238,6 +241,7 @@ impl Course {
     }
 
     /// The point `s` metres after the middle.
+    #[inline(always)]
     pub fn at(&self, s: f64) -> [f64; 2] {
         let [ahead, left] = self.local(s);
         let [cos, sin] = self.tangent;

@@ -130,7 +130,7 @@ impl MapConditioned<'_> {
     ) -> Result<Accepted, Wedged> {
         let mut path_free = true;
         let mut cost = Cost::default();
-        let pose = self.drive(u, x, rng, &mut cost, |driven, end| {
+        let pose = self.drive(u, x, rng, &mut cost, &mut |driven, end| {
             along(&driven.arc);
             path_free = path_free && self.plan.path_free(driven, end, self.clearance).free;
         })?;
@@ -140,7 +140,7 @@ impl MapConditioned<'_> {
     /// What one accepted motion costs a filter that deploys the sampler: of each draw, just the verdict that decides.
     pub fn cost<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Cost, Wedged> {
         let mut cost = Cost::default();
-        self.drive(u, x, rng, &mut cost, |_, _| ())?;
+        self.drive(u, x, rng, &mut cost, &mut |_, _| ())?;
         Ok(cost)
     }
 
@@ -188,7 +188,7 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
         cost: &mut Cost,
-        mut along: impl FnMut(&Driven, Verdict),
+        along: &mut dyn FnMut(&Driven, Verdict),
     ) -> Result<SE2, Wedged> {
         let (steps, step) = self.parts(u);
         let mut pose = *x;

@@ -69,6 +69,7 @@ impl DistanceField {
     }
 
     /// A lower bound (m) on the distance from a point inside the bounds to the nearest wall.
+    #[inline(always)]
     pub fn least(&self, [x, y]: [f64; 2]) -> f64 {
         // A point that rounding has put a little outside belongs to the nearest cell.
         let column = (((x - self.corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
@@ -103,6 +104,7 @@ impl Line {
     }
 
     /// The square of the distance to a point, m².
+    #[inline(always)]
     fn square(&self, point: [f64; 2]) -> f64 {
         let Self { from, along, per_square } = *self;
         let offset = [point[0] - from[0], point[1] - from[1]];

@@ -204,16 +204,11 @@ impl FloorPlan {
         const STEPS: u32 = 100;
         let [left, bottom, right, top] = self.bounds;
         let at = |from: f64, to: f64, i: u32| from + (to - from) * f64::from(i) / f64::from(STEPS);
-        let mut points: Vec<[f64; 2]> = (0..=STEPS)
+        (0..=STEPS)
             .flat_map(|i| (0..=STEPS).map(move |j| [at(left, right, i), at(bottom, top, j)]))
-            .collect();
-        points.push([0.0, 0.0]);
-        // Without a place for ties this would depend on how the sort works; stable sorting takes more code.
-        points.sort_unstable_by(|a, b| {
-            let distance = |[x, y]: &[f64; 2]| libm::hypot(*x, *y);
-            distance(a).total_cmp(&distance(b)).then(a[0].total_cmp(&b[0])).then(a[1].total_cmp(&b[1]))
-        });
-        points.into_iter().find(|point| self.point_free(*point, clearance).free)
+            .chain([[0.0, 0.0]])
+            .filter(|point| self.point_free(*point, clearance).free)
+            .min_by(|[ax, ay], [bx, by]| libm::hypot(*ax, *ay).total_cmp(&libm::hypot(*bx, *by)))
     }
 
     fn field(&self) -> &DistanceField {
@@ -221,6 +216,7 @@ impl FloorPlan {
     }
 
     /// Whether a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
+    #[inline(always)]
     fn holds(&self, point: [f64; 2]) -> bool {
         if let Some(grid) = &self.solid {
             return grid.spans(point);
@@ -236,6 +232,7 @@ impl FloorPlan {
         self.solid.as_ref().map_or(of_bounds, OccupancyGrid::corners)
     }
 
+    #[inline(always)]
     fn buried(&self, point: [f64; 2]) -> bool {
         self.solid.as_ref().is_some_and(|solid| solid.holds(point))
     }
@@ -379,6 +376,6 @@ fn index_of(walls: &[Segment]) -> (StaticAABB2DIndex<f64>, Vec<u32>) {
             wall_of.push(index as u32);
         }
     }
-    let index = builder.build().unwrap_or_else(|_| unreachable!("as many boxes as announced, and not none"));
+    let Ok(index) = builder.build() else { unreachable!("as many boxes as announced, and not none") };
     (index, wall_of)
 }

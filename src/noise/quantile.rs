@@ -108,11 +108,16 @@ fn rational<T>(r: T, numerator: &[f64; 8], denominator: &[f64; 8]) -> T
 where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T> + Div<Output = T>,
 {
-    let horner = |coefficients: &[f64; 8]| {
-        let highest = T::from(coefficients[7]);
-        coefficients[..7].iter().rev().fold(highest, |sum, c| sum * r + *c)
-    };
-    horner(numerator) / horner(denominator)
+    horner(r, numerator) / horner(r, denominator)
+}
+
+#[inline(always)]
+fn horner<T>(r: T, coefficients: &[f64; 8]) -> T
+where
+    T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T>,
+{
+    let highest = T::from(coefficients[7]);
+    coefficients[..7].iter().rev().fold(highest, |sum, c| sum * r + *c)
 }
 
 const CENTRE_NUMERATOR: [f64; 8] = [

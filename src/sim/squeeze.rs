@@ -237,7 +237,7 @@ impl MapSqueeze {
         let model = settings.conditioned_on(plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
         while attempts.len() < end && !*gave_up {
-            let (attempt, cost) = driver.drive(attempts.len(), |_| ());
+            let (attempt, cost) = driver.drive(attempts.len(), &mut |_| ());
             tally.draws += cost.draws;
             tally.wall_tests += cost.wall_tests;
             tally.accepted += usize::from(attempt.accepted);
@@ -267,7 +267,7 @@ impl MapSqueeze {
         let mut arcs = Vec::new();
         if index < self.attempts.len() {
             let model = self.settings.conditioned_on(&self.plan, self.settings.sampler);
-            Driver::new(&model, &self.settings, &self.draws).drive(index, |arc| arcs.push(*arc));
+            Driver::new(&model, &self.settings, &self.draws).drive(index, &mut |arc| arcs.push(*arc));
         }
         arcs
     }
@@ -321,14 +321,16 @@ impl<'a> Driver<'a> {
     }
 
     /// One attempt, showing its arcs to `along`.
-    fn drive(&self, index: usize, along: impl FnMut(&Arc)) -> (Attempt, Cost) {
+    #[inline(always)]
+    fn drive(&self, index: usize, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         match self.settings.sampler {
             Sampler::SubStepped(steps) => self.drive_parts(index, steps, along),
             Sampler::Endpoint | Sampler::WholeArc => self.drive_once(index, along),
         }
     }
 
-    fn drive_once(&self, index: usize, mut along: impl FnMut(&Arc)) -> (Attempt, Cost) {
+    #[inline(always)]
+    fn drive_once(&self, index: usize, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let conditioned = self.settings.conditioned;
         let draw = self.judging.judge(self.draws.of(index));
         along(&draw.arc);
@@ -342,7 +344,7 @@ impl<'a> Driver<'a> {
         (attempt, Cost { draws: 1, wall_tests: if conditioned { deciding.wall_tests } else { 0 } })
     }
 
-    fn drive_parts(&self, index: usize, steps: u32, along: impl FnMut(&Arc)) -> (Attempt, Cost) {
+    fn drive_parts(&self, index: usize, steps: u32, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let Settings { command, conditioned, seed, .. } = *self.settings;
         let start = self.settings.start();
         // How many numbers an attempt uses depends on the walls, so that each has a stream of its own.

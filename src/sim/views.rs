@@ -35,6 +35,7 @@ impl Nearest {
         Self { target, radii, least: 1.0, seen: 0, index: None }
     }
 
+    #[inline(always)]
     pub fn see(&mut self, [x, y]: [f64; 2]) {
         let (dx, dy) = ((x - self.target[0]) / self.radii[0], (y - self.target[1]) / self.radii[1]);
         let distance = dx * dx + dy * dy;

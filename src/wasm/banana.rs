@@ -1,7 +1,7 @@
 //! `BananaMachine` for JavaScript.
 
 use super::fields::{Fields, in_range, no_memory, number, numbers, read_command, type_error, whole, word};
-use super::values::{Command, doubles, object, to_js};
+use super::values::{Command, doubles, float64_array, object, to_js};
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
 use crate::sim::View;
@@ -226,11 +226,11 @@ impl JsBananaMachine {
     pub fn contours(&self) -> Result<JsValue, JsValue> {
         let Contours { command, ellipse, linearized, exponential, twist_ellipse } = self.0.contours();
         object(&[
-            ("command", doubles("samples", command.into_iter())?.into()),
-            ("ellipse", doubles("samples", ellipse.into_iter())?.into()),
-            ("linearized", doubles("samples", linearized.into_iter())?.into()),
-            ("exponential", doubles("samples", exponential.into_iter())?.into()),
-            ("twistEllipse", doubles("samples", twist_ellipse.into_iter())?.into()),
+            ("command", float64_array(command.as_flattened())?.into()),
+            ("ellipse", float64_array(ellipse.as_flattened())?.into()),
+            ("linearized", float64_array(linearized.as_flattened())?.into()),
+            ("exponential", float64_array(exponential.as_flattened())?.into()),
+            ("twistEllipse", float64_array(twist_ellipse.as_flattened())?.into()),
         ])
     }
 
@@ -247,12 +247,12 @@ impl JsBananaMachine {
         let Sample { pose, twist, executed, path } =
             self.0.inspect(index).ok_or_else(|| self.not_shown(index))?;
         object(&[
-            ("pose", doubles("samples", [[pose.x(), pose.y(), pose.theta()]].into_iter())?.into()),
-            ("twist", doubles("samples", [<[f64; 3]>::from(twist)].into_iter())?.into()),
+            ("pose", float64_array(&[pose.x(), pose.y(), pose.theta()])?.into()),
+            ("twist", float64_array(twist.as_slice())?.into()),
             ("vHat", executed.v_hat.into()),
             ("omegaHat", executed.omega_hat.into()),
             ("gammaHat", executed.gamma_hat.into()),
-            ("path", doubles("samples", path.into_iter())?.into()),
+            ("path", float64_array(path.as_flattened())?.into()),
         ])
     }
 

@@ -4,7 +4,7 @@ use super::fields::{
     Fields, boolean, in_range, item, length, no_memory, number, numbers, printed, read_command, type_error,
     whole, word,
 };
-use super::values::{Command, bytes, doubles, object, to_js};
+use super::values::{Command, bytes, doubles, float64_array, object, to_js};
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
@@ -176,7 +176,7 @@ impl JsMapSqueeze {
         let plan = self.machine.plan();
         let walls = plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]);
         object(&[
-            ("bounds", doubles("plan", [plan.bounds()].into_iter())?.into()),
+            ("bounds", float64_array(&plan.bounds())?.into()),
             ("walls", doubles("plan", walls)?.into()),
         ])
     }
@@ -193,7 +193,7 @@ impl JsMapSqueeze {
             ("columns", (columns as f64).into()),
             ("rows", (rows as f64).into()),
             ("resolution", grid.resolution().into()),
-            ("origin", doubles("grid", [[origin.x(), origin.y(), origin.theta()]].into_iter())?.into()),
+            ("origin", float64_array(&[origin.x(), origin.y(), origin.theta()])?.into()),
             ("occupied", bytes("grid", occupied)?.into()),
         ])
     }
@@ -229,7 +229,7 @@ impl JsMapSqueeze {
     /// The way that the command drives without noise as x, y of one point after the other.
     #[wasm_bindgen(getter)]
     pub fn commanded(&self) -> Result<Float64Array, JsValue> {
-        doubles("command", self.machine.commanded().points().into_iter())
+        float64_array(self.machine.commanded().points().as_flattened())
     }
 
     #[wasm_bindgen(getter)]
@@ -267,7 +267,7 @@ impl JsMapSqueeze {
         let index = whole("index", index, 0, MAX_SAMPLES as u64)?;
         let points: Vec<[f64; 2]> =
             self.machine.arcs(index as usize).iter().flat_map(|arc| arc.points()).collect();
-        doubles("steps", points.into_iter())
+        float64_array(points.as_flattened())
     }
 
     #[wasm_bindgen(getter)]

@@ -30,11 +30,17 @@ pub fn doubles<const N: usize>(
     field: &str,
     items: impl ExactSizeIterator<Item = [f64; N]>,
 ) -> Result<Float64Array, JsValue> {
-    let mut numbers = Vec::new();
-    numbers.try_reserve_exact(items.len() * N).map_err(|_| no_memory(field))?;
-    numbers.extend(items.flatten());
+    let mut numbers: Vec<[f64; N]> = Vec::new();
+    numbers.try_reserve_exact(items.len()).map_err(|_| no_memory(field))?;
+    items.for_each(|item| numbers.push(item));
+    float64_array(numbers.as_flattened())
+}
+
+/// A copy of these numbers, with an error where JavaScript has no memory for it.
+#[inline(never)]
+pub fn float64_array(numbers: &[f64]) -> Result<Float64Array, JsValue> {
     let array: Float64Array = typed_array("Float64Array", numbers.len())?.into();
-    array.copy_from(&numbers);
+    array.copy_from(numbers);
     Ok(array)
 }
 
@@ -42,19 +48,21 @@ pub fn doubles<const N: usize>(
 pub fn bytes(field: &str, items: impl ExactSizeIterator<Item = u8>) -> Result<Uint8Array, JsValue> {
     let mut numbers = Vec::new();
     numbers.try_reserve_exact(items.len()).map_err(|_| no_memory(field))?;
-    numbers.extend(items);
+    items.for_each(|item| numbers.push(item));
     let array: Uint8Array = typed_array("Uint8Array", numbers.len())?.into();
     array.copy_from(&numbers);
     Ok(array)
 }
 
 /// By `Reflect`, so that a failed allocation comes back as a value.
+#[inline(never)]
 fn typed_array(kind: &str, length: usize) -> Result<JsValue, JsValue> {
     let constructor = Reflect::get(&js_sys::global(), &kind.into())?;
     Reflect::construct(&constructor.into(), &Array::of1(&(length as f64).into()))
 }
 
 /// An object whose values are not all plain.
+#[inline(never)]
 pub fn object(entries: &[(&str, JsValue)]) -> Result<JsValue, JsValue> {
     let object = Object::new();
     for (key, value) in entries {

@@ -3,7 +3,7 @@
 use super::cloud::Cloud;
 use super::views::{Grid, View};
 use std::collections::TryReserveError;
-use wide::f64x4;
+use wide::{f64x4, u32x4};
 
 /// Colours by the share of the fullest cell, from next to nothing to all: RGBA, each a byte.
 pub type Ramp = [[u8; 4]; RAMP];
@@ -88,7 +88,7 @@ impl Picture {
         self.table.try_reserve_exact((TABLE + 1).saturating_sub(self.table.len()))?;
         self.count(cloud, view, grid)?;
         self.pixels.resize(cells, [0; 4]);
-        let most = rows_of(&mut self.counts, grid).flatten().fold(0, |most, count| most.max(*count));
+        let most = most_of(rows_of(&mut self.counts, grid));
         let colour = |count: u32| {
             let share = (f64::from(count) / f64::from(most)).sqrt();
             ramp[((RAMP - 1) as f64 * share + 0.5) as usize % RAMP]
@@ -101,7 +101,7 @@ impl Picture {
             rows_of(&mut self.counts, grid).zip(self.pixels.chunks_exact_mut(grid.columns))
         {
             for (counts, pixels) in counts.chunks_mut(RUN).zip(pixels.chunks_mut(RUN)) {
-                if counts.iter().fold(0, |all, count| all | count) == 0 {
+                if is_empty(counts) {
                     pixels.fill([0; 4]);
                     continue;
                 }
@@ -114,6 +114,24 @@ impl Picture {
         clear_frame(&mut self.counts, grid);
         Ok(&self.pixels)
     }
+}
+
+/// The fullest cell of some rows.
+fn most_of<'a>(rows: impl Iterator<Item = &'a mut [u32]>) -> u32 {
+    let (mut most, mut most_of_rest) = (u32x4::splat(0), 0);
+    for row in rows {
+        let (fours, rest) = row.as_chunks();
+        most = fours.iter().fold(most, |most, four| most.max(u32x4::new(*four)));
+        most_of_rest = rest.iter().fold(most_of_rest, |most, count| most.max(*count));
+    }
+    most.to_array().into_iter().fold(most_of_rest, u32::max)
+}
+
+/// Whether nobody is in any cell.
+fn is_empty(counts: &[u32]) -> bool {
+    let (fours, rest) = counts.as_chunks();
+    let all = fours.iter().fold(u32x4::splat(0), |all, four| all | u32x4::new(*four));
+    all == u32x4::splat(0) && rest.iter().all(|count| *count == 0)
 }
 
 /// The rows of counts without their frame.

@@ -55,10 +55,13 @@ export async function timeStart(browser, address, loads) {
 
 /** Runs in the page before any script of its own. */
 function markStages() {
-  const { instantiate } = WebAssembly;
+  const { compile, instantiate } = WebAssembly;
+  WebAssembly.compile = (source) => {
+    performance.mark('instantiating');
+    return compile(source);
+  };
   WebAssembly.instantiate = /** @type {typeof instantiate} */ (
     /** @type {unknown} */ (async (/** @type {any} */ source, /** @type {any} */ imports) => {
-      performance.mark('instantiating');
       const started = await instantiate(source, imports);
       performance.mark('instantiated');
       return started;

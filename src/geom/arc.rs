@@ -8,6 +8,8 @@ use super::angle::wrap_angle;
 use super::se2::SE2;
 use super::sinc::{chord_factors, sinc};
 use std::f64::consts::{PI, TAU};
+use std::ops::{Add, Mul};
+use wide::f64x4;
 
 /// The end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start:
 /// x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
@@ -222,26 +224,32 @@ impl Course {
             half,
             error: 0.0,
         };
-        let [_, rise] = ends.local(half);
+        let [_, rise]: [f64; 2] = ends.local(half);
         let middle = [ends.middle[0] + rise * tangent[1], ends.middle[1] - rise * tangent[0]];
         let square = 0.25 * turn * turn;
         Self { middle, error: half * square * square * square / 2000.0, ..ends }
     }
 
-    fn local(&self, s: f64) -> [f64; 2] {
-        let angle = self.curvature * s;
+    /// Ahead and left of the middle, for one length or four.
+    #[inline(always)]
+    fn local<T>(&self, s: T) -> [T; 2]
+    where
+        T: Copy + Mul<Output = T> + Mul<f64, Output = T> + Add<f64, Output = T>,
+    {
+        let angle = s * self.curvature;
         let square = angle * angle;
         [
-            s * (1.0 + square * (square / 120.0 - 1.0 / 6.0)),
-            s * angle * (0.5 + square * (square / 720.0 - 1.0 / 24.0)),
+            s * (square * (square * (1.0 / 120.0) + -1.0 / 6.0) + 1.0),
+            s * angle * (square * (square * (1.0 / 720.0) + -1.0 / 24.0) + 0.5),
         ]
     }
 
-    /// The point `s` metres after the middle.
-    pub fn at(&self, s: f64) -> [f64; 2] {
+    /// The points `s` metres after the middle: their x and y.
+    #[inline(always)]
+    pub fn at(&self, s: f64x4) -> [f64x4; 2] {
         let [ahead, left] = self.local(s);
         let [cos, sin] = self.tangent;
-        [self.middle[0] + (cos * ahead - sin * left), self.middle[1] + (sin * ahead + cos * left)]
+        [(ahead * cos - left * sin) + self.middle[0], (ahead * sin + left * cos) + self.middle[1]]
     }
 }
 

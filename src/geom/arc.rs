@@ -5,6 +5,7 @@
 //! straight-line branch and loses no digits as φ → 0, where the centre of the circle runs off to infinity.
 
 use super::angle::wrap_angle;
+use super::lanes::{Circle, Trigonometry};
 use super::se2::SE2;
 use super::sinc::{chord_factors, sinc};
 use std::f64::consts::{PI, TAU};
@@ -140,6 +141,10 @@ impl Departure {
         Self { pose, sin, cos }
     }
 
+    pub fn pose(&self) -> SE2 {
+        self.pose
+    }
+
     /// A point in the frame of the pose, told in the frame that the pose is in.
     pub fn transform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
@@ -151,7 +156,29 @@ impl Departure {
         let half_sine = libm::sin(half);
         let half_sinc = if half == 0.0 { 1.0 } else { half_sine / half };
         let (forward, left) = (length * sinc(turn), length * (half_sine * half_sinc));
-        let end = self.transform([forward, left]);
+        self.driven(length, turn, half_sinc, self.transform([forward, left]))
+    }
+
+    /// [`Departure::drive`] for four arcs at once, but for rounding: the ends are apart by less than 2e-15 · length.
+    #[inline(always)]
+    pub fn drive_four(
+        &self,
+        trigonometry: &Trigonometry,
+        length: f64x4,
+        turn: f64x4,
+    ) -> impl Fn(usize) -> Driven {
+        // On the bearing φ/2, at the distance of the chord.
+        let Circle { sinc, sin, cos } = trigonometry.near_or_any_circle(turn * 0.5);
+        let distance = length * sinc;
+        let (forward, left) = (distance * cos, distance * sin);
+        let x = (forward * self.cos - left * self.sin) + self.pose.x();
+        let y = (forward * self.sin + left * self.cos) + self.pose.y();
+        let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
+        let from = *self;
+        move |i| from.driven(length[i], turn[i], sinc[i], [x[i], y[i]])
+    }
+
+    fn driven(&self, length: f64, turn: f64, half_sinc: f64, end: [f64; 2]) -> Driven {
         let heading = wrap_angle(self.pose.theta() + wrap_angle(turn));
         Driven { arc: Arc { start: self.pose, length, turn }, end, heading, half_sinc }
     }

@@ -56,6 +56,12 @@ impl Trigonometry {
         Circle { sinc, sin: x * sinc, cos }
     }
 
+    /// Of any finite angles, quickest where all are up to a quarter turn.
+    #[inline(always)]
+    pub fn near_or_any_circle(&self, x: f64x4) -> Circle {
+        if beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
+    }
+
     /// Of any finite angles. A lane up to a quarter turn gets the bits of [`Trigonometry::circle`].
     #[inline(never)]
     pub fn any_circle(&self, x: f64x4) -> Circle {

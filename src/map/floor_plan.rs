@@ -288,10 +288,6 @@ impl FloorPlan {
     }
 }
 
-/// A piece whose half is shorter than this many times the radius of the field's cells is measured: to divide it would
-/// tell less about it than is known about its walls.
-const DIVISIBLE: f64 = 4.0;
-
 /// A disc that is moved along an arc.
 struct Sweep<'a> {
     plan: &'a FloorPlan,
@@ -319,7 +315,8 @@ impl Sweep<'_> {
         if field.most(least) <= self.clearance - course.error {
             return false;
         }
-        let divisible = reach > DIVISIBLE * field.radius();
+        // To divide a shorter piece would tell less about it than is known about its walls.
+        let divisible = reach > field.radius();
         let [x, y] = middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
             rooms[i] > needed

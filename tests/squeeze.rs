@@ -62,6 +62,22 @@ fn seeded_attempts_are_golden() {
     assert_eq!(fingerprints, golden::SQUEEZE_FINGERPRINTS, "{fingerprints:#018x?}");
 }
 
+/// Poses are made four at a time by polynomials, the ends of their arcs one by one by `libm`.
+#[test]
+fn poses_are_where_the_arcs_end() {
+    for (omega, dt) in [(0.0, 2.0), (1.1, 1.7), (-2.5, 3.0), (40.0, 1.0)] {
+        let command = VelocityCmd { v: 0.9, omega, dt };
+        let machine = machine(Settings { command, samples: 1001, ..Settings::default() });
+        for (index, attempt) in machine.attempts().iter().enumerate() {
+            let [arc] = machine.arcs(index)[..] else { panic!("one arc an attempt") };
+            let apart = (attempt.pose.x() - arc.end().x()).hypot(attempt.pose.y() - arc.end().y());
+            // Two units in the last place of the start's coordinates besides.
+            let most = 2e-15 * arc.length.abs() + 2.0 * 4.5e-16;
+            assert!(apart <= most, "{command:?}, {index}: {apart:e} of {most:e}");
+        }
+    }
+}
+
 /// Conditioning, and judging by the whole arc, change verdicts and no draw; so does another map.
 #[test]
 fn common_random_numbers() {

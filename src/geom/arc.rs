@@ -5,9 +5,12 @@
 //! straight-line branch and loses no digits as φ → 0, where the centre of the circle runs off to infinity.
 
 use super::angle::wrap_angle;
+use super::lanes::{Circle, Trigonometry};
 use super::se2::SE2;
 use super::sinc::{chord_factors, sinc};
 use std::f64::consts::{PI, TAU};
+use std::ops::{Add, Mul};
+use wide::f64x4;
 
 /// The end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start:
 /// x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
@@ -138,6 +141,10 @@ impl Departure {
         Self { pose, sin, cos }
     }
 
+    pub fn pose(&self) -> SE2 {
+        self.pose
+    }
+
     /// A point in the frame of the pose, told in the frame that the pose is in.
     #[inline(always)]
     pub fn transform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -151,7 +158,29 @@ impl Departure {
         let half_sine = libm::sin(half);
         let half_sinc = if half == 0.0 { 1.0 } else { half_sine / half };
         let (forward, left) = (length * sinc(turn), length * (half_sine * half_sinc));
-        let end = self.transform([forward, left]);
+        self.driven(length, turn, half_sinc, self.transform([forward, left]))
+    }
+
+    /// [`Departure::drive`] for four arcs at once, but for rounding: the ends are apart by less than 2e-15 · length.
+    #[inline(always)]
+    pub fn drive_four(
+        &self,
+        trigonometry: &Trigonometry,
+        length: f64x4,
+        turn: f64x4,
+    ) -> impl Fn(usize) -> Driven {
+        // On the bearing φ/2, at the distance of the chord.
+        let Circle { sinc, sin, cos } = trigonometry.near_or_any_circle(turn * 0.5);
+        let distance = length * sinc;
+        let (forward, left) = (distance * cos, distance * sin);
+        let x = (forward * self.cos - left * self.sin) + self.pose.x();
+        let y = (forward * self.sin + left * self.cos) + self.pose.y();
+        let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
+        let from = *self;
+        move |i| from.driven(length[i], turn[i], sinc[i], [x[i], y[i]])
+    }
+
+    fn driven(&self, length: f64, turn: f64, half_sinc: f64, end: [f64; 2]) -> Driven {
         let heading = wrap_angle(self.pose.theta() + wrap_angle(turn));
         Driven { arc: Arc { start: self.pose, length, turn }, end, heading, half_sinc }
     }
@@ -224,28 +253,32 @@ impl Course {
             half,
             error: 0.0,
         };
-        let [_, rise] = ends.local(half);
+        let [_, rise]: [f64; 2] = ends.local(half);
         let middle = [ends.middle[0] + rise * tangent[1], ends.middle[1] - rise * tangent[0]];
         let square = 0.25 * turn * turn;
         Self { middle, error: half * square * square * square / 2000.0, ..ends }
     }
 
+    /// Ahead and left of the middle, for one length or four.
     #[inline(always)]
-    fn local(&self, s: f64) -> [f64; 2] {
-        let angle = self.curvature * s;
+    fn local<T>(&self, s: T) -> [T; 2]
+    where
+        T: Copy + Mul<Output = T> + Mul<f64, Output = T> + Add<f64, Output = T>,
+    {
+        let angle = s * self.curvature;
         let square = angle * angle;
         [
-            s * (1.0 + square * (square / 120.0 - 1.0 / 6.0)),
-            s * angle * (0.5 + square * (square / 720.0 - 1.0 / 24.0)),
+            s * (square * (square * (1.0 / 120.0) + -1.0 / 6.0) + 1.0),
+            s * angle * (square * (square * (1.0 / 720.0) + -1.0 / 24.0) + 0.5),
         ]
     }
 
-    /// The point `s` metres after the middle.
+    /// The points `s` metres after the middle: their x and y.
     #[inline(always)]
-    pub fn at(&self, s: f64) -> [f64; 2] {
+    pub fn at(&self, s: f64x4) -> [f64x4; 2] {
         let [ahead, left] = self.local(s);
         let [cos, sin] = self.tangent;
-        [self.middle[0] + (cos * ahead - sin * left), self.middle[1] + (sin * ahead + cos * left)]
+        [(ahead * cos - left * sin) + self.middle[0], (ahead * sin + left * cos) + self.middle[1]]
     }
 }
 

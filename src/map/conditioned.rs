@@ -1,12 +1,15 @@
 //! Motion conditioned on a map by rejection (Table 5.7), and what the condition looks at.
 
 use super::floor_plan::{FloorPlan, Verdict};
-use crate::geom::arc::{Arc, ArcInversion, Departure, Driven};
+use crate::geom::arc::{Arc, Departure, Driven};
+use crate::geom::lanes::Trigonometry;
 use crate::geom::se2::SE2;
 use crate::models::{VelocityCmd, VelocityModel};
 use crate::noise::centred_uniform;
 use rand::Rng;
 use std::fmt;
+use std::ops::{Add, Mul, Range};
+use wide::f64x4;
 
 /// What a draw must satisfy to be accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,14 +84,30 @@ pub struct Judging<'a> {
     conditioned: &'a MapConditioned<'a>,
     part: Part,
     from: Departure,
+    trigonometry: Trigonometry,
 }
 
 impl Judging<'_> {
     pub fn judge(&self, unit_noise: [f64; 3]) -> Draw {
+        self.verdicts(self.part.motion(&self.from, unit_noise))
+    }
+
+    /// [`Judging::judge`] for the samples `wanted` of four, but for rounding in the poses.
+    pub fn judge_four(&self, unit_noise: &[f64x4; 3], wanted: Range<usize>, see: impl FnMut(Draw)) {
+        let motion = self.part.four_motions(&self.from, &self.trigonometry, unit_noise);
+        wanted.map(|lane| self.verdicts(motion(lane))).for_each(see);
+    }
+
+    fn verdicts(&self, (pose, driven): (SE2, Driven)) -> Draw {
         let MapConditioned { plan, clearance, .. } = *self.conditioned;
-        let (pose, driven) = self.part.motion(&self.from, unit_noise);
         let end = plan.point_free(driven.end, clearance);
         Draw { pose, arc: driven.arc, end, path: plan.path_free(&driven, end, clearance) }
+    }
+
+    /// The arc that is driven under these unit noises.
+    pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
+        let [length, turn, _] = self.part.executed(unit_noise);
+        Arc { start: self.from.pose(), length, turn }
     }
 }
 
@@ -102,13 +121,37 @@ struct Part {
 impl Part {
     /// The pose under these unit noises, and the arc driven there.
     fn motion(&self, from: &Departure, unit_noise: [f64; 3]) -> (SE2, Driven) {
-        let ArcInversion { v_hat, omega_hat, gamma_hat } =
-            VelocityModel::disturbed(&self.u, self.deviations, unit_noise);
-        let dt = self.u.dt;
-        let driven = from.drive(v_hat * dt, omega_hat * dt);
-        let [x, y] = driven.end;
-        (SE2::new(x, y, driven.heading + gamma_hat * dt), driven)
+        let [length, turn, last] = self.executed(unit_noise);
+        after(from.drive(length, turn), last)
     }
+
+    /// Four of them at once, to be asked for each.
+    #[inline(always)]
+    fn four_motions(
+        &self,
+        from: &Departure,
+        trigonometry: &Trigonometry,
+        unit_noise: &[f64x4; 3],
+    ) -> impl Fn(usize) -> (SE2, Driven) {
+        let [length, turn, last] = self.executed(*unit_noise);
+        let (driven, last) = (from.drive_four(trigonometry, length, turn), last.to_array());
+        move |lane| after(driven(lane), last[lane])
+    }
+
+    /// Length (m) and turn of the arc, and the turn after it (rad), under unit noises: see [`VelocityModel::executed`].
+    fn executed<T>(&self, [v, omega, gamma]: [T; 3]) -> [T; 3]
+    where
+        T: Mul<f64, Output = T> + Add<f64, Output = T>,
+    {
+        let (u, [v_noise, omega_noise, gamma_noise]) = (self.u, self.deviations);
+        [(v * v_noise + u.v) * u.dt, (omega * omega_noise + u.omega) * u.dt, gamma * gamma_noise * u.dt]
+    }
+}
+
+/// The pose where an arc ends, turned on the spot by `last` (rad).
+fn after(driven: Driven, last: f64) -> (SE2, Driven) {
+    let [x, y] = driven.end;
+    (SE2::new(x, y, driven.heading + last), driven)
 }
 
 impl MapConditioned<'_> {
@@ -154,9 +197,7 @@ impl MapConditioned<'_> {
         mut along: impl FnMut(&Arc),
     ) -> (Draw, bool) {
         let (steps, step) = self.parts(u);
-        let judged = |from: &SE2, unit_noise| {
-            Judging { conditioned: self, part: step, from: Departure::new(*from) }.judge(unit_noise)
-        };
+        let judged = |from: &SE2, unit_noise| self.judging_part(step, from).judge(unit_noise);
         let mut draw = judged(x, self.unit_noise(rng));
         along(&draw.arc);
         let mut path_free = draw.path.free;
@@ -232,7 +273,11 @@ impl MapConditioned<'_> {
 
     /// For many draws from one pose: what they share is computed once.
     pub fn judging(&self, u: &VelocityCmd, x: &SE2) -> Judging<'_> {
-        Judging { conditioned: self, part: self.part(u), from: Departure::new(*x) }
+        self.judging_part(self.part(u), x)
+    }
+
+    fn judging_part(&self, part: Part, x: &SE2) -> Judging<'_> {
+        Judging { conditioned: self, part, from: Departure::new(*x), trigonometry: Trigonometry::default() }
     }
 
     /// The verdict that decides on a draw.

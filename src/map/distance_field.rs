@@ -1,8 +1,10 @@
 //! How far the nearest wall is, about, from everywhere on a map.
 
 use super::occupancy::OccupancyGrid;
+use crate::geom::lanes::{ROUND, lanes};
 use crate::geom::segment::Segment;
 use std::f64::consts::FRAC_1_SQRT_2;
+use wide::f64x4;
 
 /// Square cells over the bounds of a map, and for each the least distance that any of its points has to a wall. It
 /// decides most questions about room without looking at a wall, at the same price however many there are.
@@ -12,6 +14,8 @@ pub(super) struct DistanceField {
     corner: [f64; 2],
     cells_per_metre: f64,
     columns: usize,
+    /// Index of the last column and of the last row.
+    last: [f64; 2],
     /// Half the diagonal of a cell, m.
     radius: f64,
     /// Row by row from the bottom, m. Negative where a wall passes through the cell or its neighbour, −∞ where the cell is
@@ -49,6 +53,7 @@ impl DistanceField {
                 corner: [left, bottom],
                 cells_per_metre: 1.0 / side,
                 columns,
+                last: [columns, rows].map(|count| count as f64 - 1.0),
                 radius: FRAC_1_SQRT_2 * side,
                 least: vec![UNKNOWN; columns * rows],
             },
@@ -75,6 +80,20 @@ impl DistanceField {
         let column = (((x - self.corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
         let row = ((y - self.corner[1]) * self.cells_per_metre) as u32 as usize;
         f64::from(self.least.get(row * self.columns + column).copied().unwrap_or(UNKNOWN))
+    }
+
+    /// [`DistanceField::least`] of four points, told by their x and y.
+    #[inline(always)]
+    pub fn least_of_four(&self, points: &[f64x4; 2]) -> f64x4 {
+        let zero = f64x4::splat(0.0);
+        // Between two cells either will do, so that it does not matter which of them rounding takes.
+        let [column, row] = [0, 1].map(|axis| {
+            let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
+            cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND - ROUND
+        });
+        // Where a whole number is added to it, it becomes the last bits of the sum.
+        let cells = (row * self.columns as f64 + column + ROUND).to_array();
+        lanes(|i| f64::from(self.least.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(UNKNOWN)))
     }
 
     /// The upper bound (m) that comes with a lower one; −∞ inside of an occupied cell.

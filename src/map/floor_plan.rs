@@ -4,11 +4,13 @@ use super::apartment;
 use super::distance_field::DistanceField;
 use super::occupancy::OccupancyGrid;
 use crate::geom::arc::{Arc, Course, Departure, Driven, Unrolled};
+use crate::geom::lanes::{LANES, any};
 use crate::geom::segment::Segment;
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
+use wide::f64x4;
 
 /// Walls without thickness inside a rectangle.
 #[derive(Clone, Debug)]
@@ -283,13 +285,6 @@ impl FloorPlan {
     }
 }
 
-/// Pieces of an arc that are looked at together, without a branch between them.
-const PIECES: usize = 4;
-
-/// A piece whose half is shorter than this many times the radius of the field's cells is measured: to divide it would
-/// tell less about it than is known about its walls.
-const DIVISIBLE: f64 = 4.0;
-
 /// A disc that is moved along an arc.
 struct Sweep<'a> {
     plan: &'a FloorPlan,
@@ -302,28 +297,31 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// Whether a course is free between `from` and `to` metres after its middle.
+    /// Whether a course is free between `from` and `to` metres after its middle. Looks at four pieces of it at once.
     fn free(&mut self, course: &Course, from: f64, to: f64) -> bool {
         let field = self.field;
-        let reach = (to - from) / (2 * PIECES) as f64;
+        let reach = (to - from) / (2 * LANES) as f64;
         let needed = self.clearance + course.error + reach;
-        let middle = |i: usize| course.at(from + (2 * i + 1) as f64 * reach);
-        let rooms: [f64; PIECES] = std::array::from_fn(|i| field.least(middle(i)));
-        let least = rooms.into_iter().fold(f64::INFINITY, f64::min);
-        if least > needed {
+        let middles = course.at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * reach + from);
+        let rooms = field.least_of_four(&middles);
+        if !any(rooms.simd_le(f64x4::splat(needed))) {
             return true;
         }
+        let rooms = rooms.to_array();
+        let least = rooms.into_iter().fold(f64::INFINITY, f64::min);
         if field.most(least) <= self.clearance - course.error {
             return false;
         }
-        let divisible = reach > DIVISIBLE * field.radius();
-        (0..PIECES).all(|i| {
+        // To divide a shorter piece would tell less about it than is known about its walls.
+        let divisible = reach > field.radius();
+        let [x, y] = middles.map(|lanes| lanes.to_array());
+        (0..LANES).all(|i| {
             rooms[i] > needed
                 || if divisible {
                     let first = from + (2 * i) as f64 * reach;
                     self.free(course, first, first + 2.0 * reach)
                 } else {
-                    self.measure(middle(i), reach + course.error, course.error)
+                    self.measure([x[i], y[i]], reach + course.error, course.error)
                 }
         })
     }

@@ -42,22 +42,17 @@ impl VelocityModel {
     /// What the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
     /// deviations. The same unit noise under another command or other α's is the same robot with the same luck.
     pub fn executed(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
-        Self::disturbed(u, self.deviations(u), unit_noise)
-    }
-
-    /// The standard deviations of v̂, ω̂ and γ̂.
-    pub(crate) fn deviations(&self, u: &VelocityCmd) -> [f64; 3] {
-        self.variances(u).map(|variance| variance.0.sqrt())
-    }
-
-    /// [`VelocityModel::executed`] where the deviations are known.
-    pub(crate) fn disturbed(u: &VelocityCmd, deviations: [f64; 3], unit_noise: [f64; 3]) -> ArcInversion {
-        let [v_noise, omega_noise, gamma_noise] = deviations;
+        let [v_noise, omega_noise, gamma_noise] = self.deviations(u);
         ArcInversion {
             v_hat: u.v + v_noise * unit_noise[0],
             omega_hat: u.omega + omega_noise * unit_noise[1],
             gamma_hat: gamma_noise * unit_noise[2],
         }
+    }
+
+    /// The standard deviations of v̂, ω̂ and γ̂.
+    pub(crate) fn deviations(&self, u: &VelocityCmd) -> [f64; 3] {
+        self.variances(u).map(|variance| variance.0.sqrt())
     }
 
     /// The pose reached from `x` with these unit noises: Table 5.3 after its three draws.

@@ -3,6 +3,7 @@
 use super::draws::Draws;
 use super::settings::{MAX_SEED, SPEED, SettingsError, check_alphas, check_command, check_real, check_whole};
 use crate::geom::arc::Arc;
+use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
 use crate::map::{Accepted, Cost, FloorPlan, Judging, MOST_DRAWS, MapConditioned, Sampler, Wedged};
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
@@ -10,7 +11,7 @@ use crate::noise::NoiseKind;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::FRAC_PI_2;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 /// Everything a user sets, but for the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -237,12 +238,13 @@ impl MapSqueeze {
         let model = settings.conditioned_on(plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
         while attempts.len() < end && !*gave_up {
-            let (attempt, cost) = driver.drive(attempts.len(), &mut |_| ());
-            tally.draws += cost.draws;
-            tally.wall_tests += cost.wall_tests;
-            tally.accepted += usize::from(attempt.accepted);
-            tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
-            attempts.push(attempt);
+            driver.drive_some(attempts.len()..end, |attempt, cost| {
+                tally.draws += cost.draws;
+                tally.wall_tests += cost.wall_tests;
+                tally.accepted += usize::from(attempt.accepted);
+                tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
+                attempts.push(attempt);
+            });
             *gave_up = tally.draws > MOST_DRAWS + PATIENCE * steps * attempts.len();
         }
         self.attempts.len()
@@ -264,12 +266,11 @@ impl MapSqueeze {
 
     /// The arcs driven in an attempt that is shown.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
-        let mut arcs = Vec::new();
-        if index < self.attempts.len() {
-            let model = self.settings.conditioned_on(&self.plan, self.settings.sampler);
-            Driver::new(&model, &self.settings, &self.draws).drive(index, &mut |arc| arcs.push(*arc));
+        if index >= self.attempts.len() {
+            return Vec::new();
         }
-        arcs
+        let model = self.settings.conditioned_on(&self.plan, self.settings.sampler);
+        Driver::new(&model, &self.settings, &self.draws).arcs(index)
     }
 
     /// What `count` accepted samples of a sampler cost here and now, to be timed by the caller.
@@ -320,28 +321,36 @@ impl<'a> Driver<'a> {
         Self { model, judging: model.judging(&settings.command, &settings.start()), settings, draws }
     }
 
-    /// One attempt, showing its arcs to `along`.
+    /// The first of these attempts, or up to four where they are judged once.
     #[inline(always)]
-    fn drive(&self, index: usize, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
-        match self.settings.sampler {
-            Sampler::SubStepped(steps) => self.drive_parts(index, steps, along),
-            Sampler::Endpoint | Sampler::WholeArc => self.drive_once(index, along),
+    fn drive_some(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
+        if let Sampler::SubStepped(steps) = self.settings.sampler {
+            let (attempt, cost) = self.drive_parts(indices.start, steps, &mut |_| ());
+            return see(attempt, cost);
         }
+        let conditioned = self.settings.conditioned;
+        let (four, first) = (indices.start / LANES, indices.start % LANES);
+        let lanes = first..LANES.min(first + indices.len());
+        self.judging.judge_four(&self.draws.fours()[four], lanes, |draw| {
+            let deciding = self.model.deciding(&draw);
+            let attempt = Attempt {
+                pose: draw.pose,
+                accepted: !conditioned || deciding.free,
+                end_free: draw.end.free,
+                path_free: draw.path.free,
+            };
+            see(attempt, Cost { draws: 1, wall_tests: if conditioned { deciding.wall_tests } else { 0 } });
+        });
     }
 
-    #[inline(always)]
-    fn drive_once(&self, index: usize, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
-        let conditioned = self.settings.conditioned;
-        let draw = self.judging.judge(self.draws.of(index));
-        along(&draw.arc);
-        let deciding = self.model.deciding(&draw);
-        let attempt = Attempt {
-            pose: draw.pose,
-            accepted: !conditioned || deciding.free,
-            end_free: draw.end.free,
-            path_free: draw.path.free,
+    /// The arcs driven in an attempt.
+    fn arcs(&self, index: usize) -> Vec<Arc> {
+        let Sampler::SubStepped(steps) = self.settings.sampler else {
+            return vec![self.judging.arc(self.draws.of(index))];
         };
-        (attempt, Cost { draws: 1, wall_tests: if conditioned { deciding.wall_tests } else { 0 } })
+        let mut arcs = Vec::new();
+        self.drive_parts(index, steps, &mut |arc| arcs.push(*arc));
+        arcs
     }
 
     fn drive_parts(&self, index: usize, steps: u32, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {

@@ -107,11 +107,11 @@ pub fn squeeze_settings() -> [squeeze::Settings; 5] {
 
 /// [`squeeze_fingerprint`] of each of [`squeeze_settings`].
 pub const SQUEEZE_FINGERPRINTS: [u64; 5] = [
-    0xe40f_039b_4c89_083e,
-    0x9148_cbe7_5712_052b,
+    0x919e_8606_c94f_d4c6,
+    0x4c1e_5c98_76af_edb8,
     0xb228_686e_93cb_30b6,
-    0x7f65_a443_620e_950f,
-    0xc9f4_7f6c_0839_0e5d,
+    0x2f6f_f73d_c908_a640,
+    0x6ad2_5d4b_66d1_072e,
 ];
 
 /// A hash of every pose, verdict and count, and of some of the paths.

@@ -60,8 +60,9 @@ async function buildCore() {
   progress('Binding and optimizing it');
   await mustRun('wasm-bindgen failed: see above.', join(bindgen, 'wasm-bindgen'), [
     wasm, '--target', 'no-modules', '--out-dir', at('build'), '--out-name', 'motion',
-    '--omit-default-module-path', '--remove-name-section', '--remove-producers-section',
+    '--omit-default-module-path', '--remove-producers-section',
   ]);
+  await silencePanics(at('build/motion_bg.wasm'));
   makeFactory('build/motion');
   // What scripts/bundle.mjs gives to who imports the file.
   const type = 'declare const module: () => Uint8Array<ArrayBuffer> | URL;\nexport default module;\n';
@@ -69,9 +70,32 @@ async function buildCore() {
   // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
   const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   await mustRun('wasm-opt failed: see above.', process.execPath, [
-    at('node_modules/binaryen/bin/wasm-opt'), '-O3', ...features.map((name) => `--enable-${name}`),
+    at('node_modules/binaryen/bin/wasm-opt'), '-O3', '--converge', ...features.map((name) => `--enable-${name}`),
     at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),
   ]);
+}
+
+/**
+ * Makes every panic a bare trap. In a browser nobody sees the message, and what would compose it is 2 kB on the wire.
+ *
+ * @param {string} path of the module, with the names of its functions
+ */
+async function silencePanics(path) {
+  // Not in a bare clone.
+  const { default: binaryen } = await import('binaryen');
+  const module = binaryen.readBinary(readFileSync(path));
+  const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
+  module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
+  const panics = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
+  for (let i = 0; i < module.getNumFunctions(); i++) {
+    const panic = module.getFunctionByIndex(i);
+    const { name, base } = binaryen.getFunctionInfo(panic);
+    if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panics.test(name)) {
+      binaryen.Function.setBody(panic, module.unreachable());
+    }
+  }
+  writeFileSync(path, module.emitBinary());
+  module.dispose();
 }
 
 /**

@@ -206,11 +206,20 @@ impl FloorPlan {
         const STEPS: u32 = 100;
         let [left, bottom, right, top] = self.bounds;
         let at = |from: f64, to: f64, i: u32| from + (to - from) * f64::from(i) / f64::from(STEPS);
-        (0..=STEPS)
-            .flat_map(|i| (0..=STEPS).map(move |j| [at(left, right, i), at(bottom, top, j)]))
-            .chain([[0.0, 0.0]])
-            .filter(|point| self.point_free(*point, clearance).free)
-            .min_by(|[ax, ay], [bx, by]| libm::hypot(*ax, *ay).total_cmp(&libm::hypot(*bx, *by)))
+        if self.point_free([0.0, 0.0], clearance).free {
+            return Some([0.0, 0.0]);
+        }
+        let (mut nearest, mut least) = (None, f64::INFINITY);
+        for i in 0..=STEPS {
+            for j in 0..=STEPS {
+                let point = [at(left, right, i), at(bottom, top, j)];
+                let distance = libm::hypot(point[0], point[1]);
+                if distance < least && self.point_free(point, clearance).free {
+                    (nearest, least) = (Some(point), distance);
+                }
+            }
+        }
+        nearest
     }
 
     fn field(&self) -> &DistanceField {

@@ -140,6 +140,7 @@ impl Cloud {
     }
 
     /// A sample that is shown.
+    #[inline(always)]
     pub fn pose(&self, index: usize) -> SE2 {
         let [four, lane] = [index / LANES, index % LANES];
         let [x, y] = self.positions[four].map(|lanes| lanes.to_array()[lane]);

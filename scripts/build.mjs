@@ -2,6 +2,7 @@
 
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { bundle, filesOf } from './bundle.mjs';
 import { ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
@@ -53,7 +54,11 @@ async function buildCore() {
   const cargo = join(rust.bin, 'cargo');
   const failed = 'The core does not compile: see the errors above.';
   // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
-  await mustRun(failed, cargo, ['rustc', '--locked', '--release', '--lib', '--crate-type', 'cdylib', ...rust.target], { env: rust.env });
+  // The places of panics name files: not those of this machine.
+  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
+  const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
+  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
+  await mustRun(failed, cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
   const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
   const wasm = join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
 

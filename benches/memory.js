@@ -67,7 +67,8 @@ export function bytesPerPose(motion, memory) {
     return byteLength;
   };
   const small = after(SMALL);
-  return (after(LARGE) - small) / (LARGE - SMALL);
+  // A module's memory comes in pages of 64 KiB, which would show as a fraction of a byte.
+  return Math.round((after(LARGE) - small) / (LARGE - SMALL));
 }
 
 /**

@@ -25,7 +25,7 @@ test('scripts and styles are within their budget', () => {
 test('the WebAssembly module, and the bundle with everything inside, do not grow', () => {
   within('module', ['dist/motion.wasm'], 68_000);
   within('bundle', ['dist/motion-widgets.js'], 132_000);
-  within('classic script', ['dist/motion-widgets.iife.js'], 133_000);
+  within('classic script', ['dist/motion-widgets.iife.js'], 134_000);
 });
 
 test('doc/implementation-notes.md says what each library costs, to a kilobyte', () => {

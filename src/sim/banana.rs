@@ -2,6 +2,7 @@
 
 use super::cloud::Cloud;
 use super::drive::Drive;
+pub use super::figures::Figures;
 use super::picture::{Picture, Ramp};
 use super::settings::{MAX_SAMPLES, SettingsError, check_alphas, check_command, check_whole};
 use super::views::{Grid, Nearest, View};
@@ -13,11 +14,7 @@ use crate::models::{
     VelocityModel,
 };
 use crate::noise::NoiseKind;
-use crate::stats::fused::CloudFigures;
-use crate::stats::{
-    CartesianMoments, CrossTrack, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
-    predicted_cross_track_skew,
-};
+use crate::stats::{CartesianMoments, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::TryReserveError;
 use std::f64::consts::TAU;
@@ -162,60 +159,9 @@ fn command_end(command: &VelocityCmd) -> SE2 {
     SE2::exp(&TangentNoiseModel::twist(command))
 }
 
-/// What the shown samples say. Figures without meaning (no spread, too few
-/// samples) are NaN.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figures {
-    pub cartesian: CartesianMoments,
-    pub exponential: ExponentialMoments,
-    pub cross_track: CrossTrack,
-    /// The cross-track skew of the Gaussian with the exponential moments.
-    pub gaussian_skew: f64,
-    /// Shares of the samples inside the two 2σ contours.
-    pub inside_ellipse: f64,
-    pub inside_exponential: f64,
-}
-
 /// Standard deviations of the turn that must keep short of a whole circle for exponential coordinates to make sense.
 /// There ξ runs to infinity; with fewer, single samples of a large cloud would already spoil its moments.
 const CHART_SIGMAS: f64 = 4.0;
-
-impl Figures {
-    /// Of no cloud.
-    const NONE: Self = {
-        let (mean, cov) = (
-            Vector3::new(f64::NAN, f64::NAN, f64::NAN),
-            Matrix3::from_array_storage(nalgebra::ArrayStorage([[f64::NAN; 3]; 3])),
-        );
-        Self {
-            cartesian: CartesianMoments { mean, cov },
-            exponential: ExponentialMoments { mean, cov },
-            cross_track: CrossTrack { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN },
-            gaussian_skew: f64::NAN,
-            inside_ellipse: f64::NAN,
-            inside_exponential: f64::NAN,
-        }
-    };
-
-    /// Without a chart nothing is said in exponential coordinates.
-    fn of(cloud: &CloudFigures, chart_holds: bool) -> Self {
-        let CloudFigures { cartesian, exponential, cross_track, inside_ellipse, inside_exponential } = *cloud;
-        let figures = Self {
-            cartesian,
-            exponential,
-            cross_track,
-            gaussian_skew: predicted_cross_track_skew(&exponential.mean, &exponential.cov),
-            inside_ellipse,
-            inside_exponential,
-        };
-        if chart_holds {
-            return figures;
-        }
-        let (mean, cov) = (Vector3::repeat(f64::NAN), Matrix3::repeat(f64::NAN));
-        let exponential = ExponentialMoments { mean, cov };
-        Self { exponential, gaussian_skew: f64::NAN, inside_exponential: f64::NAN, ..figures }
-    }
-}
 
 /// The curves drawn over the cloud, as (x, y) in m but for `twist_ellipse`, (m, rad). Outlines are closed; empty
 /// where fewer than two samples are shown, or without a chart to be drawn in.

@@ -4,6 +4,7 @@ pub mod banana;
 mod cloud;
 mod draws;
 mod drive;
+mod figures;
 pub mod picture;
 pub mod settings;
 pub mod squeeze;

@@ -63,7 +63,7 @@ fn a_seed_means_the_same_attempts_as_on_a_native_machine() {
 /// was.
 #[wasm_bindgen_test]
 fn map_squeeze_holds_its_largest_cloud_in_its_largest_plan() {
-    let settings = squeeze::Settings { samples: motion::sim::settings::MAX_SAMPLES, ..Default::default() };
+    let settings = squeeze::Settings { samples: squeeze::MAX_SAMPLES, ..Default::default() };
     let mut machine = MapSqueeze::new(settings).expect("memory for the largest cloud");
     let tally = *machine.tally();
     assert_eq!(tally.draws, settings.samples);

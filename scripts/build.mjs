@@ -91,12 +91,14 @@ async function silencePanics(path) {
   const module = binaryen.readBinary(readFileSync(path));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
+  // Its types leave this out.
+  const { Function: functions } = /** @type {any} */ (binaryen);
   const panics = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
   for (let i = 0; i < module.getNumFunctions(); i++) {
     const panic = module.getFunctionByIndex(i);
     const { name, base } = binaryen.getFunctionInfo(panic);
     if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panics.test(name)) {
-      binaryen.Function.setBody(panic, module.unreachable());
+      functions.setBody(panic, module.unreachable());
     }
   }
   writeFileSync(path, module.emitBinary());

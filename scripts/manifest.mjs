@@ -14,7 +14,7 @@ import { ROOT } from './process.mjs';
 export async function manifest() {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  const argv = ['analyze', '--litelement', '--quiet', '--globs', 'www/elements/*.js'];
+  const argv = ['analyze', '--litelement', '--quiet', '--globs', 'www/widgets/*/*.js'];
   const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
   const types = readFileSync(join(ROOT, 'www/types.d.ts'), 'utf8');
   const shared = membersOf(types, 'WidgetElement');

@@ -5,8 +5,8 @@
  *
  * @module
  */
-import './elements/banana-machine.js';
-import './elements/map-squeeze.js';
+import './widgets/banana-machine/banana-machine.js';
+import './widgets/map-squeeze/map-squeeze.js';
 
 export { load } from './core.js';
 export { setMessages } from './messages/registry.js';

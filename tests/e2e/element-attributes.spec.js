@@ -139,7 +139,7 @@ test.describe('attributes', () => {
       await show(page, '');
       await page.waitForFunction((tag) => customElements.get(tag), name);
       const observed = await page.evaluate((tag) => /** @type {any} */ (customElements.get(tag)).observedAttributes, name);
-      const source = readFileSync(new URL(`../../www/elements/${name}.js`, import.meta.url), 'utf8');
+      const source = readFileSync(new URL(`../../www/widgets/${name}/${name}.js`, import.meta.url), 'utf8');
       const documented = [...source.matchAll(/^ \* @attr \{[^}]+\} ([\w-]+) - /gm)].map(([, attribute]) => attribute);
       expect(documented.sort()).toEqual([...observed].sort());
     });

@@ -1,0 +1,60 @@
+/**
+ * The menu from which a reader copies a link to the figure as it is, or the HTML that embeds it.
+ *
+ * @module
+ */
+
+import { html, nothing } from 'lit';
+import { words } from '../../messages/registry.js';
+import { button } from '../../ui/controls.js';
+
+/**
+ * @typedef {object} Copyable
+ * @property {boolean} share
+ * @property {() => Promise<string>} shareLink
+ * @property {() => string} embedCode
+ */
+
+/** What was copied last, and where the reader finds it. */
+export class CopyMenu {
+  /** @type {{ text: string, done: boolean } | undefined} */
+  #copied;
+  #element;
+  #told;
+
+  /**
+   * @param {Copyable} element
+   * @param {() => void} told called when there is something else to show
+   */
+  constructor(element, told) {
+    this.#element = element;
+    this.#told = told;
+  }
+
+  /** @param {string} text */
+  async #copy(text) {
+    // Refused in a frame without the permission, and absent where the page came without encryption.
+    const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
+    this.#copied = { text, done: done === true };
+    this.#told();
+  }
+
+  render() {
+    const say = words.copies;
+    const element = this.#element;
+    const copied = this.#copied;
+    return html`<details class="copies" part="copies">
+      <summary>${say.label}</summary>
+      <div class="buttons">
+        ${element.share
+          ? button(say.link, async () => this.#copy(await element.shareLink()), { title: say.linkTitle })
+          : nothing}
+        ${button(say.code, () => this.#copy(element.embedCode()), { title: say.codeTitle })}
+      </div>
+      <output>${copied ? (copied.done ? say.done : say.byHand) : nothing}</output>
+      ${copied && !copied.done
+        ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
+        : nothing}
+    </details>`;
+  }
+}

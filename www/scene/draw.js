@@ -1,0 +1,374 @@
+/**
+ * What the canvases are drawn from: axes, robots, densities, outlines and marks. Every function
+ * takes the view's transform and colours, and none keeps anything.
+ *
+ * @module
+ */
+
+import { ticks } from 'd3-array';
+import { tick } from '../ui/format.js';
+import { channels } from '../ui/theme.js';
+
+/**
+ * @typedef {import('../types.d.ts').Palette} Palette
+ * @typedef {import('./view.js').View} View
+ * @typedef {CanvasRenderingContext2D} Context
+ */
+
+/** Dashes of the roles that are lines, in CSS pixels; the legend's swatches use the same. */
+export const DASHES = {
+  command: [2.5, 3.5],
+  ellipse: [7, 4],
+  linearized: [9, 3, 2, 3],
+  exponential: /** @type {number[]} */ ([]),
+};
+
+/** Least distances between two ticks, CSS pixels. */
+const TICK_SPACING = { x: 60, y: 48 };
+
+/**
+ * Heading ticks that are stroked at once. More is faster; but those of one stroke do not darken
+ * where they cross, so many more would flatten the crowd.
+ */
+const TICKS_A_STROKE = 25;
+
+/**
+ * Hairline axes with ticks at the left and the bottom, and a faint grid.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {Palette} palette
+ * @param {{ x: string, y: string, font: string }} labels
+ */
+export function drawAxes(context, view, palette, labels) {
+  const { left, right, top, bottom } = view.frame;
+  const { xMin, xMax, yMin, yMax } = view.extent;
+  context.font = labels.font;
+  context.lineWidth = 1;
+  context.strokeStyle = palette.rule;
+  context.fillStyle = palette.muted;
+
+  const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
+  // The axis has its name where its last tick would be.
+  const free = right - context.measureText(labels.x).width - 10;
+  context.textAlign = 'center';
+  context.textBaseline = 'top';
+  for (const value of xTicks.values) {
+    const x = Math.round(view.toPixelX(value)) + 0.5;
+    line(context, x, top, x, bottom, 0.5);
+    const text = tick(value, xTicks.step);
+    if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
+  }
+  const yTicks = ticksOf(yMin, yMax, (bottom - top) / TICK_SPACING.y);
+  context.textAlign = 'right';
+  context.textBaseline = 'middle';
+  for (const value of yTicks.values) {
+    const y = Math.round(view.toPixelY(value)) + 0.5;
+    line(context, left, y, right, y, 0.5);
+    context.fillText(tick(value, yTicks.step), left - 6, y);
+  }
+
+  line(context, left, bottom + 0.5, right, bottom + 0.5, 1);
+  line(context, left - 0.5, top, left - 0.5, bottom, 1);
+  context.font = `italic ${labels.font}`;
+  context.textAlign = 'right';
+  context.textBaseline = 'top';
+  context.fillText(labels.x, right, bottom + 6);
+  context.textAlign = 'left';
+  context.fillText(labels.y, 2, top - 22);
+}
+
+/**
+ * @param {number} from
+ * @param {number} to
+ * @param {number} count of ticks, about
+ */
+function ticksOf(from, to, count) {
+  const values = ticks(from, to, Math.max(2, Math.floor(count)));
+  return { values, step: values.length > 1 ? values[1] - values[0] : 1 };
+}
+
+/**
+ * @param {Context} context
+ * @param {number} x1
+ * @param {number} y1
+ * @param {number} x2
+ * @param {number} y2
+ * @param {number} alpha
+ */
+function line(context, x1, y1, x2, y2, alpha) {
+  context.globalAlpha = alpha;
+  context.beginPath();
+  context.moveTo(x1, y1);
+  context.lineTo(x2, y2);
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+/**
+ * Confines what `paint` draws to the inside of the axes.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {() => void} paint
+ */
+export function clipped(context, view, paint) {
+  const { left, right, top, bottom } = view.frame;
+  context.save();
+  context.beginPath();
+  context.rect(left, top, right - left, bottom - top);
+  context.clip();
+  paint();
+  context.restore();
+}
+
+/**
+ * Samples as dots. Overlapping dots darken, so that a crowd looks like one.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {Palette} palette
+ * @param {Float64Array} triples
+ * @param {{ x: number, y: number, heading: number | null, ratio: number }} layout which of the three
+ *   numbers are drawn, and device pixels a CSS pixel
+ */
+export function drawDots(context, view, palette, triples, layout) {
+  const few = triples.length < 3 * 400;
+  // Smaller in a small picture, where as many robots share less room.
+  const size = Math.min(1, Math.max(0.7, view.width / 720));
+  const radius = size * (few ? 2.4 : 1.8);
+  if (layout.heading !== null) {
+    const length = size * (few ? 13 : 9);
+    context.strokeStyle = palette.cloud;
+    context.lineWidth = 1;
+    context.globalAlpha = few ? 0.6 : 0.32;
+    for (let first = 0; first < triples.length; first += 3 * TICKS_A_STROKE) {
+      const last = Math.min(triples.length, first + 3 * TICKS_A_STROKE);
+      context.beginPath();
+      for (let i = first; i < last; i += 3) {
+        const x = view.toPixelX(triples[i + layout.x]);
+        const y = view.toPixelY(triples[i + layout.y]);
+        headingTick(context, view, x, y, triples[i + layout.heading], length);
+      }
+      context.stroke();
+    }
+  }
+  context.globalAlpha = few ? 0.9 : 0.5;
+  if ('vector' in context) {
+    context.fillStyle = palette.cloud;
+    for (let i = 0; i < triples.length; i += 3) {
+      context.beginPath();
+      context.arc(view.toPixelX(triples[i + layout.x]), view.toPixelY(triples[i + layout.y]), radius, 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.globalAlpha = 1;
+    return;
+  }
+  const dot = sprite(palette.cloud, radius * layout.ratio);
+  const side = dot.width / layout.ratio;
+  for (let i = 0; i < triples.length; i += 3) {
+    const x = view.toPixelX(triples[i + layout.x]) - side / 2;
+    const y = view.toPixelY(triples[i + layout.y]) - side / 2;
+    context.drawImage(dot, x, y, side, side);
+  }
+  context.globalAlpha = 1;
+}
+
+/**
+ * Adds a line from a point in a direction of the world to the path.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {number} x CSS pixels
+ * @param {number} y
+ * @param {number} heading radians
+ * @param {number} length CSS pixels
+ */
+function headingTick(context, view, x, y, heading, length) {
+  const ahead = view.direction(heading);
+  context.moveTo(x, y);
+  context.lineTo(x + length * ahead.x, y + length * ahead.y);
+}
+
+/**
+ * @param {string} colour
+ * @param {number} radius device pixels
+ * @returns {OffscreenCanvas}
+ */
+function sprite(colour, radius) {
+  const half = Math.ceil(radius) + 1;
+  const canvas = new OffscreenCanvas(2 * half, 2 * half);
+  const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
+  context.fillStyle = colour;
+  context.arc(half, half, radius, 0, 2 * Math.PI);
+  context.fill();
+  return canvas;
+}
+
+/**
+ * Many robots at one place: a single marker, and every heading as a ray of a fan.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {Palette} palette
+ * @param {{ x: number, y: number, headings: number[], label: string, font: string }} heap
+ */
+export function drawHeap(context, view, palette, { x, y, headings, label, font }) {
+  const px = view.toPixelX(x);
+  const py = view.toPixelY(y);
+  context.strokeStyle = palette.prediction;
+  context.lineWidth = 1;
+  context.globalAlpha = Math.min(1, 30 / headings.length);
+  for (const heading of headings) {
+    context.beginPath();
+    headingTick(context, view, px, py, heading, 64);
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+  context.fillStyle = palette.prediction;
+  context.beginPath();
+  // Large enough to show around the handle, which is often in the same place.
+  context.arc(px, py, 14, 0, 2 * Math.PI);
+  context.fill();
+  context.font = font;
+  context.textAlign = 'left';
+  context.textBaseline = 'top';
+  haloText(context, palette, label, px + 14, py + 14);
+}
+
+/**
+ * Text that stays legible on whatever is under it.
+ *
+ * @param {Context} context its font and alignment apply
+ * @param {Palette} palette
+ * @param {string} text
+ * @param {number} x CSS pixels
+ * @param {number} y
+ */
+function haloText(context, palette, text, x, y) {
+  context.lineWidth = 4;
+  context.lineJoin = 'round';
+  context.strokeStyle = palette.paper;
+  context.strokeText(text, x, y);
+  context.fillText(text, x, y);
+}
+
+/** Colours of a density: as many as the core takes. */
+const RAMP = 256;
+
+/**
+ * The colours of a density by the share of its fullest cell: ink of the role's colour, thinner where there is less.
+ *
+ * @param {Palette} palette
+ * @returns {Uint8Array} red, green, blue and alpha of each
+ */
+export function densityRamp(palette) {
+  const cloud = channels(palette.cloud);
+  const ink = channels(palette.ink);
+  const ramp = new Uint8Array(4 * RAMP);
+  for (let i = 0; i < RAMP; i++) {
+    const shade = i / (RAMP - 1);
+    const darkening = 0.6 * Math.max(0, shade - 0.5);
+    for (let k = 0; k < 3; k++) ramp[4 * i + k] = cloud[k] + darkening * (ink[k] - cloud[k]);
+    ramp[4 * i + 3] = 255 * (0.15 + 0.85 * shade);
+  }
+  return ramp;
+}
+
+/**
+ * An image that covers the inside of the axes.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {OffscreenCanvas} grid what the pixels go through to be stretched
+ * @param {Uint8ClampedArray<ArrayBuffer>} pixels row 0 at the top
+ * @param {number} columns
+ */
+export function drawPixels(context, view, grid, pixels, columns) {
+  const rows = pixels.length / (4 * columns);
+  if (grid.width !== columns) grid.width = columns;
+  if (grid.height !== rows) grid.height = rows;
+  const surface = /** @type {OffscreenCanvasRenderingContext2D} */ (grid.getContext('2d'));
+  surface.putImageData(new ImageData(pixels, columns, rows), 0, 0);
+  const { left, right, top, bottom } = view.frame;
+  context.imageSmoothingEnabled = true;
+  context.drawImage(grid, left, top, right - left, bottom - top);
+}
+
+/**
+ * A polyline through x, y pairs with a halo of paper, so that it reads on top of the cloud.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {Palette} palette
+ * @param {Float64Array} points
+ * @param {{ colour: string, width: number, dash: number[] }} style
+ */
+export function drawOutline(context, view, palette, points, { colour, width, dash }) {
+  if (points.length < 4) return;
+  context.beginPath();
+  context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
+  for (let i = 2; i < points.length; i += 2) {
+    context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
+  }
+  context.lineJoin = 'round';
+  context.strokeStyle = palette.paper;
+  context.lineWidth = width + 2.5;
+  context.globalAlpha = 0.7;
+  context.stroke();
+  context.globalAlpha = 1;
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/**
+ * A robot seen from above: a disc with a line to the front.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {Palette} palette
+ * @param {{ x: number, y: number, heading: number, colour: string }} robot
+ */
+export function drawRobot(context, view, palette, { x, y, heading, colour }) {
+  const px = view.toPixelX(x);
+  const py = view.toPixelY(y);
+  context.beginPath();
+  context.arc(px, py, 8, 0, 2 * Math.PI);
+  context.fillStyle = palette.paper;
+  context.fill();
+  headingTick(context, view, px, py, heading, 14);
+  context.strokeStyle = colour;
+  context.lineWidth = 2;
+  context.stroke();
+}
+
+/**
+ * The ring and cross hairs of the marked sample.
+ *
+ * @param {Context} context
+ * @param {View} view
+ * @param {Palette} palette
+ * @param {{ x: number, y: number, heading: number | null }} sample
+ */
+export function drawMark(context, view, palette, { x, y, heading }) {
+  const px = view.toPixelX(x);
+  const py = view.toPixelY(y);
+  for (const [colour, width] of /** @type {const} */ ([
+    [palette.paper, 5],
+    [palette.accent, 2],
+  ])) {
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.beginPath();
+    context.arc(px, py, 7, 0, 2 * Math.PI);
+    for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) {
+      context.moveTo(px + 7 * dx, py + 7 * dy);
+      context.lineTo(px + 12 * dx, py + 12 * dy);
+    }
+    if (heading !== null) headingTick(context, view, px, py, heading, 24);
+    context.stroke();
+  }
+}

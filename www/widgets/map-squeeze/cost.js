@@ -1,0 +1,117 @@
+/**
+ * What each sampler costs on this device, measured.
+ *
+ * @module
+ */
+
+/**
+ * @typedef {import('../../types.d.ts').MapSqueeze} MapSqueeze
+ * @typedef {import('../../types.d.ts').SamplerName} SamplerName
+ *
+ * @typedef {object} Cost of one accepted sample
+ * @property {number} micros microseconds
+ * @property {number} draws
+ * @property {number} wallTests
+ */
+
+/** The particles and rate of the chapter's exercise: samples a second. */
+export const DEMAND = 2000 * 20;
+
+/** Milliseconds that a measurement lasts at least: browsers' clocks are as coarse as 1 ms. */
+const LONG_ENOUGH = 20;
+
+/** Runs of which the median is told. */
+const RUNS = 5;
+
+/** Most samples a trial, times the parts of each: what `trial` allows. */
+const MOST_SAMPLES = 100_000;
+
+/**
+ * Measures a run at a time: the page goes on between two of them.
+ *
+ * @param {MapSqueeze} machine
+ * @param {SamplerName} sampler
+ * @param {number} parts of the command
+ * @returns {Generator<undefined, Cost | 'wedged' | 'few'>} the cost, or why there is none
+ */
+function* measuring(machine, sampler, parts) {
+  const most = Math.floor(MOST_SAMPLES / parts);
+  let count = 1;
+  const run = () => {
+    const start = performance.now();
+    const { draws, wallTests } = machine.trial(sampler, parts, count);
+    return { draws, wallTests, elapsed: performance.now() - start };
+  };
+  try {
+    for (;;) {
+      const warmUp = run();
+      if (warmUp.elapsed >= LONG_ENOUGH || count === most) {
+        const runs = [];
+        while (runs.length < RUNS) {
+          yield;
+          runs.push(run());
+        }
+        runs.sort((one, other) => one.elapsed - other.elapsed);
+        const { draws, wallTests, elapsed } = runs[(RUNS - 1) / 2];
+        // Otherwise it was long because the device was busy.
+        if (elapsed >= LONG_ENOUGH / 2 || count === most) {
+          return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
+        }
+      }
+      yield;
+      count = Math.min(most, 2 * count);
+    }
+  } catch (error) {
+    if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
+    return count === 1 ? 'wedged' : 'few';
+  }
+}
+
+/** Measures the samplers one after the other when things have come to rest, and tells of each. */
+export class CostMeter {
+  /** @type {Partial<Record<SamplerName, Cost | 'wedged' | 'few'>>} as last measured, or why there is none */
+  costs = {};
+  /** Whether the costs are those of the present settings. */
+  current = false;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timer;
+
+  /** The costs are no longer those of the present settings. */
+  outdate() {
+    clearTimeout(this.#timer);
+    this.current = false;
+  }
+
+  /**
+   * Measures soon, unless `outdate` is called before.
+   *
+   * @param {() => MapSqueeze | undefined} machine
+   * @param {SamplerName[]} samplers
+   * @param {() => void} told called after each
+   * @param {(work: () => void) => void} attempt does what may trap
+   */
+  measureSoon(machine, samplers, told, attempt) {
+    this.outdate();
+    const measured = machine();
+    if (!measured) return;
+    const measurements = samplers.map((sampler) =>
+      measuring(measured, sampler, sampler === 'sub-stepped' ? measured.config.steps : 1),
+    );
+    const next = (/** @type {number} */ index) => {
+      // The element may have gone, and its machine with it.
+      if (machine() !== measured) return;
+      const { done, value } = measurements[index].next();
+      if (done) {
+        this.costs[samplers[index]] = value;
+        this.current = index === samplers.length - 1;
+        told();
+      }
+      if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
+    };
+    const step = (/** @type {number} */ index) => attempt(() => next(index));
+    this.#timer = setTimeout(step, REST, 0);
+  }
+}
+
+/** Milliseconds of rest before measuring: a reader between two presses of a key is not kept waiting. */
+const REST = 300;

@@ -1,0 +1,101 @@
+/**
+ * Maps as plain data: what a state holds of a map of the reader's own.
+ *
+ * @module
+ */
+
+import { fromBase64, object, refusal, toBase64, whole } from '../../../figure/checks.js';
+
+/**
+ * @typedef {import('../../../types.d.ts').MapSqueeze} MapSqueeze
+ * @typedef {import('../../../types.d.ts').MapData} MapData
+ */
+
+/** Cells of a map at most, as for the core. */
+const MOST_CELLS = 2 ** 24;
+
+const PLAN_KEYS = ['name', 'bounds', 'walls'];
+const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'];
+
+/** Shades of a PGM image, and fields that say how they are to be read. */
+const [OCCUPIED, FREE] = [0, 254];
+const READING = { negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 };
+
+/**
+ * The map that a machine has.
+ *
+ * @param {MapSqueeze} machine
+ * @param {string} name
+ * @returns {MapData}
+ */
+export function mapData(machine, name) {
+  const { grid } = machine;
+  if (grid) {
+    const { columns, rows, resolution, origin, occupied } = grid;
+    return { name, columns, rows, resolution, origin: [...origin], occupied: packBits(occupied) };
+  }
+  const { bounds, walls } = machine.plan;
+  return { name, bounds: [...bounds], walls: Array.from({ length: walls.length / 4 }, (_, i) => [...walls.subarray(4 * i, 4 * i + 4)]) };
+}
+
+/**
+ * Puts a map into a machine.
+ *
+ * @param {MapSqueeze} machine
+ * @param {unknown} data MapData, or null for the apartment
+ * @throws {TypeError | RangeError} with the machine's present map left as it is
+ */
+export function applyMap(machine, data) {
+  if (data === null) {
+    machine.setPlan(undefined);
+    return;
+  }
+  const isGrid = typeof data === 'object' && 'occupied' in data;
+  const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
+  if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
+  if (!isGrid) {
+    machine.setPlan({ bounds: map.bounds, walls: map.walls });
+    return;
+  }
+  const columns = whole('map.columns', map.columns, 1, MOST_CELLS);
+  const rows = whole('map.rows', map.rows, 1, Math.floor(MOST_CELLS / columns));
+  const cells = unpackBits(map.occupied, columns * rows);
+  const header = new TextEncoder().encode(`P5 ${columns} ${rows} 255\n`);
+  const image = new Uint8Array(header.length + cells.length);
+  image.set(header);
+  // Cells are counted from the bottom, and rows of an image from the top.
+  for (let row = 0; row < rows; row++) {
+    const at = header.length + (rows - 1 - row) * columns;
+    for (let column = 0; column < columns; column++) image[at + column] = cells[row * columns + column] ? OCCUPIED : FREE;
+  }
+  machine.setGrid({ ...READING, image: 'map.pgm', resolution: map.resolution, origin: map.origin }, image);
+}
+
+/**
+ * @param {Uint8Array} cells one a byte
+ * @returns {string} base64 of eight a byte, the first one highest
+ */
+function packBits(cells) {
+  const bytes = new Uint8Array(Math.ceil(cells.length / 8));
+  for (let i = 0; i < cells.length; i++) if (cells[i]) bytes[i >> 3] |= 128 >> (i & 7);
+  return toBase64(bytes);
+}
+
+/**
+ * @param {unknown} text
+ * @param {number} count
+ * @returns {Uint8Array}
+ */
+function unpackBits(text, count) {
+  const length = Math.ceil(count / 8);
+  const allowed = `base64 of ${length} bytes, a bit for each cell`;
+  if (typeof text !== 'string') throw refusal('map.occupied', text, allowed, TypeError);
+  let bytes;
+  try {
+    bytes = fromBase64(text);
+  } catch {
+    throw refusal('map.occupied', text, allowed);
+  }
+  if (bytes.length !== length) throw refusal('map.occupied', text, allowed);
+  return Uint8Array.from({ length: count }, (_, i) => (bytes[i >> 3] >> (7 - (i & 7))) & 1);
+}

@@ -1,0 +1,200 @@
+/**
+ * Map Squeeze's page: as the Banana Machine's, with a floor that is nearly square.
+ *
+ * @module
+ */
+
+import { css } from 'lit';
+import { readoutStyles } from '../banana-machine/readouts.js';
+import { bananaStyles } from '../banana-machine/styles.js';
+
+const layout = css`
+  canvas.plane {
+    aspect-ratio: 4 / 3;
+  }
+
+  @container (max-width: 34rem) {
+    canvas.plane {
+      aspect-ratio: 1 / 1;
+    }
+  }
+
+  .own-map {
+    display: grid;
+    gap: 0.5rem 2.75rem;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
+    margin: 1.5rem 0 0;
+  }
+
+  .own-map > * {
+    grid-column: auto;
+  }
+
+  @container (min-width: 56rem) {
+    .own-map {
+      grid-column: 1 / -1;
+    }
+  }
+
+  .dropping .stage {
+    outline: 2px dashed var(--accent);
+    outline-offset: 4px;
+  }
+
+  .handle {
+    top: 0;
+    left: 0;
+  }
+
+  .handle.body::after {
+    content: none;
+  }
+
+  .handle.turn {
+    width: 1.75rem;
+    height: 1.75rem;
+  }
+
+  .handle.turn::after {
+    inset: 0.45rem;
+    border-width: 2.5px;
+  }
+
+  .key {
+    display: grid;
+    grid-template-columns: repeat(auto-fill, minmax(min(100%, 20rem), 1fr));
+    gap: 0.15rem 2.5rem;
+    margin: 0.5rem 0 0.7rem;
+    padding: 0;
+    list-style: none;
+  }
+
+  .key li {
+    display: flex;
+    align-items: center;
+    gap: 0.6rem;
+  }
+
+  .key svg {
+    flex: none;
+    width: 2.2rem;
+    height: 1.2rem;
+    fill: none;
+    stroke-width: 1.5;
+  }
+
+  @media (forced-colors: active) {
+    .key svg {
+      forced-color-adjust: none;
+    }
+  }
+
+  .key .rejected {
+    stroke: var(--muted);
+  }
+
+  .key .accepted {
+    fill: var(--cloud);
+    stroke: var(--cloud);
+  }
+
+  .key .through :not(.dot) {
+    stroke: var(--accent);
+  }
+
+  .key .through .dot {
+    fill: var(--cloud);
+  }
+
+  .key .commanded {
+    stroke: var(--prior);
+    stroke-width: 2;
+  }
+
+  .marked label {
+    color: var(--ink);
+  }
+
+  .judge legend {
+    display: flex;
+    align-items: center;
+    justify-content: space-between;
+  }
+
+  .judge legend .toggle {
+    font-style: normal;
+    font-size: 1rem;
+  }
+
+  .samplers {
+    display: flex;
+    flex-wrap: wrap;
+    column-gap: 1rem;
+  }
+
+  .judge > .effect {
+    margin: 0 0 0.6rem;
+    color: var(--muted);
+    font-size: 0.84rem;
+    line-height: 1.25;
+  }
+
+  .choices {
+    --name: 3rem;
+  }
+
+  table.outdated tbody {
+    color: var(--muted);
+  }
+
+  .own-map p {
+    margin: 0 0 0.6rem;
+  }
+
+  .own-map .note {
+    margin: 0.7rem 0;
+    overflow-wrap: anywhere;
+  }
+
+  .own-map .present {
+    color: var(--muted);
+  }
+
+  label[for='map-files'] {
+    display: block;
+  }
+
+  input[type='file'] {
+    max-width: 100%;
+    margin: 0.3rem 0 0.6rem;
+    min-height: 2rem;
+    color: inherit;
+    font: inherit;
+  }
+
+  ::file-selector-button {
+    margin-right: 0.6rem;
+  }
+
+  textarea {
+    box-sizing: border-box;
+    display: block;
+    width: 100%;
+    margin: 0.3rem 0 0.6rem;
+    padding: 0.4rem 0.5rem;
+    background: none;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+    color: var(--ink);
+    font-size: 0.85rem;
+    line-height: 1.35;
+    resize: vertical;
+  }
+
+  textarea:focus-visible {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+`;
+
+export const squeezeStyles = [readoutStyles, ...bananaStyles, layout];

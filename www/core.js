@@ -53,11 +53,9 @@ export async function instantiate(source) {
   });
   const glue = makeGlue();
   await glue({ module_or_path: await compiling });
-  const { BananaMachine, MapSqueeze, commandReaching, randomSeed } = glue;
-  for (const handle of [BananaMachine, MapSqueeze]) makeDisposable(handle);
-  return /** @type {import('./types.d.ts').Motion} */ (
-    /** @type {unknown} */ ({ BananaMachine, MapSqueeze, commandReaching, randomSeed })
-  );
+  const { initSync: _, ...motion } = glue;
+  for (const each of Object.values(motion)) if ('free' in (each.prototype ?? {})) makeDisposable(/** @type {any} */ (each));
+  return /** @type {import('./types.d.ts').Motion} */ (/** @type {unknown} */ (motion));
 }
 
 /**

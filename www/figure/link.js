@@ -1,16 +1,85 @@
 /**
- * The page's fragment as a place for states: each element has a part of its own, and leaves all others
- * as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
+ * The state in the page's address: each element has a part of the fragment of its own, and leaves all
+ * others as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
  *
  * @module
  */
+
+import { pack, unpack } from './packing.js';
+
+/**
+ * @typedef {object} Linked what the link asks of its element
+ * @property {any} machine
+ * @property {boolean} share
+ * @property {import('./runtime.js').Runtime} runtime
+ * @property {() => object | null} getState
+ * @property {(state: unknown) => void} setState
+ */
+
+export class Link {
+  #host;
+  /** The latest text for the address: an earlier one that is ready later is void. */
+  #writing = 0;
+
+  /** @param {import('lit').LitElement & Linked} host */
+  constructor(host) {
+    this.#host = host;
+    host.addController(this);
+  }
+
+  hostConnected() {
+    addEventListener('hashchange', this.follow);
+    if (this.#host.share) goToAnchor();
+  }
+
+  hostDisconnected() {
+    removeEventListener('hashchange', this.follow);
+  }
+
+  /** The page's address may carry another state. */
+  follow = async () => {
+    if (!this.#host.share || !this.#host.machine) return;
+    this.enter(await this.read());
+  };
+
+  /** @param {unknown} state as the address has it; undefined for none */
+  enter(state) {
+    if (state !== undefined) this.#host.runtime.tolerate(() => this.#host.setState(state));
+  }
+
+  /** @returns {Promise<unknown>} undefined where the address has no state */
+  async read() {
+    const text = fragmentOf(keyOf(this.#host));
+    if (text === undefined) return undefined;
+    try {
+      return await unpack(text);
+    } catch (error) {
+      this.#host.runtime.report(error);
+    }
+  }
+
+  async write() {
+    const writing = ++this.#writing;
+    const text = await this.#pack();
+    if (writing === this.#writing && this.#host.isConnected) writeFragment(keyOf(this.#host), text);
+  }
+
+  /** @returns {Promise<string>} the address of this page with the present state */
+  async address() {
+    return addressWith(keyOf(this.#host), await this.#pack());
+  }
+
+  #pack() {
+    return pack(this.#host.getState() ?? {});
+  }
+}
 
 /**
  * The name of an element's part: its id, or where it has none, its place among its kind on the page.
  *
  * @param {Element} element
  */
-export function keyOf(element) {
+function keyOf(element) {
   const { localName, id } = element;
   if (id) return `${localName}:${encodeURIComponent(id)}`;
   const kind = [...document.querySelectorAll(localName)];
@@ -21,7 +90,7 @@ export function keyOf(element) {
  * @param {string} key
  * @returns {string | undefined} what the fragment has for it
  */
-export function fragmentOf(key) {
+function fragmentOf(key) {
   return parts().find((part) => part.startsWith(`${key}=`))?.slice(key.length + 1);
 }
 
@@ -30,7 +99,7 @@ export function fragmentOf(key) {
  * @param {string} text
  * @returns {string} the page's address with it
  */
-export function addressWith(key, text) {
+function addressWith(key, text) {
   const part = `${key}=${text}`;
   const all = parts();
   const at = all.findIndex((each) => each.startsWith(`${key}=`));
@@ -45,7 +114,7 @@ export function addressWith(key, text) {
  * @param {string} key
  * @param {string} text
  */
-export function writeFragment(key, text) {
+function writeFragment(key, text) {
   const address = addressWith(key, text);
   if (address === location.href) return;
   try {
@@ -65,7 +134,7 @@ let anchored = false;
  * Goes to the page's own anchor, once: a browser looks for the whole fragment, states included, and does
  * not find it.
  */
-export function goToAnchor() {
+function goToAnchor() {
   if (anchored || document.querySelector(':target')) return;
   anchored = true;
   const [first = ''] = parts();
@@ -83,28 +152,4 @@ function decoded(text) {
   } catch {
     return text;
   }
-}
-
-/**
- * HTML for a page that has the script beside it.
- *
- * @param {string} name of the element
- * @param {[string, string][]} attributes
- */
-export function embedding(name, attributes) {
-  const script = tag('script', [['type', 'module'], ['src', 'motion-widgets.js']]);
-  return `${script}\n${tag(name, attributes)}\n`;
-}
-
-/**
- * @param {string} name
- * @param {[string, string][]} attributes
- */
-function tag(name, attributes) {
-  return `<${name}${attributes.map(([key, text]) => ` ${key}="${escaped(text)}"`).join('')}></${name}>`;
-}
-
-/** @param {string} text */
-function escaped(text) {
-  return text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
 }

@@ -6,7 +6,10 @@
 
 import { css } from 'lit';
 
-/** @typedef {'auto' | 'light' | 'dark'} Theme */
+/**
+ * @typedef {"auto" | "light" | "dark"} Theme
+ * @typedef {"light" | "dark" | ""} Surroundings empty where `color-scheme` says it
+ */
 
 export const THEMES = /** @type {Theme[]} */ (['auto', 'light', 'dark']);
 
@@ -37,7 +40,7 @@ export const schemeStyles = css`
  * So it is with a page whose own switch changes colours alone.
  *
  * @param {Element} probe
- * @returns {'light' | 'dark' | ''} empty where `color-scheme` says it
+ * @returns {Surroundings}
  */
 export function surroundings(probe) {
   const { color, colorScheme } = getComputedStyle(probe);

@@ -6,6 +6,7 @@
 
 import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.js';
+import { escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
 
 /**
@@ -57,4 +58,23 @@ export class CopyMenu {
         : nothing}
     </details>`;
   }
+}
+
+/**
+ * HTML for a page that has the script beside it.
+ *
+ * @param {string} name of the element
+ * @param {[string, string][]} attributes
+ */
+export function embedding(name, attributes) {
+  const script = tag('script', [['type', 'module'], ['src', 'motion-widgets.js']]);
+  return `${script}\n${tag(name, attributes)}\n`;
+}
+
+/**
+ * @param {string} name
+ * @param {[string, string][]} attributes
+ */
+function tag(name, attributes) {
+  return `<${name}${attributes.map(([key, text]) => ` ${key}="${escaped(text)}"`).join('')}></${name}>`;
 }

@@ -1,0 +1,8 @@
+/**
+ * Every widget there is.
+ *
+ * @module
+ */
+
+import './banana-machine/banana-machine.js';
+import './map-squeeze/map-squeeze.js';

@@ -1,0 +1,38 @@
+/**
+ * The velocity command, as every widget that sends one shows it.
+ *
+ * @module
+ */
+
+import { slider } from '../../figure/controls.js';
+import { words } from '../../messages/registry.js';
+import { fixed } from '../../ui/format.js';
+
+/** @typedef {{ v: number, omega: number, dt: number }} Command m/s, rad/s, s */
+
+const SPEED = { role: /** @type {const} */ ('prior'), step: 0.01, decimals: 2 };
+
+/**
+ * How the settings of a command look. Handles and charts that set it keep to the ranges of its sliders.
+ *
+ * @param {number} longest duration of the slider, s
+ */
+export const commandLooks = (longest) => ({
+  v: { ...SPEED, symbol: '*v*', min: -1.5, max: 1.5 },
+  omega: { ...SPEED, symbol: '*ω*', min: -2, max: 2 },
+  dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
+});
+
+/** @param {import('../../figure/controls.js').Figure} figure */
+export function commandSliders(figure) {
+  return ['v', 'omega', 'dt'].map((key) => slider(figure, key));
+}
+
+/**
+ * The command in words.
+ *
+ * @param {Command} command
+ */
+export function commandText({ v, omega, dt }) {
+  return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
+}

@@ -11,12 +11,14 @@ import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
+
 /** Brings dist/ up to date with the sources. */
 export async function build() {
   const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs', 'scripts/bind']);
   const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts'];
   await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
-  const pages = digest(['www', 'package.json', 'package-lock.json', 'scripts/bundle.mjs', 'scripts/manifest.mjs'], core);
+  const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html'], bundle);
 }
 

@@ -7,8 +7,9 @@
  */
 
 import './de.js';
+import { settings } from './settings.js';
 
-const WIDGETS = ['banana-machine', 'map-squeeze'];
+const WIDGETS = Object.keys(settings);
 /** What every element of HTML has, and a widget may heed. */
 const GLOBAL = ['dir', 'lang'];
 

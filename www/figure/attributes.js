@@ -35,6 +35,10 @@ import { THEMES } from './page/scheme.js';
  *
  * @typedef {Record<string, Attribute & (Setting | Own)>} Attributes by name; what others depend on comes first
  * @typedef {import('../settings.js').Declaration} Declaration
+ *
+ * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} Table of names, for the documentation:
+ *   what follows from no declaration, with its type in TypeScript
+ * @typedef {{ properties: Table, state: Table }} Documentation of properties without an attribute, and in states
  */
 
 /** @type {Kind} */
@@ -60,7 +64,7 @@ const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
 
 /** What every figure heeds besides. */
 export const COMMON = {
-  theme: { words: THEMES, sentence: 'Auto, the default, is as the surroundings are.' },
+  theme: { words: THEMES, opening: 'auto', sentence: 'Colours for a light page or a dark one; auto is as the surroundings are.' },
   share: { sentence: 'Keeps the state in the fragment of the page’s address, and opens in the state that it carries.' },
 };
 

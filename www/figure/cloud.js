@@ -242,3 +242,15 @@ export const cloudProperties = {
     },
   },
 };
+
+/** What every element with a cloud has besides. @type {import('./attributes.js').Documentation} */
+export const documentation = {
+  properties: {
+    marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
+    poses: { type: 'Float64Array | null', readonly: true, sentence: 'x, y (m), θ (rad) of each sample shown; a copy.' },
+  },
+  state: {
+    shown: { type: 'number', sentence: 'Samples asked for so far, 0 to all of them.' },
+    playing: { type: 'boolean', sentence: 'Whether the cloud is growing.' },
+  },
+};

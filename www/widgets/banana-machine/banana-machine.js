@@ -19,7 +19,7 @@ import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, readouts, skewChartOf, twistTable, workedExample } from './readouts.js';
-import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own } from './settings.js';
+import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { styles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, twistCaption, twistText } from './words.js';
 
@@ -44,7 +44,7 @@ export class BananaMachineElement extends FigureElement {
   static attributes = attributes;
   static own = own;
   static looks = looks;
-  static vocabulary = 'banana';
+  static vocabulary = vocabulary;
   static basis = ['model'];
 
   cloud = new Cloud(this);

@@ -12,6 +12,9 @@ import { commandLooks } from '../shared/command.js';
 
 export const declared = settings['banana-machine'];
 
+/** The key of its words in the catalogues. */
+export const vocabulary = 'banana';
+
 /** The outlines on the floor, those of them that are shown at first. */
 export const OVERLAYS = /** @type {const} */ (['command', 'ellipse', 'linearized', 'exponential']);
 const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
@@ -29,6 +32,21 @@ export const own = {
   /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
   isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, alphaCounts.velocity) },
   overlays: { opening: OPENING_OVERLAYS, check: (field, overlays) => subset(field, overlays, OVERLAYS) },
+};
+
+/** @type {import('../../figure/attributes.js').Documentation} */
+export const documentation = {
+  properties: {
+    twists: {
+      type: 'Float64Array | null',
+      readonly: true,
+      sentence: 'ξ along, lateral (m), heading (rad) of each robot shown; a copy.',
+    },
+  },
+  state: {
+    alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six and four, of either model.' },
+    isolateChoice: { type: 'number', sentence: 'What Isolate leaves when it is turned on, from 1.' },
+  },
 };
 
 /** Up to a standard deviation of nearly half the command. */

@@ -19,7 +19,7 @@ import { MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
 import { costTable, key, markedDraw, tally } from './readouts.js';
-import { PRESETS, SAMPLE_COUNTS, SAMPLERS, attributes, declared, looks, own, presetNamed } from './settings.js';
+import { PRESETS, SAMPLE_COUNTS, SAMPLERS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
 import { styles } from './styles.js';
 import { announcementOf, mapText, pictureText, verdictText } from './words.js';
 
@@ -44,7 +44,7 @@ export class MapSqueezeElement extends FigureElement {
   static attributes = attributes;
   static own = own;
   static looks = looks;
-  static vocabulary = 'squeeze';
+  static vocabulary = vocabulary;
 
   cloud = new Cloud(this, (/** @type {Machine} */ machine) => machine.stats.gaveUp);
   /** @type {FloorPicture} */

@@ -13,6 +13,9 @@ import { mapData } from './maps/data.js';
 
 export const declared = settings['map-squeeze'];
 
+/** The key of its words in the catalogues. */
+export const vocabulary = 'squeeze';
+
 export const PRESETS = presets['map-squeeze'];
 const PRESET_NAMES = PRESETS.map(({ name }) => name);
 
@@ -38,6 +41,19 @@ export const own = {
   view: { opening: 'whole', check: (field, view) => word(field, view, VIEWS) },
   /** The reader's own; null for the apartment. */
   map: { opening: null, check: (_, map, machine) => map && mapData(machine, map.name ?? '') },
+};
+
+/** @type {import('../../figure/attributes.js').Documentation} */
+export const documentation = {
+  properties: {
+    map: { type: 'MapData | null', sentence: "A map of the reader's own; null for the apartment." },
+    verdicts: {
+      type: 'Uint8Array | null',
+      readonly: true,
+      sentence: 'A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.',
+    },
+  },
+  state: {},
 };
 
 /**

@@ -53,7 +53,7 @@ export async function instantiate(source) {
   });
   const glue = makeGlue();
   await glue({ module_or_path: await compiling });
-  const { initSync: _, ...motion } = glue;
+  const { initSync: _initSync, ...motion } = glue;
   for (const each of Object.values(motion)) if ('free' in (each.prototype ?? {})) makeDisposable(/** @type {any} */ (each));
   return /** @type {import('./types.d.ts').Motion} */ (/** @type {unknown} */ (motion));
 }

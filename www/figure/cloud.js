@@ -7,7 +7,7 @@
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
 import { button } from '../ui/controls.js';
-import { whole } from '../ui/format.js';
+import { counted } from '../ui/format.js';
 import { truth, wholeNumber } from './checks.js';
 import { LONGEST_WORK } from './settings.js';
 import { isCalm } from './stage.js';
@@ -21,6 +21,8 @@ import { isCalm } from './stage.js';
  * @property {(count: number) => number} grow
  * @property {(count: number) => void} [beginToGrow] as grow, where it may take longer than a frame
  * @property {() => void} restart
+ *
+ * @typedef {{ play: string, step: (batch: string) => string, reset: string, reseed: string }} CloudWords
  *
  * @typedef {object} Clouded what the cloud asks of its element
  * @property {Growing | undefined} machine
@@ -184,11 +186,11 @@ export class Cloud {
     });
   }
 
-  /** @param {import('../messages/registry.js').Messages['banana']['cloud']} say */
+  /** @param {CloudWords} say */
   buttons(say) {
     return html`<div class="buttons">
       ${button(this.playing ? words.pause : words.play, () => this.play(), { title: say.play })}
-      ${button(words.step, () => this.step(), { title: say.step(whole(this.#batch)), disabled: this.complete })}
+      ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
       ${button(words.reset, () => this.reset(), { title: say.reset })}
       ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
       <span class="seed">${words.seed(this.#machine.config.seed)}</span>

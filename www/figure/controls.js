@@ -7,7 +7,7 @@
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
 import { radioGroup, rich, sliderRow, toggle } from '../ui/controls.js';
-import { fixed, whole } from '../ui/format.js';
+import { counted, fixed } from '../ui/format.js';
 import { exportMenu } from './takeaway/export.js';
 
 /**
@@ -55,11 +55,10 @@ export function slider(figure, key, otherwise) {
  *
  * @param {Figure} figure
  * @param {string} key
- * @param {string} label
  * @param {Record<string, string>} labels of its words
  */
-export function choices(figure, key, label, labels) {
-  return radioGroup(label, key, labels, figure.reading.config[key], (word) => decide(figure, key, word));
+export function choices(figure, key, labels) {
+  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.reading.config[key], (word) => decide(figure, key, word));
 }
 
 /**
@@ -94,7 +93,7 @@ export function cloudControls(figure, counts) {
       min: 0,
       max: counts.length - 1,
       step: 1,
-      show: (index) => whole(index === nearest ? samples : counts[index]),
+      show: (index) => counted(index === nearest ? samples : counts[index]),
       effect,
       role: 'truth',
       input: (index) => want(figure, 'samples', counts[index]),

@@ -7,7 +7,7 @@
 
 import { LitElement, html, noChange, nothing } from 'lit';
 import { en } from '../messages/en.js';
-import { onLanguage, setMessages, speak, words } from '../messages/registry.js';
+import { addEnglish, onLanguage, speak, words } from '../messages/registry.js';
 import { theme } from '../ui/theme.js';
 import { Announcer } from './announcer.js';
 import { word } from './checks.js';
@@ -28,7 +28,7 @@ import { csvOf, pngOf, svgOf } from './takeaway/export.js';
  * @typedef {import('./state.js').Values} Values
  */
 
-setMessages('en', en);
+addEnglish(en);
 
 /**
  * A figure over one simulation object of a core. A widget says how its machine is made, what is asked of
@@ -97,10 +97,10 @@ export class FigureElement extends LitElement {
   copies = new CopyMenu(this, () => this.requestUpdate());
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
   cloud;
-  /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture[]} */
+  /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */
   pictures = [];
-  /** What the machine said when it was last asked. @type {Reading | undefined} */
-  reading;
+  /** What the machine said when it was last asked; undefined before that. @type {Reading} */
+  reading = /** @type {any} */ (undefined);
   /** A state from the page's address that waits for the machine. @type {unknown} */
   #linked;
   /** Ends listening for other words. @type {(() => void) | undefined} */
@@ -234,10 +234,9 @@ export class FigureElement extends LitElement {
     const { machine } = this;
     if (!machine) return;
     speak(this);
-    const reading = this.read(machine);
-    this.reading = reading;
+    this.reading = this.read(machine);
     this.settings.stale = false;
-    this.announcer.say(() => this.announcement(reading));
+    this.announcer.say(() => this.announcement(this.reading));
     this.state.keep();
     this.dispatchEvent(new CustomEvent('stats', { detail: machine.stats, bubbles: true, composed: true }));
   }
@@ -248,7 +247,7 @@ export class FigureElement extends LitElement {
     speak(this);
     this.settings.settle();
     if (this.settings.stale) this.refresh();
-    return /** @type {Reading} */ (this.reading);
+    return this.reading;
   }
 
   /**
@@ -291,7 +290,7 @@ export class FigureElement extends LitElement {
   /**
    * The pointer is over a picture, or was pressed there: marks the nearest sample.
    *
-   * @param {import('../scene/picture.js').Picture} picture
+   * @param {import('../scene/picture.js').Picture<any>} picture
    * @param {PointerEvent} event
    */
   point(picture, event) {
@@ -444,9 +443,8 @@ export class FigureElement extends LitElement {
     const { failure } = this.runtime;
     if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
     if (!this.machine) return html`<div class="reserved"></div>`;
-    const { reading } = this;
-    if (!reading) return nothing;
-    return this.runtime.attemptOrFail(() => [this.content(reading), this.announcer.render()]) ?? noChange;
+    if (!this.reading) return nothing;
+    return this.runtime.attemptOrFail(() => [this.content(this.reading), this.announcer.render()]) ?? noChange;
   }
 }
 

@@ -12,7 +12,7 @@ import { surroundings } from './page/scheme.js';
 import { LONGEST_WORK } from './settings.js';
 
 /**
- * @typedef {import('../scene/picture.js').Picture} Picture
+ * @typedef {import('../scene/picture.js').Picture<any>} Picture
  *
  * @typedef {object} Staged what the stage asks of its element
  * @property {any} machine

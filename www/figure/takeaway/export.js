@@ -22,7 +22,7 @@ import { button } from '../../ui/controls.js';
  * @typedef {object} Exported an element whose first picture is taken along
  * @property {Takeaway} takeaway with every change so far in effect, like the scene
  * @property {any} scene
- * @property {import('../../scene/picture.js').Picture[]} pictures
+ * @property {import('../../scene/picture.js').Picture<any>[]} pictures
  * @property {import('../stage.js').Stage} stage
  */
 

@@ -13,15 +13,18 @@ import { FigureElement, define } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { words } from '../../messages/registry.js';
 import { alphaCounts } from '../../settings.js';
+import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
+import { rich } from '../../ui/controls.js';
+import { fixed } from '../../ui/format.js';
 import { commandControls, noiseControls, overlayToggles } from './controls.js';
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
-import { markedRobot, readouts, skewChartOf, twistTable, workedExample } from './readouts.js';
+import { markedRobot, readouts, twistTable, workedExample } from './readouts.js';
 import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
-import { styles } from './styles.js';
-import { announcementOf, captionOf, longestNote, planeText, twistCaption, twistText } from './words.js';
+import { bananaStyles } from './styles.js';
+import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
 
 /**
  * @typedef {import('../../types.d.ts').BananaMachine} Machine
@@ -38,7 +41,7 @@ import { announcementOf, captionOf, longestNote, planeText, twistCaption, twistT
  * @extends {FigureElement<Machine, Reading>}
  */
 export class BananaMachineElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve([[0, 240], [31, 214], [47, 172], [57, 105]]), ...styles];
+  static styles = [...FigureElement.styles, reserve([[0, 240], [31, 214], [47, 172], [57, 105]]), ...bananaStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -171,7 +174,8 @@ export class BananaMachineElement extends FigureElement {
   }
 
   /** @param {Reading} reading */
-  content({ config, shown, stats, table, note, exactSkew, curve }) {
+  content(reading) {
+    const { config, shown, stats, table, note } = reading;
     const say = words.banana;
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
@@ -199,19 +203,31 @@ export class BananaMachineElement extends FigureElement {
             <figcaption>${twistCaption(config, note)}</figcaption>
             ${twistTable(table, stats)}
           </figure>
-          ${skewChartOf({
-            curve,
-            range: looks.omega,
-            omega: config.command.omega,
-            exactSkew,
-            stats,
-            move: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
-            commit: () => this.commit(),
-          })}
+          <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
           ${workedExample(table, stats)}
         </div>
       </section>
     `;
+  }
+
+  /** @param {Reading} reading */
+  #chart({ config: { command }, stats, exactSkew, curve }) {
+    const { chart: label, chartAxis, chartMarker, chartText } = words.banana;
+    return chart({
+      ...looks.omega,
+      label,
+      axes: { x: 'ω (rad/s)', y: chartAxis },
+      marker: {
+        name: chartMarker,
+        text: chartText(fixed(command.omega, 2), skewText(exactSkew)),
+        x: command.omega,
+        y: exactSkew,
+      },
+      curve,
+      measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
+      move: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
+      commit: () => this.commit(),
+    });
   }
 
   /**

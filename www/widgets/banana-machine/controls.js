@@ -27,7 +27,7 @@ export function commandControls(figure) {
       <div class="buttons">
         ${presets['banana-machine'].map(({ name, v, omega, dt }) =>
           button(
-            words.banana.presets[name],
+            words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
             () => {
               figure.settings.want({ command: { v, omega, dt } });
               figure.commit();
@@ -50,10 +50,10 @@ export function noiseControls(figure) {
   return html`
     <fieldset>
       <legend>${say.modelAndNoise}</legend>
-      ${choices(figure, 'model', say.model, say.models)} ${choices(figure, 'noise', say.noise, say.noises)}
+      ${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
     </fieldset>
     <fieldset class="alphas">
-      <legend>${say.alphas}</legend>
+      <legend>${say.settings.alphas.name}</legend>
       ${toggle({
         label: say.isolate,
         checked: isolate !== null,
@@ -62,7 +62,7 @@ export function noiseControls(figure) {
           figure.commit();
         },
       })}
-      ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, say.alphaEffects[model][index]))}
+      ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, say.settings.alphas.effects[model][index]))}
     </fieldset>
   `;
 }

@@ -20,6 +20,7 @@ const CURVE_POINTS = 241;
 
 /** The skew against ω, which costs milliseconds and which only some of the settings alter. */
 export class CurveMemo {
+  /** @type {Float64Array} */
   #curve = new Float64Array();
   #holdsFor = '';
 

@@ -34,12 +34,12 @@ export function placeControls(figure) {
     <legend>${say.place}</legend>
     <div class="buttons">
       ${PRESETS.map(({ name, start }) =>
-        button(say.presets[name], () => figure.go(start), {
+        button(say.presets[/** @type {keyof typeof say.presets} */ (name)], () => figure.go(start), {
           pressed: map === null && start.x === x && start.y === y && start.theta === theta,
         }),
       )}
     </div>
-    ${radioGroup(say.view, 'view', say.views, view, (name) => figure.choose('view', name))}
+    ${radioGroup(say.settings.view.name, 'view', say.views, view, (name) => figure.choose('view', name))}
   </fieldset>`;
 }
 
@@ -49,7 +49,7 @@ export function judgeControls(figure) {
   const say = words.squeeze;
   return html`<fieldset class="judge">
     <legend>${say.map} ${check(figure, 'conditioned', say.condition)}</legend>
-    <div class="samplers" role="radiogroup" aria-label=${say.sampler} aria-describedby="sampler-effect">
+    <div class="samplers" role="radiogroup" aria-label=${say.settings.sampler.name} aria-describedby="sampler-effect">
       ${SAMPLERS.map((name) =>
         choice({
           group: 'sampler',
@@ -76,19 +76,17 @@ export function motionControls(figure) {
 }
 
 /**
- * @param {object} panel
- * @param {string} panel.map the present one, with its size
- * @param {boolean} panel.own whether it is the reader's own
- * @param {import('./maps/open.js').MapOpener} panel.opener
- * @param {() => void} panel.leave back to the apartment
+ * @param {Figure} figure
+ * @param {import('./maps/open.js').MapOpener} opener
+ * @param {string} map the present one, with its size
  */
-export function ownMap({ map, own, opener, leave }) {
+export function ownMap(figure, opener, map) {
   const say = words.squeeze.own;
-  const { complaint } = opener;
-  const paste = (/** @type {Event} */ event) => {
-    const { previousElementSibling } = /** @type {Element} */ (event.currentTarget);
-    opener.paste(/** @type {HTMLTextAreaElement} */ (previousElementSibling).value);
+  const paste = () => {
+    const text = /** @type {HTMLTextAreaElement} */ (figure.renderRoot.querySelector('#map-text'));
+    opener.paste(text.value);
   };
+  const { complaint } = opener;
   return html`<fieldset class="own-map">
     <legend>${say.legend}</legend>
     <div>
@@ -108,7 +106,7 @@ export function ownMap({ map, own, opener, leave }) {
       />
       <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>
-      ${own ? button(say.leave, leave) : nothing}
+      ${figure.map === null ? nothing : button(say.leave, () => figure.go(PRESETS[0].start))}
     </div>
     <div>
       <label for="map-text">${say.plan}</label>

@@ -19,8 +19,8 @@ import { MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
 import { costTable, key, markedDraw, tally } from './readouts.js';
-import { PRESETS, SAMPLE_COUNTS, SAMPLERS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
-import { styles } from './styles.js';
+import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
+import { squeezeStyles } from './styles.js';
 import { announcementOf, mapText, pictureText, verdictText } from './words.js';
 
 /**
@@ -38,7 +38,7 @@ import { announcementOf, mapText, pictureText, verdictText } from './words.js';
  * @extends {FigureElement<Machine, Reading>}
  */
 export class MapSqueezeElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...styles];
+  static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...squeezeStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -47,9 +47,13 @@ export class MapSqueezeElement extends FigureElement {
   static vocabulary = vocabulary;
 
   cloud = new Cloud(this, (/** @type {Machine} */ machine) => machine.stats.gaveUp);
-  /** @type {FloorPicture} */
+
   #picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
-  #meter = new CostMeter();
+  #meter = new CostMeter({
+    machine: () => this.machine,
+    told: () => this.requestUpdate(),
+    attempt: (work) => this.runtime.attempt(work),
+  });
   #opener = new MapOpener(
     (map) => {
       if (!this.machine) return;
@@ -90,6 +94,7 @@ export class MapSqueezeElement extends FigureElement {
     const { machine } = this;
     if (!machine) return;
     this.#opener.forgive();
+    this.#meter.outdate();
     this.#picture = new FloorPicture(machine.plan, machine.grid);
     this.pictures = [this.#picture];
   }
@@ -97,16 +102,16 @@ export class MapSqueezeElement extends FigureElement {
   /** @param {Machine} machine */
   read(machine) {
     const reading = readingOf(machine);
-    this.#meter.heed(reading.config);
-    if (!this.cloud.playing && !this.held) this.#measureSoon();
+    this.#meter.heed(reading.config, !this.cloud.playing && !this.held);
     return reading;
   }
 
   get scene() {
     const { fresh } = this;
     const { index, isMarked } = this.cloud;
+    this.#picture.close = this.state.own.view === 'close';
     const marked = isMarked && { pose: fresh.poses.subarray(3 * index), path: this.machine?.path(index) };
-    return { ...fresh, marked: marked || undefined, close: this.state.own.view === 'close' };
+    return { ...fresh, marked: marked || undefined };
   }
 
   get takeaway() {
@@ -135,15 +140,6 @@ export class MapSqueezeElement extends FigureElement {
   /** @param {Reading} scene */
   placeHandles({ config: { start, clearance } }) {
     this.#handles.place(this.renderRoot, start, clearance);
-  }
-
-  #measureSoon() {
-    this.#meter.measureSoon(
-      () => this.machine,
-      SAMPLERS,
-      () => this.requestUpdate(),
-      (work) => this.runtime.attempt(work),
-    );
   }
 
   /** The place in the apartment that the robot starts from; null elsewhere. @returns {string | null} */
@@ -263,7 +259,7 @@ export class MapSqueezeElement extends FigureElement {
         <div class="controls" part="controls">
           ${placeControls(this)} ${judgeControls(this)} ${motionControls(this)} ${costTable(this.#meter, config.steps)}
         </div>
-        ${ownMap({ map, own: own !== null, opener: this.#opener, leave: () => this.go(PRESETS[0].start) })}
+        ${ownMap(this, this.#opener, map)}
       </section>
     `;
   }

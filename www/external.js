@@ -4,24 +4,31 @@
  *
  * @module
  */
-import { widgets } from '../build/widgets.js';
+
+import { vocabularies, widgets } from '../build/widgets.js';
+import { en } from './messages/en.js';
+import { addEnglish } from './messages/registry.js';
 
 export { load } from './core.js';
 export { setMessages } from './messages/registry.js';
 
+// The page may give a widget words before it has come.
+addEnglish({ ...en, ...Object.fromEntries(vocabularies.map((key) => [key, {}])) });
+
 /** Those that were not met yet. */
-const waiting = new Set(Object.keys(widgets));
+const waiting = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
 
 /** @param {ParentNode} root a document, a shadow root, or an element with all that is in it */
 function meet(root) {
-  for (const tag of waiting) {
-    const met = root instanceof Element && root.localName === tag ? root : root.querySelector(tag);
-    if (!met) continue;
-    waiting.delete(tag);
-    widgets[tag]();
+  for (const element of [root, ...root.querySelectorAll('*')]) {
+    if (!(element instanceof Element)) continue;
+    const { localName } = element;
+    if (waiting.delete(localName)) widgets[localName]();
+    // What a widget shows has no widget in it.
+    else if (localName in widgets) continue;
+    else if (element.shadowRoot) watch(element.shadowRoot);
+    else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watch(element.shadowRoot));
   }
-  const elements = root instanceof Element ? [root, ...root.querySelectorAll('*')] : root.querySelectorAll('*');
-  for (const { shadowRoot } of elements) if (shadowRoot) watch(shadowRoot);
 }
 
 /** @type {MutationObserver | undefined} */

@@ -44,7 +44,7 @@ addEnglish(en);
  * @fires change - What the reader changed has come to rest.
  * @fires {CustomEvent} stats - There are fresh statistics; the detail has them.
  *
- * @csspart picture - A canvas with what stands on it.
+ * @csspart picture - A canvas with its handles.
  * @csspart caption - The sentences below a picture.
  * @csspart legend - What the lines and dots are, and which are shown.
  * @csspart controls - All controls.
@@ -55,17 +55,17 @@ addEnglish(en);
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.
  *
- * @cssprop --motion-paper - Background.
- * @cssprop --motion-ink - Text.
- * @cssprop --motion-muted - Text of less weight.
- * @cssprop --motion-rule - Hairlines.
- * @cssprop --motion-prior - The commanded motion.
+ * @cssprop --motion-paper - The ground of everything.
+ * @cssprop --motion-ink - Text, and curves of charts.
+ * @cssprop --motion-muted - What explains: captions, axes, tracks.
+ * @cssprop --motion-rule - Hairlines and grids.
+ * @cssprop --motion-prior - What was commanded.
  * @cssprop --motion-prediction - What the model predicts: lines and text.
  * @cssprop --motion-cloud - The samples.
- * @cssprop --motion-truth - What is so, apart from any model.
+ * @cssprop --motion-truth - What is so, apart from any model: walls, the robot at its start.
  * @cssprop --motion-posterior - What exponential coordinates, or the map, make of it.
- * @cssprop --motion-accent - Annotations.
- * @cssprop --motion-font - Families of type.
+ * @cssprop --motion-accent - What is marked or noted, and the focus.
+ * @cssprop --motion-font - The family of all text.
  *
  * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void }} Machine
  * @template {{ config: Values }} Reading
@@ -311,7 +311,12 @@ export class FigureElement extends LitElement {
 
   // What a page has of every figure.
 
-  /** The statistics as they are; null before there are any. */
+  /**
+   * The statistics as they are; null before there are any.
+   *
+   * @public
+   * @returns {Machine['stats'] | null}
+   */
   get stats() {
     return this.ask((machine) => machine.stats);
   }
@@ -338,6 +343,7 @@ export class FigureElement extends LitElement {
    * Everything that a reader can change, as plain data for `setState` and JSON. Of an element that is not
    * on the page, as it was when it left; null before it has come near the reader for the first time.
    *
+   * @public
    * @returns {Values | null}
    */
   getState() {
@@ -347,6 +353,7 @@ export class FigureElement extends LitElement {
   /**
    * Puts the element into a state. What is left out stays as it is.
    *
+   * @public
    * @param {unknown} state
    * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then
    */
@@ -354,17 +361,32 @@ export class FigureElement extends LitElement {
     this.reflection.whenReady('state', state, () => this.state.enter(state));
   }
 
-  /** The picture with twice the pixels of the screen. @returns {Promise<Blob>} image/png */
+  /**
+   * The picture with twice the pixels of the screen.
+   *
+   * @public
+   * @returns {Promise<Blob>} image/png
+   */
   async toPNG() {
     return pngOf(this);
   }
 
-  /** The picture as vector graphics, with a title and a description. @returns {string} */
+  /**
+   * The picture as vector graphics, with a title and a description.
+   *
+   * @public
+   * @returns {string}
+   */
   toSVG() {
     return svgOf(this);
   }
 
-  /** Every sample shown, after a line with the settings and the seed. @returns {string} */
+  /**
+   * Every sample shown, after a line with the settings and the seed.
+   *
+   * @public
+   * @returns {string}
+   */
   toCSV() {
     return csvOf(this);
   }
@@ -372,6 +394,7 @@ export class FigureElement extends LitElement {
   /**
    * The address of this page with the present state.
    *
+   * @public
    * @returns {Promise<string>}
    * @throws {Error} if the element does not heed the address
    */
@@ -380,7 +403,13 @@ export class FigureElement extends LitElement {
     return this.link.address();
   }
 
-  /** HTML that shows the figure as it is now, on another page. @returns {string} */
+  /**
+   * HTML that shows the figure as it is now, on another page. What no attribute says, a map of one's own among it, is
+   * not in it.
+   *
+   * @public
+   * @returns {string}
+   */
   embedCode() {
     const own = ['theme', 'lang', 'dir'].map((name) => /** @type {[string, string]} */ ([name, this.getAttribute(name) ?? '']));
     const told = own.filter(([, text]) => text !== '');

@@ -23,7 +23,7 @@ const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 export const attributes = {
   preset: presetOf('command', presets['banana-machine'], 'A command worth starting from; none where the command is another.'),
   ...attributesOf(declared),
-  overlays: { kind: WORDS, own: true, words: OVERLAYS, sentence: 'The outlines that are drawn, with spaces between.' },
+  overlays: { kind: WORDS, own: true, words: OVERLAYS, sentence: 'The outlines that are drawn; in the attribute with spaces between.' },
 };
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */

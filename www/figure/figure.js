@@ -203,7 +203,7 @@ export class FigureElement extends LitElement {
   }
 
   get motion() {
-    return this.runtime.motion;
+    return /** @type {Motion} */ (this.runtime.motion);
   }
 
   async prepare() {

@@ -7,21 +7,14 @@
 
 import { pack, unpack } from './packing.js';
 
-/**
- * @typedef {object} Linked what the link asks of its element
- * @property {any} machine
- * @property {boolean} share
- * @property {import('./runtime.js').Runtime} runtime
- * @property {() => object | null} getState
- * @property {(state: unknown) => void} setState
- */
+/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
 
 export class Link {
   #host;
   /** The latest text for the address: an earlier one that is ready later is void. */
   #writing = 0;
 
-  /** @param {import('lit').LitElement & Linked} host */
+  /** @param {Figure} host */
   constructor(host) {
     this.#host = host;
     host.addController(this);

@@ -5,5 +5,7 @@
  */
 import { de } from './messages/de.js';
 import { setMessages } from './messages/registry.js';
+import { de as banana } from './widgets/banana-machine/de.js';
+import { de as squeeze } from './widgets/map-squeeze/de.js';
 
-setMessages('de', de);
+setMessages('de', { ...de, banana, squeeze });

@@ -430,26 +430,3 @@ export interface Motion {
 export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 /** As `load`, with a memory of its own each time. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
-
-/** Axis-aligned part of a view's world. */
-export interface Extent {
-  xMin: number;
-  yMin: number;
-  xMax: number;
-  yMax: number;
-}
-
-/** Resolved CSS colours, one a role. */
-export interface Palette {
-  paper: string;
-  ink: string;
-  muted: string;
-  rule: string;
-  prior: string;
-  prediction: string;
-  /** Prediction, where it is a mass of dots rather than a line or text. */
-  cloud: string;
-  truth: string;
-  posterior: string;
-  accent: string;
-}

@@ -7,7 +7,7 @@
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
 import { button, sliderRow } from '../ui/controls.js';
-import { whole } from '../ui/format.js';
+import { counted } from '../ui/format.js';
 import { CopyMenu } from './takeaway/copy.js';
 import { csvOf, exportMenu, pngOf, svgOf } from './takeaway/export.js';
 import { onPrint } from './page/print.js';
@@ -25,6 +25,8 @@ import { StatefulElement } from './state.js';
  * @property {(count: number) => void} [beginToGrow] as grow, where it may take longer than a frame
  * @property {() => void} restart
  * @property {(settings: any) => void} configure
+ *
+ * @typedef {{ legend: string, play: string, step: (batch: string) => string, reset: string, reseed: string }} CloudWords
  */
 
 /** Steps that a cloud grows in. */
@@ -257,10 +259,10 @@ export class CloudElement extends StatefulElement {
   /**
    * Growth, seed and size of the cloud.
    *
-   * @param {import('../messages/registry.js').Messages['banana']['cloud']} say
+   * @param {{ cloud: CloudWords, settings: { samples: { name: string, effect: string } } }} say
    * @param {readonly number[]} counts the sizes that the slider offers
    */
-  cloudControls(say, counts) {
+  cloudControls({ cloud: say, settings }, counts) {
     const { samples, seed } = /** @type {Machine} */ (this.machine).config;
     const above = counts.findIndex((count) => count >= samples);
     const nearest = above < 0 ? counts.length - 1 : above;
@@ -268,7 +270,7 @@ export class CloudElement extends StatefulElement {
       <legend class="visually-hidden">${say.legend}</legend>
       <div class="buttons">
         ${button(this.playing ? words.pause : words.play, () => this.play(), { title: say.play })}
-        ${button(words.step, () => this.step(), { title: say.step(whole(this.batch)), disabled: this.complete })}
+        ${button(words.step, () => this.step(), { title: say.step(counted(this.batch)), disabled: this.complete })}
         ${button(words.reset, () => this.reset(), { title: say.reset })}
         ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
         <span class="seed">${words.seed(seed)}</span>
@@ -276,13 +278,13 @@ export class CloudElement extends StatefulElement {
       ${sliderRow({
         id: 'samples',
         symbol: html`<i>N</i>`,
-        name: say.count,
+        name: settings.samples.name,
         value: nearest,
         min: 0,
         max: counts.length - 1,
         step: 1,
-        show: (index) => whole(index === nearest ? samples : counts[index]),
-        effect: say.effect,
+        show: (index) => counted(index === nearest ? samples : counts[index]),
+        effect: settings.samples.effect,
         role: 'truth',
         input: (value) => {
           const size = /** @type {unknown} */ ({ samples: counts[value] });

@@ -9,7 +9,7 @@
 import { LitElement, html, noChange, nothing } from 'lit';
 import { abandon, instantiate } from '../core.js';
 import { en } from '../messages/en.js';
-import { onLanguage, setMessages, speak, words } from '../messages/registry.js';
+import { addEnglish, onLanguage, speak, words } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
 import { surroundings } from './page/scheme.js';
@@ -17,10 +17,10 @@ import { unwatch, watch } from './page/sight.js';
 
 /**
  * @typedef {import('../types.d.ts').Motion} Motion
- * @typedef {import('../types.d.ts').Palette} Palette
+ * @typedef {import('../ui/theme.js').Palette} Palette
  */
 
-setMessages('en', en);
+addEnglish(en);
 
 /** Cores that may trap one after the other, without a picture between, until the widget gives up. */
 const MOST_CRASHES = 3;

@@ -5,6 +5,8 @@
  * @module
  */
 
+import { escaped } from '../scene/svg.js';
+
 /**
  * The name of an element's part: its id, or where it has none, its place among its kind on the page.
  *
@@ -102,9 +104,4 @@ export function embedding(name, attributes) {
  */
 function tag(name, attributes) {
   return `<${name}${attributes.map(([key, text]) => ` ${key}="${escaped(text)}"`).join('')}></${name}>`;
-}
-
-/** @param {string} text */
-function escaped(text) {
-  return text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
 }

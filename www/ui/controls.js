@@ -46,12 +46,15 @@ export const controlStyles = css`
     white-space: nowrap;
   }
 
-  .slider .effect {
-    grid-column: 2 / -1;
-    margin: -0.15rem 0 0;
+  .effect {
     color: var(--muted);
     font-size: 0.84rem;
     line-height: 1.25;
+  }
+
+  .slider .effect {
+    grid-column: 2 / -1;
+    margin: -0.15rem 0 0;
   }
 
   .slider.picking .effect {

@@ -71,14 +71,14 @@ export function significant(value, digits) {
 export function rounded(value, digits) {
   const near = Number(value.toPrecision(digits));
   const decimals = digits - 1 - Math.floor(Math.log10(near));
-  return decimals > 0 ? fixed(near, decimals) : whole(near);
+  return decimals > 0 ? fixed(near, decimals) : counted(near);
 }
 
 /**
  * @param {number} count
  * @returns {string} "100 000"
  */
-export function whole(count) {
+export function counted(count) {
   return print(count, { maximumFractionDigits: 0, useGrouping: true });
 }
 

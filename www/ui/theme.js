@@ -10,7 +10,10 @@
 
 import { css } from 'lit';
 
-/** Roles that the canvas needs as resolved colours; each is a custom property of the same name. */
+/**
+ * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
+ * prediction too, but a mass of dots rather than a line or text.
+ */
 const ROLES = /** @type {const} */ ([
   'paper',
   'ink',
@@ -23,6 +26,8 @@ const ROLES = /** @type {const} */ ([
   'posterior',
   'accent',
 ]);
+
+/** @typedef {Record<(typeof ROLES)[number], string>} Palette resolved CSS colours */
 
 export const theme = css`
   :host {
@@ -105,8 +110,7 @@ export const theme = css`
     }
 
     :is(button, input, textarea, details, .handle, .effect, .marked, .visually-hidden),
-    label:has(input:not(:checked)),
-    .own-map :not(.present, :has(.present)) {
+    label:has(input:not(:checked)) {
       display: none !important;
     }
 
@@ -138,7 +142,7 @@ export const theme = css`
  * The palette as the element sees it now.
  *
  * @param {HTMLElement} surface
- * @returns {import('../types.d.ts').Palette}
+ * @returns {Palette}
  */
 export function resolvePalette(surface) {
   const swatch = document.createElement('span');
@@ -152,7 +156,7 @@ export function resolvePalette(surface) {
     return [role, style.color];
   });
   swatch.remove();
-  return Object.fromEntries(colours);
+  return /** @type {Palette} */ (Object.fromEntries(colours));
 }
 
 /** @type {OffscreenCanvasRenderingContext2D | undefined} */
@@ -166,6 +170,7 @@ export function channels(colour) {
   const context = (pixel ??= /** @type {OffscreenCanvasRenderingContext2D} */ (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })
   ));
+  context.clearRect(0, 0, 1, 1);
   context.fillStyle = colour;
   context.fillRect(0, 0, 1, 1);
   const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;

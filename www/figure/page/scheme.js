@@ -5,6 +5,7 @@
  */
 
 import { css } from 'lit';
+import { channels } from '../../ui/theme.js';
 
 /** @typedef {'auto' | 'light' | 'dark'} Theme */
 
@@ -50,12 +51,7 @@ export function surroundings(probe) {
  * @returns {number} from 0, black, to 1
  */
 function lightness(colour) {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = 1;
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', { willReadFrequently: true }));
-  context.fillStyle = colour;
-  context.fillRect(0, 0, 1, 1);
-  const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;
+  const [red, green, blue] = channels(colour);
   // Rec. 709 weights.
   return (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
 }

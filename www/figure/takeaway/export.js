@@ -10,7 +10,7 @@ import { button } from '../../ui/controls.js';
 import { SvgContext, escaped } from '../../scene/svg.js';
 
 /**
- * @typedef {import('../../types.d.ts').Palette} Palette
+ * @typedef {import('../../ui/theme.js').Palette} Palette
  * @typedef {import('../../scene/canvas.js').Surface} Surface
  *
  * @typedef {object} Figure what there is to take along

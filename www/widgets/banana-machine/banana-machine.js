@@ -7,19 +7,18 @@
 
 import { html, nothing } from 'lit';
 import { speak, words } from '../../messages/registry.js';
-import { skewChart } from '../../ui/chart.js';
+import { chart } from '../../ui/chart.js';
+import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { theme } from '../../ui/theme.js';
 import { commandControls, noiseControls, overlayToggles } from './controls.js';
-import { read } from './figures.js';
+import { figuresOf } from './figures.js';
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
-import { markedRobot, readoutStyles, readouts, twistTable, workedExample } from './readouts.js';
+import { markedRobot, readouts, twistTable, workedExample } from './readouts.js';
 import { bananaStyles } from './styles.js';
 import {
-  COMMAND_SLIDERS,
-  SAMPLE_COUNTS,
   announcementOf,
   captionOf,
   longestNote,
@@ -28,7 +27,16 @@ import {
   twistCaption,
   twistText,
 } from './words.js';
-import { ALPHAS, ATTRIBUTES, OPENING_OVERLAYS, OVERLAYS, machineIn, openingOf } from './settings.js';
+import {
+  ALPHAS,
+  ATTRIBUTES,
+  COMMAND_SLIDERS,
+  OPENING_OVERLAYS,
+  OVERLAYS,
+  SAMPLE_COUNTS,
+  machineIn,
+  openingOf,
+} from './settings.js';
 import { CloudElement } from '../../figure/cloud.js';
 import { define } from '../../figure/settings.js';
 import { reserve } from '../../figure/page/reserve.js';
@@ -44,9 +52,6 @@ import { object, subset, whole } from '../../figure/checks.js';
  * @typedef {import('../../figure/state.js').State} State
  */
 
-/** How near to a sample the pointer must be to mark it, CSS pixels. */
-const REACH = 14;
-
 /**
  * Points of the chart's curve. Fewer would draw the fall of the skew across ω = 0 as a kinked line;
  * more than a pixel each would be wasted.
@@ -55,7 +60,7 @@ const CURVE_POINTS = 241;
 
 const ROOM = reserve([[0, 240], [31, 214], [47, 172], [57, 105]]);
 
-const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
+const { v: V_RANGE, omega: OMEGA_RANGE } = COMMAND_SLIDERS;
 
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
@@ -117,7 +122,7 @@ const [V_RANGE, OMEGA_RANGE] = COMMAND_SLIDERS;
  * @extends {CloudElement<BananaMachine, Settings>}
  */
 export class BananaMachineElement extends CloudElement {
-  static styles = [theme, schemeStyles, ROOM, readoutStyles, ...bananaStyles];
+  static styles = [theme, schemeStyles, ROOM, ...bananaStyles];
 
   static attributes = ATTRIBUTES;
   static settings = ['command', 'alphas'];
@@ -128,7 +133,7 @@ export class BananaMachineElement extends CloudElement {
   #alphas = {};
   /** Those that are shown. @type {readonly Overlay[]} */
   #overlays = OPENING_OVERLAYS;
-  /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
+  /** What the machine said when it was last asked. @type {ReturnType<typeof figuresOf> | undefined} */
   #figures;
   /** @type {Float64Array | undefined} skew against ω, which only a change of settings alters */
   #curve;
@@ -254,11 +259,8 @@ export class BananaMachineElement extends CloudElement {
     const scene = this.#scene(machine);
     let moving = false;
     for (const picture of [this.#plane, this.#twist]) {
-      const canvas = this.#canvas(picture.name);
-      picture.prepare(canvas);
-      if (!this.#handle.held) picture.fit(scene);
-      moving = picture.view.ease(elapsed, this.calm) || moving;
-      picture.draw(canvas, scene, palette);
+      const motion = { elapsed, still: this.#handle.held, atOnce: this.calm };
+      moving = picture.draw(this.#canvas(picture.name), scene, palette, motion) || moving;
     }
     this.#handle.place(this.renderRoot, scene.end);
     this.requestUpdate();
@@ -287,10 +289,7 @@ export class BananaMachineElement extends CloudElement {
       canvas: this.#canvas('plane'),
       palette,
       paint: (surface) => {
-        this.#plane.prepare(surface);
-        this.#plane.fit(scene);
-        this.#plane.view.ease(0, true);
-        this.#plane.draw(surface, scene, palette);
+        this.#plane.draw(surface, scene, palette, { atOnce: true });
       },
       settings: { element: this.localName, ...scene.config },
       title: words.banana.title,
@@ -310,7 +309,7 @@ export class BananaMachineElement extends CloudElement {
   #fresh() {
     this.configure();
     if (this.stale) this.read();
-    return /** @type {ReturnType<typeof read>} */ (this.#figures);
+    return /** @type {ReturnType<typeof figuresOf>} */ (this.#figures);
   }
 
   read() {
@@ -318,7 +317,7 @@ export class BananaMachineElement extends CloudElement {
     if (this.markedIndex >= this.machine.shown) this.mark(-1);
     if (!this.#curveHolds) this.#curve = this.machine.skewCurve(OMEGA_RANGE.min, OMEGA_RANGE.max, CURVE_POINTS);
     this.#curveHolds = true;
-    this.#figures = read(this.machine);
+    this.#figures = figuresOf(this.machine);
     this.stale = false;
     const { config, stats, note } = this.#figures;
     this.announce(() => announcementOf(config, stats, note));
@@ -343,7 +342,13 @@ export class BananaMachineElement extends CloudElement {
       if (!this.motion || !this.machine) return;
       const { command } = this.wanted();
       const { v, omega } = this.motion.commandReaching(x, y, command);
-      this.change({ command: { ...command, v: clamp(v, V_RANGE), omega: clamp(omega, OMEGA_RANGE) } });
+      this.change({ 
+        command: {
+          ...command,
+          v: clamp(v, V_RANGE.min, V_RANGE.max),
+          omega: clamp(omega, OMEGA_RANGE.min, OMEGA_RANGE.max),
+        },
+      });
     });
   }
 
@@ -360,7 +365,7 @@ export class BananaMachineElement extends CloudElement {
     this.attempt(() => {
       // A finger that moves scrolls the page; one that taps comes as a click.
       if (!this.machine || this.#handle.held || (event.pointerType === 'touch' && event.type !== 'click')) return;
-      const index = picture.nearest(this.machine, event.offsetX, event.offsetY, REACH);
+      const index = picture.nearest(this.machine, event.offsetX, event.offsetY);
       if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }
@@ -401,7 +406,7 @@ export class BananaMachineElement extends CloudElement {
             inspection: this.#inspection(),
             mark: (index) => this.mark(index),
           })}
-          ${this.cloudControls(say.cloud, SAMPLE_COUNTS)}
+          ${this.cloudControls(say, SAMPLE_COUNTS)}
         </div>
         <div class="controls" part="controls">
           ${commandControls(config, motion.BananaMachine.presets, this.#actions)}
@@ -420,18 +425,18 @@ export class BananaMachineElement extends CloudElement {
             ${twistTable(table, stats)}
           </figure>
           <figure>
-            ${skewChart({
+            ${chart({
+              ...OMEGA_RANGE,
               label: say.chart,
-              axis: say.chartAxis,
-              marker: say.chartMarker,
+              axes: { x: 'ω (rad/s)', y: say.chartAxis },
               curve: this.#curve,
-              min: OMEGA_RANGE.min,
-              max: OMEGA_RANGE.max,
-              step: OMEGA_RANGE.step,
-              x: config.command.omega,
-              y: exactSkew,
+              marker: {
+                name: say.chartMarker,
+                text: say.chartText(fixed(config.command.omega, 2), skewText(exactSkew)),
+                x: config.command.omega,
+                y: exactSkew,
+              },
               measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
-              valueText: say.chartText(fixed(config.command.omega, 2), skewText(exactSkew)),
               move: (to) => this.change(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
               commit: () => this.commit(),
             })}
@@ -443,15 +448,6 @@ export class BananaMachineElement extends CloudElement {
       </section>
     `;
   }
-
-}
-
-/**
- * @param {number} value
- * @param {{ min: number, max: number }} range
- */
-function clamp(value, { min, max }) {
-  return Math.min(max, Math.max(min, value));
 }
 
 define('banana-machine', BananaMachineElement);

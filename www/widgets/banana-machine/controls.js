@@ -10,8 +10,8 @@ import { words } from '../../messages/registry.js';
 import { button, radioGroup, sliderRow, toggle } from '../../ui/controls.js';
 import { DASHES } from '../../scene/draw.js';
 import { fixed } from '../../ui/format.js';
-import { OVERLAYS } from './settings.js';
-import { COMMAND_SLIDERS, alphaName, alphaSymbol } from './words.js';
+import { alphaName, alphaSymbol } from '../shared/command.js';
+import { COMMAND_SLIDERS, OVERLAYS } from './settings.js';
 
 /**
  * @typedef {import('../../types.d.ts').Settings} Settings
@@ -26,6 +26,8 @@ import { COMMAND_SLIDERS, alphaName, alphaSymbol } from './words.js';
  * @property {() => void} commit after the last of a row of changes, which it puts into effect
  * @property {(index: number) => void} isolate the α to leave alone in effect, from 0
  */
+
+const COMMAND_KEYS = /** @type {const} */ (['v', 'omega', 'dt']);
 
 /** Upper end of the α sliders: a standard deviation of nearly half the command. */
 const ALPHA_MAX = 0.2;
@@ -53,20 +55,21 @@ export function commandControls(config, presets, { change, commit }) {
           ),
         )}
       </div>
-      ${COMMAND_SLIDERS.map(({ key, symbol, name, unit, ...range }) =>
-        sliderRow({
+      ${COMMAND_KEYS.map((key) => {
+        const { symbol, unit, ...range } = COMMAND_SLIDERS[key];
+        return sliderRow({
           ...range,
           id: key,
           symbol: html`<i>${symbol}</i>`,
-          name: words[name],
+          name: words.settings[key].name,
           value: command[key],
           show: (value) => `${fixed(value, 2)} ${unit}`,
-          effect: words.banana.effects[key],
+          effect: words.banana.settings[key].effect,
           role: 'prior',
           input: (value) => change(({ command }) => ({ command: { ...command, [key]: value } })),
           commit,
-        }),
-      )}
+        });
+      })}
     </fieldset>
   `;
 }
@@ -83,17 +86,17 @@ export function noiseControls(config, chosen, { change, commit, isolate }) {
   return html`
     <fieldset>
       <legend>${say.modelAndNoise}</legend>
-      ${radioGroup(say.model, 'model', say.models, model, (name) => {
+      ${radioGroup(say.settings.model.name, 'model', say.models, model, (name) => {
         change({ model: name, isolate: null });
         commit();
       })}
-      ${radioGroup(say.noise, 'noise', say.noises, noise, (name) => {
+      ${radioGroup(say.settings.noise.name, 'noise', say.noises, noise, (name) => {
         change({ noise: name });
         commit();
       })}
     </fieldset>
     <fieldset class="alphas">
-      <legend>${say.alphas}</legend>
+      <legend>${say.settings.alphas.name}</legend>
       ${toggle({
         label: say.isolate,
         checked: isolated,
@@ -112,7 +115,7 @@ export function noiseControls(config, chosen, { change, commit, isolate }) {
           max: ALPHA_MAX,
           step: ALPHA_STEP,
           show: (value) => (off ? say.off(fixed(value, 3)) : fixed(value, 3)),
-          effect: effectOf(say.alphaEffects[model][index]),
+          effect: effectOf(say.settings.alphas.effects[model][index]),
           role: 'prediction',
           off,
           pick: isolated ? isolateButton(index, !off, isolate) : undefined,

@@ -6,14 +6,12 @@
 
 import { noteOn } from './words.js';
 
-/** @typedef {import('../../types.d.ts').BananaMachine} BananaMachine */
-
 /**
- * Everything that the pictures and figures need of the machine, asked once a change.
+ * Everything that the pictures and readouts need of the machine, asked once a change.
  *
- * @param {BananaMachine} machine
+ * @param {import('../../types.d.ts').BananaMachine} machine
  */
-export function read(machine) {
+export function figuresOf(machine) {
   const { config, shown, stats, contours, table, chartHolds } = machine;
   return {
     config,

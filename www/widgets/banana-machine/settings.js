@@ -19,6 +19,21 @@ export const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(DASHES));
 /** Those that are shown when the widget opens. @type {readonly Overlay[]} */
 export const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 
+/** Largest sample count of the slider: beyond it a drag no longer follows the finger. */
+const MOST_SAMPLES = 1_000_000;
+
+/** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale. */
+export const SAMPLE_COUNTS = [1, 2, 3, 4, 5, 6]
+  .flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade))
+  .filter((count) => count <= MOST_SAMPLES);
+
+/** The sliders of the command, with the range that the handle and the chart keep to as well. */
+export const COMMAND_SLIDERS = {
+  v: { symbol: 'v', unit: 'm/s', min: -1.5, max: 1.5, step: 0.01 },
+  omega: { symbol: 'ω', unit: 'rad/s', min: -2, max: 2, step: 0.01 },
+  dt: { symbol: 'Δt', unit: 's', min: 0.1, max: 3, step: 0.05 },
+};
+
 /** Noise parameters of each model. */
 export const ALPHAS = { velocity: 6, odometry: 4 };
 

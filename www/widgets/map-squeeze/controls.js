@@ -16,7 +16,7 @@ import {
   NOISE_SLIDER,
   SAMPLERS,
   STEPS_SLIDER,
-} from './words.js';
+} from './settings.js';
 
 /**
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
@@ -29,6 +29,8 @@ import {
  * @property {(settings: Change) => void} change takes effect with the next frame
  * @property {() => void} commit after the last of a row of changes, which it puts into effect
  */
+
+const COMMAND_KEYS = /** @type {const} */ (['v', 'omega', 'dt']);
 
 /** A floor plan to start from: a room with a gap in its wall. */
 const EXAMPLE = `{
@@ -58,7 +60,7 @@ export function placeControls({ start }, { own, close, look }, presets, go) {
         button(say.presets[preset.name], () => go(preset.start), { pressed: there(preset.start) }),
       )}
     </div>
-    ${radioGroup(say.view, 'view', say.views, close ? 'close' : 'whole', (name) => look(name === 'close'))}
+    ${radioGroup(say.settings.view.name, 'view', say.views, close ? 'close' : 'whole', (name) => look(name === 'close'))}
   </fieldset>`;
 }
 
@@ -77,7 +79,7 @@ export function judgeControls({ conditioned, sampler, steps }, { change, commit 
       ${say.map}
       ${toggle({ label: say.condition, checked: conditioned, change: (on) => now({ conditioned: on }) })}
     </legend>
-    <div class="samplers" role="radiogroup" aria-label=${say.sampler} aria-describedby="sampler-effect">
+    <div class="samplers" role="radiogroup" aria-label=${say.settings.sampler.name} aria-describedby="sampler-effect">
       ${SAMPLERS.map((name) =>
         choice({
           group: 'sampler',
@@ -95,8 +97,8 @@ export function judgeControls({ conditioned, sampler, steps }, { change, commit 
           ...STEPS_SLIDER,
           id: 'steps',
           symbol: html`<i>k</i>`,
-          name: say.steps,
-          effect: rich(say.effects.steps),
+          name: say.settings.steps.name,
+          effect: rich(say.settings.steps.effect),
           value: steps,
           show: String,
           role: 'prediction',
@@ -117,26 +119,27 @@ export function motionControls({ command, alphas, clearance }, squeeze, { change
   const say = words.squeeze;
   return html`<fieldset>
     <legend>${say.commandAndNoise}</legend>
-    ${COMMAND_SLIDERS.map(({ key, symbol, name, unit, ...range }) =>
-      sliderRow({
+    ${COMMAND_KEYS.map((key) => {
+      const { symbol, unit, ...range } = COMMAND_SLIDERS[key];
+      return sliderRow({
         ...range,
         id: key,
         symbol: html`<i>${symbol}</i>`,
-        name: words[name],
+        name: words.settings[key].name,
         value: command[key],
         show: (value) => `${fixed(value, 2)} ${unit}`,
-        effect: say.effects[key],
+        effect: say.settings[key].effect,
         role: 'prior',
         input: (value) => change(({ command }) => ({ command: { ...command, [key]: value } })),
         commit,
-      }),
-    )}
+      });
+    })}
     ${sliderRow({
       ...NOISE_SLIDER,
       id: 'noise',
       symbol: html`<i>n</i>`,
-      name: say.noise,
-      effect: rich(say.effects.noise),
+      name: say.settings.noise.name,
+      effect: rich(say.settings.noise.effect),
       value: alphas[0],
       show: (value) => fixed(value, 3),
       role: 'prediction',
@@ -147,8 +150,8 @@ export function motionControls({ command, alphas, clearance }, squeeze, { change
       ...CLEARANCE_SLIDER,
       id: 'clearance',
       symbol: html`<i>r</i>`,
-      name: say.clearance,
-      effect: say.effects.clearance,
+      name: say.settings.clearance.name,
+      effect: say.settings.clearance.effect,
       value: clearance,
       show: (value) => `${fixed(value, 2)} m`,
       role: 'truth',

@@ -23,8 +23,8 @@ const LONG_ENOUGH = 20;
 /** Runs of which the median is told. */
 const RUNS = 5;
 
-/** Most samples a trial, times the parts of each: what `trial` allows. */
-const MOST_SAMPLES = 100_000;
+/** Most samples of a trial, times the parts of each: what the core allows. */
+const MOST_TRIED = 100_000;
 
 /**
  * Measures a run at a time: the page goes on between two of them.
@@ -35,7 +35,7 @@ const MOST_SAMPLES = 100_000;
  * @returns {Generator<undefined, Cost | 'wedged' | 'few'>} the cost, or why there is none
  */
 function* measuring(machine, sampler, parts) {
-  const most = Math.floor(MOST_SAMPLES / parts);
+  const most = Math.floor(MOST_TRIED / parts);
   let count = 1;
   const run = () => {
     const start = performance.now();

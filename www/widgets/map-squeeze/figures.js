@@ -4,20 +4,18 @@
  * @module
  */
 
-import { sort } from './picture.js';
+import { VERDICT } from './settings.js';
 import { noteOn } from './words.js';
 
-/** @typedef {import('../../types.d.ts').MapSqueeze} MapSqueeze */
-
-/** Paths drawn at most: more would be one blot, and cost more than a frame. */
+/** Most paths that are drawn: more would be one blot, and cost more than a frame. */
 const MOST_PATHS = 150;
 
 /**
- * Everything that the picture and the figures need of the machine, asked once a change.
+ * Everything that the picture and the readouts need of the machine, asked once a change.
  *
- * @param {MapSqueeze} machine
+ * @param {import('../../types.d.ts').MapSqueeze} machine
  */
-export function read(machine) {
+export function figuresOf(machine) {
   const { config, stats, verdicts, poses, commanded, startFree } = machine;
   const sorted = sort(poses, verdicts);
   return {
@@ -30,4 +28,29 @@ export function read(machine) {
     paths: sorted.through.slice(0, MOST_PATHS).map((index) => machine.path(index)),
     note: noteOn(config, stats, startFree),
   };
+}
+
+/**
+ * Sorts draws by what became of them.
+ *
+ * @param {Float64Array} poses
+ * @param {Uint8Array} verdicts
+ */
+function sort(poses, verdicts) {
+  /** @type {number[]} */
+  const rejected = [];
+  /** @type {number[]} */
+  const accepted = [];
+  /** @type {number[]} indices */
+  const through = [];
+  for (let i = 0; i < verdicts.length; i++) {
+    const pose = [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]];
+    if ((verdicts[i] & VERDICT.accepted) === 0) {
+      rejected.push(...pose);
+      continue;
+    }
+    accepted.push(...pose);
+    if ((verdicts[i] & VERDICT.pathFree) === 0) through.push(i);
+  }
+  return { rejected, accepted: Float64Array.from(accepted), through };
 }

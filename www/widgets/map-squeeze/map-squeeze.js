@@ -12,22 +12,14 @@ import { define } from '../../figure/settings.js';
 import { judgeControls, motionControls, ownMap, placeControls } from './controls.js';
 import { CostMeter } from './cost.js';
 import { applyMap, mapData } from './maps/data.js';
-import { read } from './figures.js';
+import { figuresOf } from './figures.js';
 import { RobotHandles } from './handles.js';
 import { MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { costTable, key, markedDraw, tally } from './readouts.js';
 import { squeezeStyles } from './styles.js';
-import {
-  SAMPLERS,
-  SAMPLE_COUNTS,
-  VERDICT,
-  announcementOf,
-  mapText,
-  pictureText,
-  verdictText,
-} from './words.js';
-import { ATTRIBUTES, VIEWS, findRoom, machineIn, openingOf } from './settings.js';
+import { announcementOf, mapText, pictureText, verdictText } from './words.js';
+import { ATTRIBUTES, SAMPLERS, SAMPLE_COUNTS, VERDICT, VIEWS, findRoom, machineIn, openingOf } from './settings.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { schemeStyles } from '../../figure/page/scheme.js';
 import { word } from '../../figure/checks.js';
@@ -40,9 +32,6 @@ import { word } from '../../figure/checks.js';
  * @typedef {import('./maps/files.js').OwnMap} OwnMap
  * @typedef {import('../../figure/state.js').State} State
  */
-
-/** How near to a sample the pointer must be to mark it, CSS pixels. */
-const REACH = 12;
 
 const ROOM = reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]);
 
@@ -108,7 +97,7 @@ export class MapSqueezeElement extends CloudElement {
   static attributes = ATTRIBUTES;
   static settings = ['start', 'command', 'alphas'];
 
-  /** What the machine said when it was last asked. @type {ReturnType<typeof read> | undefined} */
+  /** What the machine said when it was last asked. @type {ReturnType<typeof figuresOf> | undefined} */
   #figures;
   /** The reader's own; null for the apartment. @type {MapData | null} */
   #map = null;
@@ -258,7 +247,8 @@ export class MapSqueezeElement extends CloudElement {
     this.configure();
     if (this.playing) this.growOn();
     const scene = this.#scene(machine);
-    const moving = this.#picture.draw(this.#canvas, scene, palette, elapsed, {
+    const moving = this.#picture.draw(this.#canvas, scene, palette, {
+      elapsed,
       still: this.#handles.held !== undefined,
       atOnce: this.calm,
     });
@@ -271,7 +261,7 @@ export class MapSqueezeElement extends CloudElement {
   #scene(machine) {
     this.configure();
     if (this.stale) this.read();
-    const figures = /** @type {ReturnType<typeof read>} */ (this.#figures);
+    const figures = /** @type {ReturnType<typeof figuresOf>} */ (this.#figures);
     const marked = this.#isMarked
       ? { pose: figures.poses.subarray(3 * this.markedIndex), path: machine.path(this.markedIndex) }
       : undefined;
@@ -291,7 +281,7 @@ export class MapSqueezeElement extends CloudElement {
       canvas: this.#canvas,
       palette,
       paint: (surface) => {
-        this.#picture.draw(surface, scene, palette, 0, { still: false, atOnce: true });
+        this.#picture.draw(surface, scene, palette, { atOnce: true });
       },
       settings: { element: this.localName, map: this.#map?.name ?? null, ...scene.config },
       title: words.squeeze.title,
@@ -306,7 +296,7 @@ export class MapSqueezeElement extends CloudElement {
 
   read() {
     if (!this.machine) return;
-    this.#figures = read(this.machine);
+    this.#figures = figuresOf(this.machine);
     this.stale = false;
     if (!this.playing && this.#handles.held === undefined) this.#measureSoon();
     const { config, stats, note } = this.#figures;
@@ -400,9 +390,7 @@ export class MapSqueezeElement extends CloudElement {
     this.attempt(() => {
       // A finger that moves scrolls the page; one that taps comes as a click.
       if (!this.machine || this.#handles.held || (event.pointerType === 'touch' && event.type !== 'click')) return;
-      const { view } = this.#picture;
-      const [x, y] = [view.toWorldX(event.offsetX), view.toWorldY(event.offsetY)];
-      const index = this.machine.nearest(x, y, REACH / view.scaleX);
+      const index = this.#picture.nearest(this.machine, event.offsetX, event.offsetY);
       if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }
@@ -440,7 +428,7 @@ export class MapSqueezeElement extends CloudElement {
             verdict: this.#isMarked ? verdictText(verdicts[this.markedIndex], config) : '',
             mark: (index) => this.mark(index),
           })}
-          ${this.cloudControls(words.squeeze.cloud, SAMPLE_COUNTS)}
+          ${this.cloudControls(words.squeeze, SAMPLE_COUNTS)}
         </div>
         <div class="controls" part="controls">
           ${placeControls(config, { own, close: this.#close, look }, motion.MapSqueeze.presets, (start) => this.#go(start))}

@@ -15,6 +15,24 @@ import { applyMap } from './maps/data.js';
 
 export const VIEWS = /** @type {const} */ (['whole', 'close']);
 
+/** Bits of a verdict. */
+export const VERDICT = { endFree: 1, pathFree: 2, accepted: 4 };
+
+export const SAMPLERS = /** @type {import('../../types.d.ts').SamplerName[]} */ (['endpoint', 'whole-arc', 'sub-stepped']);
+
+/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
+export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];
+
+export const COMMAND_SLIDERS = {
+  v: { symbol: 'v', unit: 'm/s', min: -1.5, max: 1.5, step: 0.01 },
+  omega: { symbol: 'ω', unit: 'rad/s', min: -2, max: 2, step: 0.01 },
+  dt: { symbol: 'Δt', unit: 's', min: 0.1, max: 4, step: 0.05 },
+};
+
+export const NOISE_SLIDER = { min: 0, max: 0.4, step: 0.005 };
+export const CLEARANCE_SLIDER = { min: 0, max: 0.4, step: 0.01 };
+export const STEPS_SLIDER = { min: 1, max: 64, step: 1 };
+
 /** What others depend on comes first. @type {import('../../figure/attributes.js').Attributes} */
 export const ATTRIBUTES = {
   preset: { kind: WORD, own: true, covers: ['x', 'y', 'theta'] },

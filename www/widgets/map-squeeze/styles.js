@@ -1,14 +1,13 @@
 /**
- * Map Squeeze's page: as the Banana Machine's, with a floor that is nearly square.
+ * What Map Squeeze's page has of its own: the key to its marks, and room for maps of the reader's.
  *
  * @module
  */
 
 import { css } from 'lit';
-import { readoutStyles } from '../banana-machine/readouts.js';
-import { bananaStyles } from '../banana-machine/styles.js';
+import { layoutStyles } from '../../ui/layout.js';
 
-const layout = css`
+const own = css`
   canvas.plane {
     aspect-ratio: 4 / 3;
   }
@@ -39,11 +38,6 @@ const layout = css`
   .dropping .stage {
     outline: 2px dashed var(--accent);
     outline-offset: 4px;
-  }
-
-  .handle {
-    top: 0;
-    left: 0;
   }
 
   .handle.body::after {
@@ -134,9 +128,6 @@ const layout = css`
 
   .judge > .effect {
     margin: 0 0 0.6rem;
-    color: var(--muted);
-    font-size: 0.84rem;
-    line-height: 1.25;
   }
 
   .choices {
@@ -195,6 +186,12 @@ const layout = css`
     outline: 2px solid var(--accent);
     outline-offset: 2px;
   }
+
+  @media print {
+    .own-map :not(.present, :has(.present)) {
+      display: none !important;
+    }
+  }
 `;
 
-export const squeezeStyles = [readoutStyles, ...bananaStyles, layout];
+export const squeezeStyles = [...layoutStyles, own];

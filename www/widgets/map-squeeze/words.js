@@ -5,34 +5,19 @@
  * @module
  */
 
-import { words } from '../../messages/registry.js';
-import { fixed, percent, whole } from '../../ui/format.js';
-import { commandText } from '../banana-machine/words.js';
+import { addEnglish, words } from '../../messages/registry.js';
+import { counted, fixed, percent } from '../../ui/format.js';
+import { commandText } from '../shared/command.js';
+import { en } from './en.js';
+import { VERDICT } from './settings.js';
 
 /**
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../../types.d.ts').SqueezeStats} Stats
- * @typedef {import('../../types.d.ts').SamplerName} SamplerName
  * @typedef {import('../../types.d.ts').Plan} Plan
  */
 
-/** Bits of a verdict. */
-export const VERDICT = { endFree: 1, pathFree: 2, accepted: 4 };
-
-export const SAMPLERS = /** @type {SamplerName[]} */ (['endpoint', 'whole-arc', 'sub-stepped']);
-
-/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
-export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];
-
-export const COMMAND_SLIDERS = /** @type {const} */ ([
-  { key: 'v', symbol: 'v', name: 'speed', unit: 'm/s', min: -1.5, max: 1.5, step: 0.01 },
-  { key: 'omega', symbol: 'ω', name: 'turnRate', unit: 'rad/s', min: -2, max: 2, step: 0.01 },
-  { key: 'dt', symbol: 'Δt', name: 'duration', unit: 's', min: 0.1, max: 4, step: 0.05 },
-]);
-
-export const NOISE_SLIDER = { min: 0, max: 0.4, step: 0.005 };
-export const CLEARANCE_SLIDER = { min: 0, max: 0.4, step: 0.01 };
-export const STEPS_SLIDER = { min: 1, max: 64, step: 1 };
+addEnglish({ squeeze: en });
 
 /**
  * A sentence on a robot that gets nowhere.
@@ -44,8 +29,8 @@ export const STEPS_SLIDER = { min: 1, max: 64, step: 1 };
  */
 export function noteOn(config, stats, startFree) {
   const { wedged, nothing, noRoom } = words.squeeze;
-  const drawn = whole(stats.drawn);
-  if (stats.gaveUp) return wedged(stats.accepted, whole(stats.accepted), whole(config.samples), drawn);
+  const drawn = counted(stats.drawn);
+  if (stats.gaveUp) return wedged(stats.accepted, counted(stats.accepted), counted(config.samples), drawn);
   if (stats.drawn > 0 && stats.accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
   return startFree ? '' : noRoom;
 }
@@ -102,8 +87,8 @@ export function announcementOf(config, stats, note) {
   if (note && accepted === 0) return note;
   const { kept, ofThem } = keptWords(config);
   const say = words.squeeze;
-  const share = accepted > 0 ? say.ofThem(whole(throughWall), ofThem, percent(throughWallRate)) : '';
-  return `${say.counts(whole(drawn), whole(accepted), kept)}${share}.${note ? ` ${note}` : ''}`;
+  const share = accepted > 0 ? say.ofThem(counted(throughWall), ofThem, percent(throughWallRate)) : '';
+  return `${say.counts(counted(drawn), counted(accepted), kept)}${share}.${note ? ` ${note}` : ''}`;
 }
 
 /**
@@ -115,7 +100,7 @@ export function announcementOf(config, stats, note) {
 export function mapText(name, { bounds, walls }) {
   const [left, bottom, right, top] = bounds;
   const count = walls.length / 4;
-  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, whole(count));
+  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, counted(count));
 }
 
 /**
@@ -134,7 +119,7 @@ export function pictureText(config, stats, map, note) {
   return [
     say.picture(map),
     say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(whole(drawn), whole(accepted), kept, whole(throughWall), ofThem),
+    say.outcome(counted(drawn), counted(accepted), kept, counted(throughWall), ofThem),
     config.conditioned ? say.rest : '',
     note,
   ].filter(Boolean).join(' ');

@@ -11,8 +11,8 @@ import { fromBase64, object, refusal, toBase64, whole } from '../../../figure/ch
  * @typedef {import('../../../types.d.ts').MapData} MapData
  */
 
-/** Cells of a map at most, as for the core. */
-const MOST_CELLS = 2 ** 24;
+/** Most cells of a map: what the core takes. */
+export const MOST_CELLS = 2 ** 24;
 
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'];

@@ -5,6 +5,7 @@
  */
 
 import { LONGEST_SIDE } from '../../../scene/canvas.js';
+import { MOST_CELLS } from './data.js';
 
 /**
  * @typedef {import('../../../messages/registry.js').Messages['squeeze']['refused']} Refused
@@ -29,9 +30,6 @@ export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
 /** What a floor plan looks like. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
-
-/** Cells of a map at most, as for the core. */
-const MOST_PIXELS = 2 ** 24;
 
 /**
  * The map that files hold.
@@ -185,8 +183,8 @@ async function readPng(file) {
   if (!isPng) throw new MapFileError((say) => say.noPng(file.name));
   // Looked at before it is unpacked: a small file may hold an enormous image.
   const [width, height] = [header.getUint32(16), header.getUint32(20)];
-  if (Math.max(width, height) > LONGEST_SIDE || width * height > MOST_PIXELS) {
-    throw new MapFileError((say) => say.large(file.name, `${width} × ${height}`, LONGEST_SIDE, MOST_PIXELS));
+  if (Math.max(width, height) > LONGEST_SIDE || width * height > MOST_CELLS) {
+    throw new MapFileError((say) => say.large(file.name, `${width} × ${height}`, LONGEST_SIDE, MOST_CELLS));
   }
   try {
     return await decoded(file, width, height);

@@ -70,7 +70,7 @@ export class Cloud {
    *
    * @param {Values} [state] that the machine is in, if it is not the opening
    */
-  begin(state) {
+  introduce(state) {
     if (!state && !isCalm()) this.#machine.restart();
     this.playing = state ? state.playing : true;
     if (isCalm() && this.playing) {

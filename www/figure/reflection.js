@@ -109,7 +109,7 @@ export class Reflection {
     const { machine } = this.#host;
     if (!machine) return;
     const entry = this.#attributes[name];
-    const given = text === null ? undefined : entry.kind.read(text);
+    const given = text === null ? undefined : entry.kind.parse(text);
     this.#hearing = name;
     this.#host.runtime.tolerate(() => {
       if (!isSetting(entry)) Reflect.set(this.#host, name, text === null ? this.#usual(name) : given);
@@ -177,7 +177,7 @@ export class Reflection {
     return new Map(
       Object.entries(this.#attributes).map(([name, entry]) => {
         const value = isSetting(entry) ? entry.get(present) : own(name);
-        return [name, entry.kind.write(value ?? null)];
+        return [name, entry.kind.print(value ?? null)];
       }),
     );
   }

@@ -154,7 +154,7 @@ export class Runtime {
     if (this.#starting || this.machine || !this.#near) return;
     this.#starting = true;
     try {
-      const [motion] = await Promise.all([instantiate(), this.#host.prepare()]);
+      const [motion] = await Promise.all([instantiate(), this.#host.link.prepare()]);
       if (!this.#near) return;
       const machine = this.#host.createMachine(motion, this.#host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });

@@ -26,7 +26,7 @@ export class State {
   own;
   #host;
   #owned;
-  #begun = false;
+  #introduced = false;
 
   /**
    * @param {Figure} host
@@ -69,13 +69,13 @@ export class State {
 
   /** Takes up what of the kept state is not the machine's, and was not before. */
   restore() {
-    this.#begun = false;
+    this.#introduced = false;
     if (this.kept) this.#adopt(this.kept);
   }
 
-  /** Begins the machine's show, unless a state that came meanwhile has. */
-  beginOnce() {
-    if (!this.#begun) this.#host.begin(this.kept);
+  /** Introduces the machine, unless a state that came meanwhile has. */
+  introduceOnce() {
+    if (!this.#introduced) this.#host.introduce(this.kept);
   }
 
   /**
@@ -106,8 +106,8 @@ export class State {
     host.runtime.replace(machine);
     host.machineChanged();
     host.settings.reset();
-    this.#begun = true;
-    host.begin(whole);
+    this.#introduced = true;
+    host.introduce(whole);
   }
 
   /**

@@ -10,9 +10,9 @@ import { THEMES } from './page/scheme.js';
 
 /**
  * @typedef {object} Kind
- * @property {(text: string) => unknown} read a text that means nothing is returned as it is, for whoever
+ * @property {(text: string) => unknown} parse a text that means nothing is returned as it is, for whoever
  *   knows what is allowed to refuse
- * @property {(value: any) => string | null} write null for no attribute
+ * @property {(value: any) => string | null} print null for no attribute
  *
  * @typedef {object} Present what a setting is read of, and changed from
  * @property {Record<string, any>} config the machine's settings, with changes that wait for it
@@ -43,21 +43,21 @@ import { THEMES } from './page/scheme.js';
 
 /** @type {Kind} */
 const NUMBER = {
-  read: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
-  write: (value) => (value === null ? null : String(value)),
+  parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
+  print: (value) => (value === null ? null : String(value)),
 };
 
 /** @type {Kind} */
-export const WORD = { read: (text) => text, write: (value) => value };
+export const WORD = { parse: (text) => text, print: (value) => value };
 
 /** Without a text it is true, as boolean attributes of HTML are; but "false" is false. @type {Kind} */
 const TRUTH = {
-  read: (text) => ({ '': true, true: true, false: false })[text] ?? text,
-  write: String,
+  parse: (text) => ({ '': true, true: true, false: false })[text] ?? text,
+  print: String,
 };
 
 /** Words with spaces between them. @type {Kind} */
-export const WORDS = { read: (text) => text.split(/\s+/).filter(Boolean), write: (value) => value.join(' ') };
+export const WORDS = { parse: (text) => text.split(/\s+/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Of the types that fit into an attribute. @type {Record<string, Kind>} */
 const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };

@@ -24,17 +24,7 @@ import { isCalm } from './stage.js';
  *
  * @typedef {{ play: string, step: (batch: string) => string, reset: string, reseed: string }} CloudWords
  *
- * @typedef {object} Clouded what the cloud asks of its element
- * @property {Growing | undefined} machine
- * @property {any} motion
- * @property {import('./runtime.js').Runtime} runtime
- * @property {import('./stage.js').Stage} stage
- * @property {import('./settings.js').Settings} settings
- * @property {import('./state.js').State} state
- * @property {import('./gesture.js').Gesture} gesture
- * @property {import('./reflection.js').Reflection} reflection
- * @property {import('./announcer.js').Announcer} announcer
- * @property {() => void} commit
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
 /** Steps that a cloud grows in. */
@@ -46,7 +36,7 @@ export class Cloud {
   #gaveUp;
 
   /**
-   * @param {Clouded} host
+   * @param {Figure} host
    * @param {(machine: any) => boolean} [gaveUp] whether the machine has stopped short of its samples for good
    */
   constructor(host, gaveUp = () => false) {
@@ -80,7 +70,7 @@ export class Cloud {
    *
    * @param {Values} [state] that the machine is in, if it is not the opening
    */
-  begin(state) {
+  introduce(state) {
     if (!state && !isCalm()) this.#machine.restart();
     this.playing = state ? state.playing : true;
     if (isCalm() && this.playing) {
@@ -218,13 +208,11 @@ export const cloudState = {
   },
 };
 
-/** @typedef {Clouded & { cloud: Cloud, ask: (question: (machine: any) => unknown) => unknown }} Bearer */
-
-/** The properties of an element with a cloud. @type {PropertyDescriptorMap & ThisType<Bearer>} */
+/** The properties of an element with a cloud. @type {PropertyDescriptorMap & ThisType<Figure>} */
 export const cloudProperties = {
   playing: {
     get() {
-      return this.cloud.playing;
+      return this.cloud?.playing;
     },
   },
   marked: {

@@ -101,8 +101,6 @@ export class FigureElement extends LitElement {
   pictures = [];
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
-  /** A state from the page's address that waits for the machine. @type {unknown} */
-  #linked;
   /** Ends listening for other words. @type {(() => void) | undefined} */
   #silence;
 
@@ -203,11 +201,7 @@ export class FigureElement extends LitElement {
   }
 
   get motion() {
-    return this.runtime.motion;
-  }
-
-  async prepare() {
-    if (this.share && !this.state.kept) this.#linked = await this.link.read();
+    return /** @type {Motion} */ (this.runtime.motion);
   }
 
   machineMade() {
@@ -215,14 +209,13 @@ export class FigureElement extends LitElement {
     this.settings.reset();
     this.state.restore();
     this.reflection.catchUp();
-    this.link.enter(this.#linked);
-    this.#linked = undefined;
-    if (this.machine) this.state.beginOnce();
+    this.link.catchUp();
+    if (this.machine) this.state.introduceOnce();
   }
 
   /** @param {Values} [state] that the machine is in, if it is not the opening */
-  begin(state) {
-    this.cloud?.begin(state);
+  introduce(state) {
+    this.cloud?.introduce(state);
     this.refresh();
     this.reflection.tell();
     this.settings.show();

@@ -7,21 +7,16 @@
 
 import { pack, unpack } from './packing.js';
 
-/**
- * @typedef {object} Linked what the link asks of its element
- * @property {any} machine
- * @property {boolean} share
- * @property {import('./runtime.js').Runtime} runtime
- * @property {() => object | null} getState
- * @property {(state: unknown) => void} setState
- */
+/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
 
 export class Link {
   #host;
+  /** A state from the address that waits for the machine. @type {unknown} */
+  #waiting;
   /** The latest text for the address: an earlier one that is ready later is void. */
   #writing = 0;
 
-  /** @param {import('lit').LitElement & Linked} host */
+  /** @param {Figure} host */
   constructor(host) {
     this.#host = host;
     host.addController(this);
@@ -36,19 +31,30 @@ export class Link {
     removeEventListener('hashchange', this.follow);
   }
 
+  /** Looks for a state to open in: the first time only, as the address says where the figure began. */
+  async prepare() {
+    if (this.#host.share && !this.#host.state.kept) this.#waiting = await this.#look();
+  }
+
+  /** Enters the state that waited for the machine. */
+  catchUp() {
+    const waiting = this.#waiting;
+    this.#waiting = undefined;
+    this.#enter(waiting);
+  }
+
   /** The page's address may carry another state. */
   follow = async () => {
-    if (!this.#host.share || !this.#host.machine) return;
-    this.enter(await this.read());
+    if (this.#host.share && this.#host.machine) this.#enter(await this.#look());
   };
 
   /** @param {unknown} state as the address has it; undefined for none */
-  enter(state) {
+  #enter(state) {
     if (state !== undefined) this.#host.runtime.tolerate(() => this.#host.setState(state));
   }
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
-  async read() {
+  async #look() {
     const text = fragmentOf(keyOf(this.#host));
     if (text === undefined) return undefined;
     try {

@@ -12,13 +12,7 @@ import { groupsOf, isSetting, renamed } from './attributes.js';
  * @typedef {import('./attributes.js').Setting} Setting
  * @typedef {Map<string, string | null>} Texts of attributes; null for none
  *
- * @typedef {object} Reflecting what the reflection asks of its element
- * @property {any} machine
- * @property {import('./runtime.js').Runtime} runtime
- * @property {import('./settings.js').Settings} settings
- * @property {import('./state.js').State} state
- * @property {<Answer>(question: (machine: any) => Answer) => Answer | null} ask
- * @property {(motion: any) => any} createMachine
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
 export class Reflection {
@@ -38,7 +32,7 @@ export class Reflection {
   #told;
 
   /**
-   * @param {import('lit').LitElement & Reflecting} host
+   * @param {Figure} host
    * @param {Attributes} attributes
    * @param {string[]} basis
    */
@@ -115,7 +109,7 @@ export class Reflection {
     const { machine } = this.#host;
     if (!machine) return;
     const entry = this.#attributes[name];
-    const given = text === null ? undefined : entry.kind.read(text);
+    const given = text === null ? undefined : entry.kind.parse(text);
     this.#hearing = name;
     this.#host.runtime.tolerate(() => {
       if (!isSetting(entry)) Reflect.set(this.#host, name, text === null ? this.#usual(name) : given);
@@ -163,7 +157,7 @@ export class Reflection {
    */
   #opening(question) {
     const { wanted } = this.#host.settings;
-    const machine = this.#host.createMachine(this.#host.runtime.motion);
+    const machine = this.#host.createMachine(this.#host.motion);
     try {
       machine.configure(Object.fromEntries(this.#basis.map((key) => [key, wanted[key]])));
       return question({ config: machine.config, machine });
@@ -183,7 +177,7 @@ export class Reflection {
     return new Map(
       Object.entries(this.#attributes).map(([name, entry]) => {
         const value = isSetting(entry) ? entry.get(present) : own(name);
-        return [name, entry.kind.write(value ?? null)];
+        return [name, entry.kind.print(value ?? null)];
       }),
     );
   }

@@ -8,23 +8,13 @@
 import { abandon, instantiate } from '../core.js';
 import { unwatch, watch } from './page/sight.js';
 
-/**
- * @typedef {import('../types.d.ts').Motion} Motion
- *
- * @typedef {object} Hosting what the runtime asks of its element
- * @property {() => Promise<void>} prepare what has to be there before the machine, besides the core
- * @property {(motion: Motion, state?: object) => any} createMachine
- * @property {import('./state.js').State} state
- * @property {() => void} machineMade the machine is there, and nothing of it is shown yet
- * @property {import("./settings.js").Settings} settings
- * @property {import('./stage.js').Stage} stage
- */
+/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
 
 /** Cores that may trap one after the other, without a picture between, until the figure gives up. */
 const MOST_CRASHES = 3;
 
 export class Runtime {
-  /** The core, once it runs. @type {Motion | undefined} */
+  /** The core, once it runs. @type {import('../types.d.ts').Motion | undefined} */
   motion;
   /** The simulation, which owns all of its state. @type {any} */
   machine;
@@ -37,7 +27,7 @@ export class Runtime {
   #starting = false;
   #crashes = 0;
 
-  /** @param {import('lit').LitElement & Hosting} host */
+  /** @param {Figure} host */
   constructor(host) {
     this.#host = host;
     host.addController(this);
@@ -164,7 +154,7 @@ export class Runtime {
     if (this.#starting || this.machine || !this.#near) return;
     this.#starting = true;
     try {
-      const [motion] = await Promise.all([instantiate(), this.#host.prepare()]);
+      const [motion] = await Promise.all([instantiate(), this.#host.link.prepare()]);
       if (!this.#near) return;
       const machine = this.#host.createMachine(motion, this.#host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });

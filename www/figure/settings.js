@@ -6,21 +6,8 @@
  */
 
 /**
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  * @typedef {Record<string, any>} Values settings by name
- *
- * @typedef {object} Configurable a machine; one whose large clouds take longer than a frame has all of it
- * @property {Values} config
- * @property {(settings: Values) => void} configure
- * @property {(settings: Values) => void} [begin] as configure, in slices
- * @property {(samples: number) => boolean} [advance] goes on with what was begun; whether it is done
- *
- * @typedef {object} Configured what the settings ask of their element
- * @property {Configurable | undefined} machine
- * @property {import('./runtime.js').Runtime} runtime
- * @property {import('./stage.js').Stage} stage
- * @property {import('./gesture.js').Gesture} gesture
- * @property {import('./reflection.js').Reflection} reflection
- * @property {() => void} refresh asks the machine for everything that is shown
  */
 
 /** Longest work in a frame, milliseconds: with the pictures, a touch is answered within 50. */
@@ -39,7 +26,7 @@ export class Settings {
   #working = false;
   #showing = false;
 
-  /** @param {Configured} host */
+  /** @param {Figure} host */
   constructor(host) {
     this.#host = host;
   }

@@ -12,18 +12,8 @@ import { surroundings } from './page/scheme.js';
 import { LONGEST_WORK } from './settings.js';
 
 /**
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  * @typedef {import('../scene/picture.js').Picture<any>} Picture
- *
- * @typedef {object} Staged what the stage asks of its element
- * @property {any} machine
- * @property {import('./page/scheme.js').Theme} theme
- * @property {import('./runtime.js').Runtime} runtime
- * @property {import('./settings.js').Settings} settings
- * @property {{ playing: boolean, grow: () => boolean } | undefined} cloud
- * @property {Picture[]} pictures
- * @property {any} scene what the pictures are of, with every change so far in effect
- * @property {boolean} held whether a handle is: the views keep still under it
- * @property {(scene: any) => void} placeHandles where the pictures have them now
  */
 
 /** Whether the reader has asked for less motion. */
@@ -45,7 +35,7 @@ export class Stage {
   /** Ends listening for the printer. @type {(() => void) | undefined} */
   #unprint;
 
-  /** @param {import('lit').LitElement & Staged} host */
+  /** @param {Figure} host */
   constructor(host) {
     this.#host = host;
     host.addController(this);

@@ -13,17 +13,7 @@ import { object, refusal, word } from './checks.js';
  * @property {unknown} opening what it is when the widget opens
  * @property {(field: string, value: any, machine: any) => any} check what is taken of a value; throws
  *
- * @typedef {object} Stateful what the state asks of its element
- * @property {any} machine
- * @property {import('./runtime.js').Runtime} runtime
- * @property {import('./settings.js').Settings} settings
- * @property {(motion: any, state: Values) => any} createMachine
- * @property {() => Values} snapshot everything that a reader can change
- * @property {(present: Values, given: Values) => Values} completed what is given, with what follows of it for
- *   fields that are left out
- * @property {import('./cloud.js').Cloud | undefined} cloud
- * @property {() => void} machineChanged
- * @property {(state: Values | undefined) => void} begin the show of a machine, in that state or the opening
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
 /** Version of the states that `getState` gives; `setState` refuses any other. */
@@ -36,10 +26,10 @@ export class State {
   own;
   #host;
   #owned;
-  #begun = false;
+  #introduced = false;
 
   /**
-   * @param {import('lit').LitElement & Stateful} host
+   * @param {Figure} host
    * @param {Record<string, Owned>} owned
    */
   constructor(host, owned) {
@@ -79,13 +69,13 @@ export class State {
 
   /** Takes up what of the kept state is not the machine's, and was not before. */
   restore() {
-    this.#begun = false;
+    this.#introduced = false;
     if (this.kept) this.#adopt(this.kept);
   }
 
-  /** Begins the machine's show, unless a state that came meanwhile has. */
-  beginOnce() {
-    if (!this.#begun) this.#host.begin(this.kept);
+  /** Introduces the machine, unless a state that came meanwhile has. */
+  introduceOnce() {
+    if (!this.#introduced) this.#host.introduce(this.kept);
   }
 
   /**
@@ -102,7 +92,7 @@ export class State {
     word('state.widget', given.widget, [host.localName]);
     if (given.version !== VERSION) throw refusal('state.version', given.version, String(VERSION));
     const whole = { ...present, ...host.completed(present, given) };
-    const machine = host.createMachine(host.runtime.motion, whole);
+    const machine = host.createMachine(host.motion, whole);
     try {
       for (const [name, { check }] of Object.entries(this.#owned)) {
         whole[name] = check(`state.${name}`, whole[name], machine);
@@ -116,8 +106,8 @@ export class State {
     host.runtime.replace(machine);
     host.machineChanged();
     host.settings.reset();
-    this.#begun = true;
-    host.begin(whole);
+    this.#introduced = true;
+    host.introduce(whole);
   }
 
   /**

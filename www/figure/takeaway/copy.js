@@ -9,12 +9,7 @@ import { words } from '../../messages/registry.js';
 import { escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
 
-/**
- * @typedef {object} Copyable
- * @property {boolean} share
- * @property {() => Promise<string>} shareLink
- * @property {() => string} embedCode
- */
+/** @typedef {import('../figure.js').FigureElement<any, any>} Figure */
 
 /** What was copied last, and where the reader finds it. */
 export class CopyMenu {
@@ -24,7 +19,7 @@ export class CopyMenu {
   #told;
 
   /**
-   * @param {Copyable} element
+   * @param {Figure} element
    * @param {() => void} told called when there is something else to show
    */
   constructor(element, told) {

@@ -19,11 +19,7 @@ import { button } from '../../ui/controls.js';
  * @property {(i: number) => number[]} row of a sample
  * @property {number} count of the samples
  *
- * @typedef {object} Exported an element whose first picture is taken along
- * @property {Takeaway} takeaway with every change so far in effect, like the scene
- * @property {any} scene
- * @property {import('../../scene/picture.js').Picture<any>[]} pictures
- * @property {import('../stage.js').Stage} stage
+ * @typedef {import('../figure.js').FigureElement<any, any>} Figure
  */
 
 /** Pixels of a PNG image a CSS pixel: as fine as a page in print wants a figure. */
@@ -35,7 +31,7 @@ const SIZE = { width: 720, height: 432 };
 /**
  * Draws the picture once more, as large as it is on the page and in its font.
  *
- * @param {Exported} element
+ * @param {Figure} element
  * @param {number} ratio pixels a CSS pixel
  * @param {(size: { width: number, height: number }) => unknown} makeContext
  */
@@ -51,7 +47,7 @@ function drawOn({ scene, pictures: [picture], stage }, ratio, makeContext) {
 }
 
 /**
- * @param {Exported} element
+ * @param {Figure} element
  * @returns {Promise<Blob>} with the paper that it is on
  */
 export async function pngOf(element) {
@@ -77,7 +73,7 @@ function hash(text) {
   return value.toString(36);
 }
 
-/** @param {Exported} element */
+/** @param {Figure} element */
 export function svgOf(element) {
   const { settings, title } = element.takeaway;
   const name = `figure-${hash(JSON.stringify(settings))}`;
@@ -97,7 +93,7 @@ ${svg.markup}
  * A line of settings behind a #, with the seed among them; a line of names; and a line a sample, with
  * as many digits as bring the same numbers back. Arrays print themselves with commas.
  *
- * @param {Exported} element
+ * @param {Figure} element
  */
 export function csvOf({ takeaway: { settings, columns, row, count } }) {
   const lines = [`# ${JSON.stringify(settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
@@ -120,7 +116,7 @@ function save(name, blob) {
 /**
  * The menu from which a reader saves the figure.
  *
- * @param {{ localName: string, toPNG: () => Promise<Blob>, toSVG: () => string, toCSV: () => string }} element
+ * @param {Figure} element
  * @param {string | number} mark that tells its files from those of another state
  */
 export function exportMenu(element, mark) {

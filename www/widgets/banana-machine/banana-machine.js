@@ -151,7 +151,7 @@ export class BananaMachineElement extends FigureElement {
    *
    * @param {number} number from 1
    */
-  isolate(number) {
+  leaveAlone(number) {
     this.state.own.isolateChoice = number;
     this.settings.want({ isolate: number });
     this.commit();
@@ -166,10 +166,9 @@ export class BananaMachineElement extends FigureElement {
    */
   #reach(x, y) {
     this.settings.want(({ command }) => {
-      const reaching = this.motion?.commandReaching(x, y, command);
-      if (!reaching) return {};
-      const { v, omega } = looks;
-      return { command: { ...command, v: clamp(reaching.v, v.min, v.max), omega: clamp(reaching.omega, omega.min, omega.max) } };
+      const { v, omega } = this.motion.commandReaching(x, y, command);
+      const within = (/** @type {number} */ value, /** @type {{ min: number, max: number }} */ { min, max }) => clamp(value, min, max);
+      return { command: { ...command, v: within(v, looks.v), omega: within(omega, looks.omega) } };
     });
   }
 

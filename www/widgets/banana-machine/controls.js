@@ -82,7 +82,7 @@ function alphaSlider(figure, key, number, [path, picture]) {
     show: (value) => (off ? words.banana.off(fixed(value, 3)) : fixed(value, 3)),
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
-      if (off) figure.isolate(number);
+      if (off) figure.leaveAlone(number);
       figure.settings.want(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
     },
   });
@@ -100,7 +100,7 @@ function isolateButton(figure, number, checked) {
       name="isolate"
       aria-label=${words.banana.only(alphaName(number - 1))}
       .checked=${live(checked)}
-      @change=${() => figure.isolate(number)}
+      @change=${() => figure.leaveAlone(number)}
     />
   </label>`;
 }

@@ -114,18 +114,20 @@ async function silencePanics(path) {
 }
 
 /**
- * Makes a module of wasm-bindgen's script: one that exports a function which gives the glue for one more instance.
- * As a module of its own the glue would be there once, and one instance with it.
+ * Makes a module of wasm-bindgen's script: one that exports a function which instantiates the core once more. As a module
+ * of its own the glue would be there once, and one instance with it. How it would find and load the WebAssembly module
+ * by itself is left out: www/core.js does, and that would be 1 kB on the wire.
  *
  * @param {string} path of the script and of its types, without their extensions
  */
 function makeFactory(path) {
   const script = readFileSync(at(`${path}.js`), 'utf8');
-  const types = readFileSync(at(`${path}.d.ts`), 'utf8');
-  // The script would look in the page for its own address, which it does not need.
-  const factory = `export default () => {\nconst document = undefined;\n${script}\nreturn wasm_bindgen;\n};\n`;
-  writeFileSync(at(`${path}.js`), factory);
-  writeFileSync(at(`${path}.d.ts`), `${types}\nexport default function makeGlue(): typeof wasm_bindgen;\n`);
+  const glue = script.match(/^let wasm_bindgen = \(function\(exports\) \{\n    let script_src;\n    if [^}]*\}\n(.*)\n    async function __wbg_load\(/s)?.[1];
+  if (glue === undefined) throw new Error("wasm-bindgen's script is not what scripts/build.mjs takes it for.");
+  const instance = '__wbg_finalize_init(await WebAssembly.instantiate(module, __wbg_get_imports()), module);';
+  writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${glue}\n${instance}\nreturn exports;\n};\n`);
+  const type = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
+  writeFileSync(at(`${path}.d.ts`), `${type}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

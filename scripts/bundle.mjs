@@ -67,7 +67,7 @@ export async function bundle() {
           name: 'wasm',
           setup({ onLoad }) {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
-            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: withoutSentences(), loader: 'js' }));
+            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
           },
         },
       ],
@@ -139,9 +139,10 @@ async function chunks() {
   );
 }
 
-/** What was declared, without what is only for the documentation: no page ever shows it. */
-function withoutSentences() {
-  const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (key === 'sentence' ? undefined : each));
+/** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */
+function ofDeclarations() {
+  const left = ['sentence', 'min', 'max', 'default', 'nullable'];
+  const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (left.includes(key) ? undefined : each));
   return Object.entries(declared)
     .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)
     .join('');

@@ -67,12 +67,15 @@ export function widgets() {
  */
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
-  const { COMMON, WORDS } = await import('../www/figure/attributes.js');
+  const { COMMON, WORDS, documentation: ofFigures } = await import('../www/figure/attributes.js');
   const { documentation: ofClouds } = await import('../www/figure/cloud.js');
   const { attributes, declared, documentation, own } = await import(`../www/widgets/${tag}/settings.js`);
-  const tables = 'marked' in own ? [ofClouds, documentation] : [documentation];
-  const propertyTable = Object.assign({}, ...tables.map(({ properties }) => properties));
-  const stateTable = Object.assign({}, ...tables.map(({ state }) => state));
+  /** @type {import('../www/figure/attributes.js').Documentation[]} */
+  const documents = [ofFigures, ...('marked' in own ? [ofClouds] : []), documentation];
+  /** @type {Record<string, string>} */
+  const sentences = Object.assign({}, ...documents.map(({ attributes }) => attributes));
+  const propertyTable = Object.assign({}, ...documents.map(({ properties }) => properties));
+  const stateTable = Object.assign({}, ...documents.map(({ state }) => state));
   const setting = (/** @type {string} */ name) => declared.find((/** @type {Declaration} */ { key }) => key === name);
 
   /** @returns {Named} */
@@ -83,11 +86,11 @@ async function widget(tag) {
       const opening = given === null ? undefined : String(given);
       return { name, type: typeOf(declaration), description: describe(declaration, typeof given === 'number' ? number(given) : opening), opening };
     }
-    const { words, sentence, covers, kind } = entry;
+    const { words, covers, kind } = entry;
     const opening = entry.opening ?? own[name]?.opening ?? (covers && openingPreset(tag));
     const type = words === undefined ? 'boolean' : kind === WORDS ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
-    return { name, type: covers ? `${type} | null` : type, description: describe({ ...entry, sentence }, text), opening: text };
+    return { name, type: covers ? `${type} | null` : type, description: describe({ ...entry, sentence: sentences[name] }, text), opening: text };
   };
   const told = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
@@ -117,8 +120,9 @@ function plain(declaration) {
  */
 function openingPreset(tag) {
   const opening = Object.fromEntries(settings[tag].map(({ key, default: value }) => [key, value]));
-  const same = (/** @type {any} */ preset) =>
-    Object.entries(preset).every(([key, value]) => key === 'name' || (typeof value === 'object' ? same(value) : value === opening[key]));
+  /** @returns {boolean} */
+  const same = (/** @type {object} */ fields) =>
+    Object.entries(fields).every(([key, value]) => key === 'name' || (typeof value === 'object' ? same(value) : value === opening[key]));
   return presetsOf(tag).find(same)?.name;
 }
 

@@ -5,7 +5,7 @@
  * @module
  */
 
-import makeGlue from '../build/motion.js';
+import makeCore from '../build/motion.js';
 import own from '../build/motion_bg.wasm';
 
 /** @typedef {BufferSource | URL | string | WebAssembly.Module} Source */
@@ -51,11 +51,9 @@ export async function instantiate(source) {
     wanted = compiling = undefined;
     throw error;
   });
-  const glue = makeGlue();
-  await glue({ module_or_path: await compiling });
-  const { initSync: _initSync, ...motion } = glue;
+  const motion = await makeCore(await compiling);
   for (const each of Object.values(motion)) if ('free' in (each.prototype ?? {})) makeDisposable(/** @type {any} */ (each));
-  return /** @type {import('./types.d.ts').Motion} */ (/** @type {unknown} */ (motion));
+  return motion;
 }
 
 /**

@@ -30,15 +30,17 @@ import { THEMES } from './page/scheme.js';
  * @typedef {object} Attribute
  * @property {Kind} kind
  * @property {string[]} [covers] attributes that say the same and take over where this one says nothing
- * @property {readonly string[]} [words] those that are allowed; as `sentence`, where no declaration says it
- * @property {string} [sentence] what it is, for the documentation
+ * @property {readonly string[]} [words] those that are allowed, where no declaration says it
  *
  * @typedef {Record<string, Attribute & (Setting | Own)>} Attributes by name; what others depend on comes first
  * @typedef {import('../settings.js').Declaration} Declaration
  *
- * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} Table of names, for the documentation:
- *   what follows from no declaration, with its type in TypeScript
- * @typedef {{ properties: Table, state: Table }} Documentation of properties without an attribute, and in states
+ * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} Table by name, with types in TypeScript
+ *
+ * @typedef {object} Documentation of what follows from no declaration
+ * @property {Record<string, string>} [attributes] sentences
+ * @property {Table} [properties] that have no attribute
+ * @property {Table} [state] what is otherwise in states
  */
 
 /** @type {Kind} */
@@ -64,8 +66,16 @@ const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
 
 /** What every figure heeds besides. */
 export const COMMON = {
-  theme: { words: THEMES, opening: 'auto', sentence: 'Colours for a light page or a dark one; auto is as the surroundings are.' },
-  share: { sentence: 'Keeps the state in the fragment of the page’s address, and opens in the state that it carries.' },
+  theme: { words: THEMES, opening: 'auto' },
+  share: {},
+};
+
+/** @type {Documentation} */
+export const documentation = {
+  attributes: {
+    theme: 'Colours for a light page or a dark one; auto is as the surroundings are.',
+    share: 'Keeps the state in the fragment of the page’s address, and opens in the state that it carries.',
+  },
 };
 
 /**
@@ -129,10 +139,9 @@ function settingOf({ key, in: group, index, of, type }) {
  *
  * @param {string} group
  * @param {(Record<string, unknown> & { name: string })[]} presets each with the settings of that group
- * @param {string} sentence
  * @returns {Attribute & Setting}
  */
-export function presetOf(group, presets, sentence) {
+export function presetOf(group, presets) {
   const [{ name: _, ...fields }] = presets;
   const covers = Object.keys(fields);
   const names = presets.map(({ name }) => name);
@@ -140,7 +149,6 @@ export function presetOf(group, presets, sentence) {
     kind: WORD,
     covers,
     words: names,
-    sentence,
     get: ({ config }) => presets.find((preset) => covers.every((key) => config[group][key] === preset[key]))?.name ?? null,
     change: (name) => {
       const { name: _, ...values } = presets[names.indexOf(word('preset', name, names))];

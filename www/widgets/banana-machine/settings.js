@@ -21,9 +21,9 @@ const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
-  preset: presetOf('command', presets['banana-machine'], 'A command worth starting from; none where the command is another.'),
+  preset: presetOf('command', presets['banana-machine']),
   ...attributesOf(declared),
-  overlays: { kind: WORDS, own: true, words: OVERLAYS, sentence: 'The outlines that are drawn; in the attribute with spaces between.' },
+  overlays: { kind: WORDS, own: true, words: OVERLAYS },
 };
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
@@ -36,6 +36,10 @@ export const own = {
 
 /** @type {import('../../figure/attributes.js').Documentation} */
 export const documentation = {
+  attributes: {
+    preset: 'A command worth starting from; none where the command is another.',
+    overlays: 'The outlines that are drawn; in the attribute with spaces between.',
+  },
   properties: {
     twists: {
       type: 'Float64Array | null',

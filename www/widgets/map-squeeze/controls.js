@@ -10,7 +10,7 @@ import { check, slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, choice, inputOf, radioGroup, rich } from '../../ui/controls.js';
 import { commandSliders } from '../shared/command.js';
-import { EXTENSIONS } from './maps/files.js';
+import { EXTENSIONS } from './maps/open.js';
 import { PRESETS, SAMPLERS } from './settings.js';
 
 /** @typedef {import('./map-squeeze.js').MapSqueezeElement} Figure */

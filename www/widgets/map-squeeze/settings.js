@@ -29,10 +29,9 @@ export const attributes = {
     covers: ['x', 'y', 'theta'],
     words: PRESET_NAMES,
     opening: PRESET_NAMES[0],
-    sentence: 'A place in the apartment to start from; none elsewhere.',
   },
   ...attributesOf(declared),
-  view: { kind: WORD, own: true, words: VIEWS, sentence: 'The whole map, or what is near the robot.' },
+  view: { kind: WORD, own: true, words: VIEWS },
 };
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
@@ -45,6 +44,10 @@ export const own = {
 
 /** @type {import('../../figure/attributes.js').Documentation} */
 export const documentation = {
+  attributes: {
+    preset: 'A place in the apartment to start from; none elsewhere.',
+    view: 'The whole map, or what is near the robot.',
+  },
   properties: {
     map: { type: 'MapData | null', sentence: "A map of the reader's own; null for the apartment." },
     verdicts: {
@@ -53,7 +56,6 @@ export const documentation = {
       sentence: 'A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.',
     },
   },
-  state: {},
 };
 
 /**

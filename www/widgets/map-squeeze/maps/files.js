@@ -26,8 +26,6 @@ export class MapFileError extends Error {
   }
 }
 
-export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
-
 /** What a floor plan looks like. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
 

@@ -10,8 +10,8 @@ use common::{KINDS, SIGMAS, golden, pose_distance, seeded};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
-use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Settings, command_reaching};
-use motion::sim::settings::{MAX_SAMPLES, MAX_SEED};
+use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, PRESETS, Settings, command_reaching};
+use motion::sim::settings::MAX_SEED;
 use motion::sim::views::Grid;
 use motion::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
 use motion::{

@@ -3,6 +3,7 @@
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
+use std::ops::RangeInclusive;
 
 /// How pixels become cells, as `map_server` reads its YAML file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +54,9 @@ impl Interpretation {
         }
     }
 }
+
+/// Sides of a cell, m: from a millimetre to a hundred metres.
+pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
 
 /// Square cells, occupied or not. Cells that are free and cells of which nothing is known are alike: only occupied ones
 /// are in a robot's way.

@@ -1,17 +1,23 @@
 //! A cloud of robots from the origin: their draws, where they end, and what they say, refreshed in slices.
 
-use super::draws::Draws;
-use super::drive::Drive;
-use super::views::View;
+pub(super) mod draws;
+pub(super) mod drive;
+pub mod picture;
+pub mod views;
+
+pub use views::View;
+
 use crate::geom::lanes::{LANES, lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
 use crate::stats::fused::{CloudFigures, Shape, Spread};
+use draws::Draws;
+use drive::Drive;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Every robot starts at the origin, heading along x.
-const START: SE2 = SE2::identity();
+/// Every robot of a cloud starts at the origin, heading along x.
+pub const START: SE2 = SE2::identity();
 
 /// Fours that are summed naively and worked on between looks at the clock: 256 poses. Fewer would make the compensation of
 /// the sums felt, more would add to their rounding, which is proportional.
@@ -129,7 +135,7 @@ impl Cloud {
         self.goal.min(LANES * self.positions.len().min(self.draws.fours().len()))
     }
 
-    /// The number there will be.
+    /// The number of samples to show when the refresh is complete.
     pub fn goal(&self) -> usize {
         self.goal
     }
@@ -182,7 +188,7 @@ fn spread(drive: &Drive, noise: &[[f64x4; 3]], ends: &mut [[f64x4; 2]], mask: f6
     }
 }
 
-/// Adds them to those of the second.
+/// Adds the robots that [`spread`] drove to the sums of the second pass.
 #[inline(never)]
 fn shape(drive: &Drive, noise: &[[f64x4; 3]], ends: &[[f64x4; 2]], mask: f64x4, sums: &mut Shape) {
     for (noise, ends) in noise.iter().zip(ends) {

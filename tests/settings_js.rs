@@ -7,7 +7,7 @@ use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL, PATH_FREE};
 use motion::sim::views::MAX_CELLS;
 use motion::sim::{banana, squeeze};
 use std::fmt::Write;
-use std::ops::RangeInclusive;
+use std::ops::{ControlFlow, RangeInclusive};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
 
@@ -103,11 +103,10 @@ fn lines(objects: impl IntoIterator<Item = String>) -> String {
 /// A line a setting, and a number of a group or list: `numbered` are the sentences of those that are attributes.
 fn declarations(mut opening: impl Declared, numbered: &[&str]) -> String {
     let mut objects = Vec::new();
-    let visited: Result<(), ()> = opening.visit(&mut |declaration, setting| {
+    let _ = opening.each(&mut |declaration, setting| {
         describe(declaration, setting, numbered, &mut objects);
-        Ok(())
+        ControlFlow::Continue(())
     });
-    visited.expect("nothing is refused");
     lines(objects)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::models::VelocityCmd;
 use std::fmt;
-use std::ops::RangeInclusive;
+use std::ops::{ControlFlow, RangeInclusive};
 
 /// A parameter outside its range. The message names the field, the value and what is allowed.
 #[derive(Clone, Debug, PartialEq)]
@@ -264,18 +264,34 @@ macro_rules! whole {
 }
 whole!(u32, u64, usize);
 
-/// What is shown a setting after the other.
-pub type See<'a, E> = dyn FnMut(&Declaration, Setting) -> Result<(), E> + 'a;
+/// What is shown a setting after the other, until it breaks.
+pub type See<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
 /// What [`settings!`] makes of a declaration: the settings of a widget one by one.
 pub trait Declared: Copy + Default {
     const KEYS: &'static [&'static str];
 
+    /// Shows each setting to `see`, in the order of declaration.
+    fn each(&mut self, see: &mut See) -> ControlFlow<()>;
+
     /// Shows each setting to `see`, in the order of declaration, until one is refused.
     ///
     /// # Errors
     /// That of `see`.
-    fn visit<E>(&mut self, see: &mut See<'_, E>) -> Result<(), E>;
+    fn try_each<E>(
+        &mut self,
+        mut see: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut refusal = None;
+        let _ = self.each(&mut |declaration, setting| match see(declaration, setting) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                refusal = Some(error);
+                ControlFlow::Break(())
+            }
+        });
+        refusal.map_or(Ok(()), Err)
+    }
 }
 
 /// Rules across the settings of a widget.
@@ -295,7 +311,7 @@ pub trait Rules: Declared {
     /// [`SettingsError`] for the first setting out of range.
     fn check(&self) -> Result<(), SettingsError> {
         let mut settings = *self;
-        settings.visit(&mut |declaration, setting| setting.check(declaration.key))?;
+        settings.try_each(|declaration, setting| setting.check(declaration.key))?;
         self.check_together()
     }
 }
@@ -338,19 +354,14 @@ macro_rules! settings {
         impl $crate::sim::settings::Declared for $name {
             const KEYS: &'static [&'static str] = &[$(stringify!($key)),+];
 
-            fn visit<E>(&mut self, see: &mut $crate::sim::settings::See<'_, E>) -> Result<(), E> {
-                use $crate::sim::settings::Settable;
-                $({
-                    let declaration = $crate::sim::settings::declaration!(
-                        $key, $sentence, [$($($unit)?)?] $($(, of $whole)?)?
-                    );
-                    see(
-                        &declaration,
-                        $crate::sim::settings::settings!(@place self $key $($accessor)?)
-                            .setting($crate::sim::settings::settings!(@allowed self $($range $(, $most)?)?)),
-                    )?;
-                })+
-                Ok(())
+            fn each(&mut self, see: &mut $crate::sim::settings::See) -> std::ops::ControlFlow<()> {
+                use $crate::sim::settings::{Settable, declaration};
+                $(see(
+                    const { &declaration!($key, $sentence, [$($($unit)?)?] $($(, of $whole)?)?) },
+                    settings!(@place self $key $($accessor)?)
+                        .setting(settings!(@allowed self $($range $(, $most)?)?)),
+                )?;)+
+                std::ops::ControlFlow::Continue(())
             }
         }
     };

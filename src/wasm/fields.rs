@@ -142,7 +142,7 @@ pub fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result
 pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
     let (mut settings, mut named) = (*present, Vec::new());
-    settings.visit(&mut |declaration, setting| {
+    settings.try_each(|declaration, setting| {
         let key = declaration.key;
         let value = fields.value(key)?;
         if value.is_undefined() {

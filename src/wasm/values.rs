@@ -14,7 +14,7 @@ pub fn to_js(value: &(impl Serialize + ?Sized)) -> Result<JsValue, JsValue> {
 /// The settings of a widget; what is another way to say one of them is left out.
 pub fn settings_to_js<S: Declared>(settings: &S) -> Result<JsValue, JsValue> {
     let (object, mut settings) = (Object::new(), *settings);
-    settings.visit(&mut |declaration, setting| {
+    settings.try_each(|declaration, setting| {
         if declaration.of.is_none() {
             Reflect::set(&object, &declaration.key.into(), &setting_to_js(setting)?)?;
         }

@@ -98,7 +98,7 @@ pub struct Declaration {
     pub key: &'static str,
     /// The setting that this one is another way to say.
     pub of: Option<&'static str>,
-    // Of these nothing is said by the module for browsers.
+    // The module for browsers has neither the sentence nor the unit, which would weigh and tell nobody anything.
     #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
     /// "" where it has none.
@@ -113,7 +113,7 @@ pub enum Setting<'a> {
     WholeOrNone(&'a mut Option<usize>, RangeInclusive<u64>),
     Truth(&'a mut bool),
     Word(&'a mut dyn Word),
-    /// As many numbers as there are, all of one range.
+    /// A list of fixed length, all of its numbers of one range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
     Level(&'a mut dyn Level, RangeInclusive<f64>),
     Group(&'a mut dyn Group),
@@ -141,8 +141,11 @@ impl Setting<'_> {
 }
 
 pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), SettingsError> {
-    for (Field { declaration, allowed }, number) in group.fields().iter().zip(group.numbers()) {
-        check_real(&format!("{key}.{}", declaration.key), *number, allowed)?;
+    for (i, Field { declaration, allowed }) in group.fields().iter().enumerate() {
+        let number = *group.number(i);
+        if !allowed.contains(&number) {
+            return check_real(&format!("{key}.{}", declaration.key), number, allowed);
+        }
     }
     Ok(())
 }
@@ -155,7 +158,7 @@ pub trait Whole {
 
 /// A number that stands for several others, as a slider for all of them does.
 pub trait Level {
-    /// None where the others are not those of any level.
+    /// The level; None where the others are not those of any.
     fn get(&self) -> Option<f64>;
     fn set(&mut self, level: f64);
 }
@@ -192,8 +195,8 @@ impl<T: Words> Word for T {
 /// Numbers that only make sense together.
 pub trait Group {
     fn fields(&self) -> &'static [Field];
-    /// As many as there are fields, in their order.
-    fn numbers(&mut self) -> Vec<&mut f64>;
+    /// The number of a field by its place among them, from 0; panics past the last.
+    fn number(&mut self, index: usize) -> &mut f64;
 }
 
 /// A number of a [`Group`].
@@ -277,7 +280,7 @@ pub trait Declared: Copy + Default {
     /// Shows each setting to `see`, in the order of declaration, until one is refused.
     ///
     /// # Errors
-    /// That of `see`.
+    /// The refusal of `see`.
     fn try_each<E>(
         &mut self,
         mut see: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
@@ -330,7 +333,7 @@ macro_rules! settings {
                 #[doc = $sentence:literal]
                 $key:ident
                 $(: $type:ty = $default:expr $(, $unit:literal)?)?
-                $(, by $accessor:ident $(of $whole:ident)?)?
+                $(, by $accessor:ident $(of $original:ident)?)?
                 $(, in $range:expr $(, up to $most:ident)?)?
                 ;
             )+
@@ -357,7 +360,7 @@ macro_rules! settings {
             fn each(&mut self, see: &mut $crate::sim::settings::See) -> std::ops::ControlFlow<()> {
                 use $crate::sim::settings::{Settable, declaration};
                 $(see(
-                    const { &declaration!($key, $sentence, [$($($unit)?)?] $($(, of $whole)?)?) },
+                    const { &declaration!($key, $sentence, [$($($unit)?)?] $($(, of $original)?)?) },
                     settings!(@place self $key $($accessor)?)
                         .setting(settings!(@allowed self $($range $(, $most)?)?)),
                 )?;)+
@@ -374,10 +377,10 @@ macro_rules! settings {
 pub(crate) use settings;
 
 macro_rules! declaration {
-    ($key:ident, $sentence:literal, [$($unit:literal)?] $(, of $whole:ident)?) => {
+    ($key:ident, $sentence:literal, [$($unit:literal)?] $(, of $original:ident)?) => {
         $crate::sim::settings::Declaration {
             key: stringify!($key),
-            of: $crate::sim::settings::declaration!(@of $($whole)?),
+            of: $crate::sim::settings::declaration!(@of $($original)?),
             #[cfg(not(target_arch = "wasm32"))]
             sentence: $sentence.trim_ascii(),
             #[cfg(not(target_arch = "wasm32"))]
@@ -385,7 +388,7 @@ macro_rules! declaration {
         }
     };
     (@of) => { None };
-    (@of $whole:ident) => { Some(stringify!($whole)) };
+    (@of $original:ident) => { Some(stringify!($original)) };
 }
 pub(crate) use declaration;
 
@@ -401,9 +404,9 @@ macro_rules! group {
                 FIELDS
             }
 
-            fn numbers(&mut self) -> Vec<&mut f64> {
+            fn number(&mut self, index: usize) -> &mut f64 {
                 let $pattern = self;
-                vec![$($key),+]
+                [$($key),+].into_iter().nth(index).expect("a number of the group")
             }
         }
 

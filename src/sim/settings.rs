@@ -1,4 +1,4 @@
-//! Settings, each declared once by [`settings!`], and the refusal of what they do not allow.
+//! Settings, each declared once by `settings!`, and the refusal of what they do not allow.
 
 use crate::models::VelocityCmd;
 use std::fmt;
@@ -270,7 +270,7 @@ whole!(u32, u64, usize);
 /// What is shown a setting after the other, until it breaks.
 pub type See<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
-/// What [`settings!`] makes of a declaration: the settings of a widget one by one.
+/// What `settings!` makes of a declaration: the settings of a widget one by one.
 pub trait Declared: Copy + Default {
     const KEYS: &'static [&'static str];
 
@@ -300,7 +300,7 @@ pub trait Declared: Copy + Default {
 /// Rules across the settings of a widget.
 pub trait Rules: Declared {
     /// Called after those that are `named` were set one by one.
-    fn settle(&mut self, before: &Self, named: &[&str]);
+    fn settle(&mut self, _before: &Self, _named: &[&str]) {}
 
     /// Called when each setting is known to be in its range.
     ///
@@ -319,8 +319,13 @@ pub trait Rules: Declared {
     }
 }
 
-/// Declares the settings of a widget: `sentence, key: type = default, "unit", in range;`, all but the default as far as
-/// the type has it.
+/// Declares the settings of a widget, each by a sentence, its name, type and default; a number by its unit, if it has one,
+/// and its range besides:
+///
+/// ```ignore
+/// /// Radius of the robot.
+/// clearance: f64 = 0.13, "m", in 0.0..=10.0;
+/// ```
 ///
 /// The end of a range may depend on other settings: `up to` names a method for it. A setting that is not a field of its
 /// own says `by` which method it is reached, and `of` which setting it is another way to say. What is `kept` besides is
@@ -376,6 +381,7 @@ macro_rules! settings {
 }
 pub(crate) use settings;
 
+/// The [`Declaration`] of a setting or of a number of a group.
 macro_rules! declaration {
     ($key:ident, $sentence:literal, [$($unit:literal)?] $(, of $original:ident)?) => {
         $crate::sim::settings::Declaration {

@@ -51,6 +51,16 @@ export function slider(figure, key, otherwise) {
 }
 
 /**
+ * A slider for each of several settings.
+ *
+ * @param {Figure} figure
+ * @param {Record<string, Look>} looks
+ */
+export function sliders(figure, looks) {
+  return Object.keys(looks).map((key) => slider(figure, key));
+}
+
+/**
  * Radio buttons for a setting that is a word.
  *
  * @param {Figure} figure

@@ -6,14 +6,13 @@
 
 import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
-import { choices, slider } from '../../figure/controls.js';
+import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { DASHES } from '../../scene/draw.js';
 import { presets } from '../../settings.js';
 import { button, toggle } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
-import { commandSliders } from '../shared/command.js';
-import { OVERLAYS } from './settings.js';
+import { COMMAND, OVERLAYS } from './settings.js';
 import { alphaName } from './words.js';
 
 /** @typedef {import('./banana-machine.js').BananaMachineElement} Figure */
@@ -36,7 +35,7 @@ export function commandControls(figure) {
           ),
         )}
       </div>
-      ${commandSliders(figure)}
+      ${sliders(figure, COMMAND)}
     </fieldset>
   `;
 }

@@ -56,9 +56,10 @@ export const documentation = {
 /** Up to a standard deviation of nearly half the command. */
 const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
-/** @type {Record<string, import('../../figure/controls.js').Look>} */
+export const COMMAND = commandLooks(3);
+
 export const looks = {
-  ...commandLooks(3),
+  ...COMMAND,
   alpha1: { ...ALPHA, symbol: '*α*₁' },
   alpha2: { ...ALPHA, symbol: '*α*₂' },
   alpha3: { ...ALPHA, symbol: '*α*₃' },

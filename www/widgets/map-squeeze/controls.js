@@ -6,12 +6,11 @@
  */
 
 import { html, nothing } from 'lit';
-import { check, slider } from '../../figure/controls.js';
+import { check, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, choice, inputOf, radioGroup, rich } from '../../ui/controls.js';
-import { commandSliders } from '../shared/command.js';
 import { EXTENSIONS } from './maps/open.js';
-import { PRESETS, SAMPLERS } from './settings.js';
+import { MOTION, PRESETS, SAMPLERS } from './settings.js';
 
 /** @typedef {import('./map-squeeze.js').MapSqueezeElement} Figure */
 
@@ -71,7 +70,7 @@ export function judgeControls(figure) {
 export function motionControls(figure) {
   return html`<fieldset>
     <legend>${words.squeeze.commandAndNoise}</legend>
-    ${commandSliders(figure)} ${slider(figure, 'noise')} ${slider(figure, 'clearance')}
+    ${sliders(figure, MOTION)}
   </fieldset>`;
 }
 

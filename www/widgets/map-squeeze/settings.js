@@ -67,11 +67,16 @@ export function presetNamed(name) {
   return PRESETS[PRESET_NAMES.indexOf(word('preset', name, PRESET_NAMES))];
 }
 
-/** @type {Record<string, import('../../figure/controls.js').Look>} */
-export const looks = {
+/** Of what the robot is told and what it is. @type {Record<string, import('../../figure/controls.js').Look>} */
+export const MOTION = {
   ...commandLooks(4),
   noise: { symbol: '*n*', role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas }) => alphas[0] },
   clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
+};
+
+/** @type {Record<string, import('../../figure/controls.js').Look>} */
+export const looks = {
+  ...MOTION,
   steps: { symbol: '*k*', role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
 };
 

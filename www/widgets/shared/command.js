@@ -4,7 +4,6 @@
  * @module
  */
 
-import { slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { fixed } from '../../ui/format.js';
 
@@ -22,11 +21,6 @@ export const commandLooks = (longest) => ({
   omega: { ...SPEED, symbol: '*ω*', min: -2, max: 2 },
   dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
 });
-
-/** @param {import('../../figure/controls.js').Figure} figure */
-export function commandSliders(figure) {
-  return ['v', 'omega', 'dt'].map((key) => slider(figure, key));
-}
 
 /**
  * The command in words.

@@ -122,7 +122,7 @@ async function silencePanics(path) {
  */
 function makeFactory(path) {
   const script = readFileSync(at(`${path}.js`), 'utf8');
-  const glue = script.match(/^let wasm_bindgen = \(function\(exports\) \{\n    let script_src;\n    if [^}]*\}\n(.*)\n    async function __wbg_load\(/s)?.[1];
+  const glue = script.match(/^let wasm_bindgen = \(function\(exports\) \{\n +let script_src;\n +if [^}]*\}\n(.*)\n +async function __wbg_load\(/s)?.[1];
   if (glue === undefined) throw new Error("wasm-bindgen's script is not what scripts/build.mjs takes it for.");
   const instance = '__wbg_finalize_init(await WebAssembly.instantiate(module, __wbg_get_imports()), module);';
   writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${glue}\n${instance}\nreturn exports;\n};\n`);

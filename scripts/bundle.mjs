@@ -25,8 +25,8 @@ const MODULE = {
   inlined: (bytes) =>
     `const text = ${JSON.stringify(Buffer.from(bytes).toString('latin1'))};` +
     'export default () => Uint8Array.from(text, (character) => character.charCodeAt(0));',
-  /** Bundlers know this form, and carry the file along. */
-  external: () => "export default () => new URL('./motion.wasm', import.meta.url);",
+  /** Bundlers know this form, and carry the file along. It stands in a chunk: external.js and the widgets share it. */
+  external: () => "export default () => new URL('../motion.wasm', import.meta.url);",
 };
 
 /** Their tags. */

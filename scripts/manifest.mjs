@@ -20,7 +20,7 @@ import { ROOT } from './process.mjs';
  * @property {Item[]} cssProperties
  */
 
-/** @returns {Promise<{ schemaVersion: string, modules: { path: string, declarations: Element[] }[] }>} */
+/** @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>} */
 export async function manifest() {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');

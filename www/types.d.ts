@@ -68,5 +68,7 @@ export type SamplerName = SqueezeSettings['sampler'];
 export type OverlayName = BananaMachineElement['overlays'][number];
 export type BananaState = BananaMachineState;
 export type SqueezeState = MapSqueezeState;
-export type WidgetElement<State extends FigureState, Stats> = FigureElement<State, Stats>;
+/** What the elements with a command and a cloud have in common. */
+export type WidgetElement<State extends FigureState, Stats> = FigureElement<State, Stats> &
+  Pick<BananaMachineElement, 'v' | 'omega' | 'dt' | 'command' | 'alphas' | 'samples' | 'seed' | 'marked' | 'poses'>;
 export type WidgetState = Pick<BananaState, 'version' | 'command' | 'samples' | 'seed' | 'shown' | 'playing' | 'marked'>;

@@ -20,11 +20,6 @@ test('a page with one widget is within its budget, the WebAssembly module includ
   for (const [tag, paths] of Object.entries(loadedByWidgets())) within(tag, paths, 110_000);
 });
 
-test('scripts and styles of both widgets are within their budget', () => {
-  const paths = new Set(Object.values(loadedByWidgets()).flat());
-  within('scripts', [...paths].filter((path) => path.endsWith('.js')), 50_000);
-});
-
 // The budgets of these are 60 000 and 130 000 bytes, and not reached: see "The size of the module" in
 // doc/implementation-notes.md. What is reached is held, rounded up to a kilobyte.
 test('the WebAssembly module, and the bundle with everything inside, do not grow', () => {

@@ -142,8 +142,7 @@ function settingOf({ key, in: group, index, of, type }) {
  * @returns {Attribute & Setting}
  */
 export function presetOf(group, presets) {
-  const [{ name: _, ...fields }] = presets;
-  const covers = Object.keys(fields);
+  const covers = Object.keys(presets[0]).filter((key) => key !== 'name');
   const names = presets.map(({ name }) => name);
   return {
     kind: WORD,
@@ -151,8 +150,8 @@ export function presetOf(group, presets) {
     words: names,
     get: ({ config }) => presets.find((preset) => covers.every((key) => config[group][key] === preset[key]))?.name ?? null,
     change: (name) => {
-      const { name: _, ...values } = presets[names.indexOf(word('preset', name, names))];
-      return { [group]: values };
+      const preset = presets[names.indexOf(word('preset', name, names))];
+      return { [group]: Object.fromEntries(covers.map((key) => [key, preset[key]])) };
     },
   };
 }

@@ -51,8 +51,8 @@ const layout = css`
 
   .handle {
     position: absolute;
-    top: 0;
-    left: 0;
+    top: -1.125rem;
+    left: -1.125rem;
     width: 2.25rem;
     height: 2.25rem;
     border-radius: 50%;

@@ -40,6 +40,13 @@ const own = css`
     outline-offset: 4px;
   }
 
+  /* In the middle of itself, whatever its size. */
+  .handle {
+    top: 0;
+    left: 0;
+    transform: translate(-50%, -50%);
+  }
+
   .handle.body::after {
     content: none;
   }

@@ -96,11 +96,7 @@ function merge(base, over) {
   return merged;
 }
 
-/**
- * Makes the language of an element the present one.
- *
- * @param {Element} element
- */
+/** Makes the language of an element the present one. @param {Element} element */
 export function speak(element) {
   const wanted = languageOf(element);
   let voice = voices.get(wanted);

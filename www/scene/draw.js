@@ -10,8 +10,9 @@ import { tick } from '../ui/format.js';
 import { channels } from '../ui/theme.js';
 
 /**
- * @typedef {import('./canvas.js').Brush} Brush
- * @typedef {import('../ui/theme.js').Palette} Palette
+ * @import { Brush } from './canvas.js'
+ * @import { Palette } from '../ui/theme.js'
+ *
  * @typedef {CanvasRenderingContext2D} Context
  */
 

@@ -7,10 +7,9 @@
 import { brushOn } from './canvas.js';
 
 /**
- * @typedef {import('./canvas.js').Brush} Brush
- * @typedef {import('./canvas.js').Surface} Surface
- * @typedef {import('./view.js').View} View
- * @typedef {import('../ui/theme.js').Palette} Palette
+ * @import { Brush, Surface } from './canvas.js'
+ * @import { View } from './view.js'
+ * @import { Palette } from '../ui/theme.js'
  *
  * @typedef {object} Motion
  * @property {number} [elapsed] milliseconds since the frame before
@@ -32,11 +31,7 @@ export class Picture {
     this.view = view;
   }
 
-  /**
-   * Aims the view.
-   *
-   * @param {Scene} _scene
-   */
+  /** Aims the view. @param {Scene} _scene */
   fit(_scene) {}
 
   /**

@@ -35,9 +35,7 @@ export class View {
   height = 1;
   #inset;
 
-  /**
-   * @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options
-   */
+  /** @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options */
   constructor({ equal, inset }) {
     this.#equal = equal;
     this.#inset = inset;

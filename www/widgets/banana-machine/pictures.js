@@ -24,10 +24,9 @@ import { counted } from '../../ui/format.js';
 import { deviation } from './spread.js';
 
 /**
- * @typedef {import('../../types.d.ts').BananaMachine} BananaMachine
- * @typedef {import('../../types.d.ts').Moments} Moments
- * @typedef {import('../../scene/canvas.js').Brush} Brush
- * @typedef {import('../../ui/theme.js').Palette} Palette
+ * @import { BananaMachine, Moments } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {ReturnType<typeof import('./figures.js').figuresOf> & {
  *   machine: BananaMachine,
@@ -170,11 +169,7 @@ export class PlanePicture extends CloudPicture {
   }
 }
 
-/**
- * Robots that are all in one place.
- *
- * @param {BananaMachine} machine
- */
+/** Robots that are all in one place. @param {BananaMachine} machine */
 function heapOf(machine) {
   const stride = Math.ceil(machine.shown / MOST_RAYS);
   const headings = [];

@@ -12,11 +12,7 @@ import { NOTHING, counted, fixed, percent, significant, withError } from '../../
 import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 
-/**
- * @typedef {import('../../types.d.ts').Stats} Stats
- * @typedef {import('../../types.d.ts').Table} Table
- * @typedef {import('../../types.d.ts').Inspection} Inspection
- */
+/** @import { Inspection, Stats, Table } from '../../types.d.ts' */
 
 /** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const NOMINAL = 1 - Math.exp(-2);

@@ -12,11 +12,7 @@ import { alphaName, commandText } from '../shared/command.js';
 import { en } from './en.js';
 import { deviation, spreadOf } from './spread.js';
 
-/**
- * @typedef {import('../../types.d.ts').Settings} Settings
- * @typedef {import('../../types.d.ts').Stats} Stats
- * @typedef {import('../../types.d.ts').Table} Table
- */
+/** @import { Settings, Stats, Table } from '../../types.d.ts' */
 
 addEnglish({ banana: en });
 
@@ -100,11 +96,7 @@ function bendText({ crossTrackSkew: skew, crossTrackSkewError: error }) {
   return sentence(withError(skew, error, 2));
 }
 
-/**
- * What stands under the view of the floor while there is nothing to note.
- *
- * @param {Stats} stats
- */
+/** What stands under the view of the floor while there is nothing to note. @param {Stats} stats */
 export function captionOf(stats) {
   return stats.n === 0 ? words.banana.noRobots : bendText(stats) || words.banana.fewRobots;
 }
@@ -129,11 +121,7 @@ export function twistCaption({ model, noise, alphas, isolate }, note) {
   return `${twist}: ${twistIs[kind]}`;
 }
 
-/**
- * The text equivalent of the view in exponential coordinates.
- *
- * @param {Stats} stats
- */
+/** The text equivalent of the view in exponential coordinates. @param {Stats} stats */
 export function twistText({ n, exponential: { mean, cov }, coverage }) {
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
   const start = `${twist}, ${twistAxes}.`;

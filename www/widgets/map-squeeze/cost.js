@@ -5,8 +5,7 @@
  */
 
 /**
- * @typedef {import('../../types.d.ts').MapSqueeze} MapSqueeze
- * @typedef {import('../../types.d.ts').SamplerName} SamplerName
+ * @import { MapSqueeze, SamplerName } from '../../types.d.ts'
  *
  * @typedef {object} Cost of one accepted sample
  * @property {number} micros microseconds

@@ -15,16 +15,13 @@ import { SAMPLERS } from './settings.js';
 import { keptWords, shareOf } from './words.js';
 
 /**
+ * @import { CostMeter } from './cost.js'
+ *
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../../types.d.ts').SqueezeStats} Stats
- * @typedef {import('./cost.js').CostMeter} CostMeter
  */
 
-/**
- * What the marks in the picture mean.
- *
- * @param {Settings} config
- */
+/** What the marks in the picture mean. @param {Settings} config */
 export function key(config) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;

@@ -12,9 +12,10 @@ import { en } from './en.js';
 import { VERDICT } from './settings.js';
 
 /**
+ * @import { Plan } from '../../types.d.ts'
+ *
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../../types.d.ts').SqueezeStats} Stats
- * @typedef {import('../../types.d.ts').Plan} Plan
  */
 
 addEnglish({ squeeze: en });
@@ -35,11 +36,7 @@ export function noteOn(config, stats, startFree) {
   return startFree ? '' : noRoom;
 }
 
-/**
- * What is said of a draw that stays.
- *
- * @param {Settings} config
- */
+/** What is said of a draw that stays. @param {Settings} config */
 export function keptWords({ conditioned }) {
   return conditioned ? words.squeeze.accepted : words.squeeze.kept;
 }

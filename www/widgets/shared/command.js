@@ -8,11 +8,7 @@ import { html } from 'lit';
 import { words } from '../../messages/registry.js';
 import { fixed } from '../../ui/format.js';
 
-/**
- * The command in words.
- *
- * @param {import('../../types.d.ts').Command} command
- */
+/** The command in words. @param {import('../../types.d.ts').Command} command */
 export function commandText({ v, omega, dt }) {
   return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
 }

@@ -6,10 +6,7 @@
 
 import { fromBase64, object, refusal, toBase64, whole } from '../../../figure/checks.js';
 
-/**
- * @typedef {import('../../../types.d.ts').MapSqueeze} MapSqueeze
- * @typedef {import('../../../types.d.ts').MapData} MapData
- */
+/** @import { MapData, MapSqueeze } from '../../../types.d.ts' */
 
 /** Most cells of a map: what the core takes. */
 export const MOST_CELLS = 2 ** 24;

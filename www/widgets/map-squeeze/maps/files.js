@@ -8,8 +8,9 @@ import { LONGEST_SIDE } from '../../../scene/canvas.js';
 import { MOST_CELLS } from './data.js';
 
 /**
+ * @import { MapSqueeze } from '../../../types.d.ts'
+ *
  * @typedef {import('../../../messages/registry.js').Messages['squeeze']['refused']} Refused
- * @typedef {import('../../../types.d.ts').MapSqueeze} MapSqueeze
  *
  * @typedef {object} OwnMap
  * @property {string} name
@@ -88,14 +89,8 @@ export async function readPlan(name, text) {
   const plan = await parsed(name, text, 'JSON');
   return {
     name,
-    apply: (machine) => {
-      try {
-        machine.setPlan(plan ?? null);
-      } catch (error) {
-        const reason = complaint(error);
-        throw new MapFileError((say) => say.plan(name, reason, PLAN_FORM));
-      }
-    },
+    apply: (machine) =>
+      retold(() => machine.setPlan(plan ?? null), (say, reason) => say.plan(name, reason, PLAN_FORM)),
   };
 }
 
@@ -144,14 +139,11 @@ async function readGrid(file, images) {
     : await readPng(image);
   return {
     name: file.name,
-    apply: (machine) => {
-      try {
-        machine.setGrid(description, pixels);
-      } catch (error) {
-        const reason = complaint(error);
-        throw new MapFileError((say) => gridComplaint(say, file.name, image.name, reason));
-      }
-    },
+    apply: (machine) =>
+      retold(
+        () => machine.setGrid(description, pixels),
+        (say, reason) => gridComplaint(say, file.name, image.name, reason),
+      ),
   };
 }
 
@@ -243,8 +235,16 @@ function gridComplaint(say, description, image, reason) {
   return reason.startsWith('walls') ? say.cells(image, reason) : `${description}: ${reason}.`;
 }
 
-/** @param {unknown} error of the core, which names a field and what is allowed */
-function complaint(error) {
-  if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-  return error.message.replace(' is undefined;', ' is missing;');
+/**
+ * @param {() => void} apply what the core may refuse: it names a field and what is allowed
+ * @param {(say: Refused, reason: string) => string} sentence
+ */
+function retold(apply, sentence) {
+  try {
+    apply();
+  } catch (error) {
+    if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
+    const reason = error.message.replace(' is undefined;', ' is missing;');
+    throw new MapFileError((say) => sentence(say, reason));
+  }
 }

@@ -7,7 +7,7 @@
 import { words } from '../../../messages/registry.js';
 import { MapFileError, readMapFiles, readPlan } from './files.js';
 
-/** @typedef {import('./files.js').OwnMap} OwnMap */
+/** @import { OwnMap } from './files.js' */
 
 export class MapOpener {
   /** Why the latest map was refused. @type {(() => string) | undefined} */

@@ -137,7 +137,7 @@ function languageOf(element) {
 /** @type {MutationObserver | undefined} */
 let observer;
 
-/** On its own: made among an element's variables, it would hold the element for as long as the page lives. */
+/** No closure of `onLanguage`: the observer would hold that one's element for as long as the page lives. */
 function tellAll() {
   for (const listener of shared.listeners) listener();
 }

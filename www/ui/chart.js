@@ -164,7 +164,7 @@ export function chart(chart) {
   `;
 }
 
-/** Between values and pixels, with the value 0 halfway up. @param {Chart} chart */
+/** Turns values into pixels and back, with 0 halfway up. @param {Chart} chart */
 function scaleOf({ curve, min, max }) {
   const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), LEAST_PEAK);
   const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;

@@ -88,7 +88,7 @@ const layout = css`
     grid-area: 1 / 1;
   }
 
-  /* As a note has it, which is set in. */
+  /* Room for the longest note, which is indented. */
   .caption::after {
     grid-area: 1 / 1;
     height: auto;

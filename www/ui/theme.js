@@ -14,18 +14,9 @@ import { css } from 'lit';
  * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
  * prediction too, but a mass of dots rather than a line or text.
  */
-const ROLES = /** @type {const} */ ([
-  'paper',
-  'ink',
-  'muted',
-  'rule',
-  'prior',
-  'prediction',
-  'cloud',
-  'truth',
-  'posterior',
-  'accent',
-]);
+const ROLES = /** @type {const} */ (
+  ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent']
+);
 
 /** @typedef {Record<(typeof ROLES)[number], string>} Palette resolved CSS colours */
 

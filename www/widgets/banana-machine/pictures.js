@@ -21,7 +21,7 @@ import {
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { counted } from '../../ui/format.js';
-import { deviation } from './spread.js';
+import { deviation } from './figures.js';
 
 /**
  * @import { BananaMachine, Moments } from '../../types.d.ts'

@@ -75,7 +75,7 @@ const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 export function workedExample({ linearized, exact, measured }, stats) {
   const computed = [linearized, exact];
   const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
-  // Of two lines also while there is none.
+  // Two lines, also while there is no error: the row keeps its height.
   const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
   /** @type {[unknown, (column: Table['exact']) => number, unknown?][]} */

@@ -8,37 +8,13 @@
 import { addEnglish, words } from '../../messages/registry.js';
 import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent, withError } from '../../ui/format.js';
-import { alphaName, commandText } from '../shared/command.js';
+import { commandText } from '../shared/command.js';
 import { en } from './en.js';
-import { deviation, spreadOf } from './spread.js';
+import { deviation } from './figures.js';
 
 /** @import { Settings, Stats, Table } from '../../types.d.ts' */
 
 addEnglish({ banana: en });
-
-/**
- * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
- *
- * @param {Settings} config
- * @param {Table} table
- * @param {Stats} stats
- * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
- * @returns {string} empty for an ordinary cloud
- */
-export function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
-  const { notes, alphaIsZero, alphaIsSilent } = words.banana;
-  const spread = spreadOf(table);
-  const { v, omega } = command;
-  if (spread === 'point') {
-    if (v === 0 && omega === 0) return notes.still;
-    if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
-    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : alphaIsSilent[model][isolate - 1];
-  }
-  if (spread === 'headings') return notes.headings;
-  if (!chartHolds) return notes.circle;
-  if (model === 'odometry' && v < 0) return notes.backwards;
-  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
-}
 
 /** The longest of the sentences that may come, to keep room for. */
 export function longestNote() {

@@ -52,7 +52,7 @@ function* measuring(machine, sampler, parts) {
         }
         runs.sort((one, other) => one.elapsed - other.elapsed);
         const { draws, wallTests, elapsed } = runs[(RUNS - 1) / 2];
-        // Otherwise it was long because the device was busy.
+        // If not, the warm-up was long because the device was busy, and more samples are needed.
         if (elapsed >= LONG_ENOUGH / 2 || count === most) {
           return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
         }

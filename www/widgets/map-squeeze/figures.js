@@ -4,8 +4,11 @@
  * @module
  */
 
+import { words } from '../../messages/registry.js';
+import { counted } from '../../ui/format.js';
 import { VERDICT } from './settings.js';
-import { noteOn } from './words.js';
+
+/** @import { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts' */
 
 /** Most paths that are drawn: more would be one blot, and cost more than a frame. */
 const MOST_PATHS = 150;
@@ -13,7 +16,7 @@ const MOST_PATHS = 150;
 /**
  * Everything that the picture and the readouts need of the machine, asked once a change.
  *
- * @param {import('../../types.d.ts').MapSqueeze} machine
+ * @param {MapSqueeze} machine
  */
 export function figuresOf(machine) {
   const { config, stats, verdicts, poses, commanded, startFree } = machine;
@@ -53,4 +56,20 @@ function sort(poses, verdicts) {
     if ((verdicts[i] & VERDICT.pathFree) === 0) through.push(i);
   }
   return { rejected, accepted: Float64Array.from(accepted), through };
+}
+
+/**
+ * A sentence on a robot that gets nowhere.
+ *
+ * @param {SqueezeSettings} config
+ * @param {SqueezeStats} stats
+ * @param {boolean} startFree
+ * @returns {string} empty for an ordinary cloud
+ */
+function noteOn(config, stats, startFree) {
+  const { wedged, nothing, noRoom } = words.squeeze;
+  const drawn = counted(stats.drawn);
+  if (stats.gaveUp) return wedged(stats.accepted, counted(stats.accepted), counted(config.samples), drawn);
+  if (stats.drawn > 0 && stats.accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
+  return startFree ? '' : noRoom;
 }

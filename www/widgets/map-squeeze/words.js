@@ -20,22 +20,6 @@ import { VERDICT } from './settings.js';
 
 addEnglish({ squeeze: en });
 
-/**
- * A sentence on a robot that gets nowhere.
- *
- * @param {Settings} config
- * @param {Stats} stats
- * @param {boolean} startFree
- * @returns {string} empty for an ordinary cloud
- */
-export function noteOn(config, stats, startFree) {
-  const { wedged, nothing, noRoom } = words.squeeze;
-  const drawn = counted(stats.drawn);
-  if (stats.gaveUp) return wedged(stats.accepted, counted(stats.accepted), counted(config.samples), drawn);
-  if (stats.drawn > 0 && stats.accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
-  return startFree ? '' : noRoom;
-}
-
 /** What is said of a draw that stays. @param {Settings} config */
 export function keptWords({ conditioned }) {
   return conditioned ? words.squeeze.accepted : words.squeeze.kept;

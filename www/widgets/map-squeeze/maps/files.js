@@ -173,7 +173,7 @@ async function readPng(file) {
   const header = new DataView(await bytesOf(file.slice(0, 24), file.name));
   const isPng = header.byteLength === 24 && header.getUint32(0) === 0x89504e47;
   if (!isPng) throw new MapFileError((say) => say.noPng(file.name));
-  // Looked at before it is unpacked: a small file may hold an enormous image.
+  // Before the image is unpacked: a small file may hold an enormous one.
   const [width, height] = [header.getUint32(16), header.getUint32(20)];
   if (Math.max(width, height) > LONGEST_SIDE || width * height > MOST_CELLS) {
     throw new MapFileError((say) => say.large(file.name, `${width} × ${height}`, LONGEST_SIDE, MOST_CELLS));
@@ -201,7 +201,7 @@ async function decoded(file, width, height) {
     const { format } = image;
     const pixels = new ImageData(width, height);
     const { data } = pixels;
-    // In its own format: a conversion would blacken what is fully transparent.
+    // In the image's own format: a conversion would blacken what is fully transparent.
     await image.copyTo(data);
     image.close();
     decoder.close();
@@ -211,7 +211,7 @@ async function decoded(file, width, height) {
     }
     return pixels;
   }
-  // A canvas blackens it too.
+  // Other browsers have a canvas only, which blackens what is fully transparent.
   const bitmap = await createImageBitmap(file, asTheyAre);
   const canvas = new OffscreenCanvas(width, height);
   const context = /** @type {OffscreenCanvasRenderingContext2D} */ (

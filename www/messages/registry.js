@@ -5,8 +5,6 @@
  * An element speaks the language of its nearest `lang` attribute as far as there are words in it, and
  * English otherwise. `speak` makes that language the present one before anything is rendered or
  * drawn, all of which happens at once: `words` and the numbers of ui/format.js are in it then.
- *
- * @module
  */
 
 /**

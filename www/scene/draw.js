@@ -1,8 +1,6 @@
 /**
  * What pictures are made of: axes, robots, densities, outlines and marks. Every function takes the
  * brush, which knows the view's transform and the colours, and none keeps anything.
- *
- * @module
  */
 
 import { ticks } from 'd3-array';

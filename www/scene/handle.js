@@ -1,8 +1,4 @@
-/**
- * Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard.
- *
- * @module
- */
+/** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
 
 import { html } from 'lit';
 

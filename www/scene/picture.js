@@ -1,8 +1,4 @@
-/**
- * A picture: what a canvas shows of a machine, through a view of its own.
- *
- * @module
- */
+/** A picture: what a canvas shows of a machine, through a view of its own. */
 
 import { brushOn } from './canvas.js';
 
@@ -11,7 +7,7 @@ import { brushOn } from './canvas.js';
  * @import { View } from './view.js'
  * @import { Palette } from '../ui/theme.js'
  *
- * @typedef {object} Motion
+ * @typedef {object} Easing
  * @property {number} [elapsed] milliseconds since the frame before
  * @property {boolean} [still] whether the view stays aimed at what it is aimed at
  * @property {boolean} [atOnce] whether the view goes there without easing
@@ -44,7 +40,7 @@ export class Picture {
    * @param {HTMLCanvasElement | Surface} surface
    * @param {Scene} scene
    * @param {Palette} palette
-   * @param {Motion} [motion]
+   * @param {Easing} [easing]
    * @returns {boolean} whether the view is still moving
    */
   draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false } = {}) {

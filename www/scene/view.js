@@ -1,8 +1,6 @@
 /**
  * The transform between a view's world (metres, radians; y up) and its canvas (CSS pixels; y down),
  * and the choice of the part of the world that a view shows. The only place where y flips.
- *
- * @module
  */
 
 /** @typedef {{ xMin: number, yMin: number, xMax: number, yMax: number }} Extent axis-aligned part of a view's world */

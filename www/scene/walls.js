@@ -1,8 +1,6 @@
 /**
  * A floor plan's walls as a layer of their own: a map may have tens of thousands, and they change
  * only with the map, the view or the colours.
- *
- * @module
  */
 
 import { LONGEST_SIDE } from './canvas.js';

@@ -1,8 +1,4 @@
-/**
- * A line chart in SVG whose marker can be moved along x, by pointer and by keyboard.
- *
- * @module
- */
+/** A line chart in SVG whose marker can be moved along x, by pointer and by keyboard. */
 
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg } from 'lit';

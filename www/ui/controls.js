@@ -1,8 +1,6 @@
 /**
  * Native inputs with a label, the value with its unit, and one line that says what the parameter
  * does to the picture.
- *
- * @module
  */
 
 import { css, html, nothing } from 'lit';

@@ -1,8 +1,6 @@
 /**
  * Numbers as they are printed in the present language: a true minus sign, thin spaces between
  * thousands, and a dash where there is no number.
- *
- * @module
  */
 
 import { language } from '../messages/registry.js';

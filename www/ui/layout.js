@@ -1,8 +1,6 @@
 /**
  * The page of a widget: its picture large at the left with the controls beside it, everything in one column
  * where there is little room.
- *
- * @module
  */
 
 import { css } from 'lit';

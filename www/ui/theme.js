@@ -4,8 +4,6 @@
  * colour blindness; each role also has a dash or a shape of its own. Text on the paper keeps a
  * contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
  * custom property that begins with --motion.
- *
- * @module
  */
 
 import { css } from 'lit';

@@ -1,8 +1,4 @@
-/**
- * What the Banana Machine shows of its machine.
- *
- * @module
- */
+/** What the Banana Machine shows of its machine. */
 
 import { words } from '../../messages/registry.js';
 import { alphaName } from '../shared/command.js';

@@ -1,9 +1,4 @@
-/**
- * The Banana Machine's two pictures of the same robots: the floor from above, and exponential
- * coordinates.
- *
- * @module
- */
+/** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
 import { words } from '../../messages/registry.js';
 import {

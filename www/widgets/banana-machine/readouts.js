@@ -1,9 +1,4 @@
-/**
- * The Banana Machine's readouts: the statistics of the cloud, the marked robot, and the tables of
- * moments.
- *
- * @module
- */
+/** The Banana Machine's readouts: the statistics of the cloud, the marked robot, and the tables of moments. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';

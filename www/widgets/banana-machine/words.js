@@ -1,8 +1,6 @@
 /**
  * What the Banana Machine says when, in the words of the present language: sentences about degenerate
  * clouds, and the text that stands for the pictures.
- *
- * @module
  */
 
 import { addEnglish, words } from '../../messages/registry.js';

@@ -1,8 +1,4 @@
-/**
- * What each sampler costs on this device, measured.
- *
- * @module
- */
+/** What each sampler costs on this device, measured. */
 
 /**
  * @import { MapSqueeze, SamplerName } from '../../types.d.ts'

@@ -1,8 +1,4 @@
-/**
- * What Map Squeeze shows of its machine.
- *
- * @module
- */
+/** What Map Squeeze shows of its machine. */
 
 import { words } from '../../messages/registry.js';
 import { counted } from '../../ui/format.js';

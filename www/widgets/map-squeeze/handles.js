@@ -1,9 +1,4 @@
-/**
- * The robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer
- * and by keyboard.
- *
- * @module
- */
+/** The robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer and by keyboard. */
 
 import { words } from '../../messages/registry.js';
 import { Handle, WAYS } from '../../scene/handle.js';

@@ -1,8 +1,4 @@
-/**
- * Map Squeeze's picture: walls, the robot with its command, and what became of every draw.
- *
- * @module
- */
+/** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
 
 import { DASHES, clipped, drawAxes, drawDots, drawMark, drawOutline, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';

@@ -1,8 +1,6 @@
 /**
  * Map Squeeze's readouts: the key to the picture, the tally of the draws, the marked one, and what each
  * sampler costs.
- *
- * @module
  */
 
 import { html } from 'lit';

@@ -1,8 +1,4 @@
-/**
- * What Map Squeeze's page has of its own: the key to its marks, and room for maps of the reader's.
- *
- * @module
- */
+/** What Map Squeeze's page has of its own: the key to its marks, and room for maps of the reader's. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';

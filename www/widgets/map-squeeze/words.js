@@ -1,8 +1,6 @@
 /**
  * What Map Squeeze says when, in the words of the present language: verdicts, sentences about robots
  * that cannot move, and the text that stands for the picture.
- *
- * @module
  */
 
 import { addEnglish, words } from '../../messages/registry.js';

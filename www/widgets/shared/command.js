@@ -1,8 +1,4 @@
-/**
- * A velocity command and its noise, as every widget that has one prints them.
- *
- * @module
- */
+/** A velocity command and its noise, as every widget that has one prints them. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';

@@ -1,8 +1,4 @@
-/**
- * Maps as plain data: what a state holds of a map of the reader's own.
- *
- * @module
- */
+/** Maps as plain data: what a state holds of a map of the reader's own. */
 
 import { fromBase64, object, refusal, toBase64, whole } from '../../../figure/checks.js';
 

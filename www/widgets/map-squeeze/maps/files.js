@@ -1,8 +1,4 @@
-/**
- * Maps of the reader's own: a JSON floor plan, or a pair of files as ROS map_server has them.
- *
- * @module
- */
+/** Maps of the reader's own: a JSON floor plan, or a pair of files as ROS map_server has them. */
 
 import { LONGEST_SIDE } from '../../../scene/canvas.js';
 import { MOST_CELLS } from './data.js';

@@ -1,8 +1,4 @@
-/**
- * How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused.
- *
- * @module
- */
+/** How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused. */
 
 import { words } from '../../../messages/registry.js';
 import { MapFileError, readMapFiles, readPlan } from './files.js';

@@ -150,11 +150,7 @@ export class FigureElement extends LitElement {
     throw new Error('A widget says what is taken along.');
   }
 
-  /**
-   * What is announced after a change has come to rest.
-   *
-   * @param {Reading} _reading
-   */
+  /** What is announced after a change has come to rest. @param {Reading} _reading */
   announcement(_reading) {
     return '';
   }
@@ -167,11 +163,7 @@ export class FigureElement extends LitElement {
     return false;
   }
 
-  /**
-   * Puts the handles where the pictures have them now.
-   *
-   * @param {any} _scene
-   */
+  /** Puts the handles where the pictures have them now. @param {any} _scene */
   placeHandles(_scene) {}
 
   /** Everything that a reader can change, as the machine and the element have it. @returns {Values} */

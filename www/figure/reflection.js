@@ -135,11 +135,7 @@ export class Reflection {
     return { config: this.#host.settings.wanted, machine: this.#host.machine };
   }
 
-  /**
-   * What something of the element's own is when the widget opens.
-   *
-   * @param {string} name
-   */
+  /** What something of the element's own is when the widget opens. @param {string} name */
   #usual(name) {
     const entry = this.#attributes[name];
     return isSetting(entry) ? undefined : (entry.opening ?? this.#host.state.opening(name));
@@ -209,11 +205,7 @@ export class Reflection {
     this.#writing = false;
   }
 
-  /**
-   * The attributes that a figure needs which opens otherwise.
-   *
-   * @returns {[string, string][]}
-   */
+  /** The attributes that a figure needs which opens otherwise. @returns {[string, string][]} */
   needed() {
     const texts = this.#now;
     const usual = this.#opening((opening) => this.#texts(opening, (name) => this.#usual(name)));

@@ -104,21 +104,13 @@ export class Runtime {
     this.#crashes = 0;
   }
 
-  /**
-   * Tells the page of what went wrong.
-   *
-   * @param {unknown} error
-   */
+  /** Tells the page of what went wrong. @param {unknown} error */
   report(error) {
     const message = messageOf(error);
     this.#host.dispatchEvent(new ErrorEvent('error', { error, message, bubbles: true, composed: true }));
   }
 
-  /**
-   * Shows a sentence in the figure's place and tells the page.
-   *
-   * @param {unknown} error
-   */
+  /** Shows a sentence in the figure's place and tells the page. @param {unknown} error */
   fail(error) {
     if (isTrap(error)) this.#abandon();
     this.#stop();

@@ -130,11 +130,7 @@ export class Stage {
     );
   }
 
-  /**
-   * Gives each canvas as many pixels as the screen has under it.
-   *
-   * @param {ResizeObserverEntry[]} entries
-   */
+  /** Gives each canvas as many pixels as the screen has under it. @param {ResizeObserverEntry[]} entries */
   #resize(entries) {
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = /** @type {HTMLCanvasElement} */ (target);
@@ -175,11 +171,7 @@ export class Stage {
     this.wake();
   }
 
-  /**
-   * Paper is light, whatever the screen is.
-   *
-   * @param {boolean} printing
-   */
+  /** Paper is light, whatever the screen is. @param {boolean} printing */
   #print(printing) {
     const surface = this.#probe('.surface');
     if (!surface) return;

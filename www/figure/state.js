@@ -34,11 +34,7 @@ export class State {
     this.own = Object.fromEntries(Object.keys(owned).map((name) => [name, this.opening(name)]));
   }
 
-  /**
-   * What something of the element's own is when the widget opens.
-   *
-   * @param {string} name
-   */
+  /** What something of the element's own is when the widget opens. @param {string} name */
   opening(name) {
     return this.#owned[name]?.opening;
   }
@@ -49,11 +45,7 @@ export class State {
     return { widget: this.#host.localName, version: VERSION, ...Object.fromEntries(own) };
   }
 
-  /**
-   * Something of the element's own, for the page: a list is a copy.
-   *
-   * @param {string} name
-   */
+  /** Something of the element's own, for the page: a list is a copy. @param {string} name */
   copy(name) {
     const value = this.own[name];
     return Array.isArray(value) ? [...value] : value;

@@ -13,11 +13,7 @@ const waiting = new Set();
 let previous = 0;
 let running = false;
 
-/**
- * Calls `animated.frame` at the next animation frame, once however often it is asked.
- *
- * @param {Animated} animated
- */
+/** Calls `animated.frame` at the next animation frame, once however often it is asked. @param {Animated} animated */
 export function wake(animated) {
   waiting.add(animated);
   if (!running) start();

@@ -144,11 +144,7 @@ export class BananaMachineElement extends FigureElement {
     return this.cloud.isMarked ? this.machine?.inspect(this.cloud.index) : undefined;
   }
 
-  /**
-   * Leaves one α alone in effect.
-   *
-   * @param {number} number from 1
-   */
+  /** Leaves one α alone in effect. @param {number} number from 1 */
   leaveAlone(number) {
     this.state.own.isolateChoice = number;
     this.settings.want({ isolate: number });

@@ -100,11 +100,7 @@ function isolateButton(figure, number, checked) {
   </label>`;
 }
 
-/**
- * The legend of the floor, in which each overlay can be turned off.
- *
- * @param {Figure} figure
- */
+/** The legend of the floor, in which each overlay can be turned off. @param {Figure} figure */
 export function overlayToggles(figure) {
   const { overlays: shown } = figure.state.own;
   return html`<div class="legend" part="legend" role="group" aria-label=${words.banana.overlaysLabel}>

@@ -28,11 +28,7 @@ import { announcementOf, mapText, pictureText, verdictText } from './words.js';
  * @typedef {import('./reading.js').Reading} Reading
  */
 
-/**
- * Motion conditioned on a map, and what the condition cannot see.
- *
- * @extends {FigureElement<Machine, Reading>}
- */
+/** Motion conditioned on a map, and what the condition cannot see. @extends {FigureElement<Machine, Reading>} */
 export class MapSqueezeElement extends FigureElement {
   static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...squeezeStyles];
 
@@ -173,11 +169,7 @@ export class MapSqueezeElement extends FigureElement {
     return this.ask((machine) => machine.verdicts);
   }
 
-  /**
-   * The reader wants the robot in the apartment.
-   *
-   * @param {Pose} start
-   */
+  /** The reader wants the robot in the apartment. @param {Pose} start */
   go(start) {
     this.runtime.attempt(() => this.#leave());
     this.settings.want({ start });

@@ -3,6 +3,7 @@
 import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
+import { widgets } from './declarations.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
 import { withTables } from './tables.mjs';
@@ -97,9 +98,10 @@ export async function bundle() {
   }
   const documentation = await manifest();
   const elements = documentation.modules.flatMap(({ declarations }) => declarations);
+  const all = await widgets();
   for (const path of filesOf('www').filter((path) => COPIED.test(path))) {
     const text = readFileSync(at(path), 'utf8');
-    write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements) : text);
+    write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
   write(at('dist/motion.wasm'), wasm);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts' };

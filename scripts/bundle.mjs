@@ -69,6 +69,7 @@ export async function bundle() {
           setup({ onLoad }) {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]js-yaml\.mjs$/ }, ({ path }) => ({ contents: withoutEffects(readFileSync(path, 'utf8')), loader: 'js' }));
           },
         },
       ],
@@ -148,6 +149,18 @@ function ofDeclarations() {
   return Object.entries(declared)
     .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)
     .join('');
+}
+
+/**
+ * A library whose constants are left out where nothing uses them. Here they are half of what only writes YAML: that
+ * computing them has no effect, a bundler cannot know.
+ *
+ * @param {string} library with each constant at the start of a line
+ */
+function withoutEffects(library) {
+  return library
+    .replaceAll(/^(var \w+ = )((?:new |`|\w+\().*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
+    .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
 }
 
 /**

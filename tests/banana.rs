@@ -38,7 +38,7 @@ fn picture(machine: &BananaMachine) -> String {
 }
 
 #[test]
-fn the_opening_state_is_the_designs() {
+fn the_opening_state_is_the_gentle_arc() {
     let opening = machine(Settings::default());
     let settings = opening.settings();
     assert_eq!(settings.command, VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 });

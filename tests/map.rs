@@ -53,9 +53,9 @@ fn scattered(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> V
 
 // --------------------------------------------------------------------------------------------------- construction
 
-/// The walls of the design, from end to end in any order.
+/// The book's apartment: its walls from end to end, in any order.
 #[test]
-fn the_apartment_is_the_designs() {
+fn the_apartment_has_its_walls() {
     let mut expected: Vec<[f64; 4]> = Vec::new();
     for (y, spans) in [
         (0.0, &[[0.0, 12.0]] as &[[f64; 2]]),

@@ -150,7 +150,8 @@ fn describe(declaration: &Declaration, setting: Setting, numbered: &[&str], obje
         Setting::Group(group) => {
             let keys = group.fields().iter().map(|field| field.declaration.key).collect();
             line(format!("type: 'group', fields: {}", words(keys)));
-            for (field, value) in group.fields().iter().zip(group.numbers()) {
+            for (i, field) in group.fields().iter().enumerate() {
+                let value = *group.number(i);
                 let Declaration { key: part, sentence, unit, .. } = field.declaration;
                 objects.push(format!(
                     "key: '{part}', in: '{key}', type: 'number', unit: '{unit}', {}, default: {value}, \
@@ -172,11 +173,8 @@ fn words(words: Vec<&str>) -> String {
 
 /// The numbers of a group by their keys.
 fn group(mut group: impl Group) -> String {
-    let fields = group.fields();
-    let entries: Vec<String> = fields
-        .iter()
-        .zip(group.numbers())
-        .map(|(field, number)| format!("{}: {number}", field.declaration.key))
-        .collect();
+    let numbers = group.fields().iter().enumerate();
+    let entries: Vec<String> =
+        numbers.map(|(i, field)| format!("{}: {}", field.declaration.key, group.number(i))).collect();
     entries.join(", ")
 }

@@ -43,7 +43,7 @@ fn picture(machine: &MapSqueeze) -> String {
 }
 
 #[test]
-fn the_opening_state_is_the_designs() {
+fn the_opening_state_faces_a_doorway() {
     let opening = machine(Settings::default());
     let settings = opening.settings();
     assert_eq!((settings.start, settings.command), ([2.05, 2.6, std::f64::consts::FRAC_PI_2], AHEAD));

@@ -1,8 +1,6 @@
 /**
  * Loads the WebAssembly core, compiled once a page or process. The only file that touches generated glue.
  * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
- *
- * @module
  */
 
 import makeCore from '../build/motion.js';

@@ -2,8 +2,6 @@
  * One widget for an iframe. The query says which, and its attributes:
  * `embed.html?widget=banana-machine&omega=0.8`. The page around the frame is told the height by
  * messages `{ type: 'motion-widgets:height', height }`, in CSS pixels.
- *
- * @module
  */
 
 import './de.js';

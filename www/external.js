@@ -1,8 +1,6 @@
 /**
  * As motion-widgets.js, with the WebAssembly module in a file of its own and each widget in another, which is
  * loaded when its tag is met: in the document, or in an open shadow root.
- *
- * @module
  */
 
 import { vocabularies, widgets } from '../build/widgets.js';

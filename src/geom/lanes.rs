@@ -27,7 +27,7 @@ pub struct Circle {
 pub struct HalfTurn {
     /// h less whole half circles, within a quarter circle of the one that was asked for.
     pub half: f64x4,
-    /// h·cot h of it.
+    /// h·cot h of `half`.
     pub cotangent: f64x4,
     /// sin h and cos h; both may have the other sign where half circles were taken off.
     pub sin: f64x4,
@@ -49,20 +49,20 @@ impl Default for Trigonometry {
 }
 
 impl Trigonometry {
-    /// Of angles up to a quarter turn (rad).
+    /// Sines and cosines of angles up to a quarter turn (rad).
     #[inline(always)]
     pub fn circle(&self, x: f64x4) -> Circle {
         let (sinc, cos) = self.sinc_cos(x * x);
         Circle { sinc, sin: x * sinc, cos }
     }
 
-    /// Of any finite angles, quickest where all are up to a quarter turn.
+    /// Sines and cosines of any finite angles (rad), quickest where all are up to a quarter turn.
     #[inline(always)]
     pub fn near_or_any_circle(&self, x: f64x4) -> Circle {
         if beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
     }
 
-    /// Of any finite angles. A lane up to a quarter turn gets the bits of [`Trigonometry::circle`].
+    /// Sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of [`Trigonometry::circle`].
     #[inline(never)]
     pub fn any_circle(&self, x: f64x4) -> Circle {
         let half_circles = whole_half_circles(x);
@@ -88,14 +88,14 @@ impl Trigonometry {
         }
     }
 
-    /// Of half headings within a quarter turn of 0 and of the branch that is asked for.
+    /// What the logarithm needs of half headings (rad) within a quarter turn of 0 and of the branch that is asked for.
     #[inline(always)]
     pub fn half_turn(&self, half: f64x4) -> HalfTurn {
         let (sinc, cos) = self.sinc_cos(half * half);
         HalfTurn { half, cotangent: cos / sinc, sin: half * sinc, cos }
     }
 
-    /// Of any half headings, on the branch of the logarithm nearest to the half heading `near` (rad). A lane that is near
+    /// What the logarithm needs of any half headings (rad), on the branch of the logarithm nearest to the half heading `near` (rad). A lane that is near
     /// gets the bits of [`Trigonometry::half_turn`].
     #[inline(never)]
     pub fn any_half_turn(&self, half: f64x4, near: f64) -> HalfTurn {

@@ -14,7 +14,7 @@ use wide::f64x4;
 /// What a draw must satisfy to be accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
-    /// Its last pose is free: Table 5.7, which cannot see how the robot got there.
+    /// The last pose of the draw is free: Table 5.7, which cannot see how the robot got there.
     Endpoint,
     /// The whole arc driven is free.
     WholeArc,

@@ -78,12 +78,13 @@ impl Verdict {
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
-/// Where bounds may lie and how far they may be apart, m: what a robot's coordinates may be, and what a screen can show.
+/// Where bounds may lie, m: as far out as a robot's coordinates may.
 const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
+/// How far bounds may be apart, m: what a screen can show.
 const SIDE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
-    /// What is still interactive to draw and to index.
+    /// Walls of a plan at most: what is still interactive to draw and to index.
     pub const MAX_WALLS: usize = 100_000;
 
     /// A plan of `walls` within `bounds` (least x, least y, greatest x, greatest y), m.

@@ -17,8 +17,9 @@ pub struct Interpretation {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
+    /// Pixels darker than the threshold are occupied.
     Trinary,
-    /// As trinary, and transparent pixels are unknown.
+    /// As [`Mode::Trinary`], and transparent pixels are unknown.
     Scale,
     /// Pixel values are occupancies from 0 to 100; 100 is occupied.
     Raw,

@@ -1,7 +1,7 @@
 //! The widgets' simulations: parameters in, buffers and figures out, no browser anywhere.
 
 pub mod banana;
-pub mod cloud;
+mod cloud;
 pub mod settings;
 pub mod squeeze;
 

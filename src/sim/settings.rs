@@ -1,4 +1,4 @@
-//! Settings, each declared once by [`settings!`], and the refusal of what they do not allow.
+//! Settings, each declared once by `settings!`, and the refusal of what they do not allow.
 
 use crate::models::VelocityCmd;
 use std::fmt;
@@ -98,7 +98,7 @@ pub struct Declaration {
     pub key: &'static str,
     /// The setting that this one is another way to say.
     pub of: Option<&'static str>,
-    // Of these nothing is said by the module for browsers.
+    // The module for browsers has neither the sentence nor the unit, which would weigh and tell nobody anything.
     #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
     /// "" where it has none.
@@ -113,7 +113,7 @@ pub enum Setting<'a> {
     WholeOrNone(&'a mut Option<usize>, RangeInclusive<u64>),
     Truth(&'a mut bool),
     Word(&'a mut dyn Word),
-    /// As many numbers as there are, all of one range.
+    /// A list of fixed length, all of its numbers of one range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
     Level(&'a mut dyn Level, RangeInclusive<f64>),
     Group(&'a mut dyn Group),
@@ -141,8 +141,11 @@ impl Setting<'_> {
 }
 
 pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), SettingsError> {
-    for (Field { declaration, allowed }, number) in group.fields().iter().zip(group.numbers()) {
-        check_real(&format!("{key}.{}", declaration.key), *number, allowed)?;
+    for (i, Field { declaration, allowed }) in group.fields().iter().enumerate() {
+        let number = *group.number(i);
+        if !allowed.contains(&number) {
+            return check_real(&format!("{key}.{}", declaration.key), number, allowed);
+        }
     }
     Ok(())
 }
@@ -155,7 +158,7 @@ pub trait Whole {
 
 /// A number that stands for several others, as a slider for all of them does.
 pub trait Level {
-    /// None where the others are not those of any level.
+    /// The level; None where the others are not those of any.
     fn get(&self) -> Option<f64>;
     fn set(&mut self, level: f64);
 }
@@ -192,8 +195,8 @@ impl<T: Words> Word for T {
 /// Numbers that only make sense together.
 pub trait Group {
     fn fields(&self) -> &'static [Field];
-    /// As many as there are fields, in their order.
-    fn numbers(&mut self) -> Vec<&mut f64>;
+    /// The number of a field by its place among them, from 0; panics past the last.
+    fn number(&mut self, index: usize) -> &mut f64;
 }
 
 /// A number of a [`Group`].
@@ -267,7 +270,7 @@ whole!(u32, u64, usize);
 /// What is shown a setting after the other, until it breaks.
 pub type See<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
-/// What [`settings!`] makes of a declaration: the settings of a widget one by one.
+/// What `settings!` makes of a declaration: the settings of a widget one by one.
 pub trait Declared: Copy + Default {
     const KEYS: &'static [&'static str];
 
@@ -277,7 +280,7 @@ pub trait Declared: Copy + Default {
     /// Shows each setting to `see`, in the order of declaration, until one is refused.
     ///
     /// # Errors
-    /// That of `see`.
+    /// The refusal of `see`.
     fn try_each<E>(
         &mut self,
         mut see: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
@@ -297,7 +300,7 @@ pub trait Declared: Copy + Default {
 /// Rules across the settings of a widget.
 pub trait Rules: Declared {
     /// Called after those that are `named` were set one by one.
-    fn settle(&mut self, before: &Self, named: &[&str]);
+    fn settle(&mut self, _before: &Self, _named: &[&str]) {}
 
     /// Called when each setting is known to be in its range.
     ///
@@ -316,8 +319,13 @@ pub trait Rules: Declared {
     }
 }
 
-/// Declares the settings of a widget: `sentence, key: type = default, "unit", in range;`, all but the default as far as
-/// the type has it.
+/// Declares the settings of a widget, each by a sentence, its name, type and default; a number by its unit, if it has one,
+/// and its range besides:
+///
+/// ```ignore
+/// /// Radius of the robot.
+/// clearance: f64 = 0.13, "m", in 0.0..=10.0;
+/// ```
 ///
 /// The end of a range may depend on other settings: `up to` names a method for it. A setting that is not a field of its
 /// own says `by` which method it is reached, and `of` which setting it is another way to say. What is `kept` besides is
@@ -330,7 +338,7 @@ macro_rules! settings {
                 #[doc = $sentence:literal]
                 $key:ident
                 $(: $type:ty = $default:expr $(, $unit:literal)?)?
-                $(, by $accessor:ident $(of $whole:ident)?)?
+                $(, by $accessor:ident $(of $original:ident)?)?
                 $(, in $range:expr $(, up to $most:ident)?)?
                 ;
             )+
@@ -357,7 +365,7 @@ macro_rules! settings {
             fn each(&mut self, see: &mut $crate::sim::settings::See) -> std::ops::ControlFlow<()> {
                 use $crate::sim::settings::{Settable, declaration};
                 $(see(
-                    const { &declaration!($key, $sentence, [$($($unit)?)?] $($(, of $whole)?)?) },
+                    const { &declaration!($key, $sentence, [$($($unit)?)?] $($(, of $original)?)?) },
                     settings!(@place self $key $($accessor)?)
                         .setting(settings!(@allowed self $($range $(, $most)?)?)),
                 )?;)+
@@ -373,11 +381,12 @@ macro_rules! settings {
 }
 pub(crate) use settings;
 
+/// The [`Declaration`] of a setting or of a number of a group.
 macro_rules! declaration {
-    ($key:ident, $sentence:literal, [$($unit:literal)?] $(, of $whole:ident)?) => {
+    ($key:ident, $sentence:literal, [$($unit:literal)?] $(, of $original:ident)?) => {
         $crate::sim::settings::Declaration {
             key: stringify!($key),
-            of: $crate::sim::settings::declaration!(@of $($whole)?),
+            of: $crate::sim::settings::declaration!(@of $($original)?),
             #[cfg(not(target_arch = "wasm32"))]
             sentence: $sentence.trim_ascii(),
             #[cfg(not(target_arch = "wasm32"))]
@@ -385,7 +394,7 @@ macro_rules! declaration {
         }
     };
     (@of) => { None };
-    (@of $whole:ident) => { Some(stringify!($whole)) };
+    (@of $original:ident) => { Some(stringify!($original)) };
 }
 pub(crate) use declaration;
 
@@ -401,9 +410,9 @@ macro_rules! group {
                 FIELDS
             }
 
-            fn numbers(&mut self) -> Vec<&mut f64> {
+            fn number(&mut self, index: usize) -> &mut f64 {
                 let $pattern = self;
-                vec![$($key),+]
+                [$($key),+].into_iter().nth(index).expect("a number of the group")
             }
         }
 

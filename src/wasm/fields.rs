@@ -132,8 +132,8 @@ pub fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result
     let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
     let prefix = format!("{field}.");
     let fields = Fields::new(field, &prefix, value, &keys)?;
-    for (key, slot) in keys.iter().zip(group.numbers()) {
-        *slot = fields.number(key)?;
+    for (i, key) in keys.iter().enumerate() {
+        *group.number(i) = fields.number(key)?;
     }
     Ok(())
 }
@@ -148,8 +148,8 @@ pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsVa
         if value.is_undefined() {
             return Ok(());
         }
-        if let Some(whole) = declaration.of.filter(|whole| named.contains(whole)) {
-            let message = format!("{key} is given beside {whole}; allowed is one of the two");
+        if let Some(original) = declaration.of.filter(|original| named.contains(original)) {
+            let message = format!("{key} is given beside {original}; allowed is one of the two");
             return Err(TypeError::new(&message).into());
         }
         named.push(key);

@@ -68,25 +68,10 @@ pub fn read_grid(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid
 
 /// The bytes of a PGM file, or an ImageData.
 fn read_image(image: &JsValue) -> Result<Image, JsValue> {
-    if let Some(bytes) = image.dyn_ref::<Uint8Array>() {
-        return read_file(bytes);
+    match image.dyn_ref::<Uint8Array>() {
+        Some(bytes) => read_file(bytes),
+        None => read_pixels(image.unchecked_ref()),
     }
-    if let Some(image) = image.dyn_ref::<ImageData>() {
-        return Ok(image_of(read_size(&image.width().into(), &image.height().into())?, &image.data()));
-    }
-    // Where there is no such class, as in Node, what has its properties serves as well.
-    let fields = Fields::open("image", "image.", image)?;
-    let size = read_size(&fields.value("width")?, &fields.value("height")?)?;
-    let data = fields.value("data")?;
-    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
-        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
-    };
-    let expected = 4 * size[0] * size[1];
-    if data.length() as usize != expected {
-        let message = format!("image.data has length {}; allowed is {expected}", data.length());
-        return Err(RangeError::new(&message).into());
-    }
-    Ok(image_of(size, &data.to_vec()))
 }
 
 fn read_file(bytes: &Uint8Array) -> Result<Image, JsValue> {
@@ -98,20 +83,27 @@ fn read_file(bytes: &Uint8Array) -> Result<Image, JsValue> {
     read_pgm(&copy).map_err(|error| RangeError::new(&error.to_string()).into())
 }
 
-fn read_size(width: &JsValue, height: &JsValue) -> Result<[usize; 2], JsValue> {
-    let width = whole("image.width", width, 1..=MAX_PIXELS as u64)?;
-    let height = whole("image.height", height, 1..=MAX_PIXELS as u64 / width)?;
-    Ok([width as usize, height as usize])
-}
-
-/// The image of red, green, blue and opacity, a byte each, of one pixel after the other.
-fn image_of([width, height]: [usize; 2], data: &[u8]) -> Image {
+/// An ImageData or, where there is no such class, as in Node, what has its properties. They are read by name: its own
+/// getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
+fn read_pixels(image: &ImageData) -> Result<Image, JsValue> {
+    let fields = Fields::open("image", "image.", image)?;
+    let width = whole("image.width", &fields.value("width")?, 1..=MAX_PIXELS as u64)? as usize;
+    let height = whole("image.height", &fields.value("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
+    let data = fields.value("data")?;
+    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
+        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
+    };
+    if data.length() as usize != 4 * width * height {
+        let message = format!("image.data has length {}; allowed is {}", data.length(), 4 * width * height);
+        return Err(RangeError::new(&message).into());
+    }
     let pixels = data
+        .to_vec()
         .chunks_exact(4)
         .map(|pixel| Pixel {
             shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
             opacity: f32::from(pixel[3]) / 255.0,
         })
         .collect();
-    Image { width, height, pixels }
+    Ok(Image { width, height, pixels })
 }

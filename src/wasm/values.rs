@@ -42,8 +42,8 @@ pub fn number_or_null(number: Option<f64>) -> JsValue {
 
 pub fn group_to_js(group: &mut dyn Group) -> Result<JsValue, JsValue> {
     let object = Object::new();
-    for (field, number) in group.fields().iter().zip(group.numbers()) {
-        Reflect::set(&object, &field.declaration.key.into(), &(*number).into())?;
+    for (i, field) in group.fields().iter().enumerate() {
+        Reflect::set(&object, &field.declaration.key.into(), &(*group.number(i)).into())?;
     }
     Ok(object.into())
 }

@@ -178,6 +178,7 @@ test('each model keeps its own alphas', async () => {
   assert.equal(machine.config.isolate, null);
   machine.configure({ alphas: new Float64Array([1, 1, 1, 1]) });
   assert.deepEqual(machine.config.alphas, [1, 1, 1, 1]);
+  assert.deepEqual(machine.alphasOfModels, { velocity: [1, 2, 3, 4, 5, 6], odometry: [1, 1, 1, 1] });
 });
 
 test('what is handed out is a copy', async () => {

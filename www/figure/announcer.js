@@ -1,8 +1,4 @@
-/**
- * What a screen reader is told once a change has come to rest.
- *
- * @module
- */
+/** What a screen reader is told once a change has come to rest. */
 
 import { html } from 'lit';
 

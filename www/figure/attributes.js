@@ -1,8 +1,6 @@
 /**
  * Attributes and the properties of the same names: those that follow from a widget's declared settings,
  * and how a text becomes a value and the other way round.
- *
- * @module
  */
 
 import { refusal, word } from './checks.js';

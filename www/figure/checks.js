@@ -1,8 +1,4 @@
-/**
- * Refusals in the words of the core, of what the page gives to the element itself.
- *
- * @module
- */
+/** Refusals in the words of the core, of what the page gives to the element itself. */
 
 /**
  * @param {string} field

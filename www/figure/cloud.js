@@ -1,8 +1,4 @@
-/**
- * A cloud of samples that grows before the reader's eyes: for figures that have one.
- *
- * @module
- */
+/** A cloud of samples that grows before the reader's eyes: for figures that have one. */
 
 import { html } from 'lit';
 import { words } from '../messages/registry.js';

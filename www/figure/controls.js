@@ -1,8 +1,4 @@
-/**
- * A setting's control, made of its declaration, of how it looks, and of the words for it.
- *
- * @module
- */
+/** A setting's control, made of its declaration, of how it looks, and of the words for it. */
 
 import { html } from 'lit';
 import { words } from '../messages/registry.js';

@@ -1,8 +1,6 @@
 /**
  * What every figure is: one simulation of a core of its own, pictures of it on canvases, and a state that
  * a page can read and set. Each of the parts that a figure is composed of has a file of its own.
- *
- * @module
  */
 
 import { LitElement, html, noChange, nothing } from 'lit';

@@ -1,8 +1,6 @@
 /**
  * The state in the page's address: each element has a part of the fragment of its own, and leaves all
  * others as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
- *
- * @module
  */
 
 import { pack, unpack } from './packing.js';

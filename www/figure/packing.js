@@ -1,8 +1,4 @@
-/**
- * Bytes and plain data as text.
- *
- * @module
- */
+/** Bytes and plain data as text. */
 
 import { refusal } from './checks.js';
 

@@ -1,8 +1,4 @@
-/**
- * The element's attributes and properties: taken from the page, and kept saying what the settings are.
- *
- * @module
- */
+/** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
 
 import { groupsOf, isSetting, renamed } from './attributes.js';
 

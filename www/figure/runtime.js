@@ -1,8 +1,6 @@
 /**
  * A core of the figure's own: made when the figure comes near the reader, freed when it goes, abandoned
  * at a trap and made again from the last good state.
- *
- * @module
  */
 
 import { abandon, instantiate } from '../core.js';

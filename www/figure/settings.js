@@ -1,8 +1,6 @@
 /**
  * What of the machine's settings is wanted and what is in effect: what the reader does takes effect with
  * the next frame, what the page does at once.
- *
- * @module
  */
 
 /**

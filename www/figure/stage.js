@@ -1,8 +1,6 @@
 /**
  * What the figure is drawn on: canvases that match the screen's pixels, frames while it is in sight, and
  * colours that follow the page, the theme and paper.
- *
- * @module
  */
 
 import { resolvePalette } from '../ui/theme.js';

@@ -1,8 +1,4 @@
-/**
- * The whole state as plain data: given, taken, and kept over a removal and a trap.
- *
- * @module
- */
+/** The whole state as plain data: given, taken, and kept over a removal and a trap. */
 
 import { object, refusal, word } from './checks.js';
 

@@ -1,8 +1,4 @@
-/**
- * The words that all widgets share, in German; see en.js.
- *
- * @module
- */
+/** The words that all widgets share, in German; see en.js. */
 
 /** @type {typeof import('./en.js').en} */
 export const de = {

@@ -2,8 +2,6 @@
  * The words that all widgets share, in English; those of each are in its folder. A message with values in
  * it is a function of them; numbers come printed, save where their size decides on the words. *Stars* make
  * italics, subscript digits subscripts, where HTML is shown.
- *
- * @module
  */
 
 /**

@@ -5,8 +5,6 @@
  * An element speaks the language of its nearest `lang` attribute as far as there are words in it, and
  * English otherwise. `speak` makes that language the present one before anything is rendered or
  * drawn, all of which happens at once: `words` and the numbers of ui/format.js are in it then.
- *
- * @module
  */
 
 /**
@@ -96,11 +94,7 @@ function merge(base, over) {
   return merged;
 }
 
-/**
- * Makes the language of an element the present one.
- *
- * @param {Element} element
- */
+/** Makes the language of an element the present one. @param {Element} element */
 export function speak(element) {
   const wanted = languageOf(element);
   let voice = voices.get(wanted);
@@ -141,7 +135,7 @@ function languageOf(element) {
 /** @type {MutationObserver | undefined} */
 let observer;
 
-/** On its own: made among an element's variables, it would hold the element for as long as the page lives. */
+/** No closure of `onLanguage`: the observer would hold that one's element for as long as the page lives. */
 function tellAll() {
   for (const listener of shared.listeners) listener();
 }

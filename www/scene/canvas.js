@@ -1,8 +1,4 @@
-/**
- * Canvases, and what pictures are painted on them with.
- *
- * @module
- */
+/** Canvases, and what pictures are painted on them with. */
 
 /**
  * What pictures are drawn on: a canvas, or what stands for one.

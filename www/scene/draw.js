@@ -1,8 +1,6 @@
 /**
  * What pictures are made of: axes, robots, densities, outlines and marks. Every function takes the
  * brush, which knows the view's transform and the colours, and none keeps anything.
- *
- * @module
  */
 
 import { ticks } from 'd3-array';
@@ -11,8 +9,9 @@ import { tick } from '../ui/format.js';
 import { channels } from '../ui/theme.js';
 
 /**
- * @typedef {import('./canvas.js').Brush} Brush
- * @typedef {import('../ui/theme.js').Palette} Palette
+ * @import { Brush } from './canvas.js'
+ * @import { Palette } from '../ui/theme.js'
+ *
  * @typedef {CanvasRenderingContext2D} Context
  */
 

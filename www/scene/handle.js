@@ -1,8 +1,4 @@
-/**
- * Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard.
- *
- * @module
- */
+/** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
 
 import { html } from 'lit';
 
@@ -66,7 +62,7 @@ export class Handle {
 
   /**
    * @param {ParentNode} root that it was rendered into
-   * @param {number} x of its centre, CSS pixels
+   * @param {number} x of its middle, CSS pixels: its style has that at 0
    * @param {number} y
    * @param {number} [size] its width and height, CSS pixels; that of its style where it is left out
    */
@@ -74,7 +70,7 @@ export class Handle {
     const handle = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${this.#part}`));
     if (!handle) return;
     if (size !== undefined) handle.style.width = handle.style.height = `${size}px`;
-    handle.style.translate = `calc(${x}px - 50%) calc(${y}px - 50%)`;
+    handle.style.translate = `${x}px ${y}px`;
   }
 
   /**

@@ -1,18 +1,13 @@
-/**
- * A picture: what a canvas shows of a machine, through a view of its own.
- *
- * @module
- */
+/** A picture: what a canvas shows of a machine, through a view of its own. */
 
 import { brushOn } from './canvas.js';
 
 /**
- * @typedef {import('./canvas.js').Brush} Brush
- * @typedef {import('./canvas.js').Surface} Surface
- * @typedef {import('./view.js').View} View
- * @typedef {import('../ui/theme.js').Palette} Palette
+ * @import { Brush, Surface } from './canvas.js'
+ * @import { View } from './view.js'
+ * @import { Palette } from '../ui/theme.js'
  *
- * @typedef {object} Motion
+ * @typedef {object} Easing
  * @property {number} [elapsed] milliseconds since the frame before
  * @property {boolean} [still] whether the view stays aimed at what it is aimed at
  * @property {boolean} [atOnce] whether the view goes there without easing
@@ -32,11 +27,7 @@ export class Picture {
     this.view = view;
   }
 
-  /**
-   * Aims the view.
-   *
-   * @param {Scene} _scene
-   */
+  /** Aims the view. @param {Scene} _scene */
   fit(_scene) {}
 
   /**
@@ -49,7 +40,7 @@ export class Picture {
    * @param {HTMLCanvasElement | Surface} surface
    * @param {Scene} scene
    * @param {Palette} palette
-   * @param {Motion} [motion]
+   * @param {Easing} [easing]
    * @returns {boolean} whether the view is still moving
    */
   draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false } = {}) {

@@ -1,8 +1,6 @@
 /**
  * The transform between a view's world (metres, radians; y up) and its canvas (CSS pixels; y down),
  * and the choice of the part of the world that a view shows. The only place where y flips.
- *
- * @module
  */
 
 /** @typedef {{ xMin: number, yMin: number, xMax: number, yMax: number }} Extent axis-aligned part of a view's world */
@@ -35,9 +33,7 @@ export class View {
   height = 1;
   #inset;
 
-  /**
-   * @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options
-   */
+  /** @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options */
   constructor({ equal, inset }) {
     this.#equal = equal;
     this.#inset = inset;

@@ -1,17 +1,14 @@
 /**
  * A floor plan's walls as a layer of their own: a map may have tens of thousands, and they change
  * only with the map, the view or the colours.
- *
- * @module
  */
 
 import { LONGEST_SIDE } from './canvas.js';
 
 /**
- * @typedef {import('./view.js').View} View
- * @typedef {import('./canvas.js').Brush} Brush
- * @typedef {import('../types.d.ts').Grid} Grid
- * @typedef {import('../types.d.ts').Plan} Plan
+ * @import { View } from './view.js'
+ * @import { Brush } from './canvas.js'
+ * @import { Grid, Plan } from '../types.d.ts'
  */
 
 /** Width of a wall that has none, CSS pixels. */
@@ -103,11 +100,7 @@ export class WallLayer {
   }
 }
 
-/**
- * A pixel a cell, the lowest row first, opaque where it is occupied.
- *
- * @param {Grid} grid
- */
+/** A pixel a cell, the lowest row first, opaque where it is occupied. @param {Grid} grid */
 function maskOf({ columns, rows, occupied }) {
   const image = new ImageData(columns, rows);
   for (let i = 0; i < occupied.length; i++) image.data[4 * i + 3] = 255 * occupied[i];

@@ -1,8 +1,4 @@
-/**
- * A line chart in SVG whose marker can be moved along x, by pointer and by keyboard.
- *
- * @module
- */
+/** A line chart in SVG whose marker can be moved along x, by pointer and by keyboard. */
 
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg } from 'lit';
@@ -109,13 +105,19 @@ export const chartStyles = css`
  */
 
 /** @param {Chart} chart */
-export function chart({ label, axes, curve, min, max, step, marker, measured, move, commit }) {
-  const scale = scaleOf(curve, min, max);
+export function chart(chart) {
+  const { curve, min, max, step, marker, measured, move, commit } = chart;
+  const scale = scaleOf(chart);
   const { x, y } = scale;
-  const onStep = (/** @type {number} */ value) => clamp(Math.round(value / step) * step, min, max);
   const at = clamp(marker.x, min, max);
   const nowhere = Number.isNaN(marker.y);
-  const pointer = following((pixel) => move(() => onStep(scale.valueAt(pixel))), commit);
+  // After a gap the line starts anew.
+  const path = Array.from(curve, (value, i) => {
+    if (Number.isNaN(value)) return '';
+    return `${i > 0 && !Number.isNaN(curve[i - 1]) ? 'L' : 'M'}${x(scale.at(i))},${y(value)}`;
+  });
+  const onStep = (/** @type {number} */ value) => clamp(Math.round(value / step) * step, min, max);
+  const pointer = follower((pixel) => move(() => onStep(scale.under(pixel))), commit);
   const key = (/** @type {KeyboardEvent} */ event) => {
     const steps = KEY_STEPS[event.key];
     if (steps === undefined) return;
@@ -128,7 +130,7 @@ export function chart({ label, axes, curve, min, max, step, marker, measured, mo
       class="chart"
       viewBox="0 0 ${WIDTH} ${HEIGHT}"
       role="group"
-      aria-label=${label}
+      aria-label=${chart.label}
       part="chart"
       @pointerdown=${pointer.down}
       @pointermove=${pointer.move}
@@ -136,8 +138,8 @@ export function chart({ label, axes, curve, min, max, step, marker, measured, mo
       @pointercancel=${finger.goes}
     >
       <g aria-hidden="true">
-        ${axisLines(scale, axes, min, max)}
-        <path class="curve" d=${pathOf(curve, scale)} />
+        ${axes(chart, scale)}
+        <path class="curve" d=${path.join('')} />
         <line class="now" x1=${x(at)} x2=${x(at)} y1=${TOP} y2=${BOTTOM} />
       </g>
       <g
@@ -158,51 +160,25 @@ export function chart({ label, axes, curve, min, max, step, marker, measured, mo
   `;
 }
 
-/** @typedef {ReturnType<typeof scaleOf>} Scale */
-
-/**
- * Pixels of values, with 0 halfway up.
- *
- * @param {Float64Array} curve
- * @param {number} min
- * @param {number} max
- */
-function scaleOf(curve, min, max) {
+/** Turns values into pixels and back, with 0 halfway up. @param {Chart} chart */
+function scaleOf({ curve, min, max }) {
   const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), LEAST_PEAK);
   const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;
   const [perX, perY] = [(RIGHT - LEFT) / (max - min), (TOP - BOTTOM) / (2 * half)];
-  const steps = Math.max(1, curve.length - 1);
-  const x = (/** @type {number} */ value) => LEFT + (value - min) * perX;
   return {
     half,
-    x,
+    at: (/** @type {number} */ index) => min + (index * (max - min)) / Math.max(1, curve.length - 1),
+    x: (/** @type {number} */ value) => LEFT + (value - min) * perX,
     y: (/** @type {number} */ value) => BOTTOM + (value + half) * perY,
-    /** Of a point of the curve. */
-    xOf: (/** @type {number} */ index) => x(min + (index * (max - min)) / steps),
-    valueAt: (/** @type {number} */ pixel) => min + (pixel - LEFT) / perX,
+    under: (/** @type {number} */ pixel) => min + (pixel - LEFT) / perX,
   };
 }
 
 /**
- * After a gap the line starts anew.
- *
- * @param {Float64Array} curve
- * @param {Scale} scale
+ * @param {Chart} chart
+ * @param {ReturnType<typeof scaleOf>} scale
  */
-function pathOf(curve, { xOf, y }) {
-  return Array.from(curve, (value, i) => {
-    if (Number.isNaN(value)) return '';
-    return `${i > 0 && !Number.isNaN(curve[i - 1]) ? 'L' : 'M'}${xOf(i)},${y(value)}`;
-  }).join('');
-}
-
-/**
- * @param {Scale} scale
- * @param {Chart['axes']} names
- * @param {number} min
- * @param {number} max
- */
-function axisLines({ half, x, y }, names, min, max) {
+function axes({ axes: names, min, max }, { half, x, y }) {
   return svg`
     ${ticks(min, max, 5).map(
       (value) => svg`
@@ -221,15 +197,15 @@ function axisLines({ half, x, y }, names, min, max) {
 }
 
 /**
- * A pointer that is followed across the chart.
+ * What follows a pointer across the chart.
  *
- * @param {(pixel: number) => void} to
+ * @param {(pixel: number) => void} moved
  * @param {() => void} commit
  */
-function following(to, commit) {
+function follower(moved, commit) {
   const follow = (/** @type {PointerEvent} */ event) => {
     const box = /** @type {Element} */ (event.currentTarget).getBoundingClientRect();
-    to(((event.clientX - box.left) / box.width) * WIDTH);
+    moved(((event.clientX - box.left) / box.width) * WIDTH);
   };
   return {
     down: (/** @type {PointerEvent} */ event) => {

@@ -1,8 +1,6 @@
 /**
  * Numbers as they are printed in the present language: a true minus sign, thin spaces between
  * thousands, and a dash where there is no number.
- *
- * @module
  */
 
 import { language } from '../messages/registry.js';
@@ -43,7 +41,7 @@ export function fixed(value, decimals) {
 /** Below this a number is taken for a 0 that rounding has passed over. */
 const NOTHING_BELOW = 1e-13;
 
-/** Of an error: ten million robots leave 0.0008. */
+/** Most decimals of a standard error: ten million robots leave one of 0.0008. */
 const MOST_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';

@@ -1,8 +1,6 @@
 /**
  * The page of a widget: its picture large at the left with the controls beside it, everything in one column
  * where there is little room.
- *
- * @module
  */
 
 import { css } from 'lit';
@@ -51,8 +49,8 @@ const layout = css`
 
   .handle {
     position: absolute;
-    top: 0;
-    left: 0;
+    top: -1.125rem;
+    left: -1.125rem;
     width: 2.25rem;
     height: 2.25rem;
     border-radius: 50%;
@@ -88,7 +86,7 @@ const layout = css`
     grid-area: 1 / 1;
   }
 
-  /* As a note has it, which is set in. */
+  /* Room for the longest note, which is indented. */
   .caption::after {
     grid-area: 1 / 1;
     height: auto;

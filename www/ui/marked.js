@@ -1,8 +1,4 @@
-/**
- * The sample that is marked, and the way to it from the keyboard.
- *
- * @module
- */
+/** The sample that is marked, and the way to it from the keyboard. */
 
 import { css, html } from 'lit';
 import { live } from 'lit/directives/live.js';

@@ -1,8 +1,4 @@
-/**
- * Figures in print: a list of readouts, and tables.
- *
- * @module
- */
+/** Figures in print: a list of readouts, and tables. */
 
 import { css, html, nothing } from 'lit';
 import { rich } from './controls.js';

@@ -4,8 +4,6 @@
  * colour blindness; each role also has a dash or a shape of its own. Text on the paper keeps a
  * contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
  * custom property that begins with --motion.
- *
- * @module
  */
 
 import { css } from 'lit';
@@ -14,18 +12,9 @@ import { css } from 'lit';
  * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
  * prediction too, but a mass of dots rather than a line or text.
  */
-const ROLES = /** @type {const} */ ([
-  'paper',
-  'ink',
-  'muted',
-  'rule',
-  'prior',
-  'prediction',
-  'cloud',
-  'truth',
-  'posterior',
-  'accent',
-]);
+const ROLES = /** @type {const} */ (
+  ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent']
+);
 
 /** @typedef {Record<(typeof ROLES)[number], string>} Palette resolved CSS colours */
 

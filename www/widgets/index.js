@@ -1,8 +1,4 @@
-/**
- * Every widget there is.
- *
- * @module
- */
+/** Every widget there is. */
 
 import './banana-machine/banana-machine.js';
 import './map-squeeze/map-squeeze.js';

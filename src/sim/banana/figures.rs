@@ -106,7 +106,7 @@ pub struct Table {
     pub linearized: Column,
     /// By quadrature.
     pub exact: Column,
-    /// On the samples shown.
+    /// Of the samples shown.
     pub measured: Column,
     /// The commanded twist and its noise; None where the noise has no such form.
     pub tangent: Option<ExponentialMoments>,
@@ -133,6 +133,6 @@ pub struct Sample {
     pub twist: Vector3<f64>,
     /// The arc and last turn that led to it; under the odometry model, which knows no arc, that would lead to it.
     pub executed: ArcInversion,
-    /// That arc.
+    /// The arc of `executed`, as (x, y) in m.
     pub path: Vec<[f64; 2]>,
 }

@@ -63,7 +63,7 @@ impl Cloud {
         self.positions.try_reserve_exact(fours.saturating_sub(self.positions.len()))
     }
 
-    /// Begins to show `shown` samples of these draws under this motion; there must be room for them.
+    /// Begins a refresh that is to show `shown` samples of these draws under this motion; there must be room for them.
     pub fn begin(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) {
         self.draws.restart(seed, noise);
         self.drive = drive;
@@ -82,8 +82,8 @@ impl Cloud {
             let ended = block.end == fours;
             *next = if ended { 0 } else { block.end };
             // The last four may be fewer.
-            let whole = if ended { block.start.max(*goal / LANES)..block.end } else { block.end..block.end };
-            let (whole, rest) = (block.start..whole.start, whole);
+            let rest = if ended { block.start.max(*goal / LANES)..block.end } else { block.end..block.end };
+            let full = block.start..rest.start;
             let rest_mask = lanes(|lane| if lane < *goal % LANES { ALL } else { 0.0 });
             match pass {
                 Pass::Spread { sums, first } => {
@@ -91,7 +91,7 @@ impl Cloud {
                     if positions.len() < block.end {
                         positions.resize(block.end, [f64x4::splat(0.0); 2]);
                     }
-                    for (part, mask) in [(whole, f64x4::splat(ALL)), (rest, rest_mask)] {
+                    for (part, mask) in [(full, f64x4::splat(ALL)), (rest, rest_mask)] {
                         spread(drive, &draws.fours()[part.clone()], &mut positions[part], mask, sums);
                     }
                     sums.close_block();
@@ -104,7 +104,7 @@ impl Cloud {
                     }
                 }
                 Pass::Shape(sums) => {
-                    for (part, mask) in [(whole, f64x4::splat(ALL)), (rest, rest_mask)] {
+                    for (part, mask) in [(full, f64x4::splat(ALL)), (rest, rest_mask)] {
                         shape(drive, &draws.fours()[part.clone()], &positions[part], mask, sums);
                     }
                     sums.close_block();
@@ -166,11 +166,11 @@ impl Cloud {
                 [poses.along, poses.half * 2.0]
             }
         };
-        let (whole, rest) = (shown / LANES, shown % LANES);
-        (0..whole).for_each(|four| see(point(four)));
+        let (full, rest) = (shown / LANES, shown % LANES);
+        (0..full).for_each(|four| see(point(four)));
         if rest > 0 {
             let there = lanes(|lane| if lane < rest { ALL } else { 0.0 });
-            see(point(whole).map(|points| there.bitselect(points, f64x4::splat(f64::INFINITY))));
+            see(point(full).map(|points| there.bitselect(points, f64x4::splat(f64::INFINITY))));
         }
     }
 }

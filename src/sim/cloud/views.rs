@@ -44,7 +44,7 @@ pub struct Nearest {
 }
 
 impl Nearest {
-    /// Of points inside the ellipse of the given radii around the target, distances counted in those radii.
+    /// Looks for the nearest of the points inside the ellipse of the given radii around the target, distances counted in those radii.
     pub fn new(target: [f64; 2], radii: [f64; 2]) -> Self {
         Self { target, radii, least: 1.0, seen: 0, index: None }
     }

@@ -1,8 +1,6 @@
 /**
  * One animation-frame loop for every figure of the page. It runs while some figure has asked for
  * a frame and the page is in sight, and stops when none has.
- *
- * @module
  */
 
 /** @typedef {{ frame(elapsed: number): void }} Animated */

@@ -1,8 +1,4 @@
-/**
- * Light or dark: what the element was told, else what its surroundings are.
- *
- * @module
- */
+/** Light or dark: what the element was told, else what its surroundings are. */
 
 import { css } from 'lit';
 import { channels } from '../../ui/theme.js';

@@ -1,9 +1,4 @@
-/**
- * Which elements are in sight, and which are near enough to be made ready: two observers for all of a
- * page.
- *
- * @module
- */
+/** Which elements are in sight, and which are near enough to be made ready: two observers for all of a page. */
 
 /**
  * @typedef {object} Watcher

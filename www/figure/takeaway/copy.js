@@ -1,8 +1,4 @@
-/**
- * The menu from which a reader copies a link to the figure as it is, or the HTML that embeds it.
- *
- * @module
- */
+/** The menu from which a reader copies a link to the figure as it is, or the HTML that embeds it. */
 
 import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.js';

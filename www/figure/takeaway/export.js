@@ -1,8 +1,4 @@
-/**
- * A figure to take along: its picture as PNG or SVG, and its samples as CSV.
- *
- * @module
- */
+/** A figure to take along: its picture as PNG or SVG, and its samples as CSV. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';

@@ -1,8 +1,6 @@
 /**
  * <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are close
  * to an ordinary Gaussian.
- *
- * @module
  */
 
 import { html } from 'lit';

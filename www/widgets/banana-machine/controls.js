@@ -1,8 +1,4 @@
-/**
- * The Banana Machine's controls: the command, the noise and the overlays.
- *
- * @module
- */
+/** The Banana Machine's controls: the command, the noise and the overlays. */
 
 import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
@@ -12,8 +8,8 @@ import { DASHES } from '../../scene/draw.js';
 import { presets } from '../../settings.js';
 import { button, toggle } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
+import { alphaName } from './reading.js';
 import { COMMAND, OVERLAYS } from './settings.js';
-import { alphaName } from './words.js';
 
 /** @typedef {import('./banana-machine.js').BananaMachineElement} Figure */
 

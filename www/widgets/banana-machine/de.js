@@ -1,8 +1,4 @@
-/**
- * The Banana Machine in German; see messages/en.js.
- *
- * @module
- */
+/** The Banana Machine in German; see messages/en.js. */
 
 /**
  * A sentence on an α that has nothing to multiply.

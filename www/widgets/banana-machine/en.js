@@ -1,8 +1,4 @@
-/**
- * The Banana Machine in English; see messages/en.js.
- *
- * @module
- */
+/** The Banana Machine in English; see messages/en.js. */
 
 import { plural } from '../../messages/en.js';
 

@@ -1,8 +1,4 @@
-/**
- * The ring at the end of the commanded arc, dragged by pointer or moved from the keyboard.
- *
- * @module
- */
+/** The ring at the end of the commanded arc, dragged by pointer or moved from the keyboard. */
 
 import { words } from '../../messages/registry.js';
 import { Handle, WAYS } from '../../scene/handle.js';

@@ -1,9 +1,4 @@
-/**
- * The Banana Machine's two pictures of the same robots: the floor from above, and exponential
- * coordinates.
- *
- * @module
- */
+/** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
 import { words } from '../../messages/registry.js';
 import {
@@ -21,13 +16,12 @@ import {
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { counted } from '../../ui/format.js';
-import { deviation } from './spread.js';
+import { deviation } from './reading.js';
 
 /**
- * @typedef {import('../../types.d.ts').BananaMachine} BananaMachine
- * @typedef {import('../../types.d.ts').Moments} Moments
- * @typedef {import('../../scene/canvas.js').Brush} Brush
- * @typedef {import('../../ui/theme.js').Palette} Palette
+ * @import { BananaMachine, Moments } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {import('./reading.js').Reading & {
  *   machine: BananaMachine,
@@ -170,11 +164,7 @@ export class PlanePicture extends CloudPicture {
   }
 }
 
-/**
- * Robots that are all in one place.
- *
- * @param {BananaMachine} machine
- */
+/** Robots that are all in one place. @param {BananaMachine} machine */
 function heapOf(machine) {
   const stride = Math.ceil(machine.shown / MOST_RAYS);
   const headings = [];

@@ -1,9 +1,4 @@
-/**
- * The Banana Machine's readouts: the statistics of the cloud, the marked robot, and the tables of
- * moments.
- *
- * @module
- */
+/** The Banana Machine's readouts: the statistics of the cloud, the marked robot, and the tables of moments. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';
@@ -12,11 +7,7 @@ import { NOTHING, counted, fixed, percent, significant, withError } from '../../
 import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 
-/**
- * @typedef {import('../../types.d.ts').Stats} Stats
- * @typedef {import('../../types.d.ts').Table} Table
- * @typedef {import('../../types.d.ts').Inspection} Inspection
- */
+/** @import { Inspection, Stats, Table } from '../../types.d.ts' */
 
 /** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const NOMINAL = 1 - Math.exp(-2);
@@ -79,7 +70,7 @@ const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 export function workedExample({ linearized, exact, measured }, stats) {
   const computed = [linearized, exact];
   const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
-  // Of two lines also while there is none.
+  // Two lines, also while there is no error: the row keeps its height.
   const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
   /** @type {[unknown, (column: Table['exact']) => number, unknown?][]} */

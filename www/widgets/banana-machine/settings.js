@@ -1,8 +1,4 @@
-/**
- * The Banana Machine's settings as attributes, in its state, and as the eye sees them.
- *
- * @module
- */
+/** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
 
 import { WORDS, attributesOf, presetOf } from '../../figure/attributes.js';
 import { subset, wholeNumber } from '../../figure/checks.js';

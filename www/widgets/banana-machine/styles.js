@@ -1,8 +1,4 @@
-/**
- * What the Banana Machine's page has of its own.
- *
- * @module
- */
+/** What the Banana Machine's page has of its own. */
 
 import { css } from 'lit';
 import { chartStyles } from '../../ui/chart.js';

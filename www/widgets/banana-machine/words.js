@@ -1,8 +1,6 @@
 /**
  * What the Banana Machine says when, in the words of the present language: sentences about degenerate
  * clouds, and the text that stands for the pictures.
- *
- * @module
  */
 
 import { addEnglish, words } from '../../messages/registry.js';
@@ -10,44 +8,11 @@ import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent, withError } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
-import { deviation, spreadOf } from './spread.js';
+import { deviation } from './reading.js';
 
-/**
- * @typedef {import('../../types.d.ts').Settings} Settings
- * @typedef {import('../../types.d.ts').Stats} Stats
- * @typedef {import('../../types.d.ts').Table} Table
- */
+/** @import { Settings, Stats, Table } from '../../types.d.ts' */
 
 addEnglish({ banana: en });
-
-/**
- * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
- *
- * @param {Settings} config
- * @param {Table} table
- * @param {Stats} stats
- * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
- * @returns {string} empty for an ordinary cloud
- */
-export function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
-  const { notes, alphaIsZero, alphaIsSilent } = words.banana;
-  const spread = spreadOf(table);
-  const { v, omega } = command;
-  if (spread === 'point') {
-    if (v === 0 && omega === 0) return notes.still;
-    if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
-    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : alphaIsSilent[model][isolate - 1];
-  }
-  if (spread === 'headings') return notes.headings;
-  if (!chartHolds) return notes.circle;
-  if (model === 'odometry' && v < 0) return notes.backwards;
-  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
-}
-
-/** @param {number} index from 0 */
-export function alphaName(index) {
-  return `α${String.fromCharCode(0x2081 + index)}`;
-}
 
 /** The longest of the sentences that may come, to keep room for. */
 export function longestNote() {
@@ -105,11 +70,7 @@ function bendText({ crossTrackSkew: skew, crossTrackSkewError: error }) {
   return sentence(withError(skew, error, 2));
 }
 
-/**
- * What stands under the view of the floor while there is nothing to note.
- *
- * @param {Stats} stats
- */
+/** What stands under the view of the floor while there is nothing to note. @param {Stats} stats */
 export function captionOf(stats) {
   return stats.n === 0 ? words.banana.noRobots : bendText(stats) || words.banana.fewRobots;
 }
@@ -134,11 +95,7 @@ export function twistCaption({ model, noise, alphas, isolate }, note) {
   return `${twist}: ${twistIs[kind]}`;
 }
 
-/**
- * The text equivalent of the view in exponential coordinates.
- *
- * @param {Stats} stats
- */
+/** The text equivalent of the view in exponential coordinates. @param {Stats} stats */
 export function twistText({ n, exponential: { mean, cov }, coverage }) {
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
   const start = `${twist}, ${twistAxes}.`;

@@ -1,8 +1,6 @@
 /**
  * Map Squeeze's controls: where the robot stands, what it is told, how draws are judged, and maps of
  * the reader's own.
- *
- * @module
  */
 
 import { html, nothing } from 'lit';

@@ -1,15 +1,10 @@
-/**
- * What each sampler costs on this device, measured.
- *
- * @module
- */
+/** What each sampler costs on this device, measured. */
 
 import { limits } from '../../settings.js';
 import { SAMPLERS } from './settings.js';
 
 /**
- * @typedef {import('../../types.d.ts').MapSqueeze} MapSqueeze
- * @typedef {import('../../types.d.ts').SamplerName} SamplerName
+ * @import { MapSqueeze, SamplerName } from '../../types.d.ts'
  *
  * @typedef {object} Cost of one accepted sample
  * @property {number} micros microseconds
@@ -53,7 +48,7 @@ function* measuring(machine, sampler, parts) {
         }
         runs.sort((one, other) => one.elapsed - other.elapsed);
         const { draws, wallTests, elapsed } = runs[(RUNS - 1) / 2];
-        // Otherwise it was long because the device was busy.
+        // If not, the warm-up was long because the device was busy, and more samples are needed.
         if (elapsed >= LONG_ENOUGH / 2 || count === most) {
           return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
         }

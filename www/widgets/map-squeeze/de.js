@@ -1,8 +1,4 @@
-/**
- * Map Squeeze in German; see messages/en.js.
- *
- * @module
- */
+/** Map Squeeze in German; see messages/en.js. */
 
 /** @type {typeof import('./en.js').en} */
 export const de = {

@@ -1,8 +1,4 @@
-/**
- * Map Squeeze in English; see messages/en.js.
- *
- * @module
- */
+/** Map Squeeze in English; see messages/en.js. */
 
 import { plural } from '../../messages/en.js';
 

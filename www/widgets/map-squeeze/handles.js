@@ -1,9 +1,4 @@
-/**
- * The robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer
- * and by keyboard.
- *
- * @module
- */
+/** The robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer and by keyboard. */
 
 import { words } from '../../messages/registry.js';
 import { Handle, WAYS } from '../../scene/handle.js';
@@ -12,8 +7,8 @@ import { fixed } from '../../ui/format.js';
 import { turnDistance } from './picture.js';
 
 /**
- * @typedef {import('../../types.d.ts').Pose} Pose
- * @typedef {import('../../scene/view.js').View} View
+ * @import { Pose } from '../../types.d.ts'
+ * @import { View } from '../../scene/view.js'
  *
  * @typedef {object} Robot what the handles act on
  * @property {() => View} view
@@ -49,14 +44,14 @@ export class RobotHandles {
       view,
       at: () => [start().x, start().y],
       drag: (x, y) => this.#moveTo(x, y),
-      key: (event) => (event.shiftKey ? this.#turnKey(event) : this.#moveKey(event) || this.#turnKey(event)),
+      key: (event) => this.#key(event, !event.shiftKey),
       commit,
     });
     this.#turn = new Handle('turn', {
       view,
       at: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - start().y, x - start().x)),
-      key: (event) => this.#turnKey(event),
+      key: (event) => this.#key(event, false),
       commit,
     });
   }
@@ -107,20 +102,16 @@ export class RobotHandles {
     this.#turn.place(root, inside(x + distance * ahead.x, view.width), inside(y + distance * ahead.y, view.height));
   }
 
-  /** @param {KeyboardEvent} event */
-  #moveKey(event) {
-    const way = WAYS[event.key];
-    if (!way || modified(event)) return false;
-    const { x, y } = this.#robot.start();
-    this.#moveTo(x + KEY_STEP * way[0], y + KEY_STEP * way[1]);
-    return true;
-  }
-
-  /** @param {KeyboardEvent} event */
-  #turnKey(event) {
-    const way = TURNS[event.key];
-    if (!way || modified(event)) return false;
-    this.#turnTo(this.#robot.start().theta + KEY_TURN * way);
+  /**
+   * @param {KeyboardEvent} event
+   * @param {boolean} moves whether arrow keys move the robot rather than turn it
+   */
+  #key({ key, ctrlKey, metaKey, altKey }, moves) {
+    const [way, turn] = [moves ? WAYS[key] : undefined, TURNS[key]];
+    if (ctrlKey || metaKey || altKey || !(way || turn)) return false;
+    const { x, y, theta } = this.#robot.start();
+    if (way) this.#moveTo(x + KEY_STEP * way[0], y + KEY_STEP * way[1]);
+    else this.#turnTo(theta + KEY_TURN * turn);
     return true;
   }
 
@@ -139,9 +130,4 @@ export class RobotHandles {
     const { x, y } = this.#robot.start();
     this.#robot.change({ x, y, theta: Math.atan2(Math.sin(theta), Math.cos(theta)) });
   }
-}
-
-/** @param {KeyboardEvent} event one that may be the browser's */
-function modified({ ctrlKey, metaKey, altKey }) {
-  return ctrlKey || metaKey || altKey;
 }

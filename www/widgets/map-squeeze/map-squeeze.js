@@ -1,8 +1,4 @@
-/**
- * <map-squeeze>: motion conditioned on a map, and what the condition cannot see.
- *
- * @module
- */
+/** <map-squeeze>: motion conditioned on a map, and what the condition cannot see. */
 
 import { html } from 'lit';
 import { Cloud, showOnly } from '../../figure/cloud.js';

@@ -1,8 +1,4 @@
-/**
- * Map Squeeze's picture: walls, the robot with its command, and what became of every draw.
- *
- * @module
- */
+/** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
 
 import { DASHES, clipped, drawAxes, drawDots, drawMark, drawOutline, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
@@ -11,11 +7,11 @@ import { WallLayer } from '../../scene/walls.js';
 import { clamp } from '../../ui/clamp.js';
 
 /**
- * @typedef {import('../../types.d.ts').MapSqueeze} MapSqueeze
- * @typedef {import('../../types.d.ts').Plan} Plan
+ * @import { MapSqueeze, Plan } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ * @import { Extent } from '../../scene/view.js'
+ *
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
- * @typedef {import('../../scene/canvas.js').Brush} Brush
- * @typedef {import('../../scene/view.js').Extent} Extent
  *
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
  *   marked: { pose: Float64Array, path: Float64Array } | undefined,

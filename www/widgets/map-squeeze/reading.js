@@ -1,11 +1,10 @@
-/**
- * What Map Squeeze shows of its machine.
- *
- * @module
- */
+/** What Map Squeeze shows of its machine. */
 
+import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { noteOn } from './words.js';
+import { counted } from '../../ui/format.js';
+
+/** @import { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts' */
 
 /** @typedef {ReturnType<typeof readingOf>} Reading */
 
@@ -15,7 +14,7 @@ const MOST_PATHS = 150;
 /**
  * Everything that the picture and the readouts need of the machine, asked once a change.
  *
- * @param {import('../../types.d.ts').MapSqueeze} machine
+ * @param {MapSqueeze} machine
  */
 export function readingOf(machine) {
   const { config, stats, verdicts, poses, commanded, startFree } = machine;
@@ -55,4 +54,20 @@ function sort(poses, verdicts) {
     if ((verdicts[i] & bits.pathFree) === 0) through.push(i);
   }
   return { rejected, accepted: Float64Array.from(accepted), through };
+}
+
+/**
+ * A sentence on a robot that gets nowhere.
+ *
+ * @param {SqueezeSettings} config
+ * @param {SqueezeStats} stats
+ * @param {boolean} startFree
+ * @returns {string} empty for an ordinary cloud
+ */
+function noteOn(config, stats, startFree) {
+  const { wedged, nothing, noRoom } = words.squeeze;
+  const drawn = counted(stats.drawn);
+  if (stats.gaveUp) return wedged(stats.accepted, counted(stats.accepted), counted(config.samples), drawn);
+  if (stats.drawn > 0 && stats.accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
+  return startFree ? '' : noRoom;
 }

@@ -1,8 +1,6 @@
 /**
  * Map Squeeze's readouts: the key to the picture, the tally of the draws, the marked one, and what each
  * sampler costs.
- *
- * @module
  */
 
 import { html } from 'lit';
@@ -15,16 +13,13 @@ import { SAMPLERS } from './settings.js';
 import { keptWords, shareOf } from './words.js';
 
 /**
+ * @import { CostMeter } from './cost.js'
+ *
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../../types.d.ts').SqueezeStats} Stats
- * @typedef {import('./cost.js').CostMeter} CostMeter
  */
 
-/**
- * What the marks in the picture mean.
- *
- * @param {Settings} config
- */
+/** What the marks in the picture mean. @param {Settings} config */
 export function key(config) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;

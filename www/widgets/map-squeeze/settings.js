@@ -1,8 +1,4 @@
-/**
- * Map Squeeze's settings as attributes, in its state, and as the eye sees them.
- *
- * @module
- */
+/** Map Squeeze's settings as attributes, in its state, and as the eye sees them. */
 
 import { WORD, attributesOf } from '../../figure/attributes.js';
 import { word } from '../../figure/checks.js';

@@ -1,8 +1,4 @@
-/**
- * What Map Squeeze's page has of its own: the key to its marks, and room for maps of the reader's.
- *
- * @module
- */
+/** What Map Squeeze's page has of its own: the key to its marks, and room for maps of the reader's. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
@@ -38,6 +34,13 @@ const own = css`
   .dropping .stage {
     outline: 2px dashed var(--accent);
     outline-offset: 4px;
+  }
+
+  /* In the middle of itself, whatever its size. */
+  .handle {
+    top: 0;
+    left: 0;
+    transform: translate(-50%, -50%);
   }
 
   .handle.body::after {

@@ -1,8 +1,6 @@
 /**
  * What Map Squeeze says when, in the words of the present language: verdicts, sentences about robots
  * that cannot move, and the text that stands for the picture.
- *
- * @module
  */
 
 import { addEnglish, words } from '../../messages/registry.js';
@@ -12,34 +10,15 @@ import { commandText } from '../shared/command.js';
 import { en } from './en.js';
 
 /**
+ * @import { Plan } from '../../types.d.ts'
+ *
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../../types.d.ts').SqueezeStats} Stats
- * @typedef {import('../../types.d.ts').Plan} Plan
  */
 
 addEnglish({ squeeze: en });
 
-/**
- * A sentence on a robot that gets nowhere.
- *
- * @param {Settings} config
- * @param {Stats} stats
- * @param {boolean} startFree
- * @returns {string} empty for an ordinary cloud
- */
-export function noteOn(config, stats, startFree) {
-  const { wedged, nothing, noRoom } = words.squeeze;
-  const drawn = counted(stats.drawn);
-  if (stats.gaveUp) return wedged(stats.accepted, counted(stats.accepted), counted(config.samples), drawn);
-  if (stats.drawn > 0 && stats.accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
-  return startFree ? '' : noRoom;
-}
-
-/**
- * What is said of a draw that stays.
- *
- * @param {Settings} config
- */
+/** What is said of a draw that stays. @param {Settings} config */
 export function keptWords({ conditioned }) {
   return conditioned ? words.squeeze.accepted : words.squeeze.kept;
 }

@@ -1,13 +1,7 @@
-/**
- * The velocity command, as every widget that sends one shows it.
- *
- * @module
- */
+/** The velocity command, as every widget that sends one shows it. */
 
 import { words } from '../../messages/registry.js';
 import { fixed } from '../../ui/format.js';
-
-/** @typedef {{ v: number, omega: number, dt: number }} Command m/s, rad/s, s */
 
 const SPEED = { role: /** @type {const} */ ('prior'), step: 0.01, decimals: 2 };
 
@@ -22,11 +16,7 @@ export const commandLooks = (longest) => ({
   dt: { ...SPEED, symbol: '*Δt*', min: 0.1, max: longest, step: 0.05 },
 });
 
-/**
- * The command in words.
- *
- * @param {Command} command
- */
+/** The command in words. @param {import('../../types.d.ts').Command} command */
 export function commandText({ v, omega, dt }) {
   return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
 }

@@ -1,17 +1,10 @@
-/**
- * Maps as plain data: what a state holds of a map of the reader's own.
- *
- * @module
- */
+/** Maps as plain data: what a state holds of a map of the reader's own. */
 
 import { object, refusal, wholeNumber } from '../../../figure/checks.js';
 import { fromBase64, toBase64 } from '../../../figure/packing.js';
 import { limits } from '../../../settings.js';
 
-/**
- * @typedef {import('../../../types.d.ts').MapSqueeze} MapSqueeze
- * @typedef {import('../../../types.d.ts').MapData} MapData
- */
+/** @import { MapData, MapSqueeze } from '../../../types.d.ts' */
 
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'];

@@ -1,12 +1,8 @@
-/**
- * How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused.
- *
- * @module
- */
+/** How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused. */
 
 import { words } from '../../../messages/registry.js';
 
-/** @typedef {import('./files.js').OwnMap} OwnMap */
+/** @import { OwnMap } from './files.js' */
 
 /** What the names of files may end in. */
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];

@@ -3,6 +3,7 @@
 import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
+import { widgets } from './declarations.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
 import { withTables } from './tables.mjs';
@@ -68,6 +69,7 @@ export async function bundle() {
           setup({ onLoad }) {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]js-yaml\.mjs$/ }, ({ path }) => ({ contents: withoutEffects(readFileSync(path, 'utf8')), loader: 'js' }));
           },
         },
       ],
@@ -97,9 +99,10 @@ export async function bundle() {
   }
   const documentation = await manifest();
   const elements = documentation.modules.flatMap(({ declarations }) => declarations);
+  const all = await widgets();
   for (const path of filesOf('www').filter((path) => COPIED.test(path))) {
     const text = readFileSync(at(path), 'utf8');
-    write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements) : text);
+    write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
   write(at('dist/motion.wasm'), wasm);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts' };
@@ -146,6 +149,18 @@ function ofDeclarations() {
   return Object.entries(declared)
     .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)
     .join('');
+}
+
+/**
+ * A library whose constants are left out where nothing uses them. Here they are half of what only writes YAML: that
+ * computing them has no effect, a bundler cannot know.
+ *
+ * @param {string} library with each constant at the start of a line
+ */
+function withoutEffects(library) {
+  return library
+    .replaceAll(/^(var \w+ = )((?:new |`|\w+\().*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
+    .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
 }
 
 /**

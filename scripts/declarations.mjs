@@ -11,12 +11,14 @@ import { presets, settings } from '../www/settings.js';
  * @property {string} type in TypeScript
  * @property {string} description
  * @property {true} [readonly]
- * @property {string} [opening] the text of an attribute when the widget opens
+ *
+ * @typedef {Named & { opening?: string, allowed?: string, told: string }} Attribute with its text when the widget opens,
+ *   the range of a number, and the description without that
  *
  * @typedef {object} Widget
  * @property {string} tag
  * @property {string} machine its class in the core; that of its element ends in Element
- * @property {Named[]} attributes each of them is a property too
+ * @property {Attribute[]} attributes each of them is a property too
  * @property {Named[]} properties the others
  * @property {Named[]} state without what every state has
  */
@@ -42,11 +44,18 @@ export function typeOf({ key, type, words, nullable }) {
  * @param {Declaration} declaration
  * @param {string} [opening]
  */
-export function describe({ sentence, type, min, max, unit }, opening) {
-  const kind = { whole: 'A whole number from', numbers: 'Each from' }[/** @type {string} */ (type)] ?? 'From';
-  const range = min === undefined || max === undefined ? [] : [`${kind} ${number(min)} to ${number(max)}${unit ? ` ${unit}` : ''}`];
-  if (opening !== undefined) range.push(range.length ? `opens with ${opening}` : `Opens with ${opening}`);
-  return [sentence, ...(range.length ? [`${range.join('; ')}.`] : [])].join(' ');
+export function describe(declaration, opening) {
+  const { sentence, type } = declaration;
+  const range = allowedIn(declaration);
+  const kind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
+  const allowed = range && `${kind} from ${range}`.trim();
+  const all = [allowed, opening && `opens with ${opening}`].filter(Boolean).join('; ');
+  return all ? `${sentence} ${all[0].toUpperCase()}${all.slice(1)}.` : sentence;
+}
+
+/** @param {Declaration} declaration */
+function allowedIn({ min, max, unit }) {
+  return min === undefined || max === undefined ? undefined : `${number(min)} to ${number(max)}${unit ? ` ${unit}` : ''}`;
 }
 
 /** @param {number} value */
@@ -78,19 +87,22 @@ async function widget(tag) {
   const stateTable = Object.assign({}, ...documents.map(({ state }) => state));
   const setting = (/** @type {string} */ name) => declared.find((/** @type {Declaration} */ { key }) => key === name);
 
-  /** @returns {Named} */
+  /** @returns {Attribute} */
   const attribute = (/** @type {[string, any]} */ [name, entry]) => {
     const declaration = setting(name);
     if (declaration) {
       const given = declaration.default;
       const opening = given === null ? undefined : String(given);
-      return { name, type: typeOf(declaration), description: describe(declaration, typeof given === 'number' ? number(given) : opening), opening };
+      const shown = typeof given === 'number' ? number(given) : opening;
+      const told = describe({ ...declaration, min: undefined }, shown);
+      return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), told };
     }
     const { words, covers, kind } = entry;
     const opening = entry.opening ?? own[name]?.opening ?? (covers && openingPreset(tag));
     const type = words === undefined ? 'boolean' : kind === WORDS ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
-    return { name, type: covers ? `${type} | null` : type, description: describe({ ...entry, sentence: sentences[name] }, text), opening: text };
+    const description = describe({ ...entry, sentence: sentences[name] }, text);
+    return { name, type: covers ? `${type} | null` : type, description, opening: text, told: description };
   };
   const told = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 

@@ -1,17 +1,19 @@
-// The tables of the gallery that document the elements, made of their manifest: in index.html a comment stands for each.
+// The tables of the gallery that document the elements, made of what is declared and of their manifest: in index.html a
+// comment stands for each.
 
 /**
+ * @typedef {import('./declarations.mjs').Widget} Widget
  * @typedef {import('./manifest.mjs').Element} Element
  * @typedef {import('./manifest.mjs').Item} Item
  */
 
-/** What stands for tables, and which they are. @type {Record<string, (elements: Element[]) => string>} */
+/** What stands for tables, and which they are. @type {Record<string, (elements: Element[], widgets: Widget[]) => string>} */
 const TABLES = {
-  attributes: (elements) =>
-    elements
-      .map(({ tagName, attributes }) => {
-        const rows = attributes.map((each) => [code(each.name), valuesOf(each), prose(each.description)]);
-        return table(tagName, 'attribute', `Of ${code(`<${tagName}>`)}`, ['attribute', 'values', 'what it says'], rows);
+  attributes: (_, widgets) =>
+    widgets
+      .map(({ tag, attributes }) => {
+        const rows = attributes.map((each) => [code(each.name), valuesOf(each), prose(each.told)]);
+        return table(tag, 'attribute', `Of ${code(`<${tag}>`)}`, ['attribute', 'values', 'what it says'], rows);
       })
       .join('\n\n'),
   events: (elements) => shared(elements, 'event', 'Events; all of them bubble', ['event', 'when'], ({ events }) => events),
@@ -28,10 +30,11 @@ const TABLES = {
 /**
  * @param {string} page HTML with comments like `<!-- table of events -->`
  * @param {Element[]} elements
+ * @param {Widget[]} widgets
  * @returns {string} it with the tables
  */
-export function withTables(page, elements) {
-  return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLES[name](elements));
+export function withTables(page, elements, widgets) {
+  return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLES[name](elements, widgets));
 }
 
 /**
@@ -73,10 +76,10 @@ ${body.join('\n')}
         </table>`;
 }
 
-/** @param {Item} attribute */
-function valuesOf({ type }) {
-  const words = [...(type?.text ?? '').matchAll(/'([^']+)'/g)].map(([, word]) => code(word));
-  return words.length ? words.join(', ') : escaped(type?.text ?? '');
+/** @param {import('./declarations.mjs').Attribute} attribute */
+function valuesOf({ type, allowed }) {
+  const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => code(word));
+  return words.length ? words.join(', ') : (allowed ?? type);
 }
 
 /** @param {string} [text] in which what stands between backticks is code */

@@ -37,10 +37,11 @@ addEnglish(en);
  * throws it, an attribute reports it by `error`, and the last good value stays.
  *
  * @fires load - The figure is ready.
- * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run.
+ * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run;
+ *   `message` says why.
  * @fires input - The reader has changed something, and may go on.
  * @fires change - What the reader changed has come to rest.
- * @fires {CustomEvent} stats - There are fresh statistics; the detail has them.
+ * @fires {CustomEvent} stats - There are fresh statistics; `detail` has them.
  *
  * @csspart picture - A canvas with its handles.
  * @csspart caption - The sentences below a picture.

@@ -70,6 +70,7 @@ export async function bundle() {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]js-yaml\.mjs$/ }, ({ path }) => ({ contents: withoutEffects(readFileSync(path, 'utf8')), loader: 'js' }));
+            onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({ contents: withShortStyles(readFileSync(path, 'utf8')), loader: 'js' }));
           },
         },
       ],
@@ -113,6 +114,16 @@ export async function bundle() {
   // What weighs how much: read by scripts/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
+}
+
+/**
+ * A script with the line ends and indentation of its styles as single spaces, and without their comments: as templates
+ * are texts, nobody else takes them out.
+ *
+ * @param {string} script
+ */
+function withShortStyles(script) {
+  return script.replace(/\bcss`[^`]*`/g, (style) => style.replace(/\/\*.*?\*\//gs, '').replace(/\s*\n\s*/g, ' '));
 }
 
 /**

@@ -4,17 +4,18 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
+import { binder } from './bindgen.mjs';
 import { bundle, filesOf } from './bundle.mjs';
-import { ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
-import { ensurePackages, nativeRust, wasmBindgen, wasmRust } from './toolchain.mjs';
+import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
+import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
 /** Brings dist/ up to date with the sources. */
 export async function build() {
-  await ensurePackages();
-  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs']);
-  await whenStale('build/core.sha256', core, ['build/motion.js', 'build/motion_bg.wasm'], buildCore);
+  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs', 'scripts/bind']);
+  const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts'];
+  await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
   const pages = digest(['www', 'package.json', 'package-lock.json', 'scripts/bundle.mjs', 'scripts/manifest.mjs'], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html'], bundle);
 }
@@ -46,27 +47,10 @@ async function whenStale(stamp, sources, products, work) {
 }
 
 async function buildCore() {
-  const native = await nativeRust();
-  const rust = await wasmRust(native);
-  const bindgen = await wasmBindgen(native);
-
-  progress(`Compiling the core to WebAssembly (${rust.description})`);
-  const cargo = join(rust.bin, 'cargo');
-  const failed = 'The core does not compile: see the errors above.';
-  // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
-  // The places of panics name files: not those of this machine.
-  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
-  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
-  await mustRun(failed, cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
-  const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
-  const wasm = join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
-
+  // All three at a time: one waits for the network while another computes.
+  const [wasm, bind] = await together([compileCore(), binder(), ensurePackages()]);
   progress('Binding and optimizing it');
-  await mustRun('wasm-bindgen failed: see above.', join(bindgen, 'wasm-bindgen'), [
-    wasm, '--target', 'no-modules', '--out-dir', at('build'), '--out-name', 'motion',
-    '--omit-default-module-path', '--remove-producers-section',
-  ]);
+  await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at('build')]);
   await silencePanics(at('build/motion_bg.wasm'));
   makeFactory('build/motion');
   // What scripts/bundle.mjs gives to who imports the file.
@@ -78,6 +62,28 @@ async function buildCore() {
     at('node_modules/binaryen/bin/wasm-opt'), '-O3', '--converge', ...features.map((name) => `--enable-${name}`),
     at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),
   ]);
+}
+
+/** @returns {Promise<string>} the path of the module as rustc leaves it */
+async function compileCore() {
+  const rust = await wasmRust();
+  progress(`Compiling the core to WebAssembly (${rust.description})`);
+  const cargo = join(rust.bin, 'cargo');
+  // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
+  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', ...withoutPlaces()];
+  await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
+  const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
+  return join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
+}
+
+/**
+ * The places of panics name files: not those of this machine.
+ *
+ * @returns {string[]} arguments of cargo; with them, what is compiled for the module and for its tests is the same
+ */
+export function withoutPlaces() {
+  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
+  return ['--config', `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`];
 }
 
 /**

@@ -64,12 +64,14 @@ export async function frames(page) {
  */
 export async function state(widget) {
   await frames(widget.page());
-  return widget.evaluate((element) => {
+  const said = await widget.evaluate((element) => {
     const { machine } = /** @type {BananaMachineElement} */ (element);
     const { config, shown, stats, table, contours } = machine;
     const end = [...contours.command.slice(-2)];
-    return { config, shown, stats, table, end, poses: [...machine.poses] };
+    // As it is, an array comes as bytes; spread here, number by number.
+    return { config, shown, stats, table, end, poses: machine.poses };
   });
+  return { ...said, poses: [...said.poses] };
 }
 
 /**

@@ -73,7 +73,7 @@ export function queue() {
 /**
  * Waits until all is settled: what goes on after a failure would still write where the next start reads.
  *
- * @template {readonly Promise<unknown>[]} T
+ * @template {Promise<unknown>[] | []} T
  * @param {T} works
  * @returns {Promise<{ -readonly [K in keyof T]: Awaited<T[K]> }>} rejected with the first failure
  */

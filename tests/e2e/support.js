@@ -29,6 +29,9 @@ export const test = base.extend({
   },
 });
 
+/** For tests of a first visit, or of the history: they get a page of their own, as playwright.config.js says. */
+export const FRESH = { tag: '@fresh' };
+
 /** For tests of a complete cloud: a reader who asked for less motion gets it at once. */
 export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
 

@@ -2,6 +2,7 @@
 // fails does not keep the others from running.
 
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { testRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
@@ -235,7 +236,8 @@ function inBrowser(runner, { chrome, driver }) {
  */
 function nodeTests(directory, more) {
   const files = filesOf(directory).filter((path) => path.endsWith('.test.js'));
-  return [process.execPath, '--test', '--test-reporter', 'tap', ...more, ...files];
+  // By itself it leaves a core idle.
+  return [process.execPath, '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...more, ...files];
 }
 
 /**

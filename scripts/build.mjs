@@ -72,20 +72,13 @@ async function compileCore() {
   progress(`Compiling the core to WebAssembly (${rust.description})`);
   const cargo = join(rust.bin, 'cargo');
   // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
-  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', ...withoutPlaces()];
+  // The places of panics name files: not those of this machine.
+  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
+  const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
+  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
   await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
   const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
   return join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
-}
-
-/**
- * The places of panics name files: not those of this machine.
- *
- * @returns {string[]} arguments of cargo; with them, what is compiled for the module and for its tests is the same
- */
-export function withoutPlaces() {
-  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  return ['--config', `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`];
 }
 
 /**

@@ -6,7 +6,7 @@ import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { testRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
-import { build, withoutPlaces } from './build.mjs';
+import { build } from './build.mjs';
 import { filesOf } from './bundle.mjs';
 import { Missing, ROOT, inOnePiece, once, progress, run, runAsScript } from './process.mjs';
 import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
@@ -119,7 +119,7 @@ const PARTS = {
   wasm: {
     async prepare(more) {
       const rust = await wasm();
-      const options = ['--locked', '--release', '--test', 'web', ...withoutPlaces(), ...rust.target];
+      const options = ['--locked', '--release', '--test', 'web', ...rust.target];
       return cargo(rust, ['test', ...options, ...more], inBrowser(await testRunner(), await browser()));
     },
     count: rustTally,

@@ -15,11 +15,6 @@ const TYPES: &str = r#"
 /** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
 export type ViewName = 'plane' | 'twist';
 
-/** A command worth starting from. */
-export interface Preset extends Command {
-  name: BananaPresetName;
-}
-
 /** Of (x, y, θ) in m, m, rad; in exponential coordinates of ξ along, lateral (m) and heading (rad). */
 export interface Moments {
   /** Three numbers; θ is a circular mean. */
@@ -105,7 +100,7 @@ impl JsBananaMachine {
     /// What is left out is as the widget opens: the gentle arc, velocity model, normal noise.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        #[wasm_bindgen(unchecked_optional_param_type = "Partial<Settings>")] options: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
         let settings = Settings::default();
         let settings = if options.is_undefined() { settings } else { read_settings(&settings, options)? };
@@ -118,7 +113,7 @@ impl JsBananaMachine {
         MAX_SAMPLES
     }
 
-    #[wasm_bindgen(getter, unchecked_return_type = "Preset[]")]
+    #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
     pub fn presets() -> Result<Array, JsValue> {
         let preset = |(name, VelocityCmd { v, omega, dt }): (&str, _)| {
             object(&[("name", name.into()), ("v", v.into()), ("omega", omega.into()), ("dt", dt.into())])
@@ -129,7 +124,7 @@ impl JsBananaMachine {
     /// Changes the settings that are named. A complete cloud stays complete.
     pub fn configure(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Partial<Settings>")] settings: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
     ) -> Result<(), JsValue> {
         Ok(self.0.configure(read_settings(self.0.settings(), settings)?)?)
     }
@@ -138,7 +133,7 @@ impl JsBananaMachine {
     /// ones, and the samples partly so.
     pub fn begin(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Partial<Settings>")] settings: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
     ) -> Result<(), JsValue> {
         Ok(self.0.begin(read_settings(self.0.settings(), settings)?)?)
     }
@@ -153,7 +148,7 @@ impl JsBananaMachine {
     }
 
     /// A copy; changing it changes nothing.
-    #[wasm_bindgen(getter, unchecked_return_type = "Settings")]
+    #[wasm_bindgen(getter, unchecked_return_type = "BananaMachineSettings")]
     pub fn config(&self) -> Result<JsValue, JsValue> {
         settings_to_js(self.0.settings())
     }

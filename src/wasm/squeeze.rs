@@ -15,12 +15,6 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-/** A place in the apartment to start from. */
-export interface SqueezePreset {
-  name: SqueezePresetName;
-  start: Pose;
-}
-
 /** All over the attempts shown; NaN where undefined. */
 export interface SqueezeStats {
   attempts: number;
@@ -73,7 +67,7 @@ impl JsMapSqueeze {
     /// What is left out is as the widget opens: facing a doorway in the apartment. `noise` sets all of `alphas`.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        #[wasm_bindgen(unchecked_optional_param_type = "Partial<SqueezeSettings> & { noise?: number }")]
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
         options: &JsValue,
     ) -> Result<Self, JsValue> {
         let settings = Settings::default();
@@ -87,7 +81,7 @@ impl JsMapSqueeze {
         MAX_SAMPLES
     }
 
-    #[wasm_bindgen(getter, unchecked_return_type = "SqueezePreset[]")]
+    #[wasm_bindgen(getter, unchecked_return_type = "MapSqueezePreset[]")]
     pub fn presets() -> Result<Array, JsValue> {
         let preset = |(name, mut start): (&str, [f64; 3])| {
             object(&[("name", name.into()), ("start", group_to_js(&mut start)?)])
@@ -106,14 +100,14 @@ impl JsMapSqueeze {
     /// Changes the settings that are named. `noise` sets all of `alphas`. A complete cloud stays complete.
     pub fn configure(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Partial<SqueezeSettings> & { noise?: number }")]
+        #[wasm_bindgen(unchecked_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
         settings: &JsValue,
     ) -> Result<(), JsValue> {
         Ok(self.0.configure(read_settings(self.0.settings(), settings)?)?)
     }
 
     /// A copy; changing it changes nothing.
-    #[wasm_bindgen(getter, unchecked_return_type = "SqueezeSettings")]
+    #[wasm_bindgen(getter, unchecked_return_type = "MapSqueezeSettings")]
     pub fn config(&self) -> Result<JsValue, JsValue> {
         settings_to_js(self.0.settings())
     }
@@ -243,7 +237,7 @@ impl JsMapSqueeze {
     #[wasm_bindgen(unchecked_return_type = "{ draws: number; wallTests: number }")]
     pub fn trial(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "SamplerName")] sampler: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "MapSqueezeSettings['sampler']")] sampler: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "number")] steps: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
     ) -> Result<JsValue, JsValue> {

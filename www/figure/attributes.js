@@ -7,6 +7,8 @@ import { refusal, word } from './checks.js';
 import { THEMES } from './page/scheme.js';
 
 /**
+ * @import { Declaration } from '../settings.js'
+ *
  * @typedef {object} Kind
  * @property {(text: string) => unknown} parse a text that means nothing is returned as it is, for whoever
  *   knows what is allowed to refuse
@@ -31,7 +33,6 @@ import { THEMES } from './page/scheme.js';
  * @property {readonly string[]} [words] those that are allowed, where no declaration says it
  *
  * @typedef {Record<string, Attribute & (Setting | Own)>} Attributes by name; what others depend on comes first
- * @typedef {import('../settings.js').Declaration} Declaration
  *
  * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} Table by name, with types in TypeScript
  *

@@ -9,7 +9,7 @@ import { LONGEST_WORK } from './settings.js';
 import { isCalm } from './stage.js';
 
 /**
- * @typedef {import('./state.js').Values} Values
+ * @import { Values } from './state.js'
  *
  * @typedef {object} Growing a machine with a cloud
  * @property {{ samples: number, seed: number }} config

@@ -22,8 +22,8 @@ import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
 
 /**
- * @typedef {import('../types.d.ts').Motion} Motion
- * @typedef {import('./state.js').Values} Values
+ * @import { Motion } from '../types.d.ts'
+ * @import { Values } from './state.js'
  */
 
 addEnglish(en);

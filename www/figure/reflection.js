@@ -3,9 +3,8 @@
 import { groupsOf, isSetting, renamed } from './attributes.js';
 
 /**
- * @typedef {import('./attributes.js').Attributes} Attributes
- * @typedef {import('./attributes.js').Present} Present
- * @typedef {import('./attributes.js').Setting} Setting
+ * @import { Attributes, Present, Setting } from './attributes.js'
+ *
  * @typedef {Map<string, string | null>} Texts of attributes; null for none
  *
  * @typedef {import('./figure.js').FigureElement<any, any>} Figure

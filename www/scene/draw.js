@@ -15,14 +15,6 @@ import { channels } from '../ui/theme.js';
  * @typedef {CanvasRenderingContext2D} Context
  */
 
-/** Dashes of the roles that are lines, in CSS pixels; the legend's swatches use the same. */
-export const DASHES = {
-  command: [2.5, 3.5],
-  ellipse: [7, 4],
-  linearized: [9, 3, 2, 3],
-  exponential: /** @type {number[]} */ ([]),
-};
-
 /** Least distances between two ticks, CSS pixels. */
 const TICK_SPACING = { x: 60, y: 48 };
 

@@ -6,7 +6,7 @@ import { SvgContext, escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
 
 /**
- * @typedef {import('../../scene/canvas.js').Surface} Surface
+ * @import { Surface } from '../../scene/canvas.js'
  *
  * @typedef {object} Takeaway what there is to take along, besides the picture
  * @property {string} title

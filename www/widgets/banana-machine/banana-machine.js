@@ -25,9 +25,10 @@ import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
 
 /**
+ * @import { Values } from '../../figure/state.js'
+ * @import { Reading } from './reading.js'
+ *
  * @typedef {import('../../types.d.ts').BananaMachine} Machine
- * @typedef {import('../../figure/state.js').Values} Values
- * @typedef {import('./reading.js').Reading} Reading
  */
 
 /**

@@ -4,12 +4,11 @@ import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { DASHES } from '../../scene/draw.js';
 import { presets } from '../../settings.js';
 import { button, toggle } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { alphaName } from './reading.js';
-import { COMMAND, OVERLAYS } from './settings.js';
+import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 
 /** @typedef {import('./banana-machine.js').BananaMachineElement} Figure */
 

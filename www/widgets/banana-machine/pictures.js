@@ -2,7 +2,6 @@
 
 import { words } from '../../messages/registry.js';
 import {
-  DASHES,
   clipped,
   densityRamp,
   drawAxes,
@@ -17,6 +16,7 @@ import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { counted } from '../../ui/format.js';
 import { deviation } from './reading.js';
+import { DASHES } from './settings.js';
 
 /**
  * @import { BananaMachine, Moments } from '../../types.d.ts'

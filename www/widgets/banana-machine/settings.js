@@ -4,15 +4,16 @@ import { WORDS, attributesOf, presetOf } from '../../figure/attributes.js';
 import { subset, wholeNumber } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { alphaCounts, presets, settings } from '../../settings.js';
-import { commandLooks } from '../shared/command.js';
+import { COMMAND_DASH, commandLooks } from '../shared/command.js';
 
 export const declared = settings['banana-machine'];
 
 /** The key of its words in the catalogues. */
 export const vocabulary = 'banana';
 
-/** The outlines on the floor, those of them that are shown at first. */
-export const OVERLAYS = /** @type {const} */ (['command', 'ellipse', 'linearized', 'exponential']);
+/** Dashes of the outlines on the floor, CSS pixels. @satisfies {Record<string, number[]>} */
+export const DASHES = { command: COMMAND_DASH, ellipse: [7, 4], linearized: [9, 3, 2, 3], exponential: [] };
+export const OVERLAYS = /** @type {(keyof typeof DASHES)[]} */ (Object.keys(DASHES));
 const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */

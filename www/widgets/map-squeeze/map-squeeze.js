@@ -20,12 +20,12 @@ import { squeezeStyles } from './styles.js';
 import { announcementOf, mapText, pictureText, verdictText } from './words.js';
 
 /**
+ * @import { MapData, Pose } from '../../types.d.ts'
+ * @import { Values } from '../../figure/state.js'
+ * @import { OwnMap } from './maps/files.js'
+ * @import { Reading } from './reading.js'
+ *
  * @typedef {import('../../types.d.ts').MapSqueeze} Machine
- * @typedef {import('../../types.d.ts').Pose} Pose
- * @typedef {import('../../types.d.ts').MapData} MapData
- * @typedef {import('../../figure/state.js').Values} Values
- * @typedef {import('./maps/files.js').OwnMap} OwnMap
- * @typedef {import('./reading.js').Reading} Reading
  */
 
 /** Motion conditioned on a map, and what the condition cannot see. @extends {FigureElement<Machine, Reading>} */

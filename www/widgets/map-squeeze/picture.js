@@ -1,10 +1,11 @@
 /** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
 
-import { DASHES, clipped, drawAxes, drawDots, drawMark, drawOutline, trace } from '../../scene/draw.js';
+import { clipped, drawAxes, drawDots, drawMark, drawOutline, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer } from '../../scene/walls.js';
 import { clamp } from '../../ui/clamp.js';
+import { COMMAND_DASH } from '../shared/command.js';
 
 /**
  * @import { MapSqueeze, Plan } from '../../types.d.ts'
@@ -98,7 +99,7 @@ export class FloorPicture extends Picture {
       drawRings(brush, poses, sorted.through);
       this.#walls.draw(brush);
       drawCrosses(brush, sorted.rejected);
-      drawOutline(brush, commanded, { colour: palette.prior, width: 2.5, dash: DASHES.command });
+      drawOutline(brush, commanded, { colour: palette.prior, width: 2.5, dash: COMMAND_DASH });
       drawRobots(brush, config, commanded);
       if (marked) {
         const { pose, path } = marked;

@@ -3,6 +3,9 @@
 import { words } from '../../messages/registry.js';
 import { fixed } from '../../ui/format.js';
 
+/** The dash of the commanded way, CSS pixels. */
+export const COMMAND_DASH = [2.5, 3.5];
+
 const SPEED = { role: /** @type {const} */ ('prior'), step: 0.01, decimals: 2 };
 
 /**

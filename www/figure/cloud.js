@@ -113,6 +113,22 @@ export class Cloud {
     this.#host.stage.wake();
   }
 
+  /**
+   * The pointer is over a picture, or was pressed there: marks the nearest sample.
+   *
+   * @param {import('../scene/picture.js').Picture<any>} picture
+   * @param {PointerEvent} event
+   */
+  point(picture, event) {
+    this.#host.runtime.attempt(() => {
+      const { machine, held } = this.#host;
+      // A finger that moves scrolls the page; one that taps comes as a click.
+      if (!machine || held || (event.pointerType === 'touch' && event.type !== 'click')) return;
+      const index = picture.nearest(machine, event.offsetX, event.offsetY);
+      if (index >= 0 || event.type === 'click') this.mark(index);
+    });
+  }
+
   /** Whether the marked sample is among those shown. */
   get isMarked() {
     return this.index >= 0 && this.index < this.#machine.shown;

@@ -5,7 +5,7 @@
 
 import { LitElement, html, noChange, nothing } from 'lit';
 import { en } from '../messages/en.js';
-import { addEnglish, onLanguage, speak, words } from '../messages/registry.js';
+import { addEnglish, speak, words } from '../messages/registry.js';
 import { theme } from '../ui/theme.js';
 import { Announcer } from './announcer.js';
 import { word } from './checks.js';
@@ -72,7 +72,7 @@ addEnglish(en);
 export class FigureElement extends LitElement {
   static styles = [theme, schemeStyles];
 
-  /** The widget's settings, as declared. @type {import('./attributes.js').Declaration[]} */
+  /** The widget's settings, as declared. @type {import('../settings.js').Declaration[]} */
   static declared = [];
   /** How those look that have a slider. @type {Record<string, import('./controls.js').Look>} */
   static looks = {};
@@ -100,8 +100,6 @@ export class FigureElement extends LitElement {
   pictures = [];
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
-  /** Ends listening for other words. @type {(() => void) | undefined} */
-  #silence;
 
   get #class() {
     return /** @type {typeof FigureElement} */ (this.constructor);
@@ -271,21 +269,6 @@ export class FigureElement extends LitElement {
     this.stage.wake();
   }
 
-  /**
-   * The pointer is over a picture, or was pressed there: marks the nearest sample.
-   *
-   * @param {import('../scene/picture.js').Picture<any>} picture
-   * @param {PointerEvent} event
-   */
-  point(picture, event) {
-    this.runtime.attempt(() => {
-      // A finger that moves scrolls the page; one that taps comes as a click.
-      if (!this.machine || this.held || (event.pointerType === 'touch' && event.type !== 'click')) return;
-      const index = picture.nearest(this.machine, event.offsetX, event.offsetY);
-      if (index >= 0 || event.type === 'click') this.cloud?.mark(index);
-    });
-  }
-
   /** @param {'input' | 'change'} name of what the reader has done */
   #done(name) {
     if (name === 'change') this.reflection.tell();
@@ -395,9 +378,7 @@ export class FigureElement extends LitElement {
    * @returns {string}
    */
   embedCode() {
-    const own = ['theme', 'lang', 'dir'].map((name) => /** @type {[string, string]} */ ([name, this.getAttribute(name) ?? '']));
-    const told = own.filter(([, text]) => text !== '');
-    return embedding(this.localName, this.machine ? [...told, ...this.reflection.needed()] : told);
+    return embedding(this);
   }
 
   // The element's life.
@@ -423,20 +404,6 @@ export class FigureElement extends LitElement {
       this.requestUpdate();
       if (old === null) this.link.follow();
     }
-  }
-
-  connectedCallback() {
-    super.connectedCallback();
-    this.#silence = onLanguage(this, () => {
-      this.settings.stale = true;
-      this.requestUpdate();
-      this.stage.wake();
-    });
-  }
-
-  disconnectedCallback() {
-    super.disconnectedCallback();
-    this.#silence?.();
   }
 
   /** While a machine is made again, what was shown of the former one stays. */
@@ -475,11 +442,7 @@ export function define(name, Widget) {
   customElements.define(name, Widget);
 }
 
-/**
- * The native controls' own events stay inside: the element has one of its own for each gesture.
- *
- * @param {Event} event
- */
+/** The native controls' own events stay inside: the element has one of its own for each gesture. @param {Event} event */
 function stop(event) {
   event.stopPropagation();
 }

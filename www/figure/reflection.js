@@ -225,7 +225,7 @@ export class Reflection {
 /**
  * Gives a class the properties of its settings, and of what is the element's own and has an attribute.
  *
- * @param {{ prototype: any, attributes: Attributes, declared: import('./attributes.js').Declaration[], own: object }} Widget
+ * @param {{ prototype: any, attributes: Attributes, declared: import('../settings.js').Declaration[], own: object }} Widget
  */
 export function defineProperties({ prototype, attributes, declared, own }) {
   const property = (/** @type {string} */ name, /** @type {PropertyDescriptor & ThisType<any>} */ accessors) =>

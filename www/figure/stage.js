@@ -3,6 +3,7 @@
  * colours that follow the page, the theme and paper.
  */
 
+import { onLanguage } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
 import { onPrint } from './page/print.js';
@@ -30,8 +31,8 @@ export class Stage {
   #surroundings = '';
   /** @type {ResizeObserver | undefined} */
   #sizes;
-  /** Ends listening for the printer. @type {(() => void) | undefined} */
-  #unprint;
+  /** What ends listening for the printer and for other words. @type {(() => void)[]} */
+  #ends = [];
 
   /** @param {Figure} host */
   constructor(host) {
@@ -40,11 +41,18 @@ export class Stage {
   }
 
   hostConnected() {
-    this.#unprint = onPrint((printing) => this.#print(printing));
+    this.#ends = [onPrint((printing) => this.#print(printing)), onLanguage(this.#host, () => this.#speakAgain())];
   }
 
   hostDisconnected() {
-    this.#unprint?.();
+    for (const end of this.#ends) end();
+  }
+
+  /** The words or the language may be others. */
+  #speakAgain() {
+    this.#host.settings.stale = true;
+    this.#host.requestUpdate();
+    this.wake();
   }
 
   hostUpdated() {

@@ -52,14 +52,15 @@ export class CopyMenu {
 }
 
 /**
- * HTML for a page that has the script beside it.
+ * HTML for a page that has the script beside it, with the attributes that the figure needs to open as it is now.
  *
- * @param {string} name of the element
- * @param {[string, string][]} attributes
+ * @param {Figure} figure
  */
-export function embedding(name, attributes) {
+export function embedding(figure) {
+  const given = ['theme', 'lang', 'dir'].map((name) => /** @type {[string, string]} */ ([name, figure.getAttribute(name) ?? '']));
+  const needed = figure.machine ? figure.reflection.needed() : [];
   const script = tag('script', [['type', 'module'], ['src', 'motion-widgets.js']]);
-  return `${script}\n${tag(name, attributes)}\n`;
+  return `${script}\n${tag(figure.localName, [...given.filter(([, text]) => text !== ''), ...needed])}\n`;
 }
 
 /**

@@ -229,7 +229,7 @@ export class BananaMachineElement extends FigureElement {
    * @param {string} description
    */
   #canvas(picture, description) {
-    const point = (/** @type {PointerEvent} */ event) => this.point(picture, event);
+    const point = (/** @type {PointerEvent} */ event) => this.cloud.point(picture, event);
     return html`<canvas
       class=${picture.name}
       role="img"

@@ -254,7 +254,7 @@ export class MapSqueezeElement extends FigureElement {
 
   /** @param {string} description */
   #stage(description) {
-    const point = (/** @type {PointerEvent} */ event) => this.point(this.#picture, event);
+    const point = (/** @type {PointerEvent} */ event) => this.cloud.point(this.#picture, event);
     return html`<div class="stage" part="picture">
       <canvas class="plane" role="img" aria-label=${description} @pointermove=${point} @click=${point}></canvas>
       ${this.#handles.render(this.settings.wanted.start)}

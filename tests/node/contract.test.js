@@ -77,7 +77,7 @@ test('a machine opens in the state of the widget', async () => {
   ]);
 });
 
-test('the canonical example has the figures of the design', async () => {
+test('the canonical example has the figures that were computed by quadrature', async () => {
   const { BananaMachine } = await (await freshModule()).load();
   const machine = new BananaMachine(CANONICAL);
   const { linearized, exact } = machine.table;

@@ -74,7 +74,7 @@ function refused(machine, calls) {
   }
 }
 
-test('the opening state is the design’s', () => {
+test('it opens facing a doorway of the apartment', () => {
   const machine = new MapSqueeze();
   assert.deepEqual(machine.config, {
     start: DOORWAY,

@@ -420,11 +420,11 @@ export class FigureElement extends LitElement {
   }
 
   #content() {
-    const { failure } = this.runtime;
+    const content = this.machine && this.runtime.attemptOrFail(() => [this.content(this.reading), this.announcer.render()]);
+    const { failure, mending } = this.runtime;
+    // Also at once: what asks for an update while there is one is not heard.
     if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-    if (!this.machine) return html`<div class="reserved"></div>`;
-    if (!this.reading) return nothing;
-    return this.runtime.attemptOrFail(() => [this.content(this.reading), this.announcer.render()]) ?? noChange;
+    return content ?? (mending ? noChange : html`<div class="reserved"></div>`);
   }
 }
 

@@ -6,7 +6,7 @@ import { refusal } from './checks.js';
  * Bytes of a state at most when it is unpacked: a link is anybody's, and a short text may say "a billion
  * times a". The outlines of the largest maps that are of use take a tenth of it.
  */
-const MOST_BYTES = 4_000_000;
+const MAX_BYTES = 4_000_000;
 
 /**
  * @param {object} data
@@ -34,7 +34,7 @@ export async function unpack(text) {
       const { done, value } = await reader.read();
       if (done) break;
       size += value.byteLength;
-      if (size > MOST_BYTES) throw new RangeError('too long');
+      if (size > MAX_BYTES) throw new RangeError('too long');
       parts.push(value);
     }
     return JSON.parse(await new Blob(parts).text());

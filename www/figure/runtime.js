@@ -9,7 +9,7 @@ import { unwatch, watch } from './page/sight.js';
 /** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
 
 /** Cores that may trap one after the other, without a picture between, until the figure gives up. */
-const MOST_CRASHES = 3;
+const MAX_CRASHES = 3;
 
 export class Runtime {
   /** The core, once it runs. @type {import('../types.d.ts').Motion | undefined} */
@@ -126,7 +126,7 @@ export class Runtime {
    * @returns {boolean} whether it was one that this mends
    */
   #mend(error) {
-    if (!isTrap(error) || ++this.#crashes > MOST_CRASHES) return false;
+    if (!isTrap(error) || ++this.#crashes > MAX_CRASHES) return false;
     this.#abandon();
     this.mending = true;
     this.report(error);

@@ -17,7 +17,7 @@ const BOTTOM = HEIGHT - 34;
 const HALF_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
 
 /** A curve that stays below is flat to the eye, and is not stretched. */
-const LEAST_PEAK = 0.1;
+const MIN_PEAK = 0.1;
 
 /** How many steps a key moves the marker by. @type {Record<string, number>} */
 const KEY_STEPS = {
@@ -162,7 +162,7 @@ export function chart(chart) {
 
 /** Turns values into pixels and back, with 0 halfway up. @param {Chart} chart */
 function scaleOf({ curve, min, max }) {
-  const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), LEAST_PEAK);
+  const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), MIN_PEAK);
   const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;
   const [perX, perY] = [(RIGHT - LEFT) / (max - min), (TOP - BOTTOM) / (2 * half)];
   return {

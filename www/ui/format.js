@@ -42,7 +42,7 @@ export function fixed(value, decimals) {
 const NOTHING_BELOW = 1e-13;
 
 /** Most decimals of a standard error: ten million robots leave one of 0.0008. */
-const MOST_DECIMALS = 5;
+const MAX_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
@@ -96,7 +96,7 @@ export function percent(share) {
  */
 export function withError(value, error, decimals) {
   if (Number.isNaN(value)) return NOTHING;
-  const needed = error > 0 ? Math.max(decimals, Math.min(MOST_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
+  const needed = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
   return `${fixed(value, needed)} ± ${fixed(error, needed)}`;
 }
 

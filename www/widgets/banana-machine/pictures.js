@@ -31,10 +31,10 @@ import { DASHES } from './settings.js';
  */
 
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
-const MOST_DOTS = 2500;
+const MAX_DOTS = 2500;
 
 /** Rays of a fan of headings: more look no different. */
-const MOST_RAYS = 400;
+const MAX_RAYS = 400;
 
 /** A cloud whose standard deviation is below this many pixels is drawn as one place. */
 const ONE_PLACE = 0.6;
@@ -76,7 +76,7 @@ class CloudPicture extends Picture {
   paintCloud(brush, machine, area) {
     const { name } = this;
     const { view, palette } = brush;
-    if (machine.shown <= MOST_DOTS) {
+    if (machine.shown <= MAX_DOTS) {
       if (name === 'plane') drawDots(brush, machine.poses, { x: 0, y: 1, heading: 2 });
       else drawDots(brush, machine.twists, { x: 0, y: 2, heading: null });
       return;
@@ -166,7 +166,7 @@ export class PlanePicture extends CloudPicture {
 
 /** Robots that are all in one place. @param {BananaMachine} machine */
 function heapOf(machine) {
-  const stride = Math.ceil(machine.shown / MOST_RAYS);
+  const stride = Math.ceil(machine.shown / MAX_RAYS);
   const headings = [];
   for (let i = 0; i < machine.shown; i += stride) headings.push(machine.heading(i));
   const [x, y] = machine.inspect(0).pose;

@@ -26,7 +26,7 @@ const KEY_TURN = Math.PI / 36;
 const TURNS = { '[': 1, ']': -1, ArrowLeft: 1, ArrowUp: 1, ArrowRight: -1, ArrowDown: -1 };
 
 /** Least size of the body's handle, CSS pixels. */
-const LEAST_BODY = 32;
+const MIN_BODY = 32;
 
 /** The handle that turns the robot stays this far inside of the picture, CSS pixels. */
 const MARGIN = 12;
@@ -98,7 +98,7 @@ export class RobotHandles {
     const ahead = view.direction(start.theta);
     const distance = turnDistance(view, clearance);
     const inside = (/** @type {number} */ at, /** @type {number} */ size) => clamp(at, MARGIN, size - MARGIN);
-    this.#body.place(root, x, y, Math.max(LEAST_BODY, 2 * clearance * view.scaleX));
+    this.#body.place(root, x, y, Math.max(MIN_BODY, 2 * clearance * view.scaleX));
     this.#turn.place(root, inside(x + distance * ahead.x, view.width), inside(y + distance * ahead.y, view.height));
   }
 

@@ -30,7 +30,7 @@ const SMALLEST_ROBOT = 3;
 
 /** Surroundings shown around the commanded way: this many times its length, and at least so many metres. */
 const SURROUNDINGS = 0.7;
-const LEAST_SURROUNDINGS = 0.8;
+const MIN_SURROUNDINGS = 0.8;
 
 /** How near to a sample the pointer must be to mark it, CSS pixels. */
 const REACH = 12;
@@ -68,7 +68,7 @@ export class FloorPicture extends Picture {
       return;
     }
     const length = Math.abs(config.command.v * config.command.dt);
-    const room = Math.max(LEAST_SURROUNDINGS, SURROUNDINGS * length) + config.clearance;
+    const room = Math.max(MIN_SURROUNDINGS, SURROUNDINGS * length) + config.clearance;
     const { xMin, yMin, xMax, yMax } = extentAround(commanded, 2);
     this.#near.fit({ xMin: xMin - room, yMin: yMin - room, xMax: xMax + room, yMax: yMax + room });
   }

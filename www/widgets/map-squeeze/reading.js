@@ -9,7 +9,7 @@ import { counted } from '../../ui/format.js';
 /** @typedef {ReturnType<typeof readingOf>} Reading */
 
 /** Most paths that are drawn: more would be one blot, and cost more than a frame. */
-const MOST_PATHS = 150;
+const MAX_PATHS = 150;
 
 /**
  * Everything that the picture and the readouts need of the machine, asked once a change.
@@ -26,7 +26,7 @@ export function readingOf(machine) {
     poses,
     commanded,
     sorted,
-    paths: sorted.through.slice(0, MOST_PATHS).map((index) => machine.path(index)),
+    paths: sorted.through.slice(0, MAX_PATHS).map((index) => machine.path(index)),
     note: noteOn(config, stats, startFree),
   };
 }

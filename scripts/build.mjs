@@ -15,7 +15,7 @@ const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'tables', 'types'].m
 
 /** Brings dist/ up to date with the sources. */
 export async function build() {
-  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs', 'scripts/bind']);
+  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/bind']);
   const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts'];
   await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
   const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);

@@ -25,7 +25,7 @@ export function compressed(path) {
  * @param {string} path of a product that is a module, from the root
  * @returns {string[]} it and what a browser loads with it; not what it imports when it is needed
  */
-export function loadedWith(path) {
+function loadedWith(path) {
   const all = outputs();
   const found = new Set([path]);
   for (const each of found) {

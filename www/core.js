@@ -4,7 +4,7 @@
  */
 
 import makeCore from '../build/motion.js';
-import own from '../build/motion_bg.wasm';
+import carried from '../build/motion_bg.wasm';
 
 /** @typedef {BufferSource | URL | string | WebAssembly.Module} Source */
 
@@ -68,7 +68,7 @@ export function abandon(machine) {
 async function compile() {
   // Elements ask while they are being defined, before the script that imports them has had its say.
   await null;
-  const source = wanted ?? own();
+  const source = wanted ?? carried();
   try {
     if (source instanceof WebAssembly.Module) return source;
     if (source instanceof ArrayBuffer) return await WebAssembly.compile(source);

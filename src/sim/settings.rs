@@ -322,7 +322,7 @@ pub trait Rules: Declared {
 /// Declares the settings of a widget, each by a sentence, its name, type and default; a number by its unit, if it has one,
 /// and its range besides:
 ///
-/// ```ignore
+/// ```text
 /// /// Radius of the robot.
 /// clearance: f64 = 0.13, "m", in 0.0..=10.0;
 /// ```

@@ -85,24 +85,19 @@ export function isSetting(entry) {
   return !('own' in entry);
 }
 
-/**
- * The attributes of a widget's settings.
- *
- * @param {Declaration[]} declared
- * @returns {Record<string, Attribute & Setting>}
- */
-export function attributesOf(declared) {
-  return Object.fromEntries(declared.filter(({ type }) => type in KINDS).map((setting) => [setting.key, settingOf(setting)]));
-}
+/** The attributes of a widget's settings. @param {Declaration[]} declared */
+export const attributesOf = (declared) => settingsIn(declared, ({ type }) => type in KINDS);
+
+/** The settings that are objects or arrays, and have a property alone. @param {Declaration[]} declared */
+export const groupsOf = (declared) => settingsIn(declared, ({ type }) => !(type in KINDS));
 
 /**
- * The settings that are objects or arrays, and have a property alone.
- *
  * @param {Declaration[]} declared
- * @returns {Record<string, Setting>}
+ * @param {(setting: Declaration) => boolean} are
+ * @returns {Record<string, Attribute & Setting>}
  */
-export function groupsOf(declared) {
-  return Object.fromEntries(declared.filter(({ type }) => !(type in KINDS)).map((setting) => [setting.key, settingOf(setting)]));
+function settingsIn(declared, are) {
+  return Object.fromEntries(declared.filter(are).map((setting) => [setting.key, settingOf(setting)]));
 }
 
 /**

@@ -77,7 +77,7 @@ export class Cloud {
 
   /** @returns {Values} its part of the state */
   snapshot() {
-    return { shown: this.asked, playing: this.playing };
+    return { shown: this.asked, playing: this.playing, marked: this.isMarked ? this.index : null };
   }
 
   /**

@@ -47,6 +47,24 @@ export function slider(figure, key, otherwise) {
 }
 
 /**
+ * A picture's canvas, on which the pointer marks samples.
+ *
+ * @param {Figure} figure
+ * @param {import('../scene/picture.js').Picture<any>} picture
+ * @param {string} description what it shows, in words
+ */
+export function canvas(figure, picture, description) {
+  const point = (/** @type {PointerEvent} */ event) => figure.cloud?.point(picture, event);
+  return html`<canvas
+    class=${picture.name}
+    role="img"
+    aria-label=${description}
+    @pointermove=${point}
+    @click=${point}
+  ></canvas>`;
+}
+
+/**
  * A slider for each of several settings.
  *
  * @param {Figure} figure
@@ -64,7 +82,7 @@ export function sliders(figure, looks) {
  * @param {Record<string, string>} labels of its words
  */
 export function choices(figure, key, labels) {
-  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.reading.config[key], (word) => decide(figure, key, word));
+  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.reading.config[key], (word) => figure.decide({ [key]: word }));
 }
 
 /**
@@ -73,7 +91,7 @@ export function choices(figure, key, labels) {
  * @param {unknown} label
  */
 export function check(figure, key, label) {
-  return toggle({ label, checked: figure.reading.config[key], change: (on) => decide(figure, key, on) });
+  return toggle({ label, checked: figure.reading.config[key], change: (on) => figure.decide({ [key]: on }) });
 }
 
 /**
@@ -119,18 +137,6 @@ export function cloudControls(figure, counts) {
 function want(figure, key, value) {
   const setting = /** @type {import('./attributes.js').Setting} */ (classOf(figure).attributes[key]);
   figure.settings.want((wanted) => setting.change(value, { config: wanted, machine: figure.machine }));
-}
-
-/**
- * The reader has decided on a value of a setting.
- *
- * @param {Figure} figure
- * @param {string} key
- * @param {unknown} value
- */
-function decide(figure, key, value) {
-  want(figure, key, value);
-  figure.commit();
 }
 
 /** @param {Figure} figure */

@@ -168,8 +168,13 @@ export class FigureElement extends LitElement {
   /** Everything that a reader can change, as the machine and the element have it. @returns {Values} */
   snapshot() {
     const { config } = /** @type {Machine} */ (this.machine);
+    return { ...this.state.common, ...this.settingsOf(config), ...this.cloud?.snapshot() };
+  }
+
+  /** Those of some values that are declared settings of the machine. @param {Values} values */
+  settingsOf(values) {
     const keys = this.#class.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
-    return { ...this.state.common, ...Object.fromEntries(keys.map((key) => [key, config[key]])), ...this.cloud?.snapshot() };
+    return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
   /**
@@ -254,6 +259,12 @@ export class FigureElement extends LitElement {
     this.settings.stale = true;
     this.gesture.end();
     this.stage.wake();
+  }
+
+  /** The reader has decided on other settings. @param {Values | ((wanted: Values) => Values)} change */
+  decide(change) {
+    this.settings.want(change);
+    this.commit();
   }
 
   /**

@@ -165,6 +165,8 @@ export class Runtime {
     this.mending = false;
     this.#host.requestUpdate();
     await this.#host.updateComplete;
+    // What was rendered may have trapped or failed, and the element may have gone.
+    if (!this.machine) return;
     if (mended) this.#host.stage.wake();
     else this.#host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
@@ -181,6 +183,24 @@ export class Runtime {
     }
     this.machine = this.motion = undefined;
     this.#host.requestUpdate();
+  }
+}
+
+/**
+ * Does something with a machine that is not in its place yet: it is freed where that is refused.
+ *
+ * @template {{ free(): void }} Machine
+ * @param {Machine} machine
+ * @param {(machine: Machine) => void} work
+ * @returns {Machine}
+ */
+export function orFree(machine, work) {
+  try {
+    work(machine);
+    return machine;
+  } catch (error) {
+    machine.free();
+    throw error;
   }
 }
 

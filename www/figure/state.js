@@ -1,6 +1,7 @@
 /** The whole state as plain data: given, taken, and kept over a removal and a trap. */
 
 import { object, refusal, word } from './checks.js';
+import { orFree } from './runtime.js';
 
 /**
  * @typedef {Record<string, any>} Values plain data; which fields, the widget says
@@ -55,7 +56,7 @@ export class State {
     if (this.#host.machine) this.kept = this.#host.snapshot();
   }
 
-  /** Takes up what of the kept state is not the machine's, and was not before. */
+  /** A machine was made of the last good state: the element takes up its own part of that. */
   restore() {
     this.#introduced = false;
     if (this.kept) this.#adopt(this.kept);
@@ -80,16 +81,12 @@ export class State {
     word('state.widget', given.widget, [host.localName]);
     if (given.version !== VERSION) throw refusal('state.version', given.version, String(VERSION));
     const whole = { ...present, ...host.completed(present, given) };
-    const machine = host.createMachine(host.motion, whole);
-    try {
+    const machine = orFree(host.createMachine(host.motion, whole), (made) => {
       for (const [name, { check }] of Object.entries(this.#owned)) {
-        whole[name] = check(`state.${name}`, whole[name], machine);
+        whole[name] = check(`state.${name}`, whole[name], made);
       }
-      host.cloud?.check(whole, machine);
-    } catch (error) {
-      machine.free();
-      throw error;
-    }
+      host.cloud?.check(whole, made);
+    });
     this.#adopt(whole);
     host.runtime.replace(machine);
     host.machineChanged();

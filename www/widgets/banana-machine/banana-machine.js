@@ -6,9 +6,10 @@
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
 import { Cloud, showOnly } from '../../figure/cloud.js';
-import { cloudControls } from '../../figure/controls.js';
+import { canvas, cloudControls } from '../../figure/controls.js';
 import { FigureElement, define } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
+import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { alphaCounts } from '../../settings.js';
 import { chart } from '../../ui/chart.js';
@@ -68,19 +69,14 @@ export class BananaMachineElement extends FigureElement {
   createMachine(motion, state) {
     const machine = new motion.BananaMachine();
     if (!state) return machine;
-    const { model, noise, command, alphas, isolate, samples, seed, shown } = state;
-    try {
-      // Each model keeps its own: the last one that is set is the present one.
-      for (const each of [model === 'velocity' ? 'odometry' : 'velocity', model]) {
-        machine.configure({ model: each, alphas: alphas[each] });
-      }
-      machine.configure({ noise, command, isolate, samples, seed });
+    const { model, alphas, shown } = state;
+    return orFree(machine, () => {
+      // Each model keeps its own.
+      const other = model === 'velocity' ? 'odometry' : 'velocity';
+      machine.configure({ model: other, alphas: alphas[other] });
+      machine.configure({ ...this.settingsOf(state), alphas: alphas[model] });
       showOnly(machine, shown);
-    } catch (error) {
-      machine.free();
-      throw error;
-    }
-    return machine;
+    });
   }
 
   /** @param {Machine} machine */
@@ -148,8 +144,7 @@ export class BananaMachineElement extends FigureElement {
   /** Leaves one α alone in effect. @param {number} number from 1 */
   leaveAlone(number) {
     this.state.own.isolateChoice = number;
-    this.settings.want({ isolate: number });
-    this.commit();
+    this.decide({ isolate: number });
   }
 
   /**
@@ -176,7 +171,7 @@ export class BananaMachineElement extends FigureElement {
       <section class="machine" aria-label=${say.title}>
         <div class="floor">
           <div class="stage" part="picture">
-            ${this.#canvas(this.#plane, planeText(config, stats, note, overlays))} ${this.#handle.render(config.command)}
+            ${canvas(this, this.#plane, planeText(config, stats, note, overlays))} ${this.#handle.render(config.command)}
             <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
               <span>${note || captionOf(stats)}</span>
             </p>
@@ -193,7 +188,7 @@ export class BananaMachineElement extends FigureElement {
         <div class="controls" part="controls">${commandControls(this)} ${noiseControls(this)}</div>
         <div class="figures" part="figures">
           <figure>
-            ${this.#canvas(this.#twist, twistText(stats))}
+            ${canvas(this, this.#twist, twistText(stats))}
             <figcaption>${twistCaption(config, note)}</figcaption>
             ${twistTable(table, stats)}
           </figure>
@@ -222,21 +217,6 @@ export class BananaMachineElement extends FigureElement {
       move: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
       commit: () => this.commit(),
     });
-  }
-
-  /**
-   * @param {PlanePicture | TwistPicture} picture
-   * @param {string} description
-   */
-  #canvas(picture, description) {
-    const point = (/** @type {PointerEvent} */ event) => this.cloud.point(picture, event);
-    return html`<canvas
-      class=${picture.name}
-      role="img"
-      aria-label=${description}
-      @pointermove=${point}
-      @click=${point}
-    ></canvas>`;
   }
 }
 

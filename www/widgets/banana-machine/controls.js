@@ -22,10 +22,7 @@ export function commandControls(figure) {
         ${presets['banana-machine'].map(({ name, v, omega, dt }) =>
           button(
             words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
-            () => {
-              figure.settings.want({ command: { v, omega, dt } });
-              figure.commit();
-            },
+            () => figure.decide({ command: { v, omega, dt } }),
             { pressed: command.v === v && command.omega === omega && command.dt === dt },
           ),
         )}
@@ -51,10 +48,7 @@ export function noiseControls(figure) {
       ${toggle({
         label: say.isolate,
         checked: isolate !== null,
-        change: (on) => {
-          figure.settings.want({ isolate: on ? chosen : null });
-          figure.commit();
-        },
+        change: (on) => figure.decide({ isolate: on ? chosen : null }),
       })}
       ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, say.settings.alphas.effects[model][index]))}
     </fieldset>

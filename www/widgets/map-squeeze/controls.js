@@ -52,10 +52,7 @@ export function judgeControls(figure) {
           group: 'sampler',
           label: say.samplers[name],
           checked: name === sampler,
-          choose: () => {
-            figure.settings.want({ sampler: name });
-            figure.commit();
-          },
+          choose: () => figure.decide({ sampler: name }),
         }),
       )}
     </div>

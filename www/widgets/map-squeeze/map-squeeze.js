@@ -2,9 +2,10 @@
 
 import { html } from 'lit';
 import { Cloud, showOnly } from '../../figure/cloud.js';
-import { cloudControls } from '../../figure/controls.js';
+import { canvas, cloudControls } from '../../figure/controls.js';
 import { FigureElement, define } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
+import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
 import { judgeControls, motionControls, ownMap, placeControls } from './controls.js';
@@ -14,7 +15,7 @@ import { applyMap, mapData } from './maps/data.js';
 import { MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
-import { costTable, key, markedDraw, tally } from './readouts.js';
+import { costTable, legend, markedDraw, tally } from './readouts.js';
 import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
 import { announcementOf, mapText, pictureText, verdictText } from './words.js';
@@ -70,16 +71,11 @@ export class MapSqueezeElement extends FigureElement {
   createMachine(motion, state) {
     const machine = new motion.MapSqueeze();
     if (!state) return machine;
-    const { start, command, alphas, clearance, conditioned, sampler, steps, samples, seed, shown, map } = state;
-    try {
-      if (map !== null) applyMap(machine, map);
-      machine.configure({ start, command, alphas, clearance, conditioned, sampler, steps, samples, seed });
-      showOnly(machine, shown);
-    } catch (error) {
-      machine.free();
-      throw error;
-    }
-    return machine;
+    return orFree(machine, () => {
+      if (state.map !== null) applyMap(machine, state.map);
+      machine.configure(this.settingsOf(state));
+      showOnly(machine, state.shown);
+    });
   }
 
   machineChanged() {
@@ -172,8 +168,7 @@ export class MapSqueezeElement extends FigureElement {
   /** The reader wants the robot in the apartment. @param {Pose} start */
   go(start) {
     this.runtime.attempt(() => this.#leave());
-    this.settings.want({ start });
-    this.commit();
+    this.decide({ start });
   }
 
   /** Leaves the reader's own map, if it is there. */
@@ -196,17 +191,13 @@ export class MapSqueezeElement extends FigureElement {
     const { motion } = this;
     if (!motion) return;
     this.settings.settle();
-    const next = this.createMachine(motion, this.snapshot());
-    let data;
-    try {
-      map.apply(next);
-      findRoom(next);
-      showOnly(next, this.cloud.asked);
-      data = mapData(next, map.name);
-    } catch (error) {
-      next.free();
-      throw error;
-    }
+    let data = null;
+    const next = orFree(this.createMachine(motion, this.snapshot()), (machine) => {
+      map.apply(machine);
+      findRoom(machine);
+      showOnly(machine, this.cloud.asked);
+      data = mapData(machine, map.name);
+    });
     this.runtime.replace(next);
     this.#moved(data);
   }
@@ -233,9 +224,12 @@ export class MapSqueezeElement extends FigureElement {
         @drop=${this.#opener.drop}
       >
         <div class="floor">
-          ${this.#stage(pictureText(config, stats, map, note))}
+          <div class="stage" part="picture">
+            ${canvas(this, this.#picture, pictureText(config, stats, map, note))}
+            ${this.#handles.render(this.settings.wanted.start)}
+          </div>
           <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
-          ${key(config)} ${tally(stats, config, paths.length)}
+          ${legend(config)} ${tally(stats, config, paths.length)}
           ${markedDraw({
             index,
             shown: stats.attempts,
@@ -250,15 +244,6 @@ export class MapSqueezeElement extends FigureElement {
         ${ownMap(this, this.#opener, map)}
       </section>
     `;
-  }
-
-  /** @param {string} description */
-  #stage(description) {
-    const point = (/** @type {PointerEvent} */ event) => this.cloud.point(this.#picture, event);
-    return html`<div class="stage" part="picture">
-      <canvas class="plane" role="img" aria-label=${description} @pointermove=${point} @click=${point}></canvas>
-      ${this.#handles.render(this.settings.wanted.start)}
-    </div>`;
   }
 }
 

@@ -20,7 +20,7 @@ import { keptWords, shareOf } from './words.js';
  */
 
 /** What the marks in the picture mean. @param {Settings} config */
-export function key(config) {
+export function legend(config) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;
   return html`<ul class="key" part="legend">

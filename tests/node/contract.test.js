@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
-import { freshModule, near } from './support.js';
+import { declaredOpening, freshModule, near } from './support.js';
 
 const CANONICAL = {
   model: 'velocity',
@@ -55,6 +55,7 @@ test('load takes bytes, a compiled module, or an address, and fails with a sente
 test('a machine opens in the state of the widget', async () => {
   const { BananaMachine } = await (await freshModule()).load();
   const opening = {
+    ...declaredOpening('banana-machine'),
     model: 'velocity',
     noise: 'normal',
     command: { v: 1, omega: 0.5, dt: 1 },

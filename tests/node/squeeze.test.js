@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { freshModule, near } from './support.js';
+import { declaredOpening, freshModule, near } from './support.js';
 
 /** @type {typeof import('../../www/core.js')} */
 const { load } = await freshModule();
@@ -77,6 +77,7 @@ function refused(machine, calls) {
 test('it opens facing a doorway of the apartment', () => {
   const machine = new MapSqueeze();
   assert.deepEqual(machine.config, {
+    ...declaredOpening('map-squeeze'),
     start: DOORWAY,
     command: { v: 1, omega: 0, dt: 2 },
     alphas: [0.12, 0.12, 0.12, 0.12, 0.03, 0.03],

@@ -9,11 +9,10 @@ import { addEnglish, speak, words } from '../messages/registry.js';
 import { theme } from '../ui/theme.js';
 import { Announcer } from './announcer.js';
 import { word } from './checks.js';
-import { cloudProperties } from './cloud.js';
 import { Gesture } from './gesture.js';
 import { Link } from './link.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
-import { Reflection, defineProperties } from './reflection.js';
+import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
 import { Settings } from './settings.js';
 import { Stage } from './stage.js';
@@ -437,20 +436,6 @@ export class FigureElement extends LitElement {
     if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
     return content ?? (mending ? noChange : html`<div class="reserved"></div>`);
   }
-}
-
-/**
- * Gives a widget's class the properties of its settings and defines it, unless the page has it already: it
- * may carry the script twice.
- *
- * @param {string} name
- * @param {typeof FigureElement<any, any>} Widget
- */
-export function define(name, Widget) {
-  if (customElements.get(name)) return;
-  defineProperties(Widget);
-  if ('marked' in Widget.own) Object.defineProperties(Widget.prototype, cloudProperties);
-  customElements.define(name, Widget);
 }
 
 /** The native controls' own events stay inside: the element has one of its own for each gesture. @param {Event} event */

@@ -1,6 +1,7 @@
 /** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
 
 import { groupsOf, isSetting, renamed } from './attributes.js';
+import { cloudProperties } from './cloud.js';
 
 /**
  * @import { Attributes, Present, Setting } from './attributes.js'
@@ -223,11 +224,25 @@ export class Reflection {
 }
 
 /**
+ * Gives a widget's class the properties of its settings and defines it, unless the page has it already: it
+ * may carry the script twice.
+ *
+ * @param {string} name
+ * @param {typeof import('./figure.js').FigureElement<any, any>} Widget
+ */
+export function define(name, Widget) {
+  if (customElements.get(name)) return;
+  defineProperties(Widget);
+  if ('marked' in Widget.own) Object.defineProperties(Widget.prototype, cloudProperties);
+  customElements.define(name, Widget);
+}
+
+/**
  * Gives a class the properties of its settings, and of what is the element's own and has an attribute.
  *
  * @param {{ prototype: any, attributes: Attributes, declared: import('../settings.js').Declaration[], own: object }} Widget
  */
-export function defineProperties({ prototype, attributes, declared, own }) {
+function defineProperties({ prototype, attributes, declared, own }) {
   const property = (/** @type {string} */ name, /** @type {PropertyDescriptor & ThisType<any>} */ accessors) =>
     Object.defineProperty(prototype, name, { configurable: true, enumerable: true, ...accessors });
   for (const [name, entry] of Object.entries({ ...attributes, ...groupsOf(declared) })) {

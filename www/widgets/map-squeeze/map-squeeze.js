@@ -3,8 +3,9 @@
 import { html } from 'lit';
 import { Cloud, showOnly } from '../../figure/cloud.js';
 import { canvas, cloudControls } from '../../figure/controls.js';
-import { FigureElement, define } from '../../figure/figure.js';
+import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
+import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';

@@ -12,7 +12,7 @@ const TURN = 1;
 /** Events before the first turn: V8 has compiled by then what it will. */
 const WARM_UP = 8;
 /** Fewer would leave no quartiles to speak of. */
-const LEAST_TURNS = 5;
+const MIN_TURNS = 5;
 
 /**
  * @template {string} Name
@@ -43,7 +43,7 @@ export async function race(contenders, { seconds, most = 60 }) {
   /** @type {Record<string, number[]>} */
   const turns = Object.fromEntries(names.map((name) => [name, []]));
   const end = performance.now() + 1000 * seconds;
-  for (let turn = 0; turn < most && (turn < LEAST_TURNS || performance.now() < end); turn++) {
+  for (let turn = 0; turn < most && (turn < MIN_TURNS || performance.now() < end); turn++) {
     // Each turn begins with another one, and a page gets a breath.
     await new Promise((resolve) => setTimeout(resolve));
     names.forEach((_, k) => {

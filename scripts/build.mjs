@@ -4,18 +4,21 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
+import { binder } from './bindgen.mjs';
 import { bundle, filesOf } from './bundle.mjs';
-import { ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
-import { ensurePackages, nativeRust, wasmBindgen, wasmRust } from './toolchain.mjs';
+import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
+import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
+
 /** Brings dist/ up to date with the sources. */
 export async function build() {
-  await ensurePackages();
-  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/build.mjs']);
-  await whenStale('build/core.sha256', core, ['build/motion.js', 'build/motion_bg.wasm'], buildCore);
-  const pages = digest(['www', 'package.json', 'package-lock.json', 'scripts/bundle.mjs', 'scripts/manifest.mjs'], core);
+  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/bind']);
+  const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts'];
+  await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
+  const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html'], bundle);
 }
 
@@ -46,27 +49,10 @@ async function whenStale(stamp, sources, products, work) {
 }
 
 async function buildCore() {
-  const native = await nativeRust();
-  const rust = await wasmRust(native);
-  const bindgen = await wasmBindgen(native);
-
-  progress(`Compiling the core to WebAssembly (${rust.description})`);
-  const cargo = join(rust.bin, 'cargo');
-  const failed = 'The core does not compile: see the errors above.';
-  // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
-  // The places of panics name files: not those of this machine.
-  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
-  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
-  await mustRun(failed, cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
-  const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
-  const wasm = join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
-
+  // All three at a time: one waits for the network while another computes.
+  const [wasm, bind] = await together([compileCore(), binder(), ensurePackages()]);
   progress('Binding and optimizing it');
-  await mustRun('wasm-bindgen failed: see above.', join(bindgen, 'wasm-bindgen'), [
-    wasm, '--target', 'no-modules', '--out-dir', at('build'), '--out-name', 'motion',
-    '--omit-default-module-path', '--remove-producers-section',
-  ]);
+  await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at('build')]);
   await silencePanics(at('build/motion_bg.wasm'));
   makeFactory('build/motion');
   // What scripts/bundle.mjs gives to who imports the file.
@@ -78,6 +64,21 @@ async function buildCore() {
     at('node_modules/binaryen/bin/wasm-opt'), '-O3', '--converge', ...features.map((name) => `--enable-${name}`),
     at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),
   ]);
+}
+
+/** @returns {Promise<string>} the path of the module as rustc leaves it */
+async function compileCore() {
+  const rust = await wasmRust();
+  progress(`Compiling the core to WebAssembly (${rust.description})`);
+  const cargo = join(rust.bin, 'cargo');
+  // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
+  // The places of panics name files: not those of this machine.
+  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
+  const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
+  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
+  await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
+  const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
+  return join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
 }
 
 /**
@@ -106,18 +107,20 @@ async function silencePanics(path) {
 }
 
 /**
- * Makes a module of wasm-bindgen's script: one that exports a function which gives the glue for one more instance.
- * As a module of its own the glue would be there once, and one instance with it.
+ * Makes a module of wasm-bindgen's script: one that exports a function which instantiates the core once more. As a module
+ * of its own the glue would be there once, and one instance with it. How it would find and load the WebAssembly module
+ * by itself is left out: www/core.js does, and that would be 1 kB on the wire.
  *
  * @param {string} path of the script and of its types, without their extensions
  */
 function makeFactory(path) {
   const script = readFileSync(at(`${path}.js`), 'utf8');
-  const types = readFileSync(at(`${path}.d.ts`), 'utf8');
-  // The script would look in the page for its own address, which it does not need.
-  const factory = `export default () => {\nconst document = undefined;\n${script}\nreturn wasm_bindgen;\n};\n`;
-  writeFileSync(at(`${path}.js`), factory);
-  writeFileSync(at(`${path}.d.ts`), `${types}\nexport default function makeGlue(): typeof wasm_bindgen;\n`);
+  const glue = script.match(/^let wasm_bindgen = \(function\(exports\) \{\n +let script_src;\n +if [^}]*\}\n(.*)\n +async function __wbg_load\(/s)?.[1];
+  if (glue === undefined) throw new Error("wasm-bindgen's script is not what scripts/build.mjs takes it for.");
+  const instance = '__wbg_finalize_init(await WebAssembly.instantiate(module, __wbg_get_imports()), module);';
+  writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${glue}\n${instance}\nreturn exports;\n};\n`);
+  const type = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
+  writeFileSync(at(`${path}.d.ts`), `${type}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

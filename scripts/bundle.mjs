@@ -2,8 +2,12 @@
 
 import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
+import * as declared from '../www/settings.js';
+import { widgets } from './declarations.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
+import { withTables } from './tables.mjs';
+import { writeTypes } from './types.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
@@ -22,9 +26,12 @@ const MODULE = {
   inlined: (bytes) =>
     `const text = ${JSON.stringify(Buffer.from(bytes).toString('latin1'))};` +
     'export default () => Uint8Array.from(text, (character) => character.charCodeAt(0));',
-  /** Bundlers know this form, and carry the file along. */
-  external: () => "export default () => new URL('./motion.wasm', import.meta.url);",
+  /** Bundlers know this form, and carry the file along. It stands in a chunk: external.js and the widgets share it. */
+  external: () => "export default () => new URL('../motion.wasm', import.meta.url);",
 };
+
+/** Their tags. */
+const WIDGETS = Object.keys(declared.settings);
 
 /** What the scripts of the elements export. */
 const DECLARATIONS = `export * from './core.js';
@@ -35,6 +42,8 @@ export declare function setMessages(lang: string, messages: object): void;
 /** Bundles everything anew. */
 export async function bundle() {
   progress('Bundling the pages');
+  await writeTypes();
+  writeFileSync(at('build/widgets.js'), await chunks());
   const wasm = readFileSync(at('build/motion_bg.wasm'));
   const { build } = await import('esbuild');
   /**
@@ -59,6 +68,9 @@ export async function bundle() {
           name: 'wasm',
           setup({ onLoad }) {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
+            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]js-yaml\.mjs$/ }, ({ path }) => ({ contents: withoutEffects(readFileSync(path, 'utf8')), loader: 'js' }));
+            onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({ contents: withShortStyles(readFileSync(path, 'utf8')), loader: 'js' }));
           },
         },
       ],
@@ -69,7 +81,7 @@ export async function bundle() {
   const results = await Promise.all([
     bundled({ core: 'core.js' }, 'inlined', { inject: [] }),
     bundled({ 'motion-widgets': 'motion-widgets.js' }, 'inlined', {}),
-    bundled({ external: 'motion-widgets.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
+    bundled({ external: 'external.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ de: 'de.js' }, 'inlined', { inject: [] }),
     bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
@@ -86,17 +98,32 @@ export async function bundle() {
   for (const { path, contents, text } of results.flatMap(({ outputFiles }) => outputFiles)) {
     write(path, path.endsWith('.map') ? withoutModule(text) : contents);
   }
+  const documentation = await manifest();
+  const elements = documentation.modules.flatMap(({ declarations }) => declarations);
+  const all = await widgets();
   for (const path of filesOf('www').filter((path) => COPIED.test(path))) {
-    write(at(join('dist', relative('www', path))), readFileSync(at(path)));
+    const text = readFileSync(at(path), 'utf8');
+    write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
   write(at('dist/motion.wasm'), wasm);
-  write(at('dist/core.d.ts'), readFileSync(at('www/types.d.ts')));
+  const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts' };
+  for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
   write(at('dist/classroom.html'), inOneFile('index.html'));
-  write(at('dist/custom-elements.json'), await manifest());
+  write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);
   // What weighs how much: read by scripts/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
+}
+
+/**
+ * A script with the line ends and indentation of its styles as single spaces, and without their comments: as templates
+ * are texts, nobody else takes them out.
+ *
+ * @param {string} script
+ */
+function withShortStyles(script) {
+  return script.replace(/\bcss`[^`]*`/g, (style) => style.replace(/\/\*.*?\*\//gs, '').replace(/\s*\n\s*/g, ' '));
 }
 
 /**
@@ -109,6 +136,51 @@ export function filesOf(path) {
     .filter((entry) => entry.isFile())
     .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
     .sort();
+}
+
+/**
+ * What external.js loads when it meets a tag, and the keys of the messages that come with it.
+ *
+ * @returns {Promise<string>} a module
+ */
+async function chunks() {
+  const loaders = WIDGETS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.js'),\n`);
+  const modules = await Promise.all(WIDGETS.map((tag) => import(`../www/widgets/${tag}/settings.js`)));
+  return (
+    '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
+    `export const widgets = {\n${loaders.join('')}};\n\n` +
+    `export const vocabularies = ${JSON.stringify(modules.map(({ vocabulary }) => vocabulary))};\n`
+  );
+}
+
+/** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */
+function ofDeclarations() {
+  const left = ['sentence', 'min', 'max', 'default', 'nullable'];
+  const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (left.includes(key) ? undefined : each));
+  return Object.entries(declared)
+    .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)
+    .join('');
+}
+
+/**
+ * A library whose constants are left out where nothing uses them. Here they are half of what only writes YAML: that
+ * computing them has no effect, a bundler cannot know.
+ *
+ * @param {string} library with each constant at the start of a line
+ */
+function withoutEffects(library) {
+  return library
+    .replaceAll(/^(var \w+ = )((?:new |`|\w+\().*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
+    .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
+}
+
+/**
+ * Types that name each other where they are published, side by side.
+ *
+ * @param {string} types
+ */
+function besideEachOther(types) {
+  return types.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
 }
 
 /**

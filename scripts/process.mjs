@@ -1,5 +1,6 @@
 // Running other programs, and saying in one sentence what is missing. Node built-ins only: this runs in a bare clone.
 
+import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
 import { accessSync, constants, realpathSync, statSync } from 'node:fs';
 import { delimiter, join } from 'node:path';
@@ -10,9 +11,75 @@ export const ROOT = fileURLToPath(new URL('..', import.meta.url));
 /** Something the reader has to provide. The message is the whole sentence they are shown. */
 export class Missing extends Error {}
 
+/** @type {AsyncLocalStorage<string[]>} */
+const collected = new AsyncLocalStorage();
+
+/**
+ * @param {string} text
+ * @param {NodeJS.WriteStream} [stream]
+ */
+function print(text, stream = process.stdout) {
+  const lines = collected.getStore();
+  if (lines === undefined) stream.write(text);
+  else lines.push(text);
+}
+
+/**
+ * Keeps together what is printed by work that runs beside other work.
+ *
+ * @template T
+ * @param {() => Promise<T>} work
+ * @returns {Promise<T>} printed, in one piece, when it is settled
+ */
+export async function inOnePiece(work) {
+  /** @type {string[]} */
+  const lines = [];
+  try {
+    return await collected.run(lines, work);
+  } finally {
+    print(lines.join(''));
+  }
+}
+
 /** @param {string} text */
 export function progress(text) {
-  console.log(`\n▸ ${text}`);
+  print(`\n▸ ${text}\n`);
+}
+
+/**
+ * @template T
+ * @param {() => Promise<T>} work
+ * @returns {() => Promise<T>} that does it once, however often and by however many at a time it is called
+ */
+export function once(work) {
+  /** @type {Promise<T> | undefined} */
+  let result;
+  return () => (result ??= work());
+}
+
+/**
+ * @returns {<T>(work: () => Promise<T>) => Promise<T>} that does what it is given one after the other
+ */
+export function queue() {
+  /** @type {Promise<unknown>} */
+  let last = Promise.resolve();
+  return (work) => {
+    const result = last.then(work);
+    last = result.catch(() => {});
+    return result;
+  };
+}
+
+/**
+ * Waits until all is settled: what goes on after a failure would still write where the next start reads.
+ *
+ * @template {Promise<unknown>[] | []} T
+ * @param {T} works
+ * @returns {Promise<{ -readonly [K in keyof T]: Awaited<T[K]> }>} rejected with the first failure
+ */
+export async function together(works) {
+  await Promise.allSettled(works);
+  return /** @type {Promise<any>} */ (Promise.all(works));
 }
 
 /**
@@ -30,6 +97,36 @@ export async function runAsScript(url, main) {
     console.error(`\n${error instanceof Missing ? error.message : (error instanceof Error && error.stack) || error}`);
     process.exitCode = 1;
   }
+}
+
+/** The process groups that are to end with this process. @type {Set<number>} */
+const groups = new Set();
+
+/** @param {number} group */
+function end(group) {
+  try {
+    process.kill(-group, 'SIGKILL');
+  } catch {
+    // It has ended by itself.
+  }
+}
+
+function interrupted() {
+  groups.forEach(end);
+  process.exit(130);
+}
+
+/** @param {number} group */
+function endWithUs(group) {
+  groups.add(group);
+  for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted).on(signal, interrupted);
+}
+
+/** @param {number} group */
+function hasEnded(group) {
+  groups.delete(group);
+  // Who runs nothing keeps the signals' own meaning.
+  if (groups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted);
 }
 
 /**
@@ -60,40 +157,28 @@ export function run(command, args, { env = {}, seconds, quiet = false } = {}) {
     let stdout = '';
     let output = '';
     let timedOut = false;
-    const endGroup = () => {
-      try {
-        if (child.pid !== undefined) process.kill(-child.pid, 'SIGKILL');
-      } catch {
-        // It has ended by itself.
-      }
-    };
-    const interrupted = () => {
-      endGroup();
-      process.exit(130);
-    };
+    const group = seconds === undefined ? undefined : child.pid;
     /** @type {NodeJS.Timeout | undefined} */
     let timer;
-    if (seconds !== undefined) {
+    if (seconds !== undefined && group !== undefined) {
+      endWithUs(group);
       timer = setTimeout(() => {
         timedOut = true;
-        endGroup();
+        end(group);
       }, seconds * 1000);
-      process.once('SIGINT', interrupted);
-      process.once('SIGTERM', interrupted);
     }
     child.stdout.setEncoding('utf8').on('data', (text) => {
       stdout += text;
       output += text;
-      if (!quiet) process.stdout.write(text);
+      if (!quiet) print(text);
     });
     child.stderr.setEncoding('utf8').on('data', (text) => {
       output += text;
-      if (!quiet) process.stderr.write(text);
+      if (!quiet) print(text, process.stderr);
     });
     const finish = (/** @type {boolean} */ ok) => {
       clearTimeout(timer);
-      process.off('SIGINT', interrupted);
-      process.off('SIGTERM', interrupted);
+      if (group !== undefined) hasEnded(group);
       resolve({ ok, timedOut, stdout, output });
     };
     child.on('error', () => finish(false));
@@ -112,7 +197,7 @@ export function run(command, args, { env = {}, seconds, quiet = false } = {}) {
 export async function mustRun(sentence, command, args, options) {
   const result = await run(command, args, options);
   if (!result.ok) {
-    if (options?.quiet) process.stderr.write(result.output);
+    if (options?.quiet) print(result.output, process.stderr);
     throw new Missing(sentence);
   }
   return result;

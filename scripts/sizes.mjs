@@ -1,13 +1,14 @@
-// What the products weigh over the wire, and which library how much of it: `node scripts/sizes.mjs` prints both.
+// What the products and the widgets weigh over the wire, and each library: `node scripts/sizes.mjs` prints it.
 
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, constants } from 'node:zlib';
+import { settings } from '../www/settings.js';
 import { ROOT, runAsScript } from './process.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
-/** @typedef {{ imports: { path: string, kind: string }[], inputs: Record<string, { bytesInOutput: number }> }} Output */
+/** @typedef {{ entryPoint?: string, imports: { path: string, kind: string }[], inputs: Record<string, { bytesInOutput: number }> }} Output */
 
 /** @returns {Record<string, Output>} what esbuild says of each product, by its path from the root */
 const outputs = () => JSON.parse(readFileSync(at('build/outputs.json'), 'utf8'));
@@ -24,13 +25,29 @@ export function compressed(path) {
  * @param {string} path of a product that is a module, from the root
  * @returns {string[]} it and what a browser loads with it; not what it imports when it is needed
  */
-export function loadedWith(path) {
+function loadedWith(path) {
   const all = outputs();
   const found = new Set([path]);
   for (const each of found) {
     for (const { path: imported, kind } of all[each].imports) if (kind === 'import-statement') found.add(imported);
   }
   return [...found];
+}
+
+/**
+ * @returns {Record<string, string[]>} by the tag of each widget, what a page with that one loads by external.js before
+ *   anyone touches it: scripts, and the module
+ */
+export function loadedByWidgets() {
+  const products = Object.entries(outputs());
+  const chunk = (/** @type {string} */ tag) => {
+    const found = products.find(([, { entryPoint }]) => entryPoint === `www/widgets/${tag}/${tag}.js`);
+    if (!found) throw new Error(`external.js has no chunk of ${tag}.`);
+    return found[0];
+  };
+  const first = loadedWith('dist/external.js');
+  const paths = (/** @type {string} */ tag) => [...new Set([...first, ...loadedWith(chunk(tag)), 'dist/motion.wasm'])];
+  return Object.fromEntries(Object.keys(settings).map((tag) => [tag, paths(tag)]));
 }
 
 /** @returns {Record<string, number>} minified bytes of each library in external.js and its chunks */
@@ -50,10 +67,12 @@ export function libraries() {
 }
 
 await runAsScript(import.meta.url, async () => {
-  const scripts = loadedWith('dist/external.js');
-  const rows = ['dist/motion.wasm', ...scripts, 'dist/motion-widgets.js', 'dist/motion-widgets.iife.js', 'dist/core.js'];
-  for (const path of rows) console.log(`${path.padEnd(30)} ${(compressed(path) / 1000).toFixed(1).padStart(6)} kB`);
-  for (const [name, bytes] of Object.entries(libraries())) {
-    console.log(`${name.padEnd(30)} ${(bytes / 1000).toFixed(1).padStart(6)} kB minified`);
+  const row = (/** @type {string} */ name, /** @type {number} */ bytes, note = '') =>
+    console.log(`${name.padEnd(46)} ${(bytes / 1000).toFixed(1).padStart(6)} kB${note}`);
+  for (const [tag, paths] of Object.entries(loadedByWidgets())) {
+    row(`a page with <${tag}>`, paths.reduce((sum, path) => sum + compressed(path), 0));
+    for (const path of paths) row(`  ${path}`, compressed(path));
   }
+  for (const path of ['dist/motion-widgets.js', 'dist/motion-widgets.iife.js', 'dist/core.js']) row(path, compressed(path));
+  for (const [name, bytes] of Object.entries(libraries())) row(name, bytes, ' minified');
 });

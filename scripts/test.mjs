@@ -1,108 +1,229 @@
-// `npm test`: every check, the cheapest first. One that fails does not keep the others from running.
+// `npm test`: every check. `npm test -- PART` runs one of them, and gives what follows to the program behind it. One that
+// fails does not keep the others from running.
 
-import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { build } from './build.mjs';
+import { testRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
-import { ROOT, progress, run, runAsScript } from './process.mjs';
-import { ensureLints, ensurePackages, nativeRust, wasmBindgen, wasmRust } from './toolchain.mjs';
+import { build } from './build.mjs';
+import { filesOf } from './bundle.mjs';
+import { Missing, ROOT, inOnePiece, once, progress, run, runAsScript } from './process.mjs';
+import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
 /** @typedef {{ name: string, ok: boolean, seconds: number, tally?: Tally, note?: string }} Outcome */
+/** @typedef {() => Promise<{ ok: boolean, output: string, timedOut: boolean }>} Job */
+/**
+ * @typedef {object} Part
+ * @property {(more: string[]) => Promise<Job>} prepare waits for what it needs, installed if need be. `more` are
+ *   arguments for its program
+ * @property {(output: string) => Tally} [count] where tests run, counts them in what was printed
+ */
 
-/** Seconds that a stage may take: a test that hangs must not hang what waits for the result. */
+/** Seconds that a part may take: a test that hangs must not hang what waits for the result. */
 const LIMIT = 1200;
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
-const npmProgram = (/** @type {string} */ path) => [process.execPath, at(join('node_modules', path))];
+const built = once(build);
 
-/** @returns {Promise<boolean>} whether all is well */
-async function test() {
-  await ensurePackages();
-  const native = await nativeRust();
-  await ensureLints(native);
-  const wasm = await wasmRust(native);
-  await ensureLints(wasm);
-  const bindgen = await wasmBindgen(native);
-  const browser = await ensureBrowser();
-  console.log(`\nNode ${process.versions.node}; ${native.description}; for WebAssembly ${wasm.description}; Chromium ${browser.version}`);
+/** What the parts ran with. */
+const versions = new Set([`Node ${process.versions.node}`]);
+
+async function native() {
+  const rust = await nativeRust();
+  versions.add(rust.description);
+  return rust;
+}
+
+async function wasm() {
+  const rust = await wasmRust();
+  versions.add(`for WebAssembly ${rust.description}`);
+  return rust;
+}
+
+const browser = once(async () => {
+  const found = await ensureBrowser();
+  versions.add(`Chromium ${found.version}`);
+  return found;
+});
+
+/**
+ * @param {string[]} command
+ * @param {Record<string, string>} [env]
+ * @returns {Job}
+ */
+const program = ([name, ...args], env) => () => run(name, args, { env, seconds: LIMIT });
+
+/**
+ * @param {string} path of a script in node_modules
+ * @param {string[]} args
+ * @param {Record<string, string>} [env]
+ */
+const npmProgram = (path, args, env) => program([process.execPath, at(join('node_modules', path)), ...args], env);
+
+/**
+ * @param {import('./toolchain.mjs').Rust} rust
+ * @param {string[]} args
+ * @param {Record<string, string>} [env]
+ */
+const cargo = ({ bin, env: environment }, args, env) => program([join(bin, 'cargo'), ...args], { ...environment, ...env });
+
+/**
+ * @param {import('./toolchain.mjs').Rust} rust
+ * @param {'fmt' | 'clippy'} name
+ * @param {string[]} args
+ */
+async function lint(rust, name, args) {
+  await ensureLints(rust);
+  return program([join(rust.bin, `cargo-${name}`), name, ...args], rust.env);
+}
+
+const LINT_RULES = ['--', '-D', 'warnings'];
+
+/** @type {Record<string, Part>} */
+const PARTS = {
+  rustfmt: {
+    prepare: async (more) => lint(await native(), 'fmt', ['--check', ...more, '--', ...filesOf('scripts/bind/src')]),
+  },
+  eslint: {
+    async prepare(more) {
+      await ensurePackages();
+      return npmProgram('eslint/bin/eslint.js', ['--max-warnings', '0', ...more, '.']);
+    },
+  },
+  build: {
+    prepare: async () => () => built().then(() => ({ ok: true, output: '', timedOut: false })),
+  },
+  tsc: {
+    async prepare(more) {
+      await built();
+      return npmProgram('typescript/bin/tsc', more);
+    },
+  },
+  clippy: {
+    prepare: async (more) => lint(await native(), 'clippy', ['--locked', '--all-targets', ...more, ...LINT_RULES]),
+  },
+  'clippy-wasm': {
+    async prepare(more) {
+      const rust = await wasm();
+      // In the profile of the build, whose macros are compiled already.
+      const options = ['--locked', '--release', '--lib', '--test', 'web', ...rust.target];
+      return lint(rust, 'clippy', [...options, ...more, ...LINT_RULES]);
+    },
+  },
+  rust: {
+    prepare: async (more) => cargo(await native(), ['test', '--locked', '--no-fail-fast', ...more]),
+    count: rustTally,
+  },
+  wasm: {
+    async prepare(more) {
+      const rust = await wasm();
+      const options = ['--locked', '--release', '--test', 'web', ...rust.target];
+      return cargo(rust, ['test', ...options, ...more], inBrowser(await testRunner(), await browser()));
+    },
+    count: rustTally,
+  },
+  node: {
+    async prepare(more) {
+      await built();
+      return program(nodeTests('tests/node', more));
+    },
+    count: tapTally,
+  },
+  package: {
+    async prepare(more) {
+      await built();
+      return program(nodeTests('tests/package', more), { CHROME: (await browser()).chrome });
+    },
+    count: tapTally,
+  },
+  browser: {
+    async prepare(more) {
+      await built();
+      return npmProgram('@playwright/test/cli.js', ['test', ...more], { CHROME: (await browser()).chrome });
+    },
+    count: playwrightTally,
+  },
+};
+
+/**
+ * What runs at a time, so that no core is idle while a linker, a download or a test waits. In a lane one part follows
+ * the other, and uses what it left in cargo's directories, which cargo locks: everything in the second is of the
+ * release profile.
+ */
+const LANES = [
+  ['rustfmt', 'clippy', 'rust'],
+  // The link of the WebAssembly tests has one core: not at the end, when nobody uses the other.
+  ['build', 'wasm', 'clippy-wasm'],
+  ['eslint', 'tsc', 'node', 'package'],
+];
+
+/** Alone, for they watch frames and time; they use all cores by themselves. */
+const LAST = 'browser';
+
+/**
+ * @param {string[]} args of the command line
+ * @returns {Promise<boolean>} whether all is well
+ */
+async function test([only, ...more]) {
+  if (only !== undefined && !Object.hasOwn(PARTS, only)) {
+    throw new Missing(`"${only}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(PARTS).join(', ')}.`);
+  }
   rmSync(at('test-results'), { recursive: true, force: true });
   mkdirSync(at('test-results'));
+  if (only !== undefined) return summarize([await outcomeOf(only, more)]);
 
+  // Some lanes come to them late. Who needs one says that it is missing.
+  for (const tool of [browser, testRunner]) tool().catch(() => {});
   /** @type {Outcome[]} */
   const outcomes = [];
-  /**
-   * @param {string} name
-   * @param {string[]} command
-   * @param {Record<string, string>} [env]
-   * @param {(output: string) => Tally} [count] for a stage that runs tests, counts them in what it printed
-   */
-  const stage = async (name, [program, ...args], env, count) => {
+  await Promise.all(
+    LANES.map(async (names) => {
+      for (const name of names) outcomes.push(await inOnePiece(() => outcomeOf(name, [])));
+    }),
+  );
+  outcomes.push(await outcomeOf(LAST, []));
+  return summarize(outcomes);
+}
+
+/**
+ * @param {string} name of a part
+ * @param {string[]} more
+ * @returns {Promise<Outcome>}
+ */
+async function outcomeOf(name, more) {
+  const { prepare, count } = PARTS[name];
+  let start = Date.now();
+  const seconds = () => (Date.now() - start) / 1000;
+  try {
+    const job = await prepare(more);
     progress(name);
-    const start = Date.now();
-    const { ok, output, timedOut } = await run(program, args, { env, seconds: LIMIT });
+    start = Date.now();
+    const { ok, output, timedOut } = await job();
     const tally = count?.(output);
     const noTests = tally !== undefined && tally.passed + tally.failed === 0;
     const note = timedOut ? `ended after ${LIMIT} s` : noTests ? 'no test ran' : undefined;
-    outcomes.push({ name, ok: ok && !noTests && !tally?.failed, seconds: (Date.now() - start) / 1000, tally, note });
-  };
-  const cargo = (/** @type {import('./toolchain.mjs').Rust} */ { bin }, /** @type {string[]} */ ...args) => [join(bin, `cargo${args[0] === 'test' ? '' : `-${args[0]}`}`), ...args];
-  const lintRules = ['--', '-D', 'warnings'];
-
-  await stage('rustfmt', cargo(native, 'fmt', '--check'), native.env);
-  await stage('eslint', [...npmProgram('eslint/bin/eslint.js'), '--max-warnings', '0', '.']);
-
-  progress('build');
-  const start = Date.now();
-  const built = await build().then(
-    () => true,
-    (error) => (console.error(error instanceof Error ? error.message : error), false),
-  );
-  outcomes.push({ name: 'build', ok: built, seconds: (Date.now() - start) / 1000 });
-  const needsBuild = async (/** @type {string} */ name, /** @type {() => Promise<void>} */ go) => {
-    if (built) await go();
-    else outcomes.push({ name, ok: false, seconds: 0, note: 'not run without a build' });
-  };
-
-  await needsBuild('tsc', () => stage('tsc', npmProgram('typescript/bin/tsc')));
-  await stage('clippy', cargo(native, 'clippy', '--locked', '--all-targets', ...lintRules), native.env);
-  await stage(
-    'clippy for WebAssembly',
-    cargo(wasm, 'clippy', '--locked', '--lib', '--test', 'web', ...wasm.target, ...lintRules),
-    wasm.env,
-  );
-  await stage('Rust tests', cargo(native, 'test', '--locked', '--no-fail-fast'), native.env, rustTally);
-  await stage(
-    'WebAssembly tests in Chromium',
-    cargo(wasm, 'test', '--locked', '--release', '--test', 'web', ...wasm.target),
-    { ...wasm.env, ...testRunner(bindgen, browser) },
-    rustTally,
-  );
-  await needsBuild('Node tests', () =>
-    stage('Node tests', nodeTests('tests/node'), {}, tapTally),
-  );
-  await needsBuild('package tests', () =>
-    stage('package tests', nodeTests('tests/package'), { CHROME: browser.chrome }, tapTally),
-  );
-  await needsBuild('browser tests', () =>
-    stage('browser tests', [...npmProgram('@playwright/test/cli.js'), 'test'], { CHROME: browser.chrome }, playwrightTally),
-  );
-  return summarize(outcomes);
+    return { name, ok: ok && !noTests && !tally?.failed, seconds: seconds(), tally, note };
+  } catch (error) {
+    progress(`${name}: ${error instanceof Missing ? error.message : (error instanceof Error && error.stack) || error}`);
+    return { name, ok: false, seconds: seconds(), note: 'not run: see above' };
+  }
 }
 
 /**
  * What makes `cargo test` run its WebAssembly tests in the browser.
  *
- * @param {string} bindgen the directory of wasm-bindgen's programs
+ * @param {string} runner of wasm-bindgen
  * @param {import('./browser.mjs').Browser} browser
  */
-function testRunner(bindgen, browser) {
+function inBrowser(runner, { chrome, driver }) {
   const capabilities = at('test-results/webdriver.json');
-  const options = { binary: browser.chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
+  const options = { binary: chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilities, JSON.stringify({ 'goog:chromeOptions': options }));
   return {
-    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: join(bindgen, 'wasm-bindgen-test-runner'),
-    CHROMEDRIVER: browser.driver,
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: runner,
+    CHROMEDRIVER: driver,
     WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilities,
     // Seconds for all tests of a file; the runner's own 20 are short on a busy machine.
     WASM_BINDGEN_TEST_TIMEOUT: '180',
@@ -111,11 +232,13 @@ function testRunner(bindgen, browser) {
 
 /**
  * @param {string} directory
+ * @param {string[]} more
  * @returns {string[]} the command that runs its tests
  */
-function nodeTests(directory) {
-  const files = readdirSync(at(directory)).filter((name) => name.endsWith('.test.js'));
-  return [process.execPath, '--test', '--test-reporter', 'tap', ...files.map((name) => join(directory, name))];
+function nodeTests(directory, more) {
+  const files = filesOf(directory).filter((path) => path.endsWith('.test.js'));
+  // By itself it leaves a core idle.
+  return [process.execPath, '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...more, ...files];
 }
 
 /**
@@ -155,13 +278,14 @@ function playwrightTally() {
  */
 function summarize(outcomes) {
   progress('Summary');
+  console.log(`${[...versions].join('; ')}\n`);
   let passed = 0;
   let failed = 0;
   for (const { name, ok, seconds, tally, note } of outcomes) {
     const counts = tally === undefined ? [] : [`${tally.passed} passed`, `${tally.failed} failed`];
     if (tally?.skipped) counts.push(`${tally.skipped} skipped`);
     if (note !== undefined) counts.push(note);
-    console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(30)} ${seconds.toFixed(0).padStart(4)} s  ${counts.join(', ')}`);
+    console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${counts.join(', ')}`);
     passed += tally?.passed ?? 0;
     // A check that fails without a failed test to show for it counts as one.
     failed += ok ? 0 : Math.max(1, tally?.failed ?? 0);
@@ -171,5 +295,5 @@ function summarize(outcomes) {
 }
 
 await runAsScript(import.meta.url, async () => {
-  if (!(await test())) process.exitCode = 1;
+  if (!(await test(process.argv.slice(2)))) process.exitCode = 1;
 });

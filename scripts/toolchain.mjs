@@ -1,11 +1,12 @@
-// What the build and the tests need, found or installed: npm packages, Rust, its WebAssembly target, wasm-bindgen.
+// What the build and the tests need, found or installed: npm packages, Rust, its WebAssembly target, lints. Each is
+// looked for once, and several may be at a time.
 // Node built-ins only: this runs in a bare clone.
 
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { homedir, tmpdir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { Missing, ROOT, findProgram, isProgram, mustRun, progress, run } from './process.mjs';
+import { Missing, ROOT, findProgram, mustRun, once, progress, queue, run } from './process.mjs';
 
 const TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -19,7 +20,7 @@ export const CACHE = join(
 );
 
 /** Installs the npm packages unless those of the present package-lock.json are there. */
-export async function ensurePackages() {
+export const ensurePackages = once(async () => {
   const [major, minor] = process.versions.node.split('.').map(Number);
   if (major < 20 || (major === 20 && minor < 19)) {
     throw new Missing(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
@@ -36,7 +37,10 @@ export async function ensurePackages() {
     { seconds: 600 },
   );
   writeFileSync(stamp, lock);
-}
+});
+
+/** Neither waits for another of its kind in all that it does. */
+const [apt, rustup] = [queue(), queue()];
 
 /**
  * Installs packages by apt where that is possible without asking for a password.
@@ -44,7 +48,13 @@ export async function ensurePackages() {
  * @param {string[]} packages
  * @param {string} sentence thrown as `Missing` otherwise
  */
-export async function aptInstall(packages, sentence) {
+export const aptInstall = (packages, sentence) => apt(() => aptInstallNow(packages, sentence));
+
+/**
+ * @param {string[]} packages
+ * @param {string} sentence
+ */
+async function aptInstallNow(packages, sentence) {
   if (findProgram('apt-get') === undefined) throw new Missing(sentence);
   const asRoot = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
   if (asRoot.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new Missing(sentence);
@@ -64,12 +74,8 @@ export async function aptInstall(packages, sentence) {
  * @property {string} description
  */
 
-/**
- * Rust for this machine, installed where there is none: by rustup, or from Debian where rustup is out of reach.
- *
- * @returns {Promise<Rust>}
- */
-export async function nativeRust() {
+/** Rust for this machine, installed where there is none: by rustup, or from Debian where rustup is out of reach. */
+export const nativeRust = once(/** @returns {Promise<Rust>} */ async () => {
   let cargo = findProgram('cargo', [RUSTUP_BIN]);
   if (cargo === undefined) {
     if (!(await installRustup())) {
@@ -85,7 +91,7 @@ export async function nativeRust() {
   const env = bin === DEBIAN_BIN ? debianEnvironment() : searchFirst(bin);
   const version = await requireVersion(bin, env, 'run `rustup update stable`');
   return { bin, env, target: [], description: version };
-}
+});
 
 /** @returns {Promise<boolean>} */
 async function installRustup() {
@@ -102,12 +108,10 @@ async function installRustup() {
 /**
  * Rust for WebAssembly. The standard library of the target comes from rustup; where that is out of reach it is
  * compiled from Debian's sources of it, by Debian's compiler.
- *
- * @param {Rust} native
- * @returns {Promise<Rust>}
  */
-export async function wasmRust(native) {
-  if (native.bin !== DEBIAN_BIN && (await hasTarget(native))) {
+export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
+  const native = await nativeRust();
+  if (native.bin !== DEBIAN_BIN && (await rustup(() => hasTarget(native)))) {
     return { ...native, target: ['--target', TARGET], description: `${native.description}, ${TARGET} of rustup` };
   }
   const sentence =
@@ -126,7 +130,7 @@ export async function wasmRust(native) {
     target: ['--target', TARGET, '-Zbuild-std=std,panic_abort'],
     description: `${version} of Debian, standard library from source`,
   };
-}
+});
 
 /**
  * Whether the target's standard library is there, after asking rustup for it if need be.
@@ -137,8 +141,8 @@ export async function wasmRust(native) {
 async function hasTarget({ bin, env }) {
   const sysroot = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
   if (existsSync(join(sysroot.stdout.trim(), 'lib/rustlib', TARGET))) return true;
-  const rustup = findProgram('rustup', [bin]);
-  if (rustup === undefined) return false;
+  const program = findProgram('rustup', [bin]);
+  if (program === undefined) return false;
   // Behind some firewalls rustup waits for ever. That is found out once a day, and more patiently where Debian's
   // packages cannot stand in.
   const unreachable = join(CACHE, 'rustup-unreachable');
@@ -146,14 +150,28 @@ async function hasTarget({ bin, env }) {
   const aDay = 24 * 3600 * 1000;
   if (canFallBack && existsSync(unreachable) && Date.now() - statSync(unreachable).mtimeMs < aDay) return false;
   progress(`Asking rustup for ${TARGET}`);
-  const added = await run(rustup, ['target', 'add', TARGET], { env, seconds: canFallBack ? 60 : 600 });
-  if (added.ok) return true;
-  if (added.timedOut) {
+  const add = () => run(program, ['target', 'add', TARGET], { env, seconds: canFallBack ? 60 : 600 });
+  const { ok, timedOut } = canFallBack && (await isSilent()) ? { ok: false, timedOut: true } : await add();
+  if (ok) return true;
+  if (timedOut) {
     console.log('rustup does not answer.');
     mkdirSync(CACHE, { recursive: true });
     writeFileSync(unreachable, '');
   }
   return false;
+}
+
+/**
+ * Whether where rustup downloads from does not answer a small request at all. A satellite's four round trips and three
+ * lost packets, each waited for twice as long, are 10 seconds; the 20 MB that rustup wants need far more on such a line.
+ *
+ * @returns {Promise<boolean>} false without curl to ask by
+ */
+async function isSilent() {
+  const server = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
+  // What it says, and by which certificate, does not matter.
+  const request = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${server}/dist/channel-rust-stable.toml.sha256`];
+  return (await run('curl', request, { seconds: 15, quiet: true })).timedOut;
 }
 
 /** Debian's stable compiler, with the feature gates open that `-Zbuild-std` stands behind. */
@@ -207,32 +225,11 @@ export async function ensureLints({ bin, env }) {
   if (bin === DEBIAN_BIN) {
     await aptInstall(['rustfmt-web', 'rust-web-clippy'], sentence);
   } else {
-    const rustup = findProgram('rustup', [bin]);
-    if (rustup === undefined) throw new Missing(sentence);
-    await mustRun(sentence, rustup, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 });
+    const program = findProgram('rustup', [bin]);
+    if (program === undefined) throw new Missing(sentence);
+    await rustup(() => mustRun(sentence, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
   if (!(await present())) throw new Missing(sentence);
-}
-
-/**
- * The wasm-bindgen programs of the version that Cargo.lock names, which has to be met exactly. Built once a version.
- *
- * @param {Rust} native
- * @returns {Promise<string>} their directory
- */
-export async function wasmBindgen({ bin, env }) {
-  const version = manifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
-  const root = join(CACHE, `wasm-bindgen-${version}`);
-  const programs = ['wasm-bindgen', 'wasm-bindgen-test-runner'];
-  if (programs.every((name) => isProgram(join(root, 'bin', name)))) return join(root, 'bin');
-  progress(`Building wasm-bindgen ${version}, once (some minutes)`);
-  const args = ['install', 'wasm-bindgen-cli', '--version', version, '--root', root, '--force'];
-  args.push(...programs.flatMap((name) => ['--bin', name]));
-  const sentence = `wasm-bindgen ${version} could not be built: check that this machine reaches the registry of Rust packages and start again.`;
-  // A mirror may lack a crate of the lock file, and a new release of a crate may not fit.
-  const unlocked = await run(join(bin, 'cargo'), args, { env, seconds: 1200 });
-  if (!unlocked.ok) await mustRun(sentence, join(bin, 'cargo'), [...args, '--locked'], { env, seconds: 1200 });
-  return join(root, 'bin');
 }
 
 /**
@@ -240,7 +237,7 @@ export async function wasmBindgen({ bin, env }) {
  * @param {RegExp} pattern with one group
  * @returns {string}
  */
-function manifestValue(file, pattern) {
+export function manifestValue(file, pattern) {
   const found = readFileSync(join(ROOT, file), 'utf8').match(pattern);
   if (found === null) throw new Error(`${file} has nothing like ${pattern}`);
   return found[1];

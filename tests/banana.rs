@@ -10,8 +10,8 @@ use common::{KINDS, SIGMAS, golden, pose_distance, seeded};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
-use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Settings, command_reaching};
-use motion::sim::settings::{MAX_SAMPLES, MAX_SEED};
+use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, PRESETS, Settings, command_reaching};
+use motion::sim::settings::MAX_SEED;
 use motion::sim::views::Grid;
 use motion::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
 use motion::{
@@ -38,7 +38,7 @@ fn picture(machine: &BananaMachine) -> String {
 }
 
 #[test]
-fn the_opening_state_is_the_designs() {
+fn the_opening_state_is_the_gentle_arc() {
     let opening = machine(Settings::default());
     let settings = opening.settings();
     assert_eq!(settings.command, VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 });

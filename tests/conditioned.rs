@@ -10,7 +10,7 @@ use common::{SIGMAS, seeded};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{FloorPlan, MOST_DRAWS, MapConditioned, Sampler};
+use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::noise::centred_uniform;
 use motion::sim::squeeze::{PRESETS, alphas_of_noise};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -269,7 +269,7 @@ fn a_wedged_robot_is_an_error_that_counts_its_draws() {
     for sampler in SAMPLERS {
         let wedged =
             conditioned(&plan, sampler).sample(&AHEAD, &start, &mut seeded(12)).expect_err("no room");
-        assert_eq!(wedged.0.draws, MOST_DRAWS);
+        assert_eq!(wedged.0.draws, MAX_DRAWS);
         assert_eq!(wedged.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
     // The first part of two leads into a dead end: all draws count. A drive of 1 m ± 1 mm, between two far walls.
@@ -280,7 +280,7 @@ fn a_wedged_robot_is_an_error_that_counts_its_draws() {
     let sampler = MapConditioned { model: exact, ..conditioned(&dead_end, Sampler::SubStepped(2)) };
     let command = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
     let wedged = sampler.sample(&command, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
-    assert_eq!(wedged.0.draws, MOST_DRAWS + 1);
+    assert_eq!(wedged.0.draws, MAX_DRAWS + 1);
 }
 
 /// γ̂ turns the robot after the arc, so that the geodesic to the pose reached is another path. Judged by it, samples get

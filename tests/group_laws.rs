@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 const LAW: f64 = 32.0 * f64::EPSILON;
 
-/// What the design promises of exp, log and both Jacobians for |ω| ≤ π.
+/// What exp, log and both Jacobians are to keep for |ω| ≤ π, times the size of the twist where that exceeds 1.
 const ACCURACY: f64 = 4e-16;
 
 /// Zero, tiny and random twists: |ω| log-uniform over 1e-12 … π because every lost digit hides in a band of it, and

@@ -8,9 +8,8 @@ mod common;
 
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::View;
-use motion::sim::banana::{BananaMachine, Figures, ModelKind, Settings};
+use motion::sim::banana::{BananaMachine, Figures, MAX_SAMPLES, ModelKind, Settings};
 use motion::sim::picture::RAMP;
-use motion::sim::settings::MAX_SAMPLES;
 use motion::sim::views::Grid;
 use motion::stats::Ellipse;
 use motion::{NoiseKind, VelocityCmd};

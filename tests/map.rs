@@ -53,9 +53,9 @@ fn scattered(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> V
 
 // --------------------------------------------------------------------------------------------------- construction
 
-/// The walls of the design, from end to end in any order.
+/// The book's apartment: its walls from end to end, in any order.
 #[test]
-fn the_apartment_is_the_designs() {
+fn the_apartment_has_its_walls() {
     let mut expected: Vec<[f64; 4]> = Vec::new();
     for (y, spans) in [
         (0.0, &[[0.0, 12.0]] as &[[f64; 2]]),
@@ -135,10 +135,10 @@ fn a_plan_is_checked() {
         assert_eq!(FloorPlan::new(Vec::new(), bounds).err(), Some(FloorPlanError::BadBounds(bounds)));
     }
     let line = wall(1.0, 1.0, 9.0, 1.0);
-    let error = FloorPlan::new(vec![line; FloorPlan::MOST_WALLS + 1], ROOM).expect_err("too many");
+    let error = FloorPlan::new(vec![line; FloorPlan::MAX_WALLS + 1], ROOM).expect_err("too many");
     assert_eq!(error, FloorPlanError::TooManyWalls(100_001));
     assert_eq!(error.to_string(), "walls has a length of 100001 or more; allowed is at most 100000");
-    for count in [0, 1, 16, 17, FloorPlan::MOST_WALLS] {
+    for count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
         let plan = FloorPlan::new(vec![line; count], ROOM).expect("allowed");
         assert_eq!(plan.walls().len(), count);
         assert_eq!(plan.point_free([5.0, 1.5], 0.51).free, count == 0);

@@ -11,7 +11,7 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    FloorPlan, FloorPlanError, Image, Interpretation, MOST_PIXELS, Mode, OccupancyGrid, PgmError, Pixel,
+    FloorPlan, FloorPlanError, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, PgmError, Pixel,
     read_pgm,
 };
 use rand::Rng;
@@ -344,7 +344,7 @@ fn malformed_pgm_files_are_explained() {
         let message = error.to_string();
         assert!(message.starts_with(&format!("line {line}: {field} ")) && message.ends_with(&error.expected));
     }
-    let huge = format!("P2\n{MOST_PIXELS} 1\n255\n");
+    let huge = format!("P2\n{MAX_PIXELS} 1\n255\n");
     assert_eq!(read_pgm(huge.as_bytes()).expect_err("no pixels").field, "a pixel");
 }
 

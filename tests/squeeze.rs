@@ -9,7 +9,7 @@ mod common;
 use common::{golden, seeded};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{FloorPlan, MOST_DRAWS, MapConditioned, Sampler};
+use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::sim::settings::MAX_SEED;
 use motion::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MapSqueeze, PRESETS, Settings, Tally};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -43,7 +43,7 @@ fn picture(machine: &MapSqueeze) -> String {
 }
 
 #[test]
-fn the_opening_state_is_the_designs() {
+fn the_opening_state_faces_a_doorway() {
     let opening = machine(Settings::default());
     let settings = opening.settings();
     assert_eq!((settings.start, settings.command), ([2.05, 2.6, std::f64::consts::FRAC_PI_2], AHEAD));
@@ -213,7 +213,7 @@ fn the_machine_gives_up_in_time() {
     assert!(machine.gave_up());
     let tally = *machine.tally();
     assert_eq!((tally.accepted, tally.through_wall), (0, 0));
-    assert!((MOST_DRAWS..=3 * MOST_DRAWS).contains(&tally.draws), "{tally:?}");
+    assert!((MAX_DRAWS..=3 * MAX_DRAWS).contains(&tally.draws), "{tally:?}");
     let shown = machine.attempts().len();
     assert!((1..10).contains(&shown));
     assert!(machine.attempts().iter().all(|a| !(a.accepted || a.end_free || a.path_free)));
@@ -226,7 +226,7 @@ fn the_machine_gives_up_in_time() {
     assert!(machine.tally().through_wall_rate().is_nan());
     assert_eq!(machine.tally().through_wall_interval(), [0.0, 1.0], "nothing is known");
     for sampler in SAMPLERS {
-        assert_eq!(machine.trial(sampler, 10).expect_err("no room").0.draws, MOST_DRAWS);
+        assert_eq!(machine.trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
     }
     machine.configure(wedged).expect("valid");
     assert!(machine.gave_up());
@@ -245,8 +245,8 @@ fn the_budget_is_shared_by_the_attempts() {
     let machine = machine(settings);
     let (tally, shown) = (machine.tally(), machine.attempts().len());
     assert!(machine.gave_up() && shown < 600, "{tally:?}");
-    let spent = MOST_DRAWS + 20 * parts as usize * shown;
-    assert!(tally.draws > spent && tally.draws <= spent + parts as usize * MOST_DRAWS, "{tally:?}");
+    let spent = MAX_DRAWS + 20 * parts as usize * shown;
+    assert!(tally.draws > spent && tally.draws <= spent + parts as usize * MAX_DRAWS, "{tally:?}");
 }
 
 #[test]

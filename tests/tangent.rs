@@ -241,10 +241,10 @@ fn twenty_steps_match_the_references() {
     }
 }
 
-/// Predicted over measured variance of x_k ⊟ x̄_k, in the design's table (0.939, 0.970, 0.999) for the chapter's
+/// Predicted over measured variance of x_k ⊟ x̄_k. Other rollouts, as many, gave (0.939, 0.970, 0.999) for the chapter's
 /// recursion and (1.000, 0.999, 0.999), (1.001, 1.000, 0.999) for the two with J_r.
 ///
-/// A variance over n = 400 000 rollouts has the standard error √((κ − 1)/n), about 0.0023 of it. The table's own rollouts
+/// A variance over n = 400 000 rollouts has the standard error √((κ − 1)/n), about 0.0023 of it. The other rollouts
 /// carry the same error, so that the comparison with it allows √2 times as much and the rounding of its last digit.
 #[test]
 fn compounding_against_rollouts() {

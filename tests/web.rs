@@ -7,7 +7,7 @@ mod golden;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::FloorPlan;
-use motion::sim::banana::{BananaMachine, Settings};
+use motion::sim::banana::{BananaMachine, MAX_SAMPLES, Settings};
 use motion::sim::squeeze::{self, MapSqueeze};
 use motion::stats::{CrossTrack, ExactMoments};
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -41,7 +41,7 @@ fn the_canonical_example_has_its_figures() {
 /// A cloud of the largest size fits into the module's memory, and a refused setting leaves the machine as it was.
 #[wasm_bindgen_test]
 fn the_machine_holds_its_largest_cloud_and_survives_bad_settings() {
-    let largest = Settings { samples: motion::sim::settings::MAX_SAMPLES, ..Settings::default() };
+    let largest = Settings { samples: MAX_SAMPLES, ..Settings::default() };
     let mut machine = BananaMachine::new(largest).expect("memory for the largest cloud");
     assert_eq!(machine.poses().len(), largest.samples);
     let figures = *machine.figures();
@@ -71,7 +71,7 @@ fn map_squeeze_holds_its_largest_cloud_in_its_largest_plan() {
     assert_eq!((*machine.settings(), *machine.tally()), (settings, tally));
     let blocked = Segment { from: [0.0, 0.0], to: [12.0, 0.0] };
     let plan =
-        FloorPlan::new(vec![blocked; FloorPlan::MOST_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
+        FloorPlan::new(vec![blocked; FloorPlan::MAX_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
     machine.set_plan(plan);
     assert!(machine.tally().accepted > tally.accepted, "the other walls are gone");
 }

@@ -1,12 +1,10 @@
 /**
  * Loads the WebAssembly core, compiled once a page or process. The only file that touches generated glue.
  * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
- *
- * @module
  */
 
-import makeGlue from '../build/motion.js';
-import own from '../build/motion_bg.wasm';
+import makeCore from '../build/motion.js';
+import carried from '../build/motion_bg.wasm';
 
 /** @typedef {BufferSource | URL | string | WebAssembly.Module} Source */
 
@@ -51,13 +49,9 @@ export async function instantiate(source) {
     wanted = compiling = undefined;
     throw error;
   });
-  const glue = makeGlue();
-  await glue({ module_or_path: await compiling });
-  const { BananaMachine, MapSqueeze, commandReaching, randomSeed } = glue;
-  for (const handle of [BananaMachine, MapSqueeze]) makeDisposable(handle);
-  return /** @type {import('./types.d.ts').Motion} */ (
-    /** @type {unknown} */ ({ BananaMachine, MapSqueeze, commandReaching, randomSeed })
-  );
+  const motion = await makeCore(await compiling);
+  for (const each of Object.values(motion)) if ('free' in (each.prototype ?? {})) makeDisposable(/** @type {any} */ (each));
+  return motion;
 }
 
 /**
@@ -74,7 +68,7 @@ export function abandon(machine) {
 async function compile() {
   // Elements ask while they are being defined, before the script that imports them has had its say.
   await null;
-  const source = wanted ?? own();
+  const source = wanted ?? carried();
   try {
     if (source instanceof WebAssembly.Module) return source;
     if (source instanceof ArrayBuffer) return await WebAssembly.compile(source);

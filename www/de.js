@@ -1,9 +1,8 @@
-/**
- * German words for the elements: load it beside motion-widgets.js, before or after it.
- *
- * @module
- */
+/** German words for the elements: load it beside motion-widgets.js, before or after it. */
+
 import { de } from './messages/de.js';
 import { setMessages } from './messages/registry.js';
+import { de as banana } from './widgets/banana-machine/de.js';
+import { de as squeeze } from './widgets/map-squeeze/de.js';
 
-setMessages('de', de);
+setMessages('de', { ...de, banana, squeeze });

@@ -2,13 +2,12 @@
  * One widget for an iframe. The query says which, and its attributes:
  * `embed.html?widget=banana-machine&omega=0.8`. The page around the frame is told the height by
  * messages `{ type: 'motion-widgets:height', height }`, in CSS pixels.
- *
- * @module
  */
 
 import './de.js';
+import { settings } from './settings.js';
 
-const WIDGETS = ['banana-machine', 'map-squeeze'];
+const WIDGETS = Object.keys(settings);
 /** What every element of HTML has, and a widget may heed. */
 const GLOBAL = ['dir', 'lang'];
 

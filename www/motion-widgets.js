@@ -1,12 +1,8 @@
 /**
- * Registers the custom elements. In dist/ it comes three times: motion-widgets.js carries the
- * WebAssembly module inside, motion-widgets.iife.js is that as a classic script, and external.js
- * leaves the module in a file of its own.
- *
- * @module
+ * Registers the custom elements, all of them at once. In dist/ it comes twice: motion-widgets.js carries the
+ * WebAssembly module inside, and motion-widgets.iife.js is that as a classic script.
  */
-import './widgets/banana-machine/banana-machine.js';
-import './widgets/map-squeeze/map-squeeze.js';
+import './widgets/index.js';
 
 export { load } from './core.js';
 export { setMessages } from './messages/registry.js';

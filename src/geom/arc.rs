@@ -103,7 +103,7 @@ impl Arc {
         let turn = self.turn * ahead;
         let side = if turn < 0.0 { -1.0 } else { 1.0 };
         let turn = turn.abs();
-        let curvature = if length > 0.0 && turn > LEAST_TURN { turn / length } else { 0.0 };
+        let curvature = if length > 0.0 && turn > MIN_TURN { turn / length } else { 0.0 };
         Unrolled {
             origin: [self.start.x(), self.start.y()],
             forward: [ahead * cos, ahead * sin],
@@ -129,7 +129,7 @@ pub(crate) struct Departure {
 pub(crate) struct Driven {
     pub arc: Arc,
     pub end: [f64; 2],
-    /// In (−π, π], rad.
+    /// Heading at the end in (−π, π], rad.
     pub heading: f64,
     /// sinc(φ/2): the chord over the length.
     half_sinc: f64,
@@ -284,7 +284,7 @@ impl Course {
 
 /// Turns below this (rad) count as straight: the arc then leaves the line by less than any double of its length can
 /// tell. Far larger values would show, far smaller ones would underflow in the curvature.
-const LEAST_TURN: f64 = 1e-30;
+const MIN_TURN: f64 = 1e-30;
 
 /// An arc in the frame of its start, mirrored so that it leads forward and to the left: from the origin along x with
 /// length ≥ 0, turn ≥ 0, curvature κ ≥ 0 (0: straight). All of it works without the centre, which is far away or

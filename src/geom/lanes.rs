@@ -27,7 +27,7 @@ pub struct Circle {
 pub struct HalfTurn {
     /// h less whole half circles, within a quarter circle of the one that was asked for.
     pub half: f64x4,
-    /// h·cot h of it.
+    /// h·cot h of `half`.
     pub cotangent: f64x4,
     /// sin h and cos h; both may have the other sign where half circles were taken off.
     pub sin: f64x4,
@@ -49,20 +49,20 @@ impl Default for Trigonometry {
 }
 
 impl Trigonometry {
-    /// Of angles up to a quarter turn (rad).
+    /// Sines and cosines of angles up to a quarter turn (rad).
     #[inline(always)]
     pub fn circle(&self, x: f64x4) -> Circle {
         let (sinc, cos) = self.sinc_cos(x * x);
         Circle { sinc, sin: x * sinc, cos }
     }
 
-    /// Of any finite angles, quickest where all are up to a quarter turn.
+    /// Sines and cosines of any finite angles (rad), quickest where all are up to a quarter turn.
     #[inline(always)]
     pub fn near_or_any_circle(&self, x: f64x4) -> Circle {
         if beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
     }
 
-    /// Of any finite angles. A lane up to a quarter turn gets the bits of [`Trigonometry::circle`].
+    /// Sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of [`Trigonometry::circle`].
     #[inline(never)]
     pub fn any_circle(&self, x: f64x4) -> Circle {
         let half_circles = whole_half_circles(x);
@@ -72,13 +72,13 @@ impl Trigonometry {
         let sign = f64x4::splat(1.0) - 2.0 * odd.abs();
         let (sin, cos) = (near.sin * sign, near.cos * sign);
         let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(near.sinc, sin / x);
-        if !beyond(x, MOST_REDUCED) {
+        if !beyond(x, MAX_REDUCED) {
             return Circle { sinc, sin, cos };
         }
         let by_lane = |of: f64x4, scalar: fn(f64) -> f64| {
             lanes(|i| {
                 let angle = x.to_array()[i];
-                if angle.abs() > MOST_REDUCED { scalar(angle) } else { of.to_array()[i] }
+                if angle.abs() > MAX_REDUCED { scalar(angle) } else { of.to_array()[i] }
             })
         };
         Circle {
@@ -88,21 +88,21 @@ impl Trigonometry {
         }
     }
 
-    /// Of half headings within a quarter turn of 0 and of the branch that is asked for.
+    /// What the logarithm needs of half headings (rad) within a quarter turn of 0 and of the branch that is asked for.
     #[inline(always)]
     pub fn half_turn(&self, half: f64x4) -> HalfTurn {
         let (sinc, cos) = self.sinc_cos(half * half);
         HalfTurn { half, cotangent: cos / sinc, sin: half * sinc, cos }
     }
 
-    /// Of any half headings, on the branch of the logarithm nearest to the half heading `near` (rad). A lane that is near
+    /// What the logarithm needs of any half headings (rad), on the branch of the logarithm nearest to the half heading `near` (rad). A lane that is near
     /// gets the bits of [`Trigonometry::half_turn`].
     #[inline(never)]
     pub fn any_half_turn(&self, half: f64x4, near: f64) -> HalfTurn {
         let mut wrapped = without_half_circles(half, whole_half_circles(half - near));
-        if beyond(half - near, MOST_REDUCED) {
+        if beyond(half - near, MAX_REDUCED) {
             let by_scalar = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
-            let far = (half - near).abs().simd_gt(f64x4::splat(MOST_REDUCED));
+            let far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED));
             wrapped = far.bitselect(lanes(|i| by_scalar(half.to_array()[i])), wrapped);
         }
         let Circle { sinc, sin, cos } = self.any_circle(wrapped);
@@ -150,7 +150,7 @@ pub(crate) fn lanes(lane: impl FnMut(usize) -> f64) -> f64x4 {
 
 /// Angles up to here (rad) are reduced by a π of 119 bits in three parts, the first two of 33, so that the products with
 /// up to 20 bits are exact. Larger ones, at which no robot turns, are left to `libm`.
-const MOST_REDUCED: f64 = 3e6;
+const MAX_REDUCED: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
 /// Adding and taking it off again rounds to a whole number, twice of it to an even one.

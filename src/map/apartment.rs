@@ -1,6 +1,6 @@
 //! The apartment of the Map Squeeze widget.
 
-/// 12 m × 9 m.
+/// Least x, least y, greatest x, greatest y, m.
 pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
 /// Walls as x, y, x, y from end to end, m.
@@ -15,7 +15,7 @@ pub(super) const WALLS: [[f64; 4]; 18] = [
     [2.5, 3.8, 5.5, 3.8],
     [6.5, 3.8, 9.5, 3.8],
     [10.4, 3.8, 12.0, 3.8],
-    // Its upper wall, with two.
+    // The corridor's upper wall, with two doorways.
     [0.0, 5.0, 2.8, 5.0],
     [3.7, 5.0, 7.4, 5.0],
     [8.3, 5.0, 12.0, 5.0],

@@ -14,13 +14,25 @@ use wide::f64x4;
 /// What a draw must satisfy to be accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
-    /// Its last pose is free: Table 5.7, which cannot see how the robot got there.
+    /// The last pose of the draw is free: Table 5.7, which cannot see how the robot got there.
     Endpoint,
     /// The whole arc driven is free.
     WholeArc,
     /// The command is split into this many shorter ones (1 or more), each drawn until its last pose is free. As the
     /// model has it, each part has noise of its own, so that the spread of the whole shrinks with √steps.
     SubStepped(u32),
+}
+
+impl Sampler {
+    /// The parts that a motion is made of.
+    pub fn parts(self) -> u32 {
+        if let Self::SubStepped(parts) = self { parts } else { 1 }
+    }
+
+    /// This sampler, with so many parts if it makes any.
+    pub fn in_parts(self, parts: u32) -> Self {
+        if let Self::SubStepped(_) = self { Self::SubStepped(parts) } else { self }
+    }
 }
 
 /// The velocity model in a floor plan, for a round robot of radius `clearance` (m).
@@ -55,6 +67,7 @@ pub struct Accepted {
 
 /// What rejection costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Cost {
     /// Draws of the model, accepted or not.
     pub draws: usize,
@@ -62,7 +75,7 @@ pub struct Cost {
     pub wall_tests: usize,
 }
 
-/// The robot is wedged: none of [`MOST_DRAWS`] draws in a row was accepted, or too few of many.
+/// The robot is wedged: none of [`MAX_DRAWS`] draws in a row was accepted, or too few of many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wedged(pub Cost);
 
@@ -76,7 +89,7 @@ impl std::error::Error for Wedged {}
 
 /// Draws before a robot counts as wedged: a tenth of a second's worth. An acceptance below one in ten thousand is no
 /// use to a filter; more draws would freeze a page.
-pub const MOST_DRAWS: usize = 10_000;
+pub const MAX_DRAWS: usize = 10_000;
 
 /// [`MapConditioned::judge`] of draws that leave one pose under one command.
 #[derive(Clone, Copy, Debug)]
@@ -158,7 +171,7 @@ impl MapConditioned<'_> {
     /// One accepted motion from `x`.
     ///
     /// # Errors
-    /// [`Wedged`] after [`MOST_DRAWS`] draws in vain.
+    /// [`Wedged`] after [`MAX_DRAWS`] draws in vain.
     pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Accepted, Wedged> {
         self.sample_along(u, x, rng, |_| ())
     }
@@ -249,7 +262,7 @@ impl MapConditioned<'_> {
         rng: &mut R,
         cost: &mut Cost,
     ) -> Result<(SE2, Driven, Verdict), Wedged> {
-        for _ in 0..MOST_DRAWS {
+        for _ in 0..MAX_DRAWS {
             let (pose, driven) = part.motion(from, self.unit_noise(rng));
             let end = self.plan.point_free(driven.end, self.clearance);
             let deciding = if self.sampler == Sampler::WholeArc {

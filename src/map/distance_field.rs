@@ -26,12 +26,12 @@ pub(super) struct DistanceField {
 /// Cells a wall, and of a map at least and at most. Fewer would leave more to be measured, more would take longer to
 /// fill: the apartment's cells have sides of 4 cm and take a millisecond, 2²⁰ cells have 4 MB.
 const CELLS_A_WALL: f64 = 4096.0;
-const LEAST_CELLS: f64 = 4096.0;
-const MOST_CELLS: f64 = 1_048_576.0;
+const MIN_CELLS: f64 = 4096.0;
+const MAX_CELLS: f64 = 1_048_576.0;
 
 /// Walls that may be measured for one cell. Where more of them are equally near (a hundred thousand copies of one) the
 /// field would take seconds to fill; nothing is known there instead.
-const MOST_WALLS_A_CELL: usize = 32;
+const MAX_WALLS_A_CELL: usize = 32;
 
 /// The lower bound where nothing is known.
 const UNKNOWN: f32 = f32::MIN;
@@ -44,7 +44,7 @@ impl DistanceField {
     pub fn new(walls: &[Segment], bounds: [f64; 4], solid: Option<&OccupancyGrid>) -> Self {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
-        let cells = (CELLS_A_WALL * walls.len() as f64).clamp(LEAST_CELLS, MOST_CELLS);
+        let cells = (CELLS_A_WALL * walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map must not have more cells than that in a single row.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells);
         let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
@@ -142,7 +142,7 @@ struct Filling<'a> {
     solid: Option<&'a OccupancyGrid>,
     /// The walls near the present block, after those near the blocks that it is in.
     lines: Vec<Line>,
-    /// Their distances from the middle of the block, squared.
+    /// The squared distances of `lines` from the middle of the block.
     squares: Vec<f64>,
 }
 
@@ -161,7 +161,7 @@ impl Filling<'_> {
         let radius = size as f64 * self.field.radius;
         if size > 1 && distance <= FAR * radius {
             let end = self.lines.len();
-            if end - from > MOST_WALLS_A_CELL * size * size {
+            if end - from > MAX_WALLS_A_CELL * size * size {
                 return;
             }
             let reach = distance + 2.0 * radius + self.slack;

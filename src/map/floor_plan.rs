@@ -33,7 +33,7 @@ pub enum FloorPlanError {
     BadBounds([f64; 4]),
     /// A wall has an end that is not finite or outside the bounds.
     BadWall { index: usize, end: [f64; 2] },
-    /// More than [`FloorPlan::MOST_WALLS`] walls.
+    /// More than [`FloorPlan::MAX_WALLS`] walls.
     TooManyWalls(usize),
 }
 
@@ -51,7 +51,7 @@ impl FloorPlanError {
                 format!("walls[{index}] ends at [{}]; allowed is a point inside the bounds", list(end))
             }
             Self::TooManyWalls(count) => {
-                format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MOST_WALLS)
+                format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MAX_WALLS)
             }
         }
     }
@@ -78,13 +78,14 @@ impl Verdict {
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
-/// Where bounds may lie and how far they may be apart, m: what a robot's coordinates may be, and what a screen can show.
+/// Where bounds may lie, m: as far out as a robot's coordinates may.
 const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
+/// How far bounds may be apart, m: what a screen can show.
 const SIDE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
-    /// What is still interactive to draw and to index.
-    pub const MOST_WALLS: usize = 100_000;
+    /// Walls of a plan at most: what is still interactive to draw and to index.
+    pub const MAX_WALLS: usize = 100_000;
 
     /// A plan of `walls` within `bounds` (least x, least y, greatest x, greatest y), m.
     ///
@@ -99,7 +100,7 @@ impl FloorPlan {
     /// # Errors
     /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
     pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
-        let walls = grid.outlines(Self::MOST_WALLS).map_err(FloorPlanError::TooManyWalls)?;
+        let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManyWalls)?;
         let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
         for [x, y] in grid.corners() {
             bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];
@@ -119,7 +120,7 @@ impl FloorPlan {
         {
             return Err(FloorPlanError::BadBounds(bounds));
         }
-        if walls.len() > Self::MOST_WALLS {
+        if walls.len() > Self::MAX_WALLS {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
         }
         // Rounding may set the corner of a turned grid a little outside its own bounds.

@@ -7,7 +7,7 @@ mod floor_plan;
 mod occupancy;
 mod pgm;
 
-pub use conditioned::{Accepted, Cost, Draw, Judging, MOST_DRAWS, MapConditioned, Sampler, Wedged};
+pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MapConditioned, Sampler, Wedged};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
-pub use occupancy::{Image, Interpretation, Mode, OccupancyGrid, Pixel};
-pub use pgm::{MOST_PIXELS, PgmError, read_pgm};
+pub use occupancy::{Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION};
+pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, read_pgm};

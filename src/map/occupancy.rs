@@ -3,6 +3,7 @@
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
+use std::ops::RangeInclusive;
 
 /// How pixels become cells, as `map_server` reads its YAML file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +17,9 @@ pub struct Interpretation {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
+    /// Pixels darker than the threshold are occupied.
     Trinary,
-    /// As trinary, and transparent pixels are unknown.
+    /// As [`Mode::Trinary`], and transparent pixels are unknown.
     Scale,
     /// Pixel values are occupancies from 0 to 100; 100 is occupied.
     Raw,
@@ -53,6 +55,9 @@ impl Interpretation {
         }
     }
 }
+
+/// Sides of a cell, m: from a millimetre to a hundred metres.
+pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
 
 /// Square cells, occupied or not. Cells that are free and cells of which nothing is known are alike: only occupied ones
 /// are in a robot's way.

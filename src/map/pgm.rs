@@ -22,7 +22,10 @@ impl fmt::Display for PgmError {
 impl std::error::Error for PgmError {}
 
 /// Pixels of an image at most: a map of a large hall at 2 cm. More would take seconds and hundreds of megabytes.
-pub const MOST_PIXELS: usize = 1 << 24;
+pub const MAX_PIXELS: usize = 1 << 24;
+
+/// Bytes of a file at most: a plain one takes six characters a pixel.
+pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 
 /// The image in `bytes`: PGM, binary (P5) or plain (P2), of 8 or 16 bits.
 ///
@@ -35,8 +38,8 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image, PgmError> {
         b"P2" => true,
         _ => return Err(reader.error("the magic number", "P5 or P2 as the first two bytes")),
     };
-    let width = reader.number("the width", 1, MOST_PIXELS)?;
-    let height = reader.number("the height", 1, MOST_PIXELS / width)?;
+    let width = reader.number("the width", 1, MAX_PIXELS)?;
+    let height = reader.number("the height", 1, MAX_PIXELS / width)?;
     let greatest = reader.number("the greatest value", 1, 65_535)?;
     let count = width * height;
     let values: Vec<usize> = if plain {

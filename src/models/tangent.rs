@@ -41,7 +41,7 @@ pub enum Compounding {
 pub enum TangentNoiseError {
     /// An entry is NaN or infinite.
     NotFinite,
-    /// It differs from its transpose by more than rounding.
+    /// The matrix differs from its transpose by more than rounding.
     NotSymmetric,
     /// Some direction would have a negative variance.
     NotPositiveSemidefinite,

@@ -29,7 +29,7 @@ pub struct VelocityModel {
 
 /// Windings summed by [`VelocityModel::pose_density`] at most, either way: noise that could turn the robot more than
 /// 64 times in one step says nothing about where it is, and more would only cost time.
-const MOST_WINDINGS: f64 = 64.0;
+const MAX_WINDINGS: f64 = 64.0;
 
 impl VelocityModel {
     /// The variances of v̂ (m²/s²), ω̂ and γ̂ (rad²/s²) under the command.
@@ -120,7 +120,7 @@ impl MotionModel for VelocityModel {
         };
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
         let nearest = ((u.omega * u.dt - shortest_turn) / TAU).round();
-        let reach = (9.0 * omega_variance.0.sqrt() * u.dt / TAU).ceil().min(MOST_WINDINGS) as i32;
+        let reach = (9.0 * omega_variance.0.sqrt() * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32;
         let arcs: f64 = (-reach..=reach).map(|k| one_way(nearest + f64::from(k))).sum();
 
         let last_turn = step.theta() - shortest_turn;

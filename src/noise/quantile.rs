@@ -59,7 +59,7 @@ fn normals_of_chunk(fours: &mut [f64x4]) {
     }
 }
 
-/// Of numbers in either tail.
+/// [`normal`] of four numbers in either tail.
 #[inline(always)]
 fn tail_lanes(q: f64x4) -> f64x4 {
     let r = (-log_lanes(f64x4::splat(0.5) - q.abs())).sqrt();

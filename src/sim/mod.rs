@@ -2,12 +2,8 @@
 
 pub mod banana;
 mod cloud;
-mod draws;
-mod drive;
-mod figures;
-pub mod picture;
 pub mod settings;
 pub mod squeeze;
-pub mod views;
 
-pub use views::View;
+pub use cloud::View;
+pub use cloud::{picture, views};

@@ -90,7 +90,7 @@ impl Ellipse {
 pub struct ExponentialContour {
     start: SE2,
     mean: Vector3<f64>,
-    /// In (along, heading).
+    /// The contour in (along, heading).
     ellipse: Ellipse,
     /// G with G·Gᵀ = Σ.
     root: Matrix3<f64>,

@@ -107,7 +107,7 @@ impl CrossTrack {
 /// each from its mean.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TrackMoments {
-    /// Of the squared distance from the origin.
+    /// Mean of the squared distance from the origin.
     pub extent_squared: f64,
     pub along_d: f64,
     pub along_d2: f64,

@@ -29,7 +29,7 @@ struct Ray {
 }
 
 impl ExactMoments {
-    /// Of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
+    /// The moments of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
         let rays = nodes(model.noise).iter().map(|node| {
@@ -40,7 +40,7 @@ impl ExactMoments {
         Self::of_rays(rays, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
     }
 
-    /// Of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
+    /// The moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
     pub fn of_odometry(model: &OdometryModel, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
         let rays = nodes(model.noise).iter().map(|node| {

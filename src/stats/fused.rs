@@ -85,7 +85,7 @@ impl Spread {
         Self { reference, sums: Sums::new() }
     }
 
-    /// Adds those of the four for which `mask` has all bits set.
+    /// Adds those of the four poses for which `mask` has all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let [x, y, along, lateral, half] = self.reference;

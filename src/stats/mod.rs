@@ -5,6 +5,8 @@ mod cross_track;
 mod exact;
 pub(crate) mod fused;
 mod moments;
+#[cfg(target_arch = "wasm32")]
+pub(crate) mod plain;
 pub mod quadrature;
 
 pub use contour::{Ellipse, ExponentialContour};

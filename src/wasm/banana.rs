@@ -1,228 +1,232 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{Fields, in_range, no_memory, number, numbers, read_command, type_error, whole, word};
-use super::values::{Command, doubles, float64_array, object, to_js};
+use super::fields::{in_range, no_memory, number, read_settings, type_error, whole, word};
+use super::values::{doubles, float64_array, object, settings_to_js, to_js};
 use crate::models::VelocityCmd;
-use crate::noise::NoiseKind;
-use crate::sim::View;
-use crate::sim::banana::{BananaMachine, Contours, ModelKind, PRESETS, Sample, Settings};
+use crate::sim::banana::{BananaMachine, Contours, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Sample, Settings};
 use crate::sim::picture::{RAMP, Ramp};
-use crate::sim::settings::{MAX_SAMPLES, MAX_SEED, SPEED};
-use crate::sim::views::Grid;
-use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray, Uint32Array, WebAssembly};
-use nalgebra::{Matrix3, Vector3};
-use serde::Serialize;
+use crate::sim::settings::{MAX_SEED, QUANTITY};
+use crate::sim::views::{EXTENT, Grid, MAX_CELLS};
+use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray, Uint32Array, WebAssembly};
 use wasm_bindgen::prelude::*;
 
-const MODELS: [(&str, ModelKind); 2] = [("velocity", ModelKind::Velocity), ("odometry", ModelKind::Odometry)];
-const NOISES: [(&str, NoiseKind); 2] = [("normal", NoiseKind::Normal), ("triangular", NoiseKind::Triangular)];
-const VIEWS: [(&str, View); 2] = [("plane", View::Plane), ("twist", View::Twist)];
-const KEYS: [&str; 7] = ["model", "noise", "command", "alphas", "isolate", "samples", "seed"];
-/// Cells of a density grid: 16 million, beyond any screen, take 64 MB.
-const MAX_CELLS: u64 = 1 << 24;
-/// Points of a skew curve; each costs some ten microseconds.
-const MAX_CURVE_POINTS: u64 = 10_000;
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
+export type ViewName = 'plane' | 'twist';
 
-fn name_of<T: PartialEq>(words: &[(&'static str, T)], meaning: &T) -> &'static str {
-    words.iter().find(|(_, candidate)| candidate == meaning).map_or("", |(word, _)| *word)
+/** Of (x, y, θ) in m, m, rad; in exponential coordinates of ξ along, lateral (m) and heading (rad). */
+export interface Moments {
+  /** Three numbers; θ is a circular mean. */
+  mean: number[];
+  /** Three rows of three. */
+  cov: number[][];
 }
 
-#[derive(Serialize)]
-struct Config<'a> {
-    model: &'static str,
-    noise: &'static str,
-    command: Command,
-    alphas: &'a [f64],
-    isolate: Option<usize>,
-    samples: usize,
-    seed: u64,
+/** All over the samples shown; NaN where undefined. */
+export interface Stats {
+  /** Samples shown. */
+  n: number;
+  /** Of the poses. */
+  cartesian: Moments;
+  /** Of the poses in exponential coordinates about the start. NaN where the chart does not hold. */
+  exponential: Moments;
+  /** Third standardized moment across the mean heading; positive with the longer tail at its left. */
+  crossTrackSkew: number;
+  /** Its standard error. */
+  crossTrackSkewError: number;
+  /** The skew that the fitted Gaussian in exponential coordinates predicts. */
+  gaussianSkew: number;
+  /** Correlation of cross-track position and heading, −1 to 1. */
+  rhoCrossHeading: number;
+  /** Shares, 0 to 1, inside the 2σ outlines in (x, y) and in (ξ along, ξ heading). */
+  coverage: { ellipse: number; exponential: number };
 }
 
-#[derive(Serialize)]
-struct Preset {
-    name: &'static str,
-    v: f64,
-    omega: f64,
-    dt: f64,
+/** Outlines on the floor as x, y pairs in m, the first point repeated at the end; empty where undefined. */
+export interface Contours {
+  /** The arc driven without noise, from the start to its end; open. */
+  command: Float64Array;
+  /** 2σ, of the Gaussian fitted in (x, y). */
+  ellipse: Float64Array;
+  /** 2σ, of the linearization at the command that an extended Kalman filter uses. */
+  linearized: Float64Array;
+  /** 2σ, of the Gaussian fitted in exponential coordinates. */
+  exponential: Float64Array;
+  /** The same in (ξ along, ξ heading), m and rad. */
+  twistEllipse: Float64Array;
 }
 
-#[derive(Serialize)]
-struct Moments {
-    mean: [f64; 3],
-    cov: [[f64; 3]; 3],
+export interface TableColumn extends Moments {
+  crossTrackSkew: number;
 }
 
-impl Moments {
-    fn new(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Self {
-        // Columns stand for rows: covariances are symmetric.
-        Self { mean: (*mean).into(), cov: (*cov).into() }
-    }
+/** Moments of the pose three ways, and of its exponential coordinates. */
+export interface Table {
+  /** Noise-free end, and covariance to first order in the noise. */
+  linearized: TableColumn;
+  /** By quadrature. */
+  exact: TableColumn;
+  /** On the samples shown. */
+  measured: TableColumn;
+  /** The commanded twist and its noise; null for the odometry model, whose noise has no such form. */
+  tangent: Moments | null;
 }
 
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Stats {
-    n: usize,
-    cartesian: Moments,
-    exponential: Moments,
-    cross_track_skew: f64,
-    cross_track_skew_error: f64,
-    gaussian_skew: f64,
-    rho_cross_heading: f64,
-    coverage: Coverage,
+/** One sample, and the arc that reaches its place. */
+export interface Inspection {
+  /** x, y in m, θ in rad, in (−π, π]. */
+  pose: Float64Array;
+  /** ξ along and lateral in m, heading in rad. */
+  twist: Float64Array;
+  /** Speed of the arc, m/s. */
+  vHat: number;
+  /** Turn rate of the arc, rad/s. */
+  omegaHat: number;
+  /** Turn rate after it, rad/s over the same duration. */
+  gammaHat: number;
+  /** The arc as x, y pairs in m from the start. */
+  path: Float64Array;
 }
+"#;
 
-#[derive(Serialize)]
-struct Coverage {
-    ellipse: f64,
-    exponential: f64,
-}
-
-#[derive(Serialize)]
-struct Table {
-    linearized: TableColumn,
-    exact: TableColumn,
-    measured: TableColumn,
-    tangent: Option<Moments>,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct TableColumn {
-    mean: [f64; 3],
-    cov: [[f64; 3]; 3],
-    cross_track_skew: f64,
-}
-
-impl TableColumn {
-    fn new(mean: &Vector3<f64>, cov: &Matrix3<f64>, cross_track_skew: f64) -> Self {
-        let Moments { mean, cov } = Moments::new(mean, cov);
-        Self { mean, cov, cross_track_skew }
-    }
-}
-
+/// One command sent to many identical robots from (0, 0), heading along x. Metres, radians, seconds throughout. Whatever
+/// is out of range throws a TypeError or RangeError that names the field, and changes nothing.
 #[wasm_bindgen(js_name = BananaMachine)]
 pub struct JsBananaMachine(BananaMachine);
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
+    /// What is left out is as the widget opens: the gentle arc, velocity model, normal noise.
     #[wasm_bindgen(constructor)]
-    pub fn new(options: &JsValue) -> Result<Self, JsValue> {
+    pub fn new(
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
+    ) -> Result<Self, JsValue> {
         let settings = Settings::default();
-        let settings = if options.is_undefined() { settings } else { read_settings(settings, options)? };
+        let settings = if options.is_undefined() { settings } else { read_settings(&settings, options)? };
         Ok(Self(BananaMachine::new(settings)?))
     }
 
+    /// Largest `samples`.
     #[wasm_bindgen(getter, js_name = maxSamples)]
     pub fn max_samples() -> usize {
         MAX_SAMPLES
     }
 
-    #[wasm_bindgen(getter)]
-    pub fn presets() -> Result<JsValue, JsValue> {
-        to_js(&PRESETS.map(|(name, VelocityCmd { v, omega, dt })| Preset { name, v, omega, dt }))
+    #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
+    pub fn presets() -> Result<Array, JsValue> {
+        let preset = |(name, VelocityCmd { v, omega, dt }): (&str, _)| {
+            object(&[("name", name.into()), ("v", v.into()), ("omega", omega.into()), ("dt", dt.into())])
+        };
+        PRESETS.into_iter().map(preset).collect()
     }
 
-    pub fn configure(&mut self, options: &JsValue) -> Result<(), JsValue> {
-        Ok(self.0.configure(read_settings(*self.0.settings(), options)?)?)
+    /// Changes the settings that are named. A complete cloud stays complete.
+    pub fn configure(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
+    ) -> Result<(), JsValue> {
+        Ok(self.0.configure(read_settings(self.0.settings(), settings)?)?)
     }
 
-    /// As `configure`, in slices.
-    pub fn begin(&mut self, options: &JsValue) -> Result<(), JsValue> {
-        Ok(self.0.begin(read_settings(*self.0.settings(), options)?)?)
+    /// As `configure`, in slices: `advance` is to be called until it says true. Until then the figures are the former
+    /// ones, and the samples partly so.
+    pub fn begin(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
+    ) -> Result<(), JsValue> {
+        Ok(self.0.begin(read_settings(self.0.settings(), settings)?)?)
     }
 
     /// Works on what was begun, for about as many poses of twice as many as are shown; whether all is done.
-    pub fn advance(&mut self, poses: &JsValue) -> Result<bool, JsValue> {
-        let poses = whole("poses", poses, 1, MAX_SEED)?;
+    pub fn advance(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "number")] poses: &JsValue,
+    ) -> Result<bool, JsValue> {
+        let poses = whole("poses", poses, 1..=MAX_SEED)?;
         Ok(self.0.advance(usize::try_from(poses).unwrap_or(usize::MAX)))
     }
 
-    #[wasm_bindgen(getter)]
+    /// A copy; changing it changes nothing.
+    #[wasm_bindgen(getter, unchecked_return_type = "BananaMachineSettings")]
     pub fn config(&self) -> Result<JsValue, JsValue> {
-        let settings = self.0.settings();
-        to_js(&Config {
-            model: name_of(&MODELS, &settings.model),
-            noise: name_of(&NOISES, &settings.noise),
-            command: settings.command.into(),
-            alphas: settings.alphas(),
-            isolate: settings.isolate,
-            samples: settings.samples,
-            seed: settings.seed,
-        })
+        settings_to_js(self.0.settings())
     }
 
+    /// The noise parameters that each model has, or will have when it is chosen again.
+    #[wasm_bindgen(
+        getter,
+        js_name = alphasOfModels,
+        unchecked_return_type = "{ velocity: number[]; odometry: number[] }"
+    )]
+    pub fn alphas_of_models(&self) -> Result<JsValue, JsValue> {
+        let Settings { velocity_alphas, odometry_alphas, .. } = self.0.settings();
+        object(&[
+            ("velocity", to_js(velocity_alphas.as_slice())?),
+            ("odometry", to_js(odometry_alphas.as_slice())?),
+        ])
+    }
+
+    /// How many samples there are now, 0 to `config.samples`.
     #[wasm_bindgen(getter)]
     pub fn shown(&self) -> usize {
         self.0.shown()
     }
 
-    /// Whether figures and contours in exponential coordinates are defined: no robot to speak of turns a whole circle.
+    /// Whether exponential coordinates reach as far as the robots turn: to short of a full circle. Where not, figures and
+    /// contours in them are undefined.
     #[wasm_bindgen(getter, js_name = chartHolds)]
     pub fn chart_holds(&self) -> bool {
         self.0.chart_holds()
     }
 
-    pub fn grow(&mut self, count: &JsValue) -> Result<usize, JsValue> {
-        let count = whole("count", count, 0, MAX_SAMPLES as u64)?;
+    /// Shows up to `count` samples more, 0 to 10 000 000. Returns how many are shown then.
+    pub fn grow(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
+    ) -> Result<usize, JsValue> {
+        let count = whole("count", count, 0..=MAX_SAMPLES as u64)?;
         Ok(self.0.grow(count as usize))
     }
 
-    /// As `grow`, in slices.
+    /// As `grow`, in slices like `begin`.
     #[wasm_bindgen(js_name = beginToGrow)]
-    pub fn begin_to_grow(&mut self, count: &JsValue) -> Result<(), JsValue> {
-        self.0.begin_to_grow(whole("count", count, 0, MAX_SAMPLES as u64)? as usize);
+    pub fn begin_to_grow(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
+    ) -> Result<(), JsValue> {
+        self.0.begin_to_grow(whole("count", count, 0..=MAX_SAMPLES as u64)? as usize);
         Ok(())
     }
 
+    /// Shows none; the same samples come again.
     pub fn restart(&mut self) {
         self.0.restart();
     }
 
-    /// x, y, θ of each sample shown.
+    /// x, y (m), θ (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Result<Float64Array, JsValue> {
         doubles("samples", self.0.poses().map(|pose| [pose.x(), pose.y(), pose.theta()]))
     }
 
-    /// ξ along, lateral, heading of each sample shown.
+    /// ξ along, lateral (m), heading (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Result<Float64Array, JsValue> {
         doubles("samples", self.0.twists().map(<[f64; 3]>::from))
     }
 
-    #[wasm_bindgen(getter)]
+    #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        let figures = self.0.figures();
-        to_js(&Stats {
-            n: self.0.shown(),
-            cartesian: Moments::new(&figures.cartesian.mean, &figures.cartesian.cov),
-            exponential: Moments::new(&figures.exponential.mean, &figures.exponential.cov),
-            cross_track_skew: figures.cross_track.skew,
-            cross_track_skew_error: figures.cross_track.skew_error,
-            gaussian_skew: figures.gaussian_skew,
-            rho_cross_heading: figures.cross_track.rho_heading,
-            coverage: Coverage { ellipse: figures.inside_ellipse, exponential: figures.inside_exponential },
-        })
+        to_js(&self.0.stats())
     }
 
-    #[wasm_bindgen(getter)]
+    #[wasm_bindgen(getter, unchecked_return_type = "Table")]
     pub fn table(&self) -> Result<JsValue, JsValue> {
-        let (linearized, exact, figures) = (self.0.linearized(), self.0.exact(), self.0.figures());
-        to_js(&Table {
-            // A Gaussian in (x, y), whatever its moments, has no skew.
-            linearized: TableColumn::new(&linearized.mean, &linearized.cov, 0.0),
-            exact: TableColumn::new(&exact.mean, &exact.cov, exact.cross_track_skew),
-            measured: TableColumn::new(
-                &figures.cartesian.mean,
-                &figures.cartesian.cov,
-                figures.cross_track.skew,
-            ),
-            tangent: self.0.tangent().map(|tangent| Moments::new(&tangent.mean, &tangent.cov)),
-        })
+        to_js(&self.0.table())
     }
 
-    #[wasm_bindgen(getter)]
+    #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
     pub fn contours(&self) -> Result<JsValue, JsValue> {
         let Contours { command, ellipse, linearized, exponential, twist_ellipse } = self.0.contours();
         object(&[
@@ -234,16 +238,27 @@ impl JsBananaMachine {
         ])
     }
 
+    /// Exact cross-track skew at 2 to 10 000 evenly spaced turn rates, rad/s; NaN where undefined.
     #[wasm_bindgen(js_name = skewCurve)]
-    pub fn skew_curve(&self, first: &JsValue, last: &JsValue, points: &JsValue) -> Result<Vec<f64>, JsValue> {
-        let first = in_range("omegaMin", first, &SPEED)?;
-        let last = in_range("omegaMax", last, &SPEED)?;
-        let points = whole("points", points, 2, MAX_CURVE_POINTS)?;
+    pub fn skew_curve(
+        &self,
+        #[wasm_bindgen(js_name = omegaMin, unchecked_param_type = "number")] omega_min: &JsValue,
+        #[wasm_bindgen(js_name = omegaMax, unchecked_param_type = "number")] omega_max: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] points: &JsValue,
+    ) -> Result<Vec<f64>, JsValue> {
+        let first = in_range("omegaMin", omega_min, &QUANTITY)?;
+        let last = in_range("omegaMax", omega_max, &QUANTITY)?;
+        let points = whole("points", points, 2..=MAX_CURVE_POINTS)?;
         Ok(self.0.skew_curve(first, last, points as usize))
     }
 
-    pub fn inspect(&self, index: &JsValue) -> Result<JsValue, JsValue> {
-        let index = whole("index", index, 0, MAX_SAMPLES as u64)? as usize;
+    /// A sample shown, counted from 0.
+    #[wasm_bindgen(unchecked_return_type = "Inspection")]
+    pub fn inspect(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] index: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let Sample { pose, twist, executed, path } =
             self.0.inspect(index).ok_or_else(|| self.not_shown(index))?;
         object(&[
@@ -256,60 +271,64 @@ impl JsBananaMachine {
         ])
     }
 
-    /// θ of a sample.
-    pub fn heading(&self, index: &JsValue) -> Result<f64, JsValue> {
-        let index = whole("index", index, 0, MAX_SAMPLES as u64)? as usize;
+    /// The heading of a sample shown, counted from 0, rad.
+    pub fn heading(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] index: &JsValue,
+    ) -> Result<f64, JsValue> {
+        let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         Ok(self.0.pose(index).ok_or_else(|| self.not_shown(index))?.theta())
     }
 
-    /// The index of the nearest sample in the ellipse of the given radii, −1 where there is none.
+    /// The nearest sample inside an ellipse of these radii around a point of the view; −1 for none.
     pub fn nearest(
         &self,
-        view: &JsValue,
-        x: &JsValue,
-        y: &JsValue,
-        radius_x: &JsValue,
-        radius_y: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
+        #[wasm_bindgen(js_name = radiusX, unchecked_param_type = "number")] radius_x: &JsValue,
+        #[wasm_bindgen(js_name = radiusY, unchecked_param_type = "number")] radius_y: &JsValue,
     ) -> Result<i32, JsValue> {
-        let view = word("view", view, &VIEWS)?;
+        let view = word("view", view)?;
         let target = [number("x", x)?, number("y", y)?];
         let radii = [number("radiusX", radius_x)?, number("radiusY", radius_y)?];
         Ok(self.0.nearest(view, target, radii).map_or(-1, |index| index as i32))
     }
 
-    /// Samples a cell, row by row from the top.
+    /// Samples a cell of a grid over a part of the view, row by row from yMax down; 2²⁴ cells at most.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle and a size")]
     pub fn density(
         &mut self,
-        view: &JsValue,
-        x_min: &JsValue,
-        y_min: &JsValue,
-        x_max: &JsValue,
-        y_max: &JsValue,
-        columns: &JsValue,
-        rows: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
+        #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
+        #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
+        #[wasm_bindgen(js_name = xMax, unchecked_param_type = "number")] x_max: &JsValue,
+        #[wasm_bindgen(js_name = yMax, unchecked_param_type = "number")] y_max: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] columns: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] rows: &JsValue,
     ) -> Result<Uint32Array, JsValue> {
-        let view = word("view", view, &VIEWS)?;
+        let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let counts = self.0.density(view, &grid).map_err(|_| no_memory("columns"))?;
         Ok(Uint32Array::from(counts.as_slice()))
     }
 
-    /// The same as pixels, each count in its colour of a ramp: a view of the core's memory, to be used before the core is
-    /// asked for anything else.
+    /// The same as RGBA pixels, each count c in the colour ramp[255·√(c/most)] of 256, transparent where there is nobody.
+    /// A view of the core's memory: to be used before the machine is asked for anything else.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
+    #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
         &mut self,
-        view: &JsValue,
-        x_min: &JsValue,
-        y_min: &JsValue,
-        x_max: &JsValue,
-        y_max: &JsValue,
-        columns: &JsValue,
-        rows: &JsValue,
-        ramp: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
+        #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
+        #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
+        #[wasm_bindgen(js_name = xMax, unchecked_param_type = "number")] x_max: &JsValue,
+        #[wasm_bindgen(js_name = yMax, unchecked_param_type = "number")] y_max: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] columns: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] rows: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array")] ramp: &JsValue,
     ) -> Result<Uint8ClampedArray, JsValue> {
-        let view = word("view", view, &VIEWS)?;
+        let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let ramp = read_ramp(ramp)?;
         let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
@@ -348,8 +367,8 @@ fn read_grid(bounds: [&JsValue; 4], columns: &JsValue, rows: &JsValue) -> Result
         in_range("xMax", x_max, &(min[0]..=*EXTENT.end()))?,
         in_range("yMax", y_max, &(min[1]..=*EXTENT.end()))?,
     ];
-    let columns = whole("columns", columns, 1, MAX_CELLS)?;
-    let rows = whole("rows", rows, 1, MAX_CELLS / columns)?;
+    let columns = whole("columns", columns, 1..=MAX_CELLS)?;
+    let rows = whole("rows", rows, 1..=MAX_CELLS / columns)?;
     Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
 }
 
@@ -360,54 +379,4 @@ fn read_ramp(value: &JsValue) -> Result<Ramp, JsValue> {
         _ => return Err(type_error("ramp", value, "a Uint8Array of 256 colours of four bytes")),
     }
     Ok(ramp)
-}
-
-/// Coordinates that a view may reach: as far as the fastest robot gets in the longest step, and some.
-const EXTENT: std::ops::RangeInclusive<f64> = -1e18..=1e18;
-
-/// The present settings with those that `options` names.
-fn read_settings(present: Settings, options: &JsValue) -> Result<Settings, JsValue> {
-    let fields = Fields::new("options", "", options, &KEYS)?;
-    let mut settings = present;
-    if let Some(model) = fields.optional("model", |field, value| word(field, value, &MODELS))? {
-        // α numbers mean other things in the other model.
-        if model != settings.model {
-            settings.isolate = None;
-        }
-        settings.model = model;
-    }
-    if let Some(noise) = fields.optional("noise", |field, value| word(field, value, &NOISES))? {
-        settings.noise = noise;
-    }
-    if let Some(command) = fields.optional("command", read_command)? {
-        settings.command = command;
-    }
-    match settings.model {
-        ModelKind::Velocity => {
-            if let Some(alphas) = fields.optional("alphas", numbers)? {
-                settings.velocity_alphas = alphas;
-            }
-        }
-        ModelKind::Odometry => {
-            if let Some(alphas) = fields.optional("alphas", numbers)? {
-                settings.odometry_alphas = alphas;
-            }
-        }
-    }
-    let numbered = settings.alphas().len() as u64;
-    let isolate = fields.optional("isolate", |field, value| {
-        if value.is_null() { Ok(None) } else { whole(field, value, 1, numbered).map(Some) }
-    })?;
-    if let Some(isolate) = isolate {
-        settings.isolate = isolate.map(|number| number as usize);
-    }
-    if let Some(samples) =
-        fields.optional("samples", |field, value| whole(field, value, 1, MAX_SAMPLES as u64))?
-    {
-        settings.samples = samples as usize;
-    }
-    if let Some(seed) = fields.optional("seed", |field, value| whole(field, value, 0, MAX_SEED))? {
-        settings.seed = seed;
-    }
-    Ok(settings)
 }

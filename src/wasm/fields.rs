@@ -2,8 +2,7 @@
 //! value and what is allowed. Nothing here can throw past Rust or run the caller's code unguarded: properties are read
 //! by `Reflect`, whose exceptions come back as values.
 
-use crate::models::VelocityCmd;
-use crate::sim::settings::{SettingsError, check_real, check_whole};
+use crate::sim::settings::{Group, Rules, Setting, SettingsError, Word, Words, check_real, check_whole};
 use js_sys::{Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
@@ -89,37 +88,91 @@ pub fn in_range(field: &str, value: &JsValue, allowed: &RangeInclusive<f64>) -> 
 }
 
 /// A whole number of the given range.
-pub fn whole(field: &str, value: &JsValue, least: u64, most: u64) -> Result<u64, JsValue> {
-    Ok(check_whole(field, number(field, value)?, least, most)?)
+pub fn whole(field: &str, value: &JsValue, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
+    Ok(check_whole(field, number(field, value)?, &allowed)?)
 }
 
-/// One of a few words.
-pub fn word<T: Copy>(field: &str, value: &JsValue, words: &[(&str, T)]) -> Result<T, JsValue> {
-    let allowed = || words.iter().map(|(word, _)| quoted(word)).collect::<Vec<_>>().join(" or ");
-    let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed()))?;
-    words.iter().find(|(word, _)| *word == text).map(|(_, meaning)| *meaning).ok_or_else(|| {
-        RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed())).into()
-    })
+/// One of the words of an enum.
+pub fn word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
+    let mut result = T::WORDS[0].1;
+    read_word(field, value, &mut result)?;
+    Ok(result)
+}
+
+fn read_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsValue> {
+    let allowed = |word: &dyn Word| word.all().into_iter().map(quoted).collect::<Vec<_>>().join(" or ");
+    let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
+    if word.set(&text) {
+        return Ok(());
+    }
+    Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed(word))).into())
 }
 
 /// An array (or typed array) of exactly N numbers, their ranges not looked at.
 pub fn numbers<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
-    let expected = format!("an array of {N} numbers");
-    let length = length(field, value, &expected)?;
-    if length != N {
-        return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
-    }
     let mut result = [0.0; N];
-    for (i, slot) in result.iter_mut().enumerate() {
-        *slot = number(&format!("{field}[{i}]"), &item(field, value, i)?)?;
-    }
+    read_numbers(field, value, &mut result)?;
     Ok(result)
 }
 
-/// A whole command: speeds without their duration would mean another motion.
-pub fn read_command(field: &str, value: &JsValue) -> Result<VelocityCmd, JsValue> {
-    let fields = Fields::new(field, "command.", value, &["v", "omega", "dt"])?;
-    Ok(VelocityCmd { v: fields.number("v")?, omega: fields.number("omega")?, dt: fields.number("dt")? })
+fn read_numbers(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), JsValue> {
+    let expected = format!("an array of {} numbers", numbers.len());
+    let length = length(field, value, &expected)?;
+    if length != numbers.len() {
+        return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
+    }
+    for (i, slot) in numbers.iter_mut().enumerate() {
+        *slot = number(&format!("{field}[{i}]"), &item(field, value, i)?)?;
+    }
+    Ok(())
+}
+
+/// All numbers of a group, their ranges not looked at: speeds without their duration would mean another motion.
+pub fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
+    let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
+    let prefix = format!("{field}.");
+    let fields = Fields::new(field, &prefix, value, &keys)?;
+    for (i, key) in keys.iter().enumerate() {
+        *group.number(i) = fields.number(key)?;
+    }
+    Ok(())
+}
+
+/// The present settings with those that `options` names. Ranges of doubles are left to the simulation.
+pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsValue> {
+    let fields = Fields::new("options", "", options, S::KEYS)?;
+    let (mut settings, mut named) = (*present, Vec::new());
+    settings.try_each(|declaration, setting| {
+        let key = declaration.key;
+        let value = fields.value(key)?;
+        if value.is_undefined() {
+            return Ok(());
+        }
+        if let Some(original) = declaration.of.filter(|original| named.contains(original)) {
+            let message = format!("{key} is given beside {original}; allowed is one of the two");
+            return Err(TypeError::new(&message).into());
+        }
+        named.push(key);
+        read_setting(key, &value, setting)
+    })?;
+    settings.settle(present, &named);
+    Ok(settings)
+}
+
+fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), JsValue> {
+    match setting {
+        Setting::Number(slot, _) => *slot = number(field, value)?,
+        Setting::Whole(slot, allowed) => slot.set(whole(field, value, allowed)?),
+        Setting::WholeOrNone(slot, _) if value.is_null() => *slot = None,
+        Setting::WholeOrNone(slot, allowed) => *slot = Some(whole(field, value, allowed)? as usize),
+        Setting::Truth(slot) => *slot = boolean(field, value)?,
+        Setting::Word(slot) => read_word(field, value, slot)?,
+        Setting::Numbers(slots, _) => read_numbers(field, value, slots)?,
+        // Once it is taken apart, nobody could say that it was the level that is out of range.
+        Setting::Level(slot, allowed) => slot.set(in_range(field, value, &allowed)?),
+        Setting::Group(group) => read_group(field, value, group)?,
+    }
+    Ok(())
 }
 
 /// What a caller is told who asks for more than there is memory for.
@@ -139,7 +192,7 @@ pub fn length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsV
     }
     let length = Reflect::get(value, &"length".into()).map_err(|_| unreadable(field))?;
     let length = length.as_f64().ok_or_else(|| type_error(field, value, expected))?;
-    Ok(check_whole(&format!("{field}.length"), length, 0, u64::from(u32::MAX))? as usize)
+    Ok(check_whole(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
 }
 
 /// Item `index` of an array.
@@ -177,9 +230,9 @@ fn quoted(text: &str) -> String {
 /// The value as a sentence can hold it, without running any of the caller's code.
 fn describe(value: &JsValue) -> String {
     /// Characters of a string that are quoted: enough to recognize it.
-    const MOST_CHARACTERS: usize = 40;
+    const MAX_CHARACTERS: usize = 40;
     if let Some(text) = value.as_string() {
-        let shown: String = text.chars().take(MOST_CHARACTERS).collect();
+        let shown: String = text.chars().take(MAX_CHARACTERS).collect();
         return quoted(&shown) + if shown.len() < text.len() { "…" } else { "" };
     }
     if let Some(number) = value.as_f64() {

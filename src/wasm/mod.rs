@@ -2,35 +2,35 @@
 
 mod banana;
 mod fields;
+mod maps;
 mod squeeze;
 mod values;
 
+use crate::models::VelocityCmd;
 use crate::sim::banana::command_reaching;
-use crate::sim::settings::{SPEED, check_command};
-use fields::{in_range, read_command};
-use serde::Serialize;
-use values::to_js;
+use crate::sim::settings::{QUANTITY, check_group};
+use fields::{in_range, read_group};
+use values::object;
 use wasm_bindgen::prelude::*;
 
-/// A seed from the platform's entropy source: a whole number below 2³².
+/// A seed from the platform's entropy source: a whole number, 0 to 2³² − 1.
 #[wasm_bindgen(js_name = randomSeed)]
 pub fn random_seed() -> Result<f64, JsError> {
     Ok(f64::from(getrandom::u32()?))
 }
 
-#[derive(Serialize)]
-struct Speeds {
-    v: f64,
-    omega: f64,
-}
-
-/// The { v, omega } whose arc from the origin ends at (x, y): of those that do in the time of the command { v, omega,
-/// dt }, the one nearest to it.
-#[wasm_bindgen(js_name = commandReaching)]
-pub fn speeds_reaching(x: &JsValue, y: &JsValue, command: &JsValue) -> Result<JsValue, JsValue> {
-    let (x, y) = (in_range("x", x, &SPEED)?, in_range("y", y, &SPEED)?);
-    let near = read_command("command", command)?;
-    check_command(&near)?;
-    let command = command_reaching(x, y, &near);
-    to_js(&Speeds { v: command.v, omega: command.omega })
+/// The arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of a command; of the
+/// many, the one whose turn is nearest to that command's.
+#[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
+pub fn speeds_reaching(
+    #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
+) -> Result<JsValue, JsValue> {
+    let (x, y) = (in_range("x", x, &QUANTITY)?, in_range("y", y, &QUANTITY)?);
+    let mut near = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
+    read_group("command", command, &mut near)?;
+    check_group("command", &mut near)?;
+    let VelocityCmd { v, omega, .. } = command_reaching(x, y, &near);
+    object(&[("v", v.into()), ("omega", omega.into())])
 }

@@ -1,27 +1,51 @@
 //! JavaScript values made of Rust's.
 
 use super::fields::no_memory;
-use crate::models::VelocityCmd;
+use crate::sim::settings::{Declared, Group, Setting};
 use js_sys::{Array, Float64Array, Object, Reflect, Uint8Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 /// A plain JavaScript value; None becomes null.
-pub fn to_js(value: &impl Serialize) -> Result<JsValue, JsValue> {
+pub fn to_js(value: &(impl Serialize + ?Sized)) -> Result<JsValue, JsValue> {
     Ok(value.serialize(&serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true))?)
 }
 
-#[derive(Serialize)]
-pub struct Command {
-    v: f64,
-    omega: f64,
-    dt: f64,
+/// The settings of a widget; what is another way to say one of them is left out.
+pub fn settings_to_js<S: Declared>(settings: &S) -> Result<JsValue, JsValue> {
+    let (object, mut settings) = (Object::new(), *settings);
+    settings.try_each(|declaration, setting| {
+        if declaration.of.is_none() {
+            Reflect::set(&object, &declaration.key.into(), &setting_to_js(setting)?)?;
+        }
+        Ok::<_, JsValue>(())
+    })?;
+    Ok(object.into())
 }
 
-impl From<VelocityCmd> for Command {
-    fn from(VelocityCmd { v, omega, dt }: VelocityCmd) -> Self {
-        Self { v, omega, dt }
+fn setting_to_js(setting: Setting) -> Result<JsValue, JsValue> {
+    Ok(match setting {
+        Setting::Number(number, _) => (*number).into(),
+        Setting::Whole(whole, _) => (whole.get() as f64).into(),
+        Setting::WholeOrNone(whole, _) => number_or_null(whole.map(|whole| whole as f64)),
+        Setting::Truth(truth) => (*truth).into(),
+        Setting::Word(word) => word.get().into(),
+        Setting::Numbers(numbers, _) => to_js(&*numbers)?,
+        Setting::Level(level, _) => number_or_null(level.get()),
+        Setting::Group(group) => group_to_js(group)?,
+    })
+}
+
+pub fn number_or_null(number: Option<f64>) -> JsValue {
+    number.map_or(JsValue::NULL, JsValue::from)
+}
+
+pub fn group_to_js(group: &mut dyn Group) -> Result<JsValue, JsValue> {
+    let object = Object::new();
+    for (i, field) in group.fields().iter().enumerate() {
+        Reflect::set(&object, &field.declaration.key.into(), &(*group.number(i)).into())?;
     }
+    Ok(object.into())
 }
 
 /// The numbers of one item after the other. A RangeError that names `field` where memory does not suffice, on either

@@ -9,9 +9,12 @@ import { expect } from '@playwright/test';
  * @param {string} [where] a selector
  */
 export async function expectAccessible(page, when, where = ':root') {
+  const values = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
   const { violations } = await new AxeBuilder({ page })
     .include(where)
-    .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
+    .options({ runOnly: { type: 'tag', values }, resultTypes: ['violations'] })
+    // Only pages with frames from elsewhere, which there are none of, need a second page for the results.
+    .setLegacyMode()
     .analyze();
   expect(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), when).toEqual([]);
 }

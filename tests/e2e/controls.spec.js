@@ -17,7 +17,7 @@ import {
 
 test.use(STILL);
 
-/** As DESIGN's table of presets has them. */
+/** The presets that the page offers. */
 const PRESETS = {
   Straight: { v: 1, omega: 0, dt: 2 },
   'Gentle arc': { v: 1, omega: 0.5, dt: 1 },

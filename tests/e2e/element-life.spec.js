@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
-import { STILL, frames, pictureOf, state, test } from './support.js';
+import { FRESH, STILL, frames, pictureOf, state, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -47,7 +47,7 @@ const pass = (page) =>
 test.describe('far from the window', () => {
   test.use(STILL);
 
-  test('nothing is fetched or computed, and one module serves all', async ({ page }) => {
+  test('nothing is fetched or computed, and one module serves all', FRESH, async ({ page }) => {
     /** @type {string[]} */
     const fetched = [];
     page.on('request', (request) => fetched.push(new URL(request.url()).pathname));
@@ -55,7 +55,8 @@ test.describe('far from the window', () => {
     await show(page, `<div style="height: 5000px"></div>${NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
       script: '<script type="module" src="/external.js"></script>',
     });
-    await page.waitForFunction(() => customElements.get('map-squeeze'));
+    // Not by polling, which asks for frames.
+    await page.evaluate(() => customElements.whenDefined('map-squeeze').then(() => true));
     await pass(page);
     expect(await counted(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
     expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual([]);
@@ -68,7 +69,7 @@ test.describe('far from the window', () => {
   });
 
   for (const width of [320, 375, 768, 1280]) {
-    test(`room is kept, ${width} px wide: nothing moves when the figure comes`, async ({ page }) => {
+    test(`room is kept, ${width} px wide: nothing moves when the figure comes`, FRESH, async ({ page }) => {
       await page.setViewportSize({ width, height: 800 });
       await page.addInitScript(() => {
         const shifts = /** @type {string[]} */ ([]);

@@ -1,7 +1,7 @@
 import AxeBuilder from '@axe-core/playwright';
 import { expect } from '@playwright/test';
 import { NAMES, heard, ready, show, stateOf } from './element-support.js';
-import { STILL, frames, test } from './support.js';
+import { FRESH, STILL, frames, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 
@@ -12,7 +12,7 @@ const THREE = `<banana-machine share></banana-machine>
   <banana-machine share id="second one"></banana-machine>
   <banana-machine></banana-machine>`;
 
-test('two widgets and an anchor share the fragment, and the link shows what was there', async ({ page, context }) => {
+test('two widgets and an anchor share the fragment, and the link shows what was there', FRESH, async ({ page, context }) => {
   await show(page, THREE, { fragment: '#what-to-try&theme=a%20b' });
   // The anchor is found though the fragment has more in it.
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);

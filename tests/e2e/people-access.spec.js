@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test } from './support.js';
+import { FRESH, STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -248,7 +248,7 @@ test.describe('a finger', () => {
 });
 
 for (const width of [1280, 375]) {
-  test(`nothing shifts while the page loads and both widgets start, at ${width} px`, async ({ page }) => {
+  test(`nothing shifts while the page loads and both widgets start, at ${width} px`, FRESH, async ({ page }) => {
     await page.setViewportSize({ width, height: 812 });
     await page.addInitScript(() => {
       const shifts = /** @type {{ value: number, what: string[] }[]} */ ([]);

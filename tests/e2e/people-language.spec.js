@@ -1,8 +1,15 @@
 import { expect } from '@playwright/test';
-import { de } from '../../www/messages/de.js';
-import { en } from '../../www/messages/en.js';
+import { de as sharedGerman } from '../../www/messages/de.js';
+import { en as sharedEnglish } from '../../www/messages/en.js';
+import { de as bananaGerman } from '../../www/widgets/banana-machine/de.js';
+import { en as bananaEnglish } from '../../www/widgets/banana-machine/en.js';
+import { de as squeezeGerman } from '../../www/widgets/map-squeeze/de.js';
+import { en as squeezeEnglish } from '../../www/widgets/map-squeeze/en.js';
 import { openSqueeze } from './squeeze-support.js';
 import { STILL, frames, numberIn, open, readout, state, test } from './support.js';
+
+const de = { ...sharedGerman, banana: bananaGerman, squeeze: squeezeGerman };
+const en = { ...sharedEnglish, banana: bananaEnglish, squeeze: squeezeEnglish };
 
 test.use(STILL);
 

@@ -41,21 +41,12 @@ export async function openSqueeze(page) {
  */
 export async function squeezed(widget) {
   await frames(widget.page());
-  return widget.evaluate((element) => {
-    const { machine } = /** @type {MapSqueezeElement} */ (element);
-    const { config, shown, stats, plan, startFree, freePoint } = machine;
-    return {
-      config,
-      shown,
-      stats,
-      startFree,
-      freePoint,
-      bounds: [...plan.bounds],
-      walls: [...plan.walls],
-      poses: [...machine.poses],
-      verdicts: [...machine.verdicts],
-    };
+  const { plan, poses, verdicts, ...said } = await widget.evaluate((element) => {
+    const { config, shown, stats, startFree, freePoint, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).machine;
+    return { config, shown, stats, startFree, freePoint, plan, poses, verdicts };
   });
+  const { bounds, walls } = plan;
+  return { ...said, bounds: [...bounds], walls: [...walls], poses: [...poses], verdicts: [...verdicts] };
 }
 
 /**

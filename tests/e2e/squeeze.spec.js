@@ -8,7 +8,7 @@ import { STILL, centreOf, dragSlider, frames, numberIn, pictureOf, pixelsOf, rea
  * @typedef {import('@playwright/test').Locator} Locator
  */
 
-/** As DESIGN's apartment has them. */
+/** Where the presets put the robot in the apartment. */
 const PRESETS = {
   'Facing a doorway': { x: 2.05, y: 2.6, theta: Math.PI / 2 },
   'Facing a wall': { x: 3.3, y: 2.6, theta: Math.PI / 2 },

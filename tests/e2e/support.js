@@ -29,6 +29,9 @@ export const test = base.extend({
   },
 });
 
+/** For tests of a first visit, or of the history: they get a page of their own, as playwright.config.js says. */
+export const FRESH = { tag: '@fresh' };
+
 /** For tests of a complete cloud: a reader who asked for less motion gets it at once. */
 export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
 
@@ -64,12 +67,14 @@ export async function frames(page) {
  */
 export async function state(widget) {
   await frames(widget.page());
-  return widget.evaluate((element) => {
+  const said = await widget.evaluate((element) => {
     const { machine } = /** @type {BananaMachineElement} */ (element);
     const { config, shown, stats, table, contours } = machine;
     const end = [...contours.command.slice(-2)];
-    return { config, shown, stats, table, end, poses: [...machine.poses] };
+    // As it is, an array comes as bytes; spread here, number by number.
+    return { config, shown, stats, table, end, poses: machine.poses };
   });
+  return { ...said, poses: [...said.poses] };
 }
 
 /**

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
-import { freshModule, near } from './support.js';
+import { declaredOpening, freshModule, near } from './support.js';
 
 const CANONICAL = {
   model: 'velocity',
@@ -55,6 +55,7 @@ test('load takes bytes, a compiled module, or an address, and fails with a sente
 test('a machine opens in the state of the widget', async () => {
   const { BananaMachine } = await (await freshModule()).load();
   const opening = {
+    ...declaredOpening('banana-machine'),
     model: 'velocity',
     noise: 'normal',
     command: { v: 1, omega: 0.5, dt: 1 },
@@ -77,7 +78,7 @@ test('a machine opens in the state of the widget', async () => {
   ]);
 });
 
-test('the canonical example has the figures of the design', async () => {
+test('the canonical example has the figures that were computed by quadrature', async () => {
   const { BananaMachine } = await (await freshModule()).load();
   const machine = new BananaMachine(CANONICAL);
   const { linearized, exact } = machine.table;
@@ -178,6 +179,7 @@ test('each model keeps its own alphas', async () => {
   assert.equal(machine.config.isolate, null);
   machine.configure({ alphas: new Float64Array([1, 1, 1, 1]) });
   assert.deepEqual(machine.config.alphas, [1, 1, 1, 1]);
+  assert.deepEqual(machine.alphasOfModels, { velocity: [1, 2, 3, 4, 5, 6], odometry: [1, 1, 1, 1] });
 });
 
 test('what is handed out is a copy', async () => {

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { freshModule, near } from './support.js';
+import { declaredOpening, freshModule, near } from './support.js';
 
 /** @type {typeof import('../../www/core.js')} */
 const { load } = await freshModule();
@@ -74,9 +74,10 @@ function refused(machine, calls) {
   }
 }
 
-test('the opening state is the design’s', () => {
+test('it opens facing a doorway of the apartment', () => {
   const machine = new MapSqueeze();
   assert.deepEqual(machine.config, {
+    ...declaredOpening('map-squeeze'),
     start: DOORWAY,
     command: { v: 1, omega: 0, dt: 2 },
     alphas: [0.12, 0.12, 0.12, 0.12, 0.03, 0.03],
@@ -167,6 +168,27 @@ test('the number of parts is remembered under every sampler', () => {
   assert.ok(machine.stats.drawn >= 450);
   machine.configure({ sampler: 'whole-arc', steps: 3 });
   assert.deepEqual([machine.config.sampler, machine.config.steps], ['whole-arc', 3]);
+});
+
+test('one noise level stands for all noise parameters', () => {
+  const machine = new MapSqueeze({ samples: 50 });
+  assert.equal(machine.noise, 0.12);
+  machine.configure({ noise: 0.2 });
+  assert.equal(machine.noise, 0.2);
+  assert.deepEqual(machine.config.alphas, [...MapSqueeze.alphasOfNoise(0.2)]);
+  assert.ok(!('noise' in machine.config));
+  assert.deepEqual(picture(machine), picture(new MapSqueeze({ noise: 0.2, samples: 50 })));
+  machine.configure({ alphas: [0.2, 0.2, 0.2, 0.1, 0.05, 0.05] });
+  assert.equal(machine.noise, null);
+  const configure = (/** @type {any} */ settings) => () => machine.configure(settings);
+  refused(machine, [
+    ['noise is -1; allowed is a number from 0 to 1000000', configure({ noise: -1 })],
+    ['noise is NaN; allowed is a number from 0 to 1000000', configure({ noise: NaN })],
+    ['noise is null; allowed is a number', configure({ noise: null })],
+    ['noise is given beside alphas; allowed is one of the two', configure({ noise: 0.1, alphas: Array(6).fill(0.1) })],
+  ]);
+  machine.configure({ noise: undefined, seed: 8 });
+  assert.equal(machine.noise, null);
 });
 
 test('attempts are shown a few at a time, with the paths they took', () => {

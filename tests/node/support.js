@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { settings } from '../../www/settings.js';
 
 const CORE = new URL('../../dist/core.js', import.meta.url).href;
 let copies = 0;
@@ -11,6 +12,20 @@ let copies = 0;
 export function freshModule() {
   copies += 1;
   return import(`${CORE}?copy=${copies}`);
+}
+
+/**
+ * The settings that a widget opens with, as declared: a test says of which it knows better.
+ *
+ * @param {string} tag
+ */
+export function declaredOpening(tag) {
+  const all = settings[tag];
+  const opening = (/** @type {string} */ key) => all.find((setting) => setting.key === key)?.default;
+  const whole = all.filter((setting) => !setting.in && !setting.of);
+  return Object.fromEntries(
+    whole.map(({ key, fields }) => [key, fields ? Object.fromEntries(fields.map((field) => [field, opening(field)])) : opening(key)]),
+  );
 }
 
 /**

@@ -194,6 +194,34 @@ test('custom-elements.json says what the elements have', async () => {
   await page.close();
 });
 
+test('external.js loads a widget when its tag is met, with the words that the page gave it before', async () => {
+  const page = await browser.newPage();
+  /** @type {string[]} */
+  const requests = [];
+  page.on('request', (request) => requests.push(new URL(request.url()).pathname));
+  const module = `<script type="module">import { setMessages } from '${DIST}external.js';
+    setMessages('fr', { step: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
+  const body = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${module}<banana-machine></banana-machine><x-late></x-late>`;
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+  await page.goto(`${server.address}page.html`);
+  await page.locator('banana-machine canvas').first().waitFor();
+  const ofSqueeze = () => requests.filter((path) => path.includes('/map-squeeze-'));
+  assert.deepEqual(ofSqueeze(), []);
+  // An element that is defined later shows one inside of its own.
+  await page.evaluate(() => {
+    const Late = class extends HTMLElement {
+      connectedCallback() {
+        this.attachShadow({ mode: 'open' }).innerHTML = '<map-squeeze></map-squeeze>';
+      }
+    };
+    customElements.define('x-late', Late);
+  });
+  await page.locator('map-squeeze').scrollIntoViewIfNeeded();
+  await page.getByRole('region', { name: 'Le plan' }).getByRole('button', { name: 'Un pas' }).waitFor();
+  assert.equal(ofSqueeze().length, 1);
+  await page.close();
+});
+
 test('two copies of the bundle on a page get along', async () => {
   for (const [first, second] of [['motion-widgets.js', 'external.js'], ['external.js', 'motion-widgets.iife.js'], ['motion-widgets.js', 'motion-widgets.js?copy']]) {
     const { complaints } = await pageWith(script(first) + script(second));

@@ -1,63 +1,81 @@
 /**
- * Attributes and the properties of the same names: how a text becomes a value, and the other way round.
- *
- * @module
+ * Attributes and the properties of the same names: those that follow from a widget's declared settings,
+ * and how a text becomes a value and the other way round.
  */
 
+import { refusal, word } from './checks.js';
+import { THEMES } from './page/scheme.js';
+
 /**
+ * @import { Declaration } from '../settings.js'
+ *
  * @typedef {object} Kind
- * @property {(text: string) => unknown} read a text that means nothing is returned as it is, for whoever
+ * @property {(text: string) => unknown} parse a text that means nothing is returned as it is, for whoever
  *   knows what is allowed to refuse
- * @property {(value: any) => string | null} write null for no attribute
- */
-
-/**
- * A setting of the machine.
+ * @property {(value: any) => string | null} print null for no attribute
  *
- * @typedef {object} Setting
- * @property {Kind} kind
- * @property {string} [property] where it is not called as the attribute
- * @property {(config: any, motion: any) => unknown} get null for none
- * @property {(value: any, config: any, motion: any) => object} change the settings to make of it
- * @property {string[]} [covers] attributes that say the same and take over where this one says nothing
- */
-
-/**
- * Something of the element itself, which has a property of that name.
+ * @typedef {object} Present what a setting is read of, and changed from
+ * @property {Record<string, any>} config the machine's settings, with changes that wait for it
+ * @property {any} machine
  *
- * @typedef {object} Own
- * @property {Kind} kind
+ * @typedef {object} Setting of the machine
+ * @property {(present: Present) => unknown} get null for none
+ * @property {(value: any, present: Present) => Record<string, unknown>} change the settings to make of it
+ * @property {string} [path] what the core calls it, where that is not its own name
+ *
+ * @typedef {object} Own something of the element itself, which has a property of that name
  * @property {true} own
+ * @property {unknown} [opening] where it is no part of the state
+ *
+ * @typedef {object} Attribute
+ * @property {Kind} kind
  * @property {string[]} [covers] attributes that say the same and take over where this one says nothing
+ * @property {readonly string[]} [words] those that are allowed, where no declaration says it
+ *
+ * @typedef {Record<string, Attribute & (Setting | Own)>} Attributes by name; what others depend on comes first
+ *
+ * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} Table by name, with types in TypeScript
+ *
+ * @typedef {object} Documentation of what follows from no declaration
+ * @property {Record<string, string>} [attributes] sentences
+ * @property {Table} [properties] that have no attribute
+ * @property {Table} [state] what is otherwise in states
  */
-
-/** @typedef {Record<string, Setting | Own>} Attributes by name */
 
 /** @type {Kind} */
-export const NUMBER = {
-  read: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
-  write: (value) => (value === null ? null : String(value)),
+const NUMBER = {
+  parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
+  print: (value) => (value === null ? null : String(value)),
 };
 
 /** @type {Kind} */
-export const WORD = { read: (text) => text, write: (value) => value };
+export const WORD = { parse: (text) => text, print: (value) => value };
 
 /** Without a text it is true, as boolean attributes of HTML are; but "false" is false. @type {Kind} */
-export const TRUTH = {
-  read: (text) => ({ '': true, true: true, false: false })[text] ?? text,
-  write: String,
+const TRUTH = {
+  parse: (text) => ({ '': true, true: true, false: false })[text] ?? text,
+  print: String,
 };
 
 /** Words with spaces between them. @type {Kind} */
-export const WORDS = { read: (text) => text.split(/\s+/).filter(Boolean), write: (value) => value.join(' ') };
+export const WORDS = { parse: (text) => text.split(/\s+/).filter(Boolean), print: (value) => value.join(' ') };
 
-/**
- * @param {string} attribute
- * @param {Setting | Own} entry
- */
-export function propertyOf(attribute, entry) {
-  return 'property' in entry && entry.property ? entry.property : attribute;
-}
+/** Of the types that fit into an attribute. @type {Record<string, Kind>} */
+const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
+
+/** What every figure heeds besides. */
+export const COMMON = {
+  theme: { words: THEMES, opening: 'auto' },
+  share: {},
+};
+
+/** @type {Documentation} */
+export const documentation = {
+  attributes: {
+    theme: 'Colours for a light page or a dark one; auto is as the surroundings are.',
+    share: 'Keeps the state in the fragment of the page’s address, and opens in the state that it carries.',
+  },
+};
 
 /**
  * @param {Setting | Own} entry
@@ -67,57 +85,81 @@ export function isSetting(entry) {
   return !('own' in entry);
 }
 
+/** The attributes of a widget's settings. @param {Declaration[]} declared */
+export const attributesOf = (declared) => settingsIn(declared, ({ type }) => type in KINDS);
+
+/** The settings that are objects or arrays, and have a property alone. @param {Declaration[]} declared */
+export const groupsOf = (declared) => settingsIn(declared, ({ type }) => !(type in KINDS));
+
 /**
- * A setting that is a number or a word of the same name in the core's settings.
- *
- * @param {string} key
- * @param {Kind} kind
- * @returns {Setting}
+ * @param {Declaration[]} declared
+ * @param {(setting: Declaration) => boolean} are
+ * @returns {Record<string, Attribute & Setting>}
  */
-export function plain(key, kind) {
-  return { kind, get: (config) => config[key], change: (value) => ({ [key]: value }) };
+function settingsIn(declared, are) {
+  return Object.fromEntries(declared.filter(are).map((setting) => [setting.key, settingOf(setting)]));
 }
 
 /**
- * A setting that is a field of one of the core's settings.
- *
- * @param {string} group
- * @param {string} key
- * @returns {Setting}
+ * @param {Declaration} setting
+ * @returns {Attribute & Setting}
  */
-export function field(group, key) {
+function settingOf({ key, in: group, index, of, type }) {
+  const kind = KINDS[type];
+  // One of several that stand for a setting of another form, which the machine makes of it.
+  if (of) return { kind, get: ({ machine }) => machine[key], change: (value) => ({ [key]: value }) };
+  if (!group) return { kind, get: ({ config }) => config[key], change: (value) => ({ [key]: value }) };
+  if (index === undefined) {
+    return {
+      kind,
+      get: ({ config }) => config[group][key],
+      change: (value, { config }) => ({ [group]: { ...config[group], [key]: value } }),
+    };
+  }
   return {
-    kind: NUMBER,
-    get: (config) => config[group][key],
-    change: (value, config) => ({ [group]: { ...config[group], [key]: value } }),
+    kind,
+    path: `${group}[${index}]`,
+    get: ({ config }) => config[group][index] ?? null,
+    change: (value, { config }) => {
+      const { length } = config[group];
+      if (index < length) return { [group]: config[group].with(index, value) };
+      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d+$/, '')}${length}`);
+    },
   };
 }
 
 /**
  * A preset's name for a group of settings; none where it is no preset's.
  *
- * @template {{ name: string }} Preset
- * @param {(motion: import('../types.d.ts').Motion) => Preset[]} presets
- * @param {(preset: Preset) => Record<string, Record<string, number>>} settings that it stands for
- * @param {string[]} covers
- * @returns {Setting}
+ * @param {string} group
+ * @param {(Record<string, unknown> & { name: string })[]} presets each with the settings of that group
+ * @returns {Attribute & Setting}
  */
-export function preset(presets, settings, covers) {
-  const holds = (/** @type {Preset} */ one, /** @type {any} */ config) =>
-    Object.entries(settings(one)).every(([group, fields]) =>
-      Object.entries(fields).every(([key, value]) => config[group][key] === value),
-    );
+export function presetOf(group, presets) {
+  const covers = Object.keys(presets[0]).filter((key) => key !== 'name');
+  const names = presets.map(({ name }) => name);
   return {
     kind: WORD,
     covers,
-    get: (config, motion) => presets(motion).find((one) => holds(one, config))?.name ?? null,
-    change: (name, config, motion) => {
-      const all = presets(motion);
-      const found = all.find((one) => one.name === name);
-      if (found) return settings(found);
-      const allowed = all.map((one) => JSON.stringify(one.name)).join(' or ');
-      const Kind = typeof name === 'string' ? RangeError : TypeError;
-      throw new Kind(`preset is ${JSON.stringify(name) ?? String(name)}; allowed is ${allowed}`);
+    words: names,
+    get: ({ config }) => presets.find((preset) => covers.every((key) => config[group][key] === preset[key]))?.name ?? null,
+    change: (name) => {
+      const preset = presets[names.indexOf(word('preset', name, names))];
+      return { [group]: Object.fromEntries(covers.map((key) => [key, preset[key]])) };
     },
   };
+}
+
+/**
+ * The error of a refused change, in the name by which it was asked for.
+ *
+ * @param {unknown} error
+ * @param {string} name
+ * @param {Setting} setting
+ */
+export function renamed(error, name, { path }) {
+  if (path && error instanceof Error && error.message.startsWith(path)) {
+    error.message = name + error.message.slice(path.length);
+  }
+  return error;
 }

@@ -1,223 +1,160 @@
-/**
- * What a widget with a cloud of samples needs: a cloud that grows in batches, and words once a change has come to rest.
- *
- * @module
- */
+/** A cloud of samples that grows before the reader's eyes: for figures that have one. */
 
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
-import { button, sliderRow } from '../ui/controls.js';
-import { whole } from '../ui/format.js';
-import { CopyMenu } from './takeaway/copy.js';
-import { csvOf, exportMenu, pngOf, svgOf } from './takeaway/export.js';
-import { onPrint } from './page/print.js';
-import { truth, whole as wholeNumber } from './checks.js';
-import { StatefulElement } from './state.js';
+import { button } from '../ui/controls.js';
+import { counted } from '../ui/format.js';
+import { truth, wholeNumber } from './checks.js';
+import { LONGEST_WORK } from './settings.js';
+import { isCalm } from './stage.js';
 
 /**
- * @typedef {object} Cloud
- * @property {() => void} free
+ * @import { Values } from './state.js'
+ *
+ * @typedef {object} Growing a machine with a cloud
  * @property {{ samples: number, seed: number }} config
- * @property {object} stats
  * @property {number} shown
- * @property {Float64Array} poses
  * @property {(count: number) => number} grow
  * @property {(count: number) => void} [beginToGrow] as grow, where it may take longer than a frame
  * @property {() => void} restart
- * @property {(settings: any) => void} configure
+ *
+ * @typedef {{ play: string, step: (batch: string) => string, reset: string, reseed: string }} CloudWords
+ *
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
 /** Steps that a cloud grows in. */
 const BATCHES = 150;
 
-/**
- * @template {Cloud} Machine
- * @template {object} Settings
- * @extends {StatefulElement<Machine, Settings>}
- */
-export class CloudElement extends StatefulElement {
+export class Cloud {
   playing = false;
-  announcement = '';
-  /** The sample that is marked; −1 for none. */
-  markedIndex = -1;
-  #toAnnounce = false;
-  #copies = new CopyMenu(this, () => this.requestUpdate());
-
-  /** Ends listening for the printer. @type {(() => void) | undefined} */
-  #unprint;
-
-  connectedCallback() {
-    super.connectedCallback();
-    this.#unprint = onPrint((printing) => this.#print(printing));
-  }
-
-  disconnectedCallback() {
-    super.disconnectedCallback();
-    this.#unprint?.();
-  }
+  #host;
+  #gaveUp;
 
   /**
-   * Paper is light, whatever the screen is.
-   *
-   * @param {boolean} printing
+   * @param {Figure} host
+   * @param {(machine: any) => boolean} [gaveUp] whether the machine has stopped short of its samples for good
    */
-  #print(printing) {
-    const surface = /** @type {HTMLElement | null} */ (this.renderRoot.querySelector('.surface'));
-    if (!surface) return;
-    surface.style.colorScheme = printing ? 'light' : '';
-    this.palette = undefined;
-    // At once: the printer waits for no frame.
-    this.frame(0);
+  constructor(host, gaveUp = () => false) {
+    this.#host = host;
+    this.#gaveUp = gaveUp;
   }
 
-  /** What there is to take along, with every change so far in effect. @returns {import('./takeaway/export.js').Figure} */
-  figure() {
-    throw new Error('There is no figure yet: it is there from the load event on.');
+  /** @returns {Growing} */
+  get #machine() {
+    return /** @type {Growing} */ (this.#host.machine);
   }
 
-  /** The picture with twice the pixels of the screen. @returns {Promise<Blob>} image/png */
-  async toPNG() {
-    return pngOf(this.figure());
-  }
-
-  /** The picture as vector graphics, with a title and a description. @returns {string} */
-  toSVG() {
-    return svgOf(this.figure());
-  }
-
-  /** Every sample shown, after a line with the settings and the seed. @returns {string} */
-  toCSV() {
-    return csvOf(this.figure());
-  }
-
-  relabel() {
-    this.stale = true;
-    super.relabel();
-  }
-
-  /** Whether the cloud will not grow any more. */
+  /** Whether it will not grow any more. */
   get complete() {
-    return this.machine !== undefined && this.machine.shown === this.machine.config.samples;
+    const { shown, config } = this.#machine;
+    return shown === config.samples || this.#gaveUp(this.#machine);
   }
 
   /** How many samples a step adds. */
-  get batch() {
-    return Math.ceil((this.machine?.config.samples ?? 0) / BATCHES);
-  }
-
-  /**
-   * Starts a machine's show: it grows before the reader's eyes, or stands there for one who wants less motion.
-   *
-   * @param {import('./state.js').State} [state] that it is in, if it is not the opening
-   */
-  begin(state) {
-    if (!state && !this.calm) this.machine?.restart();
-    this.playing = state ? state.playing : true;
-    if (this.calm && this.playing) {
-      this.playing = false;
-      this.machine?.grow(this.machine.config.samples);
-    }
-    this.read();
+  get #batch() {
+    return Math.ceil(this.#machine.config.samples / BATCHES);
   }
 
   /** How many samples have been asked for so far: all of them where the machine has given up before. */
   get asked() {
-    return this.complete ? (this.machine?.config.samples ?? 0) : (this.machine?.shown ?? 0);
-  }
-
-  snapshot() {
-    const { samples, seed } = /** @type {Machine} */ (this.machine).config;
-    return { ...super.snapshot(), samples, seed, shown: this.asked, playing: this.playing, marked: this.marked };
+    return this.complete ? this.#machine.config.samples : this.#machine.shown;
   }
 
   /**
-   * @param {import('./state.js').State} present
-   * @param {import('./state.js').State} given
+   * Starts the show: the cloud grows, or stands there for one who wants less motion.
+   *
+   * @param {Values} [state] that the machine is in, if it is not the opening
+   */
+  introduce(state) {
+    if (!state && !isCalm()) this.#machine.restart();
+    this.playing = state ? state.playing : true;
+    if (isCalm() && this.playing) {
+      this.playing = false;
+      this.#machine.grow(this.#machine.config.samples);
+    }
+  }
+
+  /** @returns {Values} its part of the state */
+  snapshot() {
+    return { shown: this.asked, playing: this.playing, marked: this.isMarked ? this.index : null };
+  }
+
+  /**
+   * @param {Values} present
+   * @param {Values} given
+   * @returns {Values} what follows for fields that are left out
    */
   completed(present, given) {
     const { samples = present.samples } = given;
     const shown = present.shown === present.samples ? samples : Math.min(present.shown, samples);
     const marked = present.marked !== null && present.marked < shown ? present.marked : null;
-    return { shown, marked, ...given };
+    return { shown, marked };
   }
 
   /**
-   * @param {import('./state.js').State} state
-   * @param {Machine} machine
+   * @param {Values} state
+   * @param {Growing} machine in that state
    */
-  checked(state, machine) {
-    const { shown, playing, marked } = super.checked(state, machine);
+  check({ shown, playing }, machine) {
     wholeNumber('state.shown', shown, 0, machine.config.samples);
     truth('state.playing', playing);
-    if (marked !== null) wholeNumber('state.marked', marked, 0, machine.shown - 1);
-    return state;
   }
 
-  /** @param {import('./state.js').State} state */
-  adopt(state) {
-    super.adopt(state);
-    this.markedIndex = state.marked ?? -1;
+  /** The sample that is marked; −1 for none. @returns {number} */
+  get index() {
+    return this.#host.state.own.marked ?? -1;
   }
 
   /** @param {number} index −1 for none */
   mark(index) {
-    if (index === this.markedIndex) return;
-    this.markedIndex = index;
-    this.wake();
+    if (index === this.index) return;
+    this.#host.state.own.marked = index < 0 ? null : index;
+    this.#host.stage.wake();
   }
 
-  /** The sample that is marked, counted from 0; null for none. @returns {number | null} */
-  get marked() {
-    return this.markedIndex < 0 ? null : this.markedIndex;
-  }
-
-  set marked(marked) {
-    this.whenReady('marked', marked, () => {
-      this.mark(marked === null ? -1 : wholeNumber('marked', marked, 0, (this.machine?.shown ?? 0) - 1));
+  /**
+   * The pointer is over a picture, or was pressed there: marks the nearest sample.
+   *
+   * @param {import('../scene/picture.js').Picture<any>} picture
+   * @param {PointerEvent} event
+   */
+  point(picture, event) {
+    this.#host.runtime.attempt(() => {
+      const { machine, held } = this.#host;
+      // A finger that moves scrolls the page; one that taps comes as a click.
+      if (!machine || held || (event.pointerType === 'touch' && event.type !== 'click')) return;
+      const index = picture.nearest(machine, event.offsetX, event.offsetY);
+      if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }
 
-  /** x, y (m), θ (rad) of each sample shown; a copy. */
-  get poses() {
-    return this.ask((machine) => machine.poses);
+  /** Whether the marked sample is among those shown. */
+  get isMarked() {
+    return this.index >= 0 && this.index < this.#machine.shown;
   }
 
-  /** What was changed has come to rest: put it into effect and say what it led to. */
-  commit() {
-    this.attempt(() => this.configure());
-    this.#toAnnounce = true;
-    this.stale = true;
-    this.rest();
-  }
-
-  /** @param {() => string} say what is said if something has come to rest since they were last asked for */
-  announce(say) {
-    if (!this.#toAnnounce) return;
-    this.#toAnnounce = false;
-    this.announcement = say();
-  }
-
-  /** @returns {boolean} whether there is a larger cloud now: of a large one it may take more than a frame */
-  growOn() {
-    const { machine } = this;
-    if (!machine) return true;
+  /** @returns {boolean} whether there is nothing left to do in this frame: a large cloud may take more than one */
+  grow() {
+    if (!this.playing) return true;
     if (!this.complete) {
-      if (machine.beginToGrow) machine.beginToGrow(this.batch);
-      else machine.grow(this.batch);
-      this.work();
-      if (!this.settle()) return false;
+      const machine = this.#machine;
+      if (machine.beginToGrow) machine.beginToGrow(this.#batch);
+      else machine.grow(this.#batch);
+      this.#host.settings.work();
+      if (!this.#host.settings.settle(LONGEST_WORK)) return false;
     }
-    this.stale = true;
+    this.#host.settings.stale = true;
     if (this.complete) {
       this.playing = false;
-      this.#toAnnounce = true;
+      this.#host.announcer.expect();
     }
     return true;
   }
 
   play() {
     this.#turn(() => {
-      if (!this.playing && this.complete) this.machine?.restart();
+      if (!this.playing && this.complete) this.#machine.restart();
       this.playing = !this.playing;
     });
   }
@@ -225,80 +162,48 @@ export class CloudElement extends StatefulElement {
   step() {
     this.#turn(() => {
       this.playing = false;
-      this.machine?.grow(this.batch);
+      this.#machine.grow(this.#batch);
     });
   }
 
   reset() {
     this.#turn(() => {
       this.playing = false;
-      this.machine?.restart();
+      this.#machine.restart();
     });
   }
 
   reseed() {
-    this.attempt(() => {
-      if (!this.motion) return;
-      const seed = /** @type {unknown} */ ({ seed: this.motion.randomSeed() });
-      this.change(/** @type {Partial<Settings>} */ (seed));
-      this.commit();
-    });
+    this.#host.settings.want(() => ({ seed: this.#host.motion.randomSeed() }));
+    this.#host.commit();
   }
 
   /** @param {() => void} act the reader's, on the growth of the cloud */
   #turn(act) {
-    this.attempt(() => {
+    this.#host.runtime.attempt(() => {
+      if (!this.#host.machine) return;
       act();
-      this.touch();
-      this.commit();
+      this.#host.gesture.step();
+      this.#host.commit();
     });
   }
 
-  /**
-   * Growth, seed and size of the cloud.
-   *
-   * @param {import('../messages/registry.js').Messages['banana']['cloud']} say
-   * @param {readonly number[]} counts the sizes that the slider offers
-   */
-  cloudControls(say, counts) {
-    const { samples, seed } = /** @type {Machine} */ (this.machine).config;
-    const above = counts.findIndex((count) => count >= samples);
-    const nearest = above < 0 ? counts.length - 1 : above;
-    return html`<fieldset class="cloud">
-      <legend class="visually-hidden">${say.legend}</legend>
-      <div class="buttons">
-        ${button(this.playing ? words.pause : words.play, () => this.play(), { title: say.play })}
-        ${button(words.step, () => this.step(), { title: say.step(whole(this.batch)), disabled: this.complete })}
-        ${button(words.reset, () => this.reset(), { title: say.reset })}
-        ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
-        <span class="seed">${words.seed(seed)}</span>
-      </div>
-      ${sliderRow({
-        id: 'samples',
-        symbol: html`<i>N</i>`,
-        name: say.count,
-        value: nearest,
-        min: 0,
-        max: counts.length - 1,
-        step: 1,
-        show: (index) => whole(index === nearest ? samples : counts[index]),
-        effect: say.effect,
-        role: 'truth',
-        input: (value) => {
-          const size = /** @type {unknown} */ ({ samples: counts[value] });
-          this.change(/** @type {Partial<Settings>} */ (size));
-        },
-        commit: () => this.commit(),
-      })}
-      ${exportMenu(this, seed)} ${this.#copies.render()}
-    </fieldset>`;
+  /** @param {CloudWords} say */
+  buttons(say) {
+    return html`<div class="buttons">
+      ${button(this.playing ? words.pause : words.play, () => this.play(), { title: say.play })}
+      ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
+      ${button(words.reset, () => this.reset(), { title: say.reset })}
+      ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
+      <span class="seed">${words.seed(this.#machine.config.seed)}</span>
+    </div>`;
   }
 }
 
 /**
  * Leaves of a machine's cloud the first samples only.
  *
- * @param {Cloud} machine
+ * @param {Growing} machine
  * @param {number} shown
  */
 export function showOnly(machine, shown) {
@@ -306,3 +211,48 @@ export function showOnly(machine, shown) {
   machine.restart();
   machine.grow(shown);
 }
+
+/** What of the state of an element with a cloud is its own. @type {Record<string, import('./state.js').Owned>} */
+export const cloudState = {
+  marked: {
+    opening: null,
+    check: (field, marked, machine) => (marked === null ? null : wholeNumber(field, marked, 0, machine.shown - 1)),
+  },
+};
+
+/** The properties of an element with a cloud. @type {PropertyDescriptorMap & ThisType<Figure>} */
+export const cloudProperties = {
+  playing: {
+    get() {
+      return this.cloud?.playing;
+    },
+  },
+  marked: {
+    get() {
+      return this.state.own.marked;
+    },
+    set(marked) {
+      this.reflection.whenReady('marked', marked, () => {
+        this.state.assign('marked', marked);
+        this.stage.wake();
+      });
+    },
+  },
+  poses: {
+    get() {
+      return this.ask((machine) => machine.poses);
+    },
+  },
+};
+
+/** What every element with a cloud has besides. @type {import('./attributes.js').Documentation} */
+export const documentation = {
+  properties: {
+    marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
+    poses: { type: 'Float64Array | null', readonly: true, sentence: 'x, y (m), θ (rad) of each sample shown; a copy.' },
+  },
+  state: {
+    shown: { type: 'number', sentence: 'Samples asked for so far, 0 to all of them.' },
+    playing: { type: 'boolean', sentence: 'Whether the cloud is growing.' },
+  },
+};

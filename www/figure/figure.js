@@ -1,381 +1,444 @@
 /**
- * What every widget needs: a core of its own once it comes near, frames while it is in sight, canvases
- * that match the screen's pixels, a palette that follows the page, another core when one traps, an end
- * to the simulation when the element goes, and a sentence instead of a blank when something fails.
- *
- * @module
+ * What every figure is: one simulation of a core of its own, pictures of it on canvases, and a state that
+ * a page can read and set. Each of the parts that a figure is composed of has a file of its own.
  */
 
 import { LitElement, html, noChange, nothing } from 'lit';
-import { abandon, instantiate } from '../core.js';
 import { en } from '../messages/en.js';
-import { onLanguage, setMessages, speak, words } from '../messages/registry.js';
-import { resolvePalette } from '../ui/theme.js';
-import { sleep, wake } from './page/frames.js';
-import { surroundings } from './page/scheme.js';
-import { unwatch, watch } from './page/sight.js';
+import { addEnglish, speak, words } from '../messages/registry.js';
+import { theme } from '../ui/theme.js';
+import { Announcer } from './announcer.js';
+import { word } from './checks.js';
+import { Gesture } from './gesture.js';
+import { Link } from './link.js';
+import { THEMES, schemeStyles } from './page/scheme.js';
+import { Reflection } from './reflection.js';
+import { Runtime } from './runtime.js';
+import { Settings } from './settings.js';
+import { Stage } from './stage.js';
+import { State } from './state.js';
+import { CopyMenu, embedding } from './takeaway/copy.js';
+import { csvOf, pngOf, svgOf } from './takeaway/export.js';
 
 /**
- * @typedef {import('../types.d.ts').Motion} Motion
- * @typedef {import('../types.d.ts').Palette} Palette
+ * @import { Motion } from '../types.d.ts'
+ * @import { Values } from './state.js'
  */
 
-setMessages('en', en);
-
-/** Cores that may trap one after the other, without a picture between, until the widget gives up. */
-const MOST_CRASHES = 3;
+addEnglish(en);
 
 /**
- * A widget over one simulation object of a core.
+ * A figure over one simulation object of a core. A widget says how its machine is made, what is asked of
+ * it, what pictures and HTML show that, and what a reader may take along.
  *
- * @template {{ free(): void }} Machine
+ * Attributes and properties say what the figure shows, whoever has changed it. What is out of range is
+ * refused with a TypeError or RangeError that names the field, the value and what is allowed: a property
+ * throws it, an attribute reports it by `error`, and the last good value stays.
+ *
+ * @fires load - The figure is ready.
+ * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run;
+ *   `message` says why.
+ * @fires input - The reader has changed something, and may go on.
+ * @fires change - What the reader changed has come to rest.
+ * @fires {CustomEvent} stats - There are fresh statistics; `detail` has them.
+ *
+ * @csspart picture - A canvas with its handles.
+ * @csspart caption - The sentences below a picture.
+ * @csspart legend - What the lines and dots are, and which are shown.
+ * @csspart controls - All controls.
+ * @csspart slider - A slider with its name, value and effect.
+ * @csspart button - A button.
+ * @csspart readouts - The figures about the cloud.
+ * @csspart table - A table of figures.
+ * @csspart exports - Pictures and data to take along.
+ * @csspart copies - The page's address and HTML to copy.
+ *
+ * @cssprop --motion-paper - The ground of everything.
+ * @cssprop --motion-ink - Text, and curves of charts.
+ * @cssprop --motion-muted - What explains: captions, axes, tracks.
+ * @cssprop --motion-rule - Hairlines and grids.
+ * @cssprop --motion-prior - What was commanded.
+ * @cssprop --motion-prediction - What the model predicts: lines and text.
+ * @cssprop --motion-cloud - The samples.
+ * @cssprop --motion-truth - What is so, apart from any model: walls, the robot at its start.
+ * @cssprop --motion-posterior - What exponential coordinates, or the map, make of it.
+ * @cssprop --motion-accent - What is marked or noted, and the focus.
+ * @cssprop --motion-font - The family of all text.
+ *
+ * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void }} Machine
+ * @template {{ config: Values }} Reading
  */
-export class WidgetElement extends LitElement {
-  /** The core, once it runs: an instance of its own. @type {Motion | undefined} */
-  motion;
-  /** @type {Machine | undefined} the simulation, which owns all of its state */
-  machine;
-  /** @type {Palette | undefined} */
-  palette;
-  /** @type {string | undefined} the reason why it cannot run */
-  #failure;
-  /** @type {ResizeObserver | undefined} */
-  #sizes;
-  #drawable = false;
-  #near = false;
-  #inSight = false;
-  /** Whether there is something to draw when it comes into sight. */
-  #due = false;
-  #starting = false;
-  /** Whether what is shown is that of a machine which is being made again. */
-  #mending = false;
-  #crashes = 0;
-  /** @type {'light' | 'dark' | ''} */
-  #surroundings = '';
-  /** Ends listening for other words. @type {(() => void) | undefined} */
-  #silence;
+export class FigureElement extends LitElement {
+  static styles = [theme, schemeStyles];
 
-  /** What has to be there before the machine is made, besides the core. */
-  async prepare() {}
+  /** The widget's settings, as declared. @type {import('../settings.js').Declaration[]} */
+  static declared = [];
+  /** How those look that have a slider. @type {Record<string, import('./controls.js').Look>} */
+  static looks = {};
+  /** The key of its words in the catalogues. */
+  static vocabulary = '';
+  /** Its attributes. @type {import('./attributes.js').Attributes} */
+  static attributes = {};
+  /** What of its state is the element's and not the machine's. @type {Record<string, import('./state.js').Owned>} */
+  static own = {};
+  /** The settings whose values decide what others open with. @type {string[]} */
+  static basis = [];
+
+  runtime = new Runtime(this);
+  stage = new Stage(this);
+  gesture = new Gesture((name) => this.#done(name));
+  settings = new Settings(this);
+  state = new State(this, this.#class.own);
+  reflection = new Reflection(this, this.#class.attributes, this.#class.basis);
+  link = new Link(this);
+  announcer = new Announcer();
+  copies = new CopyMenu(this, () => this.requestUpdate());
+  /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
+  cloud;
+  /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */
+  pictures = [];
+  /** What the machine said when it was last asked; undefined before that. @type {Reading} */
+  reading = /** @type {any} */ (undefined);
+
+  get #class() {
+    return /** @type {typeof FigureElement} */ (this.constructor);
+  }
+
+  // What a widget says of itself; the first five, every widget does.
 
   /**
-   * Makes the simulation object, of the last good state if there was one before.
+   * Makes a machine.
    *
    * @param {Motion} _motion
+   * @param {Values} [_state] that it is in; that of the opening where there is none
    * @returns {Machine}
+   * @throws {TypeError | RangeError} and there is none then
    */
-  createMachine(_motion) {
+  createMachine(_motion, _state) {
     throw new Error('A widget makes its own machine.');
   }
 
-  /** Called when the simulation is there, before anything of it is shown. */
-  machineReady() {}
+  /**
+   * Everything that pictures and HTML need of the machine, asked once a change.
+   *
+   * @param {Machine} _machine
+   * @returns {Reading}
+   */
+  read(_machine) {
+    throw new Error('A widget reads its own machine.');
+  }
 
-  /** Called before the simulation is freed. */
-  parting() {}
+  /** What the pictures are of, with every change so far in effect. @returns {any} */
+  get scene() {
+    return this.fresh;
+  }
 
   /**
-   * Brings the picture up to date. Called once in an animation frame after `wake`.
+   * The figure in HTML.
    *
-   * @param {number} _elapsed milliseconds since the frame before
+   * @param {Reading} _reading
+   * @returns {unknown}
    */
-  draw(_elapsed) {}
-
-  /** The widget, when the simulation runs. @returns {unknown} */
-  renderWidget() {
+  content(_reading) {
     return nothing;
   }
 
-  /** Light, dark, or as the surroundings are. @returns {import('./page/scheme.js').Theme} */
-  get theme() {
-    return 'auto';
+  /** What there is to take along, with every change so far in effect. @returns {import('./takeaway/export.js').Takeaway} */
+  get takeaway() {
+    throw new Error('A widget says what is taken along.');
   }
 
-  connectedCallback() {
-    super.connectedCallback();
-    this.#silence = onLanguage(this, () => this.relabel());
-    watch(this);
+  /** What is announced after a change has come to rest. @param {Reading} _reading */
+  announcement(_reading) {
+    return '';
   }
 
-  disconnectedCallback() {
-    super.disconnectedCallback();
-    this.#silence?.();
-    // An element that is being moved is back in the document by the time the microtasks run.
-    queueMicrotask(() => {
-      if (this.isConnected) return;
-      unwatch(this);
-      this.#near = this.#inSight = false;
-      this.#stop();
+  /** Another machine has taken its place, and nothing of it is shown yet. */
+  machineChanged() {}
+
+  /** Whether a handle is held: the views keep still under it. */
+  get held() {
+    return false;
+  }
+
+  /** Puts the handles where the pictures have them now. @param {any} _scene */
+  placeHandles(_scene) {}
+
+  /** Everything that a reader can change, as the machine and the element have it. @returns {Values} */
+  snapshot() {
+    const { config } = /** @type {Machine} */ (this.machine);
+    return { ...this.state.common, ...this.settingsOf(config), ...this.cloud?.snapshot() };
+  }
+
+  /** Those of some values that are declared settings of the machine. @param {Values} values */
+  settingsOf(values) {
+    const keys = this.#class.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
+    return Object.fromEntries(keys.map((key) => [key, values[key]]));
+  }
+
+  /**
+   * A state that is given in part, with what follows of it for fields that are left out.
+   *
+   * @param {Values} present
+   * @param {Values} given
+   * @returns {Values}
+   */
+  completed(present, given) {
+    return { ...this.cloud?.completed(present, given), ...given };
+  }
+
+  // A machine comes and goes.
+
+  get machine() {
+    return /** @type {Machine | undefined} */ (this.runtime.machine);
+  }
+
+  get motion() {
+    return /** @type {Motion} */ (this.runtime.motion);
+  }
+
+  machineMade() {
+    this.machineChanged();
+    this.settings.reset();
+    this.state.restore();
+    this.reflection.catchUp();
+    this.link.catchUp();
+    if (this.machine) this.state.introduceOnce();
+  }
+
+  /** @param {Values} [state] that the machine is in, if it is not the opening */
+  introduce(state) {
+    this.cloud?.introduce(state);
+    this.refresh();
+    this.reflection.tell();
+    this.settings.show();
+  }
+
+  // What is wanted, and what is shown.
+
+  refresh() {
+    const { machine } = this;
+    if (!machine) return;
+    speak(this);
+    this.reading = this.read(machine);
+    this.settings.stale = false;
+    this.announcer.say(() => this.announcement(this.reading));
+    this.state.keep();
+    this.dispatchEvent(new CustomEvent('stats', { detail: machine.stats, bubbles: true, composed: true }));
+  }
+
+  /** What the machine says, with every change so far in effect. @returns {Reading} */
+  get fresh() {
+    if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
+    speak(this);
+    this.settings.settle();
+    if (this.settings.stale) this.refresh();
+    return this.reading;
+  }
+
+  /**
+   * Asks the machine, with every change so far in effect.
+   *
+   * @template Answer
+   * @param {(machine: Machine) => Answer} question
+   * @returns {Answer | null} null where there is no machine
+   */
+  ask(question) {
+    const answer = this.runtime.attempt(() => {
+      this.settings.settle();
+      return this.machine && question(this.machine);
     });
+    return answer ?? null;
   }
 
-  /** It is near enough to be made ready. */
-  approach() {
-    this.#near = true;
-    this.#start();
+  /** What the reader changed has come to rest: put it into effect and say what it led to. */
+  commit() {
+    this.runtime.attempt(() => this.settings.settle());
+    this.announcer.expect();
+    this.settings.stale = true;
+    this.gesture.end();
+    this.stage.wake();
   }
 
-  /** @param {boolean} inSight */
-  sight(inSight) {
-    this.#inSight = inSight;
-    if (inSight && this.#due) this.wake();
-    if (!inSight) sleep(this);
+  /** The reader has decided on other settings. @param {Values | ((wanted: Values) => Values)} change */
+  decide(change) {
+    this.settings.want(change);
+    this.commit();
   }
 
-  get inSight() {
-    return this.#inSight;
+  /**
+   * The reader chooses something of the element's own.
+   *
+   * @param {string} name
+   * @param {unknown} value
+   */
+  choose(name, value) {
+    this.state.own[name] = value;
+    this.gesture.step();
+    this.gesture.end();
+    this.stage.wake();
   }
 
-  /** Says everything again: the words or the language may be others. */
-  relabel() {
-    this.requestUpdate();
-    this.wake();
+  /** @param {'input' | 'change'} name of what the reader has done */
+  #done(name) {
+    if (name === 'change') this.reflection.tell();
+    this.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
+    if (name === 'change' && this.share) this.link.write();
   }
 
-  /** Asks for one call of `draw`, when there is somebody to see it. */
-  wake() {
-    this.#due = true;
-    if (this.machine && this.#inSight) wake(this);
+  // What a page has of every figure.
+
+  /**
+   * The statistics as they are; null before there are any.
+   *
+   * @public
+   * @returns {Machine['stats'] | null}
+   */
+  get stats() {
+    return this.ask((machine) => machine.stats);
   }
 
-  /** @param {number} elapsed milliseconds */
-  frame(elapsed) {
-    if (!this.machine || !this.#drawable || !this.#hasSize) return;
-    this.#due = false;
-    try {
-      speak(this);
-      this.palette ??= this.look();
-      this.draw(elapsed);
-      this.#crashes = 0;
-    } catch (error) {
-      if (!this.mend(error)) this.fail(error);
+  /** Light, dark, or as the surroundings are. */
+  get theme() {
+    return THEMES.find((theme) => theme === this.getAttribute('theme')) ?? 'auto';
+  }
+
+  set theme(theme) {
+    this.setAttribute('theme', word('theme', theme, THEMES));
+  }
+
+  /** Whether the page's address carries the state. */
+  get share() {
+    return this.hasAttribute('share');
+  }
+
+  set share(share) {
+    this.toggleAttribute('share', Boolean(share));
+  }
+
+  /**
+   * Everything that a reader can change, as plain data for `setState` and JSON. Of an element that is not
+   * on the page, as it was when it left; null before it has come near the reader for the first time.
+   *
+   * @public
+   * @returns {Values | null}
+   */
+  getState() {
+    return this.ask(() => this.snapshot()) ?? this.state.kept ?? null;
+  }
+
+  /**
+   * Puts the element into a state. What is left out stays as it is.
+   *
+   * @public
+   * @param {unknown} state
+   * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then
+   */
+  setState(state) {
+    this.reflection.whenReady('state', state, () => this.state.enter(state));
+  }
+
+  /**
+   * The picture with twice the pixels of the screen.
+   *
+   * @public
+   * @returns {Promise<Blob>} image/png
+   */
+  async toPNG() {
+    return pngOf(this);
+  }
+
+  /**
+   * The picture as vector graphics, with a title and a description.
+   *
+   * @public
+   * @returns {string}
+   */
+  toSVG() {
+    return svgOf(this);
+  }
+
+  /**
+   * Every sample shown, after a line with the settings and the seed.
+   *
+   * @public
+   * @returns {string}
+   */
+  toCSV() {
+    return csvOf(this);
+  }
+
+  /**
+   * The address of this page with the present state.
+   *
+   * @public
+   * @returns {Promise<string>}
+   * @throws {Error} if the element does not heed the address
+   */
+  async shareLink() {
+    if (!this.share) throw new Error('shareLink: the element lacks the attribute share, and would not heed the link.');
+    return this.link.address();
+  }
+
+  /**
+   * HTML that shows the figure as it is now, on another page. What no attribute says, a map of one's own among it, is
+   * not in it.
+   *
+   * @public
+   * @returns {string}
+   */
+  embedCode() {
+    return embedding(this);
+  }
+
+  // The element's life.
+
+  static get observedAttributes() {
+    return [...super.observedAttributes, ...Object.keys(this.attributes), 'theme', 'share'];
+  }
+
+  /**
+   * @param {string} name
+   * @param {string | null} old
+   * @param {string | null} text
+   */
+  attributeChangedCallback(name, old, text) {
+    super.attributeChangedCallback(name, old, text);
+    if (old === text) return;
+    this.reflection.hear(name, text);
+    if (name === 'theme') {
+      if (text !== null) this.runtime.tolerate(() => word('theme', text, THEMES));
+      this.requestUpdate();
+      this.stage.repaint();
+    } else if (name === 'share') {
+      this.requestUpdate();
+      if (old === null) this.link.follow();
     }
   }
 
-  /** Whether there is something to draw on: not inside a closed tab, where everything has size 0. */
-  get #hasSize() {
-    return [...this.renderRoot.querySelectorAll('canvas')].every(
-      ({ width, height, clientWidth, clientHeight }) => Math.min(width, height, clientWidth, clientHeight) > 0,
-    );
-  }
-
-  /** Whether the reader has asked for less motion. */
-  get calm() {
-    return matchMedia('(prefers-reduced-motion: reduce)').matches;
-  }
-
-  /**
-   * Does what may trap, from outside of a frame.
-   *
-   * @template Result
-   * @param {() => Result} work
-   * @returns {Result | undefined} undefined where it trapped
-   */
-  attempt(work) {
-    try {
-      return work();
-    } catch (error) {
-      if (!this.mend(error)) throw error;
-    }
-  }
-
-  /**
-   * After a trap, takes a new core and the last good state: the old core's memory may be damaged, and
-   * nothing of it is used again. What is shown stays until then.
-   *
-   * @param {unknown} error
-   * @returns {boolean} whether it was one that this mends
-   */
-  mend(error) {
-    if (!isTrap(error) || ++this.#crashes > MOST_CRASHES) return false;
-    if (this.machine) abandon(this.machine);
-    this.machine = this.motion = undefined;
-    this.#mending = true;
-    this.report(error);
-    sleep(this);
-    this.#start();
-    return true;
-  }
-
-  /**
-   * Tells the page of what went wrong.
-   *
-   * @param {unknown} error
-   */
-  report(error) {
-    const message = messageOf(error);
-    this.dispatchEvent(new ErrorEvent('error', { error, message, bubbles: true, composed: true }));
-  }
-
-  /**
-   * Shows a sentence in the widget's place and tells the page.
-   *
-   * @param {unknown} error
-   */
-  fail(error) {
-    if (this.machine && isTrap(error)) {
-      abandon(this.machine);
-      this.machine = undefined;
-    }
-    this.#mending = false;
-    this.#stop();
-    this.#failure = messageOf(error);
-    this.report(error);
-    this.requestUpdate();
-  }
-
+  /** While a machine is made again, what was shown of the former one stays. */
   shouldUpdate() {
-    return !this.#mending;
+    return !this.runtime.mending;
   }
 
   render() {
     speak(this);
-    const scheme = this.theme === 'auto' ? this.#surroundings : this.theme;
     return html`
-      <span class="scheme-probe" aria-hidden="true" @transitionend=${this.#rescheme}></span>
-      <div class="surface ${scheme}" @input=${stop} @change=${stop}>
-        ${this.#content()}
-      </div>
+      <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
+      <div class="surface ${this.stage.scheme}" @input=${stop} @change=${stop}>${this.#content()}</div>
     `;
   }
 
   #content() {
-    if (this.#failure !== undefined) return html`<p class="failure" role="alert">${words.failure(this.#failure)}</p>`;
-    if (!this.machine) return html`<div class="reserved"></div>`;
-    try {
-      return this.renderWidget();
-    } catch (error) {
-      if (!this.mend(error)) this.fail(error);
-      return noChange;
-    }
-  }
-
-  updated() {
-    if (!this.#drawable) this.#rescheme();
-    if (!this.machine || this.#drawable) return;
-    this.#drawable = true;
-    this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
-    for (const canvas of this.renderRoot.querySelectorAll('canvas')) {
-      try {
-        this.#sizes.observe(canvas, { box: 'device-pixel-content-box' });
-      } catch {
-        this.#sizes.observe(canvas);
-      }
-    }
-    this.wake();
-  }
-
-  async #start() {
-    if (this.#starting || this.machine || !this.#near) return;
-    this.#starting = true;
-    try {
-      const [motion] = await Promise.all([instantiate(), this.prepare()]);
-      if (!this.#near) return;
-      const machine = this.createMachine(motion);
-      this.motion = motion;
-      this.machine = machine;
-      this.#failure = undefined;
-      this.machineReady();
-      // It may have trapped at once.
-      if (this.machine) await this.#show();
-    } catch (error) {
-      this.fail(error);
-    } finally {
-      this.#starting = false;
-    }
-    // It went and came back meanwhile, or trapped again.
-    if (this.#near && !this.machine && this.#failure === undefined) this.#start();
-  }
-
-  async #show() {
-    const mended = this.#mending;
-    this.#mending = false;
-    this.requestUpdate();
-    await this.updateComplete;
-    if (mended) this.wake();
-    else this.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
-  }
-
-  #stop() {
-    sleep(this);
-    this.#sizes?.disconnect();
-    this.#drawable = this.#mending = false;
-    this.palette = undefined;
-    if (this.machine) {
-      this.attempt(() => this.parting());
-      this.machine?.free();
-    }
-    this.machine = this.motion = undefined;
-    this.requestUpdate();
-  }
-
-  /** The page's colours, or the element's theme, may be others. */
-  #rescheme() {
-    const now = surroundings(this.#probe('.scheme-probe'));
-    if (now !== this.#surroundings) {
-      this.#surroundings = now;
-      this.requestUpdate();
-    }
-    this.repaint();
-  }
-
-  /** Takes the colours from the page again. */
-  async repaint() {
-    await this.updateComplete;
-    this.palette = undefined;
-    this.wake();
-  }
-
-  /** The colours as they are now. */
-  look() {
-    return resolvePalette(this.#probe('.surface'));
-  }
-
-  /** @param {string} selector */
-  #probe(selector) {
-    return /** @type {HTMLElement} */ (this.renderRoot.querySelector(selector));
-  }
-
-  /**
-   * Gives each canvas as many pixels as the screen has under it.
-   *
-   * @param {ResizeObserverEntry[]} entries
-   */
-  #resize(entries) {
-    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
-      const canvas = /** @type {HTMLCanvasElement} */ (target);
-      const exact = devicePixelContentBoxSize?.[0];
-      canvas.width = exact?.inlineSize ?? Math.round(contentRect.width * devicePixelRatio);
-      canvas.height = exact?.blockSize ?? Math.round(contentRect.height * devicePixelRatio);
-    }
-    // Inside a closed tab, nothing tells of a change of colours.
-    this.palette = undefined;
-    // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
-    this.frame(0);
+    const content = this.machine && this.runtime.attemptOrFail(() => [this.content(this.reading), this.announcer.render()]);
+    const { failure, mending } = this.runtime;
+    // Also at once: what asks for an update while there is one is not heard.
+    if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
+    return content ?? (mending ? noChange : html`<div class="reserved"></div>`);
   }
 }
 
-/**
- * Whether an error is the core's end: a trap, or what its glue throws where a machine is used after one,
- * which are plain errors. What refuses a value is a TypeError or RangeError.
- *
- * @param {unknown} error
- */
-function isTrap(error) {
-  if (typeof WebAssembly === 'undefined') return false;
-  return error instanceof WebAssembly.RuntimeError || (error instanceof Error && error.constructor === Error);
-}
-
-/** @param {unknown} error */
-function messageOf(error) {
-  return error instanceof Error ? error.message : String(error);
-}
-
-/**
- * The native controls' own events stay inside: the element has one of its own for each gesture.
- *
- * @param {Event} event
- */
+/** The native controls' own events stay inside: the element has one of its own for each gesture. @param {Event} event */
 function stop(event) {
   event.stopPropagation();
 }

@@ -1,8 +1,6 @@
 /**
  * What the reader does, as a page hears of it: `input` for each step and `change` where it ends, once
  * each, however many settings a step changed.
- *
- * @module
  */
 
 export class Gesture {

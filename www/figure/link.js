@@ -1,16 +1,89 @@
 /**
- * The page's fragment as a place for states: each element has a part of its own, and leaves all others
- * as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
- *
- * @module
+ * The state in the page's address: each element has a part of the fragment of its own, and leaves all
+ * others as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
  */
+
+import { pack, unpack } from './packing.js';
+
+/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
+
+export class Link {
+  #host;
+  /** A state from the address that waits for the machine. @type {unknown} */
+  #waiting;
+  /** The latest text for the address: an earlier one that is ready later is void. */
+  #writing = 0;
+
+  /** @param {Figure} host */
+  constructor(host) {
+    this.#host = host;
+    host.addController(this);
+  }
+
+  hostConnected() {
+    addEventListener('hashchange', this.follow);
+    if (this.#host.share) goToAnchor();
+  }
+
+  hostDisconnected() {
+    removeEventListener('hashchange', this.follow);
+  }
+
+  /** Looks for a state to open in: the first time only, as the address says where the figure began. */
+  async prepare() {
+    if (this.#host.share && !this.#host.state.kept) this.#waiting = await this.#look();
+  }
+
+  /** Enters the state that waited for the machine. */
+  catchUp() {
+    const waiting = this.#waiting;
+    this.#waiting = undefined;
+    this.#enter(waiting);
+  }
+
+  /** The page's address may carry another state. */
+  follow = async () => {
+    if (this.#host.share && this.#host.machine) this.#enter(await this.#look());
+  };
+
+  /** @param {unknown} state as the address has it; undefined for none */
+  #enter(state) {
+    if (state !== undefined) this.#host.runtime.tolerate(() => this.#host.setState(state));
+  }
+
+  /** @returns {Promise<unknown>} undefined where the address has no state */
+  async #look() {
+    const text = fragmentOf(keyOf(this.#host));
+    if (text === undefined) return undefined;
+    try {
+      return await unpack(text);
+    } catch (error) {
+      this.#host.runtime.report(error);
+    }
+  }
+
+  async write() {
+    const writing = ++this.#writing;
+    const text = await this.#pack();
+    if (writing === this.#writing && this.#host.isConnected) writeFragment(keyOf(this.#host), text);
+  }
+
+  /** @returns {Promise<string>} the address of this page with the present state */
+  async address() {
+    return addressWith(keyOf(this.#host), await this.#pack());
+  }
+
+  #pack() {
+    return pack(this.#host.getState() ?? {});
+  }
+}
 
 /**
  * The name of an element's part: its id, or where it has none, its place among its kind on the page.
  *
  * @param {Element} element
  */
-export function keyOf(element) {
+function keyOf(element) {
   const { localName, id } = element;
   if (id) return `${localName}:${encodeURIComponent(id)}`;
   const kind = [...document.querySelectorAll(localName)];
@@ -21,7 +94,7 @@ export function keyOf(element) {
  * @param {string} key
  * @returns {string | undefined} what the fragment has for it
  */
-export function fragmentOf(key) {
+function fragmentOf(key) {
   return parts().find((part) => part.startsWith(`${key}=`))?.slice(key.length + 1);
 }
 
@@ -30,7 +103,7 @@ export function fragmentOf(key) {
  * @param {string} text
  * @returns {string} the page's address with it
  */
-export function addressWith(key, text) {
+function addressWith(key, text) {
   const part = `${key}=${text}`;
   const all = parts();
   const at = all.findIndex((each) => each.startsWith(`${key}=`));
@@ -45,7 +118,7 @@ export function addressWith(key, text) {
  * @param {string} key
  * @param {string} text
  */
-export function writeFragment(key, text) {
+function writeFragment(key, text) {
   const address = addressWith(key, text);
   if (address === location.href) return;
   try {
@@ -65,7 +138,7 @@ let anchored = false;
  * Goes to the page's own anchor, once: a browser looks for the whole fragment, states included, and does
  * not find it.
  */
-export function goToAnchor() {
+function goToAnchor() {
   if (anchored || document.querySelector(':target')) return;
   anchored = true;
   const [first = ''] = parts();
@@ -83,28 +156,4 @@ function decoded(text) {
   } catch {
     return text;
   }
-}
-
-/**
- * HTML for a page that has the script beside it.
- *
- * @param {string} name of the element
- * @param {[string, string][]} attributes
- */
-export function embedding(name, attributes) {
-  const script = tag('script', [['type', 'module'], ['src', 'motion-widgets.js']]);
-  return `${script}\n${tag(name, attributes)}\n`;
-}
-
-/**
- * @param {string} name
- * @param {[string, string][]} attributes
- */
-function tag(name, attributes) {
-  return `<${name}${attributes.map(([key, text]) => ` ${key}="${escaped(text)}"`).join('')}></${name}>`;
-}
-
-/** @param {string} text */
-function escaped(text) {
-  return text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
 }

@@ -1,57 +1,192 @@
+/** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
+
+import { groupsOf, isSetting, renamed } from './attributes.js';
+import { cloudProperties } from './cloud.js';
+
 /**
- * Keeps an element's attributes saying what its settings are: those that have changed since it opened.
+ * @import { Attributes, Present, Setting } from './attributes.js'
  *
- * @module
- */
-
-import { isSetting } from './attributes.js';
-
-/**
- * @typedef {import('./attributes.js').Attributes} Attributes
  * @typedef {Map<string, string | null>} Texts of attributes; null for none
+ *
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
 export class Reflection {
-  /** Whether the attributes are being written, and a change of one is no news. */
-  writing = false;
-  /** The attribute that is being read: what it says is not written over. @type {string | undefined} */
-  hearing;
-  #element;
+  #host;
   #attributes;
+  /** The settings whose values decide what others open with. */
+  #basis;
+  /** What the page asked for before there was a machine, first by attributes. @type {Map<string, string | null>} */
+  #early = new Map();
+  /** @type {{ property: string, value: unknown, take: () => void }[]} */
+  #wishes = [];
+  /** Whether the attributes are being written, and a change of one is no news. */
+  #writing = false;
+  /** The attribute that is being read: what it says is not written over. @type {string | undefined} */
+  #hearing;
   /** As the attributes tell it, or would. @type {Texts | undefined} */
   #told;
 
   /**
-   * @param {Element} element
+   * @param {Figure} host
    * @param {Attributes} attributes
+   * @param {string[]} basis
    */
-  constructor(element, attributes) {
-    this.#element = element;
+  constructor(host, attributes, basis) {
+    this.#host = host;
     this.#attributes = attributes;
+    this.#basis = basis;
+    host.addController(this);
+  }
+
+  /** Takes up the properties that were set before the element was one. */
+  hostConnected() {
+    const host = /** @type {Record<string, unknown>} */ (/** @type {unknown} */ (this.#host));
+    for (const name of Object.keys(host)) {
+      for (let at = Object.getPrototypeOf(host); at !== HTMLElement.prototype; at = Object.getPrototypeOf(at)) {
+        if (!Object.getOwnPropertyDescriptor(at, name)?.set) continue;
+        const value = host[name];
+        delete host[name];
+        host[name] = value;
+        break;
+      }
+    }
+  }
+
+  /** Takes up what the page asked for before there was a machine. */
+  catchUp() {
+    // In the order of the table: what others depend on comes first.
+    for (const name of Object.keys(this.#attributes)) {
+      const text = this.#early.get(name);
+      if (text !== undefined) this.#take(name, text);
+    }
+    this.#early.clear();
+    for (const { take } of this.#wishes.splice(0)) this.#host.runtime.tolerate(take);
+  }
+
+  /**
+   * Does something with the machine, now or as soon as there is one.
+   *
+   * @param {string} property
+   * @param {unknown} value
+   * @param {() => void} take
+   */
+  whenReady(property, value, take) {
+    if (this.#host.machine) this.#host.runtime.attempt(take);
+    else this.#wishes.push({ property, value, take });
+  }
+
+  /**
+   * What a property will be that was set before there was a machine; undefined if it was not.
+   *
+   * @param {string} property
+   */
+  wished(property) {
+    return this.#wishes.findLast((wish) => wish.property === property)?.value;
+  }
+
+  /**
+   * An attribute says something else.
+   *
+   * @param {string} name
+   * @param {string | null} text
+   */
+  hear(name, text) {
+    if (this.#writing || !(name in this.#attributes)) return;
+    if (this.#host.machine) this.#take(name, text);
+    else this.#early.set(name, text);
+  }
+
+  /**
+   * @param {string} name
+   * @param {string | null} text
+   */
+  #take(name, text) {
+    const { machine } = this.#host;
+    if (!machine) return;
+    const entry = this.#attributes[name];
+    const given = text === null ? undefined : entry.kind.parse(text);
+    this.#hearing = name;
+    this.#host.runtime.tolerate(() => {
+      if (!isSetting(entry)) Reflect.set(this.#host, name, text === null ? this.#usual(name) : given);
+      else this.assign(name, entry, text === null ? this.#opening((opening) => entry.get(opening)) : given);
+    });
+    this.#hearing = undefined;
+  }
+
+  /**
+   * Gives a setting another value.
+   *
+   * @param {string} name that it is asked for by
+   * @param {Setting} setting
+   * @param {unknown} value
+   * @throws {TypeError | RangeError} in that name
+   */
+  assign(name, setting, value) {
+    try {
+      this.#host.settings.assign(setting.change(value, this.#present));
+    } catch (error) {
+      throw renamed(error, name, setting);
+    }
+  }
+
+  /** @returns {Present} */
+  get #present() {
+    return { config: this.#host.settings.wanted, machine: this.#host.machine };
+  }
+
+  /** What something of the element's own is when the widget opens. @param {string} name */
+  #usual(name) {
+    const entry = this.#attributes[name];
+    return isSetting(entry) ? undefined : (entry.opening ?? this.#host.state.opening(name));
+  }
+
+  /**
+   * Asks something of how the widget opens, as far as that depends on the present settings.
+   *
+   * @template Answer
+   * @param {(opening: Present) => Answer} question
+   */
+  #opening(question) {
+    const { wanted } = this.#host.settings;
+    const machine = this.#host.createMachine(this.#host.motion);
+    try {
+      machine.configure(Object.fromEntries(this.#basis.map((key) => [key, wanted[key]])));
+      return question({ config: machine.config, machine });
+    } finally {
+      machine.free();
+    }
   }
 
   /**
    * What the attributes should say.
    *
-   * @param {object} config
-   * @param {unknown} motion
+   * @param {Present} present
+   * @param {(name: string) => unknown} own what the element itself has by that name
    * @returns {Texts}
    */
-  texts(config, motion) {
+  #texts(present, own) {
     return new Map(
       Object.entries(this.#attributes).map(([name, entry]) => {
-        const value = isSetting(entry) ? entry.get(config, motion) : Reflect.get(this.#element, name);
-        return [name, entry.kind.write(value ?? null)];
+        const value = isSetting(entry) ? entry.get(present) : own(name);
+        return [name, entry.kind.print(value ?? null)];
       }),
     );
   }
 
-  /**
-   * Writes what has changed. The first time there is nothing to write: so the element opens.
-   *
-   * @param {Texts} texts
-   */
-  tell(texts) {
+  get #now() {
+    return this.#texts(this.#present, (name) => Reflect.get(this.#host, name));
+  }
+
+  /** Lets the attributes say what has changed. The first time nothing has: so the element opens. */
+  tell() {
+    this.#host.runtime.attempt(() => {
+      if (this.#host.machine) this.#tell(this.#now);
+    });
+  }
+
+  /** @param {Texts} texts */
+  #tell(texts) {
     const told = this.#told;
     this.#told = texts;
     if (!told) return;
@@ -60,24 +195,20 @@ export class Reflection {
       if (texts.get(name) !== null || !changed.has(name)) continue;
       for (const covered of entry.covers ?? []) changed.add(covered);
     }
-    if (this.hearing) changed.delete(this.hearing);
-    this.writing = true;
+    if (this.#hearing) changed.delete(this.#hearing);
+    this.#writing = true;
     for (const name of changed) {
       const text = texts.get(name) ?? null;
-      if (text === null) this.#element.removeAttribute(name);
-      else this.#element.setAttribute(name, text);
+      if (text === null) this.#host.removeAttribute(name);
+      else this.#host.setAttribute(name, text);
     }
-    this.writing = false;
+    this.#writing = false;
   }
 
-  /**
-   * The attributes that a figure needs which opens otherwise.
-   *
-   * @param {Texts} texts
-   * @param {Texts} usual as the widget opens without any
-   * @returns {[string, string][]}
-   */
-  needed(texts, usual) {
+  /** The attributes that a figure needs which opens otherwise. @returns {[string, string][]} */
+  needed() {
+    const texts = this.#now;
+    const usual = this.#opening((opening) => this.#texts(opening, (name) => this.#usual(name)));
     /** @type {Set<string>} */
     const covered = new Set();
     /** @type {[string, string][]} */
@@ -89,5 +220,53 @@ export class Reflection {
       for (const each of entry.covers ?? []) covered.add(each);
     }
     return needed;
+  }
+}
+
+/**
+ * Gives a widget's class the properties of its settings and defines it, unless the page has it already: it
+ * may carry the script twice.
+ *
+ * @param {string} name
+ * @param {typeof import('./figure.js').FigureElement<any, any>} Widget
+ */
+export function define(name, Widget) {
+  if (customElements.get(name)) return;
+  defineProperties(Widget);
+  if ('marked' in Widget.own) Object.defineProperties(Widget.prototype, cloudProperties);
+  customElements.define(name, Widget);
+}
+
+/**
+ * Gives a class the properties of its settings, and of what is the element's own and has an attribute.
+ *
+ * @param {{ prototype: any, attributes: Attributes, declared: import('../settings.js').Declaration[], own: object }} Widget
+ */
+function defineProperties({ prototype, attributes, declared, own }) {
+  const property = (/** @type {string} */ name, /** @type {PropertyDescriptor & ThisType<any>} */ accessors) =>
+    Object.defineProperty(prototype, name, { configurable: true, enumerable: true, ...accessors });
+  for (const [name, entry] of Object.entries({ ...attributes, ...groupsOf(declared) })) {
+    if (isSetting(entry)) {
+      property(name, {
+        get() {
+          if (!this.machine) return this.reflection.wished(name);
+          return this.ask((/** @type {any} */ machine) => entry.get({ config: machine.config, machine }));
+        },
+        set(value) {
+          this.reflection.whenReady(name, value, () => this.reflection.assign(name, entry, value));
+        },
+      });
+    } else if (name in own) {
+      property(name, {
+        get() {
+          return this.state.copy(name);
+        },
+        set(value) {
+          this.state.assign(name, value);
+          this.reflection.tell();
+          this.stage.wake();
+        },
+      });
+    }
   }
 }

@@ -1,26 +1,27 @@
 /**
  * The words of the elements, by language. English and German come with the project; a page adds or
- * replaces others with `setMessages`.
+ * replaces others with `setMessages`. What a widget alone says stands under a key of its own.
  *
  * An element speaks the language of its nearest `lang` attribute as far as there are words in it, and
  * English otherwise. `speak` makes that language the present one before anything is rendered or
  * drawn, all of which happens at once: `words` and the numbers of ui/format.js are in it then.
- *
- * @module
  */
 
 /**
- * @typedef {typeof import('./en.js').en} Messages
+ * @typedef {string | ((...values: any[]) => string) | Message[] | { [key: string]: Message }} Message
+ *
+ * @typedef {typeof import('./en.js').en & WidgetWords} Messages `WidgetWords`: see widgets/words.d.ts
  *
  * @typedef {object} Shared what all scripts of a page share: a language may come in a file of its own
- * @property {Record<string, Partial<Messages>>} catalogues by language
+ * @property {object} english what the elements say where nobody has given them other words
+ * @property {Record<string, object>} catalogues what was given, by language
  * @property {Set<() => void>} listeners called when words or languages change
  */
 
 const KEY = Symbol.for('motion-widgets.messages');
 
 /** @type {Shared} */
-const shared = (/** @type {any} */ (globalThis)[KEY] ??= { catalogues: {}, listeners: new Set() });
+const shared = (/** @type {any} */ (globalThis)[KEY] ??= { english: {}, catalogues: {}, listeners: new Set() });
 
 /** The words of the present language. @type {Messages} */
 export let words;
@@ -33,28 +34,38 @@ const voices = new Map();
 shared.listeners.add(() => voices.clear());
 
 /**
+ * Adds the elements' own words. They are in English, and say which messages there are.
+ *
+ * @param {{ [key: string]: Message }} messages an empty catalogue stands for one that comes later
+ */
+export function addEnglish(messages) {
+  shared.english = merge(shared.english, messages);
+  tellAll();
+}
+
+/**
  * Gives the elements words in a language, at once and on the whole page. What is left out stays as it
  * was, and is English in a new language.
  *
  * @param {string} lang a BCP 47 tag: "de", "pt-BR"
- * @param {object} messages in the shape of messages/en.js, or a part of it
+ * @param {object} messages in the shape of the English ones, or a part of it
  * @throws {TypeError} if a message is not of the catalogue, or not of the kind it is there
  */
 export function setMessages(lang, messages) {
-  const { catalogues, listeners } = shared;
-  const known = catalogues.en;
-  if (known) check(known, messages, lang);
+  const { english, catalogues } = shared;
+  check(english, messages, lang);
   const key = lang.toLowerCase();
   catalogues[key] = merge(catalogues[key] ?? {}, messages);
-  for (const listener of listeners) listener();
+  tellAll();
 }
 
 /**
- * @param {any} known
+ * @param {any} known empty where it is not there yet: then anything is accepted
  * @param {any} given
  * @param {string} path
  */
 function check(known, given, path) {
+  if (Object.keys(known).length === 0) return;
   for (const [key, message] of Object.entries(given)) {
     const expected = kind(known[key]);
     if (kind(message) !== expected) {
@@ -83,11 +94,7 @@ function merge(base, over) {
   return merged;
 }
 
-/**
- * Makes the language of an element the present one.
- *
- * @param {Element} element
- */
+/** Makes the language of an element the present one. @param {Element} element */
 export function speak(element) {
   const wanted = languageOf(element);
   let voice = voices.get(wanted);
@@ -95,7 +102,9 @@ export function speak(element) {
     const [primary] = wanted.split('-');
     const found = [wanted, primary].find((tag) => tag in shared.catalogues) ?? 'en';
     const language = primary === found && isTag(wanted) ? wanted : found;
-    voices.set(wanted, (voice = { language, words: merge(shared.catalogues.en, shared.catalogues[found]) }));
+    const { english, catalogues } = shared;
+    const said = [catalogues.en, catalogues[found]].reduce((base, over) => merge(base, over ?? {}), english);
+    voices.set(wanted, (voice = { language, words: /** @type {Messages} */ (said) }));
   }
   ({ words, language } = voice);
 }
@@ -126,7 +135,7 @@ function languageOf(element) {
 /** @type {MutationObserver | undefined} */
 let observer;
 
-/** On its own: made among an element's variables, it would hold the element for as long as the page lives. */
+/** No closure of `onLanguage`: the observer would hold that one's element for as long as the page lives. */
 function tellAll() {
   for (const listener of shared.listeners) listener();
 }

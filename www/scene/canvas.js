@@ -1,8 +1,4 @@
-/**
- * A canvas made ready for drawing in CSS pixels.
- *
- * @module
- */
+/** Canvases, and what pictures are painted on them with. */
 
 /**
  * What pictures are drawn on: a canvas, or what stands for one.
@@ -13,6 +9,13 @@
  * @property {number} clientWidth CSS pixels
  * @property {string} [font] its own; that of its style for an element
  * @property {(kind: '2d') => CanvasRenderingContext2D | null} getContext
+ *
+ * @typedef {object} Brush what a picture is painted with, in CSS pixels
+ * @property {CanvasRenderingContext2D} context
+ * @property {import('./view.js').View} view
+ * @property {import('../ui/theme.js').Palette} palette
+ * @property {number} ratio device pixels a CSS pixel
+ * @property {string} font of the canvas's style
  */
 
 /** Longest side of a canvas in every browser. */
@@ -23,16 +26,17 @@ export const LONGEST_SIDE = 16_384;
  *
  * @param {HTMLCanvasElement | Surface} canvas
  * @param {import('./view.js').View} view
- * @returns {{ context: CanvasRenderingContext2D, ratio: number, font: string }} device pixels a CSS
- *   pixel, and the font of the canvas's style
+ * @param {import('../ui/theme.js').Palette} palette
+ * @returns {Brush}
  */
-export function prepare(canvas, view) {
+export function brushOn(canvas, view, palette) {
   const ratio = canvas.width / Math.max(1, canvas.clientWidth);
   view.resize(canvas.width / ratio, canvas.height / ratio);
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
-  if (!(canvas instanceof HTMLElement)) return { context, ratio, font: canvas.font ?? context.font };
+  const brush = { context, view, palette, ratio };
+  if (!(canvas instanceof HTMLElement)) return { ...brush, font: canvas.font ?? context.font };
   const { fontFamily, fontSize } = getComputedStyle(canvas);
-  return { context, ratio, font: `${fontSize} ${fontFamily}` };
+  return { ...brush, font: `${fontSize} ${fontFamily}` };
 }

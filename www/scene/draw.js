@@ -1,27 +1,19 @@
 /**
- * What the canvases are drawn from: axes, robots, densities, outlines and marks. Every function
- * takes the view's transform and colours, and none keeps anything.
- *
- * @module
+ * What pictures are made of: axes, robots, densities, outlines and marks. Every function takes the
+ * brush, which knows the view's transform and the colours, and none keeps anything.
  */
 
 import { ticks } from 'd3-array';
+import { limits } from '../settings.js';
 import { tick } from '../ui/format.js';
 import { channels } from '../ui/theme.js';
 
 /**
- * @typedef {import('../types.d.ts').Palette} Palette
- * @typedef {import('./view.js').View} View
+ * @import { Brush } from './canvas.js'
+ * @import { Palette } from '../ui/theme.js'
+ *
  * @typedef {CanvasRenderingContext2D} Context
  */
-
-/** Dashes of the roles that are lines, in CSS pixels; the legend's swatches use the same. */
-export const DASHES = {
-  command: [2.5, 3.5],
-  ellipse: [7, 4],
-  linearized: [9, 3, 2, 3],
-  exponential: /** @type {number[]} */ ([]),
-};
 
 /** Least distances between two ticks, CSS pixels. */
 const TICK_SPACING = { x: 60, y: 48 };
@@ -35,22 +27,20 @@ const TICKS_A_STROKE = 25;
 /**
  * Hairline axes with ticks at the left and the bottom, and a faint grid.
  *
- * @param {Context} context
- * @param {View} view
- * @param {Palette} palette
- * @param {{ x: string, y: string, font: string }} labels
+ * @param {Brush} brush
+ * @param {{ x: string, y: string }} names
  */
-export function drawAxes(context, view, palette, labels) {
+export function drawAxes({ context, view, palette, font }, names) {
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
-  context.font = labels.font;
+  context.font = font;
   context.lineWidth = 1;
   context.strokeStyle = palette.rule;
   context.fillStyle = palette.muted;
 
   const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
   // The axis has its name where its last tick would be.
-  const free = right - context.measureText(labels.x).width - 10;
+  const free = right - context.measureText(names.x).width - 10;
   context.textAlign = 'center';
   context.textBaseline = 'top';
   for (const value of xTicks.values) {
@@ -70,12 +60,12 @@ export function drawAxes(context, view, palette, labels) {
 
   line(context, left, bottom + 0.5, right, bottom + 0.5, 1);
   line(context, left - 0.5, top, left - 0.5, bottom, 1);
-  context.font = `italic ${labels.font}`;
+  context.font = `italic ${font}`;
   context.textAlign = 'right';
   context.textBaseline = 'top';
-  context.fillText(labels.x, right, bottom + 6);
+  context.fillText(names.x, right, bottom + 6);
   context.textAlign = 'left';
-  context.fillText(labels.y, 2, top - 22);
+  context.fillText(names.y, 2, top - 22);
 }
 
 /**
@@ -108,11 +98,10 @@ function line(context, x1, y1, x2, y2, alpha) {
 /**
  * Confines what `paint` draws to the inside of the axes.
  *
- * @param {Context} context
- * @param {View} view
+ * @param {Brush} brush
  * @param {() => void} paint
  */
-export function clipped(context, view, paint) {
+export function clipped({ context, view }, paint) {
   const { left, right, top, bottom } = view.frame;
   context.save();
   context.beginPath();
@@ -125,14 +114,12 @@ export function clipped(context, view, paint) {
 /**
  * Samples as dots. Overlapping dots darken, so that a crowd looks like one.
  *
- * @param {Context} context
- * @param {View} view
- * @param {Palette} palette
+ * @param {Brush} brush
  * @param {Float64Array} triples
- * @param {{ x: number, y: number, heading: number | null, ratio: number }} layout which of the three
- *   numbers are drawn, and device pixels a CSS pixel
+ * @param {{ x: number, y: number, heading: number | null }} layout which of the three numbers are drawn
  */
-export function drawDots(context, view, palette, triples, layout) {
+export function drawDots(brush, triples, layout) {
+  const { context, view, palette, ratio } = brush;
   const few = triples.length < 3 * 400;
   // Smaller in a small picture, where as many robots share less room.
   const size = Math.min(1, Math.max(0.7, view.width / 720));
@@ -148,7 +135,7 @@ export function drawDots(context, view, palette, triples, layout) {
       for (let i = first; i < last; i += 3) {
         const x = view.toPixelX(triples[i + layout.x]);
         const y = view.toPixelY(triples[i + layout.y]);
-        headingTick(context, view, x, y, triples[i + layout.heading], length);
+        headingTick(brush, x, y, triples[i + layout.heading], length);
       }
       context.stroke();
     }
@@ -164,8 +151,8 @@ export function drawDots(context, view, palette, triples, layout) {
     context.globalAlpha = 1;
     return;
   }
-  const dot = sprite(palette.cloud, radius * layout.ratio);
-  const side = dot.width / layout.ratio;
+  const dot = sprite(palette.cloud, radius * ratio);
+  const side = dot.width / ratio;
   for (let i = 0; i < triples.length; i += 3) {
     const x = view.toPixelX(triples[i + layout.x]) - side / 2;
     const y = view.toPixelY(triples[i + layout.y]) - side / 2;
@@ -177,14 +164,13 @@ export function drawDots(context, view, palette, triples, layout) {
 /**
  * Adds a line from a point in a direction of the world to the path.
  *
- * @param {Context} context
- * @param {View} view
+ * @param {Brush} brush
  * @param {number} x CSS pixels
  * @param {number} y
  * @param {number} heading radians
  * @param {number} length CSS pixels
  */
-function headingTick(context, view, x, y, heading, length) {
+function headingTick({ context, view }, x, y, heading, length) {
   const ahead = view.direction(heading);
   context.moveTo(x, y);
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
@@ -208,12 +194,11 @@ function sprite(colour, radius) {
 /**
  * Many robots at one place: a single marker, and every heading as a ray of a fan.
  *
- * @param {Context} context
- * @param {View} view
- * @param {Palette} palette
- * @param {{ x: number, y: number, headings: number[], label: string, font: string }} heap
+ * @param {Brush} brush
+ * @param {{ x: number, y: number, headings: number[], label: string }} heap
  */
-export function drawHeap(context, view, palette, { x, y, headings, label, font }) {
+export function drawHeap(brush, { x, y, headings, label }) {
+  const { context, view, palette, font } = brush;
   const px = view.toPixelX(x);
   const py = view.toPixelY(y);
   context.strokeStyle = palette.prediction;
@@ -221,7 +206,7 @@ export function drawHeap(context, view, palette, { x, y, headings, label, font }
   context.globalAlpha = Math.min(1, 30 / headings.length);
   for (const heading of headings) {
     context.beginPath();
-    headingTick(context, view, px, py, heading, 64);
+    headingTick(brush, px, py, heading, 64);
     context.stroke();
   }
   context.globalAlpha = 1;
@@ -233,28 +218,13 @@ export function drawHeap(context, view, palette, { x, y, headings, label, font }
   context.font = font;
   context.textAlign = 'left';
   context.textBaseline = 'top';
-  haloText(context, palette, label, px + 14, py + 14);
-}
-
-/**
- * Text that stays legible on whatever is under it.
- *
- * @param {Context} context its font and alignment apply
- * @param {Palette} palette
- * @param {string} text
- * @param {number} x CSS pixels
- * @param {number} y
- */
-function haloText(context, palette, text, x, y) {
+  // Legible on whatever is under it.
   context.lineWidth = 4;
   context.lineJoin = 'round';
   context.strokeStyle = palette.paper;
-  context.strokeText(text, x, y);
-  context.fillText(text, x, y);
+  context.strokeText(label, px + 14, py + 14);
+  context.fillText(label, px + 14, py + 14);
 }
-
-/** Colours of a density: as many as the core takes. */
-const RAMP = 256;
 
 /**
  * The colours of a density by the share of its fullest cell: ink of the role's colour, thinner where there is less.
@@ -265,9 +235,9 @@ const RAMP = 256;
 export function densityRamp(palette) {
   const cloud = channels(palette.cloud);
   const ink = channels(palette.ink);
-  const ramp = new Uint8Array(4 * RAMP);
-  for (let i = 0; i < RAMP; i++) {
-    const shade = i / (RAMP - 1);
+  const ramp = new Uint8Array(4 * limits.ramp);
+  for (let i = 0; i < limits.ramp; i++) {
+    const shade = i / (limits.ramp - 1);
     const darkening = 0.6 * Math.max(0, shade - 0.5);
     for (let k = 0; k < 3; k++) ramp[4 * i + k] = cloud[k] + darkening * (ink[k] - cloud[k]);
     ramp[4 * i + 3] = 255 * (0.15 + 0.85 * shade);
@@ -278,13 +248,12 @@ export function densityRamp(palette) {
 /**
  * An image that covers the inside of the axes.
  *
- * @param {Context} context
- * @param {View} view
+ * @param {Brush} brush
  * @param {OffscreenCanvas} grid what the pixels go through to be stretched
  * @param {Uint8ClampedArray<ArrayBuffer>} pixels row 0 at the top
  * @param {number} columns
  */
-export function drawPixels(context, view, grid, pixels, columns) {
+export function drawPixels({ context, view }, grid, pixels, columns) {
   const rows = pixels.length / (4 * columns);
   if (grid.width !== columns) grid.width = columns;
   if (grid.height !== rows) grid.height = rows;
@@ -296,21 +265,30 @@ export function drawPixels(context, view, grid, pixels, columns) {
 }
 
 /**
- * A polyline through x, y pairs with a halo of paper, so that it reads on top of the cloud.
+ * Makes a polyline through x, y pairs the path.
  *
- * @param {Context} context
- * @param {View} view
- * @param {Palette} palette
+ * @param {Brush} brush
  * @param {Float64Array} points
- * @param {{ colour: string, width: number, dash: number[] }} style
  */
-export function drawOutline(context, view, palette, points, { colour, width, dash }) {
-  if (points.length < 4) return;
+export function trace({ context, view }, points) {
   context.beginPath();
   context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
   for (let i = 2; i < points.length; i += 2) {
     context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
   }
+}
+
+/**
+ * A polyline through x, y pairs with a halo of paper, so that it reads on top of the cloud.
+ *
+ * @param {Brush} brush
+ * @param {Float64Array} points
+ * @param {{ colour: string, width: number, dash: number[] }} style
+ */
+export function drawOutline(brush, points, { colour, width, dash }) {
+  if (points.length < 4) return;
+  const { context, palette } = brush;
+  trace(brush, points);
   context.lineJoin = 'round';
   context.strokeStyle = palette.paper;
   context.lineWidth = width + 2.5;
@@ -327,19 +305,18 @@ export function drawOutline(context, view, palette, points, { colour, width, das
 /**
  * A robot seen from above: a disc with a line to the front.
  *
- * @param {Context} context
- * @param {View} view
- * @param {Palette} palette
+ * @param {Brush} brush
  * @param {{ x: number, y: number, heading: number, colour: string }} robot
  */
-export function drawRobot(context, view, palette, { x, y, heading, colour }) {
+export function drawRobot(brush, { x, y, heading, colour }) {
+  const { context, view, palette } = brush;
   const px = view.toPixelX(x);
   const py = view.toPixelY(y);
   context.beginPath();
   context.arc(px, py, 8, 0, 2 * Math.PI);
   context.fillStyle = palette.paper;
   context.fill();
-  headingTick(context, view, px, py, heading, 14);
+  headingTick(brush, px, py, heading, 14);
   context.strokeStyle = colour;
   context.lineWidth = 2;
   context.stroke();
@@ -348,17 +325,17 @@ export function drawRobot(context, view, palette, { x, y, heading, colour }) {
 /**
  * The ring and cross hairs of the marked sample.
  *
- * @param {Context} context
- * @param {View} view
- * @param {Palette} palette
+ * @param {Brush} brush
  * @param {{ x: number, y: number, heading: number | null }} sample
+ * @param {string} [accent] its colour
  */
-export function drawMark(context, view, palette, { x, y, heading }) {
+export function drawMark(brush, { x, y, heading }, accent = brush.palette.accent) {
+  const { context, view, palette } = brush;
   const px = view.toPixelX(x);
   const py = view.toPixelY(y);
   for (const [colour, width] of /** @type {const} */ ([
     [palette.paper, 5],
-    [palette.accent, 2],
+    [accent, 2],
   ])) {
     context.strokeStyle = colour;
     context.lineWidth = width;
@@ -368,7 +345,7 @@ export function drawMark(context, view, palette, { x, y, heading }) {
       context.moveTo(px + 7 * dx, py + 7 * dy);
       context.lineTo(px + 12 * dx, py + 12 * dy);
     }
-    if (heading !== null) headingTick(context, view, px, py, heading, 24);
+    if (heading !== null) headingTick(brush, px, py, heading, 24);
     context.stroke();
   }
 }

@@ -1,8 +1,6 @@
 /**
  * A stand-in for a canvas that writes down what is drawn on it as SVG: the pictures are drawn once and
- * for both. It knows what ui/draw.js and the pictures use of a canvas, and no more.
- *
- * @module
+ * for both. It knows what scene/draw.js and the pictures use of a canvas, and no more.
  */
 
 /** @param {string} text */
@@ -65,55 +63,33 @@ export class SvgContext {
     this.#path = '';
   }
 
-  /**
-   * @param {number} x
-   * @param {number} y
-   */
-  moveTo(x, y) {
+  /** @type {CanvasPath['moveTo']} */
+  moveTo = (x, y) => {
     this.#path += `M${short(x)},${short(y)}`;
-  }
+  };
 
-  /**
-   * @param {number} x
-   * @param {number} y
-   */
-  lineTo(x, y) {
+  /** @type {CanvasPath['lineTo']} */
+  lineTo = (x, y) => {
     this.#path += `L${short(x)},${short(y)}`;
-  }
+  };
 
-  /**
-   * A whole circle: there are no others.
-   *
-   * @param {number} x
-   * @param {number} y
-   * @param {number} radius
-   */
-  arc(x, y, radius) {
+  /** A whole circle: there are no others. @type {CanvasPath['arc']} */
+  arc = (x, y, radius) => {
     const [r, across] = [short(radius), short(2 * radius)];
     this.#path += `M${short(x - radius)},${short(y)}a${r},${r} 0 1 0 ${across},0a${r},${r} 0 1 0 -${across},0Z`;
-  }
+  };
 
-  /**
-   * @param {number} x
-   * @param {number} y
-   * @param {number} width
-   * @param {number} height
-   */
-  rect(x, y, width, height) {
+  /** @type {CanvasPath['rect']} */
+  rect = (x, y, width, height) => {
     this.#path += `M${short(x)},${short(y)}h${short(width)}v${short(height)}h${short(-width)}Z`;
-  }
+  };
 
-  /**
-   * @param {number} x
-   * @param {number} y
-   * @param {number} width
-   * @param {number} height
-   */
-  strokeRect(x, y, width, height) {
+  /** @type {CanvasRect['strokeRect']} */
+  strokeRect = (...box) => {
     this.#path = '';
-    this.rect(x, y, width, height);
+    this.rect(...box);
     this.stroke();
-  }
+  };
 
   clip() {
     const id = `${this.#name}-clip${++this.#clips}`;
@@ -151,23 +127,11 @@ export class SvgContext {
     return this.#ruler.measureText(text);
   }
 
-  /**
-   * @param {string} text
-   * @param {number} x
-   * @param {number} y
-   */
-  fillText(text, x, y) {
-    this.#text(text, x, y, ` fill="${this.fillStyle}"${this.#opacity()}`);
-  }
+  /** @type {CanvasText['fillText']} */
+  fillText = (text, x, y) => this.#text(text, x, y, ` fill="${this.fillStyle}"${this.#opacity()}`);
 
-  /**
-   * @param {string} text
-   * @param {number} x
-   * @param {number} y
-   */
-  strokeText(text, x, y) {
-    this.#text(text, x, y, ` fill="none"${this.#line()}`);
-  }
+  /** @type {CanvasText['strokeText']} */
+  strokeText = (text, x, y) => this.#text(text, x, y, ` fill="none"${this.#line()}`);
 
   /**
    * @param {string} text

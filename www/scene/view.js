@@ -1,11 +1,9 @@
 /**
  * The transform between a view's world (metres, radians; y up) and its canvas (CSS pixels; y down),
  * and the choice of the part of the world that a view shows. The only place where y flips.
- *
- * @module
  */
 
-/** @typedef {import('../types.d.ts').Extent} Extent */
+/** @typedef {{ xMin: number, yMin: number, xMax: number, yMax: number }} Extent axis-aligned part of a view's world */
 
 /**
  * Share of the view that what is shown may shrink to before the view closes in on it. Larger makes
@@ -35,9 +33,7 @@ export class View {
   height = 1;
   #inset;
 
-  /**
-   * @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options
-   */
+  /** @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options */
   constructor({ equal, inset }) {
     this.#equal = equal;
     this.#inset = inset;
@@ -189,21 +185,37 @@ function niceSize(size) {
   return step * decade;
 }
 
+/** The extent of nothing, which any point widens. @type {Readonly<Extent>} */
+const NOWHERE = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
+
 /**
- * The smallest extent around points and boxes.
+ * The smallest extent around another and points.
  *
- * @param {Iterable<[number, number]>} points
+ * @param {ArrayLike<number>} numbers of which the first two of each `stride` are x and y
+ * @param {number} stride
+ * @param {Extent} [around]
+ * @returns {Extent}
+ */
+export function extentAround(numbers, stride, around = NOWHERE) {
+  const box = { ...around };
+  for (let i = 0; i < numbers.length; i += stride) {
+    box.xMin = Math.min(box.xMin, numbers[i]);
+    box.xMax = Math.max(box.xMax, numbers[i]);
+    box.yMin = Math.min(box.yMin, numbers[i + 1]);
+    box.yMax = Math.max(box.yMax, numbers[i + 1]);
+  }
+  return box;
+}
+
+/**
+ * The smallest extent around points.
+ *
+ * @param {[number, number][]} points
  * @param {number} smallest least width and height, so that a single point still has surroundings
  * @returns {Extent}
  */
 export function extentOf(points, smallest) {
-  const box = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
-  for (const [x, y] of points) {
-    box.xMin = Math.min(box.xMin, x);
-    box.xMax = Math.max(box.xMax, x);
-    box.yMin = Math.min(box.yMin, y);
-    box.yMax = Math.max(box.yMax, y);
-  }
+  const box = extentAround(points.flat(), 2);
   const growX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;
   const growY = Math.max(0, smallest - (box.yMax - box.yMin)) / 2;
   return {

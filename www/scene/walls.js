@@ -1,17 +1,14 @@
 /**
  * A floor plan's walls as a layer of their own: a map may have tens of thousands, and they change
  * only with the map, the view or the colours.
- *
- * @module
  */
 
 import { LONGEST_SIDE } from './canvas.js';
 
 /**
- * @typedef {import('./view.js').View} View
- * @typedef {import('../types.d.ts').Grid} Grid
- * @typedef {import('../types.d.ts').Palette} Palette
- * @typedef {import('../types.d.ts').Plan} Plan
+ * @import { View } from './view.js'
+ * @import { Brush } from './canvas.js'
+ * @import { Grid, Plan } from '../types.d.ts'
  */
 
 /** Width of a wall that has none, CSS pixels. */
@@ -44,32 +41,24 @@ export class WallLayer {
     this.solid = grid !== null;
   }
 
-  /**
-   * @param {CanvasRenderingContext2D} context
-   * @param {View} view
-   * @param {Palette} palette
-   * @param {number} ratio device pixels a CSS pixel
-   */
-  draw(context, view, palette, ratio) {
+  /** @param {Brush} brush */
+  draw(brush) {
+    const { context, view, palette, ratio } = brush;
     const { extent, width, height } = view;
     if ('vector' in context && !this.#cells) {
-      this.#outline(context, view, palette);
+      this.#outline(brush);
       return;
     }
     const wanted = JSON.stringify([extent, width, height, palette.truth, palette.rule, ratio]);
     if (wanted !== this.#shown) {
       this.#shown = wanted;
-      this.#paint(view, palette, ratio);
+      this.#paint(brush);
     }
     context.drawImage(this.#layer, 0, 0, width, height);
   }
 
-  /**
-   * @param {View} view
-   * @param {Palette} palette
-   * @param {number} ratio
-   */
-  #paint(view, palette, ratio) {
+  /** @param {Brush} brush */
+  #paint({ view, palette, ratio }) {
     // A new size clears it.
     this.#layer.width = Math.round(view.width * ratio);
     this.#layer.height = Math.round(view.height * ratio);
@@ -85,15 +74,11 @@ export class WallLayer {
       context.fillRect(0, 0, view.width, view.height);
       context.globalCompositeOperation = 'source-over';
     }
-    this.#outline(context, view, palette);
+    this.#outline({ context, view, palette });
   }
 
-  /**
-   * @param {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} context
-   * @param {View} view
-   * @param {Palette} palette
-   */
-  #outline(context, view, palette) {
+  /** @param {Pick<Brush, 'view' | 'palette'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} brush */
+  #outline({ context, view, palette }) {
     const { bounds, walls } = this.#plan;
     const [left, top] = [view.toPixelX(bounds[0]), view.toPixelY(bounds[3])];
     context.strokeStyle = palette.rule;
@@ -115,11 +100,7 @@ export class WallLayer {
   }
 }
 
-/**
- * A pixel a cell, the lowest row first, opaque where it is occupied.
- *
- * @param {Grid} grid
- */
+/** A pixel a cell, the lowest row first, opaque where it is occupied. @param {Grid} grid */
 function maskOf({ columns, rows, occupied }) {
   const image = new ImageData(columns, rows);
   for (let i = 0; i < occupied.length; i++) image.data[4 * i + 3] = 255 * occupied[i];

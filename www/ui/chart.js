@@ -1,21 +1,35 @@
-/**
- * A line chart in SVG whose marker can be moved along x, by pointer and by keyboard.
- *
- * @module
- */
+/** A line chart in SVG whose marker can be moved along x, by pointer and by keyboard. */
 
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg } from 'lit';
+import { clamp } from './clamp.js';
 import { finger } from './finger.js';
 import { fixed, tick } from './format.js';
 
 const WIDTH = 380;
 const HEIGHT = 250;
-const INSET = { left: 40, right: 10, top: 22, bottom: 34 };
-const BOTTOM = HEIGHT - INSET.bottom;
+const LEFT = 40;
+const RIGHT = WIDTH - 10;
+const TOP = 22;
+const BOTTOM = HEIGHT - 34;
 
 /** Half-heights that the y axis may have, so that it holds still while a slider is dragged. */
 const HALF_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
+
+/** A curve that stays below is flat to the eye, and is not stretched. */
+const MIN_PEAK = 0.1;
+
+/** How many steps a key moves the marker by. @type {Record<string, number>} */
+const KEY_STEPS = {
+  ArrowRight: 1,
+  ArrowUp: 1,
+  ArrowLeft: -1,
+  ArrowDown: -1,
+  PageUp: 10,
+  PageDown: -10,
+  Home: -Infinity,
+  End: Infinity,
+};
 
 export const chartStyles = css`
   .chart {
@@ -76,85 +90,41 @@ export const chartStyles = css`
 `;
 
 /**
- * @param {object} chart
- * @param {string} chart.label what a screen reader says of the chart
- * @param {string} chart.axis the name of its y axis
- * @param {string} chart.marker the name of the marker
- * @param {Float64Array} chart.curve values at even steps from `min` to `max`; NaN leaves a gap
- * @param {number} chart.min
- * @param {number} chart.max
- * @param {number} chart.step of the keyboard
- * @param {number} chart.x where the marker is
- * @param {number} chart.y NaN when there is none: the marker waits on the x axis then
- * @param {{ value: number, error: number }} chart.measured NaN when there is none
- * @param {string} chart.valueText
- * @param {(to: (x: number) => number) => void} chart.move given what makes the next x of the present one
- * @param {() => void} chart.commit
+ * @typedef {object} Chart
+ * @property {string} label what a screen reader says of the chart
+ * @property {{ x: string, y: string }} axes their names, with units
+ * @property {Float64Array} curve values about 0 at even steps of x from `min` to `max`; NaN leaves a gap
+ * @property {number} min
+ * @property {number} max
+ * @property {number} step of the keyboard
+ * @property {{ name: string, text: string, x: number, y: number }} marker its value in words; y is NaN where there
+ *   is none, and the marker waits on the x axis then
+ * @property {{ value: number, error: number }} measured at the marker's x; NaN where there is none
+ * @property {(to: (x: number) => number) => void} move given what makes the next x of the present one
+ * @property {() => void} commit
  */
-export function skewChart(chart) {
-  const { min, max, curve } = chart;
-  const steps = Math.max(1, curve.length - 1);
-  const points = Array.from(
-    curve,
-    (value, i) => /** @type {[number, number]} */ ([min + (i * (max - min)) / steps, value]),
-  );
-  const peak = points.reduce((most, [, value]) => Math.max(most, Math.abs(value) || 0), 0.1);
-  const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;
-  const [perX, perY] = [(WIDTH - INSET.right - INSET.left) / (max - min), (INSET.top - BOTTOM) / (2 * half)];
-  const x = (/** @type {number} */ value) => INSET.left + (value - min) * perX;
-  const y = (/** @type {number} */ value) => BOTTOM + (value + half) * perY;
-  // After a gap the line starts anew.
-  const path = points.map(([at, value], i) => {
-    if (Number.isNaN(value)) return '';
-    return `${i > 0 && !Number.isNaN(curve[i - 1]) ? 'L' : 'M'}${x(at)},${y(value)}`;
-  });
-  const inRange = (/** @type {number} */ value) => Math.min(max, Math.max(min, value));
-  const onStep = (/** @type {number} */ value) => inRange(Math.round(value / chart.step) * chart.step);
-  const at = inRange(chart.x);
-  const undefinedHere = Number.isNaN(chart.y);
 
-  /** @param {PointerEvent} event */
-  const follow = (event) => {
-    const box = /** @type {Element} */ (event.currentTarget).getBoundingClientRect();
-    const pixel = ((event.clientX - box.left) / box.width) * WIDTH;
-    chart.move(() => onStep(min + (pixel - INSET.left) / perX));
-  };
-  /** @param {PointerEvent} event */
-  const down = (event) => {
-    if (event.button !== 0) return;
-    finger.comes(event);
-    if (finger.waits) return;
-    /** @type {Element} */ (event.currentTarget).setPointerCapture(event.pointerId);
-    follow(event);
-  };
-  /** @param {PointerEvent} event */
-  const move = (event) => {
-    finger.moves(event);
-    if (event.buttons & 1 && !finger.waits) follow(event);
-  };
-  /** @param {PointerEvent} event */
-  const up = (event) => {
-    if (finger.goes()) follow(event);
-    chart.commit();
-  };
-  /** @param {KeyboardEvent} event */
-  const key = (event) => {
-    const steps = /** @type {Record<string, number>} */ ({
-      ArrowRight: 1,
-      ArrowUp: 1,
-      ArrowLeft: -1,
-      ArrowDown: -1,
-      PageUp: 10,
-      PageDown: -10,
-      Home: -Infinity,
-      End: Infinity,
-    })[event.key];
+/** @param {Chart} chart */
+export function chart(chart) {
+  const { curve, min, max, step, marker, measured, move, commit } = chart;
+  const scale = scaleOf(chart);
+  const { x, y } = scale;
+  const at = clamp(marker.x, min, max);
+  const nowhere = Number.isNaN(marker.y);
+  // After a gap the line starts anew.
+  const path = Array.from(curve, (value, i) => {
+    if (Number.isNaN(value)) return '';
+    return `${i > 0 && !Number.isNaN(curve[i - 1]) ? 'L' : 'M'}${x(scale.at(i))},${y(value)}`;
+  });
+  const onStep = (/** @type {number} */ value) => clamp(Math.round(value / step) * step, min, max);
+  const pointer = follower((pixel) => move(() => onStep(scale.under(pixel))), commit);
+  const key = (/** @type {KeyboardEvent} */ event) => {
+    const steps = KEY_STEPS[event.key];
     if (steps === undefined) return;
     event.preventDefault();
-    chart.move((now) => onStep(now + steps * chart.step));
-    chart.commit();
+    move((now) => onStep(now + steps * step));
+    commit();
   };
-
   return html`
     <svg
       class="chart"
@@ -162,45 +132,98 @@ export function skewChart(chart) {
       role="group"
       aria-label=${chart.label}
       part="chart"
-      @pointerdown=${down}
-      @pointermove=${move}
-      @pointerup=${up}
+      @pointerdown=${pointer.down}
+      @pointermove=${pointer.move}
+      @pointerup=${pointer.up}
       @pointercancel=${finger.goes}
     >
       <g aria-hidden="true">
-        ${ticks(min, max, 5).map(
-          (value) => svg`
-            <line class="axis" x1=${x(value)} x2=${x(value)} y1=${BOTTOM} y2=${BOTTOM + 4} />
-            <text x=${x(value)} y=${BOTTOM + 18} text-anchor="middle">${tick(value, 1)}</text>`,
-        )}
-        ${ticks(-half, half, 5).map(
-          (value) => svg`
-            <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(value)} y2=${y(value)} opacity="0.5" />
-            <text x=${INSET.left - 6} y=${y(value) + 4} text-anchor="end">${fixed(value, half < 1 ? 2 : 1)}</text>`,
-        )}
-        <line class="axis" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${BOTTOM} y2=${BOTTOM} />
-        <text class="name" x=${WIDTH - INSET.right} y=${BOTTOM + 31} text-anchor="end">ω (rad/s)</text>
-        <text class="name" x="0" y="12">${chart.axis}</text>
-        <line class="zero" x1=${INSET.left} x2=${WIDTH - INSET.right} y1=${y(0)} y2=${y(0)} />
+        ${axes(chart, scale)}
         <path class="curve" d=${path.join('')} />
-        <line class="now" x1=${x(at)} x2=${x(at)} y1=${INSET.top} y2=${BOTTOM} />
+        <line class="now" x1=${x(at)} x2=${x(at)} y1=${TOP} y2=${BOTTOM} />
       </g>
       <g
         class="chart-marker"
         role="slider"
         tabindex="0"
-        aria-label=${chart.marker}
+        aria-label=${marker.name}
         aria-valuemin=${min}
         aria-valuemax=${max}
         aria-valuenow=${at}
-        aria-valuetext=${chart.valueText}
+        aria-valuetext=${marker.text}
         @keydown=${key}
       >
-        <circle class=${undefinedHere ? 'nowhere' : nothing} cx=${x(at)} cy=${undefinedHere ? BOTTOM : y(chart.y)} r="6" />
+        <circle class=${nowhere ? 'nowhere' : nothing} cx=${x(at)} cy=${nowhere ? BOTTOM : y(marker.y)} r="6" />
       </g>
-      ${Number.isNaN(chart.measured.value) ? nothing : measuredBar(x(at), chart.measured, y)}
+      ${Number.isNaN(measured.value) ? nothing : measuredBar(x(at), measured, y)}
     </svg>
   `;
+}
+
+/** Turns values into pixels and back, with 0 halfway up. @param {Chart} chart */
+function scaleOf({ curve, min, max }) {
+  const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), MIN_PEAK);
+  const half = HALF_HEIGHTS.find((candidate) => candidate >= peak) ?? peak;
+  const [perX, perY] = [(RIGHT - LEFT) / (max - min), (TOP - BOTTOM) / (2 * half)];
+  return {
+    half,
+    at: (/** @type {number} */ index) => min + (index * (max - min)) / Math.max(1, curve.length - 1),
+    x: (/** @type {number} */ value) => LEFT + (value - min) * perX,
+    y: (/** @type {number} */ value) => BOTTOM + (value + half) * perY,
+    under: (/** @type {number} */ pixel) => min + (pixel - LEFT) / perX,
+  };
+}
+
+/**
+ * @param {Chart} chart
+ * @param {ReturnType<typeof scaleOf>} scale
+ */
+function axes({ axes: names, min, max }, { half, x, y }) {
+  return svg`
+    ${ticks(min, max, 5).map(
+      (value) => svg`
+        <line class="axis" x1=${x(value)} x2=${x(value)} y1=${BOTTOM} y2=${BOTTOM + 4} />
+        <text x=${x(value)} y=${BOTTOM + 18} text-anchor="middle">${tick(value, 1)}</text>`,
+    )}
+    ${ticks(-half, half, 5).map(
+      (value) => svg`
+        <line class="axis" x1=${LEFT} x2=${RIGHT} y1=${y(value)} y2=${y(value)} opacity="0.5" />
+        <text x=${LEFT - 6} y=${y(value) + 4} text-anchor="end">${fixed(value, half < 1 ? 2 : 1)}</text>`,
+    )}
+    <line class="axis" x1=${LEFT} x2=${RIGHT} y1=${BOTTOM} y2=${BOTTOM} />
+    <text class="name" x=${RIGHT} y=${BOTTOM + 31} text-anchor="end">${names.x}</text>
+    <text class="name" x="0" y="12">${names.y}</text>
+    <line class="zero" x1=${LEFT} x2=${RIGHT} y1=${y(0)} y2=${y(0)} />`;
+}
+
+/**
+ * What follows a pointer across the chart.
+ *
+ * @param {(pixel: number) => void} moved
+ * @param {() => void} commit
+ */
+function follower(moved, commit) {
+  const follow = (/** @type {PointerEvent} */ event) => {
+    const box = /** @type {Element} */ (event.currentTarget).getBoundingClientRect();
+    moved(((event.clientX - box.left) / box.width) * WIDTH);
+  };
+  return {
+    down: (/** @type {PointerEvent} */ event) => {
+      if (event.button !== 0) return;
+      finger.comes(event);
+      if (finger.waits) return;
+      /** @type {Element} */ (event.currentTarget).setPointerCapture(event.pointerId);
+      follow(event);
+    },
+    move: (/** @type {PointerEvent} */ event) => {
+      finger.moves(event);
+      if (event.buttons & 1 && !finger.waits) follow(event);
+    },
+    up: (/** @type {PointerEvent} */ event) => {
+      if (finger.goes()) follow(event);
+      commit();
+    },
+  };
 }
 
 /**
@@ -212,7 +235,7 @@ export function skewChart(chart) {
  * @param {(value: number) => number} y
  */
 function measuredBar(x, { value, error }, y) {
-  const onAxis = (/** @type {number} */ pixel) => Math.min(BOTTOM, Math.max(INSET.top, pixel));
+  const onAxis = (/** @type {number} */ pixel) => clamp(pixel, TOP, BOTTOM);
   const end = (/** @type {number} */ pixel) => {
     const shown = onAxis(pixel);
     if (shown === pixel) return `M${x - 10},${pixel}h20`;

@@ -1,8 +1,6 @@
 /**
  * Native inputs with a label, the value with its unit, and one line that says what the parameter
  * does to the picture.
- *
- * @module
  */
 
 import { css, html, nothing } from 'lit';
@@ -46,12 +44,15 @@ export const controlStyles = css`
     white-space: nowrap;
   }
 
-  .slider .effect {
-    grid-column: 2 / -1;
-    margin: -0.15rem 0 0;
+  .effect {
     color: var(--muted);
     font-size: 0.84rem;
     line-height: 1.25;
+  }
+
+  .slider .effect {
+    grid-column: 2 / -1;
+    margin: -0.15rem 0 0;
   }
 
   .slider.picking .effect {
@@ -250,7 +251,7 @@ export function sliderRow(row) {
   const shown = row.show(row.value);
   const set = (/** @type {Event} */ event) => {
     // A browser sets a slider as soon as a finger comes down on it.
-    if (!finger.waits) row.input(numberOf(event));
+    if (!finger.waits) row.input(inputOf(event).valueAsNumber);
   };
   const room = longest([shown, row.show(row.min), row.show(row.max)]);
   return html`
@@ -285,11 +286,7 @@ export function sliderRow(row) {
   `;
 }
 
-/**
- * A message with its italics and subscripts.
- *
- * @param {string} message as messages/en.js has it
- */
+/** A message with its italics and subscripts. @param {string} message as messages/en.js has it */
 export function rich(message) {
   return message
     .split(/(\*[^*]+\*|[₀-₉])/)
@@ -319,9 +316,7 @@ export function choice({ group, label, checked, choose }) {
   </label>`;
 }
 
-/**
- * @param {{ label: unknown, checked: boolean, change: (checked: boolean) => void }} option
- */
+/** @param {{ label: unknown, checked: boolean, change: (checked: boolean) => void }} option */
 export function toggle({ label, checked, change }) {
   return html`<label class="toggle">
     <input
@@ -354,11 +349,6 @@ export function button(label, press, { pressed, disabled = false, title } = {}) 
 /** @param {Event} event */
 export function inputOf(event) {
   return /** @type {HTMLInputElement} */ (event.target);
-}
-
-/** @param {Event} event */
-function numberOf(event) {
-  return inputOf(event).valueAsNumber;
 }
 
 /**

@@ -1,8 +1,6 @@
 /**
  * Fingers on what is set from left to right: one that goes up or down scrolls the page and sets nothing,
  * one that goes across or taps means it. There is one finger at a time.
- *
- * @module
  */
 
 /** A finger that has moved less than this, CSS pixels, may be going anywhere. */

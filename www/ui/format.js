@@ -1,8 +1,6 @@
 /**
  * Numbers as they are printed in the present language: a true minus sign, thin spaces between
  * thousands, and a dash where there is no number.
- *
- * @module
  */
 
 import { language } from '../messages/registry.js';
@@ -43,8 +41,8 @@ export function fixed(value, decimals) {
 /** Below this a number is taken for a 0 that rounding has passed over. */
 const NOTHING_BELOW = 1e-13;
 
-/** Of an error: ten million robots leave 0.0008. */
-const MOST_DECIMALS = 5;
+/** Most decimals of a standard error: ten million robots leave one of 0.0008. */
+const MAX_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
@@ -71,14 +69,14 @@ export function significant(value, digits) {
 export function rounded(value, digits) {
   const near = Number(value.toPrecision(digits));
   const decimals = digits - 1 - Math.floor(Math.log10(near));
-  return decimals > 0 ? fixed(near, decimals) : whole(near);
+  return decimals > 0 ? fixed(near, decimals) : counted(near);
 }
 
 /**
  * @param {number} count
  * @returns {string} "100 000"
  */
-export function whole(count) {
+export function counted(count) {
   return print(count, { maximumFractionDigits: 0, useGrouping: true });
 }
 
@@ -98,7 +96,7 @@ export function percent(share) {
  */
 export function withError(value, error, decimals) {
   if (Number.isNaN(value)) return NOTHING;
-  const needed = error > 0 ? Math.max(decimals, Math.min(MOST_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
+  const needed = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
   return `${fixed(value, needed)} ± ${fixed(error, needed)}`;
 }
 

@@ -4,25 +4,19 @@
  * colour blindness; each role also has a dash or a shape of its own. Text on the paper keeps a
  * contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
  * custom property that begins with --motion.
- *
- * @module
  */
 
 import { css } from 'lit';
 
-/** Roles that the canvas needs as resolved colours; each is a custom property of the same name. */
-const ROLES = /** @type {const} */ ([
-  'paper',
-  'ink',
-  'muted',
-  'rule',
-  'prior',
-  'prediction',
-  'cloud',
-  'truth',
-  'posterior',
-  'accent',
-]);
+/**
+ * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
+ * prediction too, but a mass of dots rather than a line or text.
+ */
+const ROLES = /** @type {const} */ (
+  ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent']
+);
+
+/** @typedef {Record<(typeof ROLES)[number], string>} Palette resolved CSS colours */
 
 export const theme = css`
   :host {
@@ -105,8 +99,7 @@ export const theme = css`
     }
 
     :is(button, input, textarea, details, .handle, .effect, .marked, .visually-hidden),
-    label:has(input:not(:checked)),
-    .own-map :not(.present, :has(.present)) {
+    label:has(input:not(:checked)) {
       display: none !important;
     }
 
@@ -138,7 +131,7 @@ export const theme = css`
  * The palette as the element sees it now.
  *
  * @param {HTMLElement} surface
- * @returns {import('../types.d.ts').Palette}
+ * @returns {Palette}
  */
 export function resolvePalette(surface) {
   const swatch = document.createElement('span');
@@ -152,7 +145,7 @@ export function resolvePalette(surface) {
     return [role, style.color];
   });
   swatch.remove();
-  return Object.fromEntries(colours);
+  return /** @type {Palette} */ (Object.fromEntries(colours));
 }
 
 /** @type {OffscreenCanvasRenderingContext2D | undefined} */
@@ -166,6 +159,7 @@ export function channels(colour) {
   const context = (pixel ??= /** @type {OffscreenCanvasRenderingContext2D} */ (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })
   ));
+  context.clearRect(0, 0, 1, 1);
   context.fillStyle = colour;
   context.fillRect(0, 0, 1, 1);
   const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;

@@ -1,8 +1,6 @@
 /**
- * One animation-frame loop for every element of the page. It runs while some element has asked for
+ * One animation-frame loop for every figure of the page. It runs while some figure has asked for
  * a frame and the page is in sight, and stops when none has.
- *
- * @module
  */
 
 /** @typedef {{ frame(elapsed: number): void }} Animated */
@@ -15,19 +13,15 @@ const waiting = new Set();
 let previous = 0;
 let running = false;
 
-/**
- * Calls `element.frame` at the next animation frame, once however often it is asked.
- *
- * @param {Animated} element
- */
-export function wake(element) {
-  waiting.add(element);
+/** Calls `animated.frame` at the next animation frame, once however often it is asked. @param {Animated} animated */
+export function wake(animated) {
+  waiting.add(animated);
   if (!running) start();
 }
 
-/** @param {Animated} element */
-export function sleep(element) {
-  waiting.delete(element);
+/** @param {Animated} animated */
+export function sleep(animated) {
+  waiting.delete(animated);
 }
 
 function start() {
@@ -53,7 +47,7 @@ function run(now) {
   const due = [...waiting];
   waiting.clear();
   running = true;
-  for (const element of due) element.frame(elapsed);
+  for (const animated of due) animated.frame(elapsed);
   running = waiting.size > 0;
   if (running) requestAnimationFrame(run);
 }

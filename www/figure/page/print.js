@@ -1,8 +1,4 @@
-/**
- * Paper: who is about to be printed is told, and told again when it is over.
- *
- * @module
- */
+/** Paper: who is about to be printed is told, and told again when it is over. */
 
 /**
  * @param {(printing: boolean) => void} listener

@@ -1,8 +1,4 @@
-/**
- * Room for a figure that is not there yet, so that what is below it stays where it is.
- *
- * @module
- */
+/** Room for a figure that is not there yet, so that what is below it stays where it is. */
 
 import { css, unsafeCSS } from 'lit';
 

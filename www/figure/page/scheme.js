@@ -1,12 +1,12 @@
-/**
- * Light or dark: what the element was told, else what its surroundings are.
- *
- * @module
- */
+/** Light or dark: what the element was told, else what its surroundings are. */
 
 import { css } from 'lit';
+import { channels } from '../../ui/theme.js';
 
-/** @typedef {'auto' | 'light' | 'dark'} Theme */
+/**
+ * @typedef {"auto" | "light" | "dark"} Theme
+ * @typedef {"light" | "dark" | ""} Surroundings empty where `color-scheme` says it
+ */
 
 export const THEMES = /** @type {Theme[]} */ (['auto', 'light', 'dark']);
 
@@ -37,7 +37,7 @@ export const schemeStyles = css`
  * So it is with a page whose own switch changes colours alone.
  *
  * @param {Element} probe
- * @returns {'light' | 'dark' | ''} empty where `color-scheme` says it
+ * @returns {Surroundings}
  */
 export function surroundings(probe) {
   const { color, colorScheme } = getComputedStyle(probe);
@@ -50,12 +50,7 @@ export function surroundings(probe) {
  * @returns {number} from 0, black, to 1
  */
 function lightness(colour) {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = 1;
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', { willReadFrequently: true }));
-  context.fillStyle = colour;
-  context.fillRect(0, 0, 1, 1);
-  const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;
+  const [red, green, blue] = channels(colour);
   // Rec. 709 weights.
   return (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
 }

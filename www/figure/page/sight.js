@@ -1,13 +1,8 @@
-/**
- * Which elements are in sight, and which are near enough to be made ready: two observers for all of a
- * page.
- *
- * @module
- */
+/** Which elements are in sight, and which are near enough to be made ready: two observers for all of a page. */
 
 /**
- * @typedef {object} Sighted
- * @property {() => void} approach it is near enough to be made ready
+ * @typedef {object} Watcher
+ * @property {() => void} approach the element is near enough to be made ready
  * @property {(inSight: boolean) => void} sight
  */
 
@@ -17,25 +12,29 @@
  */
 const AHEAD = '600px';
 
+/** @type {WeakMap<Element, Watcher>} */
+const watchers = new WeakMap();
 /** @type {IntersectionObserver | undefined} */
 let nearness;
 /** @type {IntersectionObserver | undefined} */
 let presence;
 
 /**
- * Tells an element when it comes near and, from now on, whether it is in sight.
+ * Tells when an element comes near and, from now on, whether it is in sight.
  *
- * @param {Element & Sighted} element
+ * @param {Element} element
+ * @param {Watcher} watcher
  */
-export function watch(element) {
+export function watch(element, watcher) {
+  watchers.set(element, watcher);
   nearness ??= new IntersectionObserver(
     (entries) => {
-      for (const { target, isIntersecting } of entries) if (isIntersecting) sighted(target).approach();
+      for (const { target, isIntersecting } of entries) if (isIntersecting) watchers.get(target)?.approach();
     },
     { rootMargin: AHEAD },
   );
   presence ??= new IntersectionObserver((entries) => {
-    for (const { target, isIntersecting } of entries) sighted(target).sight(isIntersecting);
+    for (const { target, isIntersecting } of entries) watchers.get(target)?.sight(isIntersecting);
   });
   nearness.observe(element);
   presence.observe(element);
@@ -45,9 +44,4 @@ export function watch(element) {
 export function unwatch(element) {
   nearness?.unobserve(element);
   presence?.unobserve(element);
-}
-
-/** @param {Element} element */
-function sighted(element) {
-  return /** @type {Element & Sighted} */ (element);
 }

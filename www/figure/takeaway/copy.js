@@ -1,19 +1,11 @@
-/**
- * The menu from which a reader copies a link to the figure as it is, or the HTML that embeds it.
- *
- * @module
- */
+/** The menu from which a reader copies a link to the figure as it is, or the HTML that embeds it. */
 
 import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.js';
+import { escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
 
-/**
- * @typedef {object} Copyable
- * @property {boolean} share
- * @property {() => Promise<string>} shareLink
- * @property {() => string} embedCode
- */
+/** @typedef {import('../figure.js').FigureElement<any, any>} Figure */
 
 /** What was copied last, and where the reader finds it. */
 export class CopyMenu {
@@ -23,7 +15,7 @@ export class CopyMenu {
   #told;
 
   /**
-   * @param {Copyable} element
+   * @param {Figure} element
    * @param {() => void} told called when there is something else to show
    */
   constructor(element, told) {
@@ -57,4 +49,24 @@ export class CopyMenu {
         : nothing}
     </details>`;
   }
+}
+
+/**
+ * HTML for a page that has the script beside it, with the attributes that the figure needs to open as it is now.
+ *
+ * @param {Figure} figure
+ */
+export function embedding(figure) {
+  const given = ['theme', 'lang', 'dir'].map((name) => /** @type {[string, string]} */ ([name, figure.getAttribute(name) ?? '']));
+  const needed = figure.machine ? figure.reflection.needed() : [];
+  const script = tag('script', [['type', 'module'], ['src', 'motion-widgets.js']]);
+  return `${script}\n${tag(figure.localName, [...given.filter(([, text]) => text !== ''), ...needed])}\n`;
+}
+
+/**
+ * @param {string} name
+ * @param {[string, string][]} attributes
+ */
+function tag(name, attributes) {
+  return `<${name}${attributes.map(([key, text]) => ` ${key}="${escaped(text)}"`).join('')}></${name}>`;
 }

@@ -1,27 +1,21 @@
-/**
- * A figure to take along: its picture as PNG or SVG, and its samples as CSV.
- *
- * @module
- */
+/** A figure to take along: its picture as PNG or SVG, and its samples as CSV. */
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';
-import { button } from '../../ui/controls.js';
 import { SvgContext, escaped } from '../../scene/svg.js';
+import { button } from '../../ui/controls.js';
 
 /**
- * @typedef {import('../../types.d.ts').Palette} Palette
- * @typedef {import('../../scene/canvas.js').Surface} Surface
+ * @import { Surface } from '../../scene/canvas.js'
  *
- * @typedef {object} Figure what there is to take along
- * @property {HTMLCanvasElement} canvas where it is shown
- * @property {Palette} palette
- * @property {(surface: Surface) => void} paint draws the same once more
- * @property {object} settings
+ * @typedef {object} Takeaway what there is to take along, besides the picture
  * @property {string} title
+ * @property {object} settings
  * @property {string[]} columns of the samples, with their units in their names
  * @property {(i: number) => number[]} row of a sample
  * @property {number} count of the samples
+ *
+ * @typedef {import('../figure.js').FigureElement<any, any>} Figure
  */
 
 /** Pixels of a PNG image a CSS pixel: as fine as a page in print wants a figure. */
@@ -31,35 +25,36 @@ const PNG_RATIO = 2;
 const SIZE = { width: 720, height: 432 };
 
 /**
- * @param {Figure} figure
+ * Draws the picture once more, as large as it is on the page and in its font.
+ *
+ * @param {Figure} element
  * @param {number} ratio pixels a CSS pixel
- * @param {() => unknown} getContext
- * @returns {Surface} one that is as large as the canvas, and has its font
+ * @param {(size: { width: number, height: number }) => unknown} makeContext
  */
-function surfaceLike({ canvas }, ratio, getContext) {
-  const { width, height } = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
+function drawOn({ scene, pictures: [picture], stage }, ratio, makeContext) {
+  const canvas = stage.canvasOf(picture);
+  const { width: clientWidth, height } = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
   const { fontFamily, fontSize } = getComputedStyle(canvas);
-  const context = /** @type {() => CanvasRenderingContext2D} */ (getContext);
-  const font = `${fontSize} ${fontFamily}`;
-  return { width: Math.round(ratio * width), height: Math.round(ratio * height), clientWidth: width, font, getContext: context };
+  const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
+  const context = /** @type {CanvasRenderingContext2D} */ (makeContext(size));
+  const surface = { ...size, clientWidth, font: `${fontSize} ${fontFamily}`, getContext: () => context };
+  picture.draw(surface, scene, stage.palette, { atOnce: true });
+  return { canvas, context, ...size };
 }
 
 /**
- * @param {Figure} figure
+ * @param {Figure} element
  * @returns {Promise<Blob>} with the paper that it is on
  */
-export async function pngOf(figure) {
-  const canvas = document.createElement('canvas');
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
-  const surface = surfaceLike(figure, PNG_RATIO, () => context);
-  Object.assign(canvas, { width: surface.width, height: surface.height });
-  figure.paint(surface);
+export async function pngOf(element) {
+  const image = document.createElement('canvas');
+  const { context, width, height } = drawOn(element, PNG_RATIO, (size) => Object.assign(image, size).getContext('2d'));
   context.resetTransform();
   context.globalCompositeOperation = 'destination-over';
-  context.fillStyle = figure.palette.paper;
-  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.fillStyle = element.stage.palette.paper;
+  context.fillRect(0, 0, width, height);
   return new Promise((resolve, reject) => {
-    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser makes no PNG image of it.'))));
+    image.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser makes no PNG image of it.'))));
   });
 }
 
@@ -74,19 +69,18 @@ function hash(text) {
   return value.toString(36);
 }
 
-/** @param {Figure} figure */
-export function svgOf(figure) {
-  const name = `figure-${hash(JSON.stringify(figure.settings))}`;
-  const context = new SvgContext(name);
-  const surface = surfaceLike(figure, 1, () => context);
-  figure.paint(surface);
-  const { width, height } = surface;
-  const description = figure.canvas.getAttribute('aria-label') ?? '';
+/** @param {Figure} element */
+export function svgOf(element) {
+  const { settings, title } = element.takeaway;
+  const name = `figure-${hash(JSON.stringify(settings))}`;
+  const svg = new SvgContext(name);
+  const { canvas, width, height } = drawOn(element, 1, () => svg);
+  const description = canvas.getAttribute('aria-label') ?? '';
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-labelledby="${name}-title ${name}-text">
-<title id="${name}-title">${escaped(figure.title)}</title>
+<title id="${name}-title">${escaped(title)}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
-<rect width="100%" height="100%" fill="${figure.palette.paper}"/>
-${context.markup}
+<rect width="100%" height="100%" fill="${element.stage.palette.paper}"/>
+${svg.markup}
 </svg>
 `;
 }
@@ -95,9 +89,9 @@ ${context.markup}
  * A line of settings behind a #, with the seed among them; a line of names; and a line a sample, with
  * as many digits as bring the same numbers back. Arrays print themselves with commas.
  *
- * @param {Figure} figure
+ * @param {Figure} element
  */
-export function csvOf({ settings, columns, row, count }) {
+export function csvOf({ takeaway: { settings, columns, row, count } }) {
   const lines = [`# ${JSON.stringify(settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
   return `${lines.join('\n')}\n`;
 }
@@ -118,12 +112,12 @@ function save(name, blob) {
 /**
  * The menu from which a reader saves the figure.
  *
- * @param {{ localName: string, toPNG: () => Promise<Blob>, toSVG: () => string, toCSV: () => string }} element
- * @param {number} seed
+ * @param {Figure} element
+ * @param {string | number} mark that tells its files from those of another state
  */
-export function exportMenu(element, seed) {
+export function exportMenu(element, mark) {
   const say = words.exports;
-  const name = `${element.localName}-${seed}`;
+  const name = `${element.localName}-${mark}`;
   const text = (/** @type {string} */ ending, /** @type {string} */ type, /** @type {string} */ content) =>
     save(`${name}.${ending}`, new Blob([content], { type }));
   return html`<details class="exports" part="exports">

@@ -1,161 +1,101 @@
-/**
- * The Banana Machine's controls: the command, the noise and the overlays.
- *
- * @module
- */
+/** The Banana Machine's controls: the command, the noise and the overlays. */
 
 import { html } from 'lit';
 import { live } from 'lit/directives/live.js';
+import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, radioGroup, sliderRow, toggle } from '../../ui/controls.js';
-import { DASHES } from '../../scene/draw.js';
+import { presets } from '../../settings.js';
+import { button, toggle } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
-import { OVERLAYS } from './settings.js';
-import { COMMAND_SLIDERS, alphaName, alphaSymbol } from './words.js';
+import { alphaName } from './reading.js';
+import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 
-/**
- * @typedef {import('../../types.d.ts').Settings} Settings
- * @typedef {import('../../types.d.ts').Preset} Preset
- * @typedef {import('../../types.d.ts').OverlayName} Overlay
- *
- * @typedef {Partial<Settings> | ((wanted: Settings) => Partial<Settings>)} Change settings, or what
- *   makes them from those wanted so far
- *
- * @typedef {object} Actions what the controls ask of the element
- * @property {(settings: Change) => void} change takes effect with the next frame
- * @property {() => void} commit after the last of a row of changes, which it puts into effect
- * @property {(index: number) => void} isolate the α to leave alone in effect, from 0
- */
+/** @typedef {import('./banana-machine.js').BananaMachineElement} Figure */
 
-/** Upper end of the α sliders: a standard deviation of nearly half the command. */
-const ALPHA_MAX = 0.2;
-const ALPHA_STEP = 0.001;
-
-/**
- * @param {Settings} config
- * @param {Preset[]} presets
- * @param {Actions} actions
- */
-export function commandControls(config, presets, { change, commit }) {
-  const { command } = config;
+/** @param {Figure} figure */
+export function commandControls(figure) {
+  const { command } = figure.reading.config;
   return html`
     <fieldset>
       <legend>${words.command}</legend>
       <div class="buttons">
-        ${presets.map(({ name, v, omega, dt }) =>
+        ${presets['banana-machine'].map(({ name, v, omega, dt }) =>
           button(
-            words.banana.presets[name],
-            () => {
-              change({ command: { v, omega, dt } });
-              commit();
-            },
+            words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
+            () => figure.decide({ command: { v, omega, dt } }),
             { pressed: command.v === v && command.omega === omega && command.dt === dt },
           ),
         )}
       </div>
-      ${COMMAND_SLIDERS.map(({ key, symbol, name, unit, ...range }) =>
-        sliderRow({
-          ...range,
-          id: key,
-          symbol: html`<i>${symbol}</i>`,
-          name: words[name],
-          value: command[key],
-          show: (value) => `${fixed(value, 2)} ${unit}`,
-          effect: words.banana.effects[key],
-          role: 'prior',
-          input: (value) => change(({ command }) => ({ command: { ...command, [key]: value } })),
-          commit,
-        }),
-      )}
+      ${sliders(figure, COMMAND)}
     </fieldset>
   `;
 }
 
-/**
- * @param {Settings} config
- * @param {number} chosen the α that Isolate would leave, from 0
- * @param {Actions} actions
- */
-export function noiseControls(config, chosen, { change, commit, isolate }) {
-  const { model, noise, alphas } = config;
-  const isolated = config.isolate !== null;
+/** @param {Figure} figure */
+export function noiseControls(figure) {
+  const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
+  // From 1; the other model may have fewer.
+  const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
   return html`
     <fieldset>
       <legend>${say.modelAndNoise}</legend>
-      ${radioGroup(say.model, 'model', say.models, model, (name) => {
-        change({ model: name, isolate: null });
-        commit();
-      })}
-      ${radioGroup(say.noise, 'noise', say.noises, noise, (name) => {
-        change({ noise: name });
-        commit();
-      })}
+      ${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
     </fieldset>
     <fieldset class="alphas">
-      <legend>${say.alphas}</legend>
+      <legend>${say.settings.alphas.name}</legend>
       ${toggle({
         label: say.isolate,
-        checked: isolated,
-        change: (on) => {
-          change({ isolate: on ? chosen + 1 : null });
-          commit();
-        },
+        checked: isolate !== null,
+        change: (on) => figure.decide({ isolate: on ? chosen : null }),
       })}
-      ${alphas.map((alpha, index) => {
-        const off = isolated && config.isolate !== index + 1;
-        return sliderRow({
-          id: `alpha${index + 1}`,
-          symbol: alphaSymbol(index),
-          value: alpha,
-          min: 0,
-          max: ALPHA_MAX,
-          step: ALPHA_STEP,
-          show: (value) => (off ? say.off(fixed(value, 3)) : fixed(value, 3)),
-          effect: effectOf(say.alphaEffects[model][index]),
-          role: 'prediction',
-          off,
-          pick: isolated ? isolateButton(index, !off, isolate) : undefined,
-          input: (value) => {
-            if (off) isolate(index);
-            change(({ alphas }) => ({ alphas: alphas.with(index, value) }));
-          },
-          commit,
-        });
-      })}
+      ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, say.settings.alphas.effects[model][index]))}
     </fieldset>
   `;
 }
 
-/** @param {string[]} effect the noise that an α feeds, and what that does to the picture */
-function effectOf([path, picture]) {
-  return html`<span class="path">${path}:</span> ${picture}.`;
+/**
+ * @param {Figure} figure
+ * @param {string} key
+ * @param {number} number from 1
+ * @param {string[]} effect the noise that the α feeds, and what that does to the picture
+ */
+function alphaSlider(figure, key, number, [path, picture]) {
+  const { isolate } = figure.reading.config;
+  const off = isolate !== null && isolate !== number;
+  return slider(figure, key, {
+    off,
+    pick: isolate === null ? undefined : isolateButton(figure, number, !off),
+    show: (value) => (off ? words.banana.off(fixed(value, 3)) : fixed(value, 3)),
+    effect: html`<span class="path">${path}:</span> ${picture}.`,
+    input: (value) => {
+      if (off) figure.leaveAlone(number);
+      figure.settings.want(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
+    },
+  });
 }
 
 /**
- * @param {number} index
+ * @param {Figure} figure
+ * @param {number} number of the α, from 1
  * @param {boolean} checked
- * @param {(index: number) => void} isolate
  */
-function isolateButton(index, checked, isolate) {
+function isolateButton(figure, number, checked) {
   return html`<label class="choice">
     <input
       type="radio"
       name="isolate"
-      aria-label=${words.banana.only(alphaName(index))}
+      aria-label=${words.banana.only(alphaName(number - 1))}
       .checked=${live(checked)}
-      @change=${() => isolate(index)}
+      @change=${() => figure.leaveAlone(number)}
     />
   </label>`;
 }
 
-/**
- * The legend of the floor, in which each overlay can be turned off.
- *
- * @param {readonly Overlay[]} shown
- * @param {(shown: Overlay[]) => void} change
- */
-export function overlayToggles(shown, change) {
+/** The legend of the floor, in which each overlay can be turned off. @param {Figure} figure */
+export function overlayToggles(figure) {
+  const { overlays: shown } = figure.state.own;
   return html`<div class="legend" part="legend" role="group" aria-label=${words.banana.overlaysLabel}>
     ${OVERLAYS.map((name) =>
       toggle({
@@ -164,7 +104,8 @@ export function overlayToggles(shown, change) {
           </svg>
           <span>${words.banana.overlays[name]}</span>`,
         checked: shown.includes(name),
-        change: (checked) => change(OVERLAYS.filter((each) => (each === name ? checked : shown.includes(each)))),
+        change: (checked) =>
+          figure.choose('overlays', OVERLAYS.filter((each) => (each === name ? checked : shown.includes(each)))),
       }),
     )}
   </div>`;

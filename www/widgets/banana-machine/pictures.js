@@ -1,14 +1,7 @@
-/**
- * The Banana Machine's two pictures of the same robots: the floor from above, and exponential
- * coordinates.
- *
- * @module
- */
+/** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
 import { words } from '../../messages/registry.js';
-import { prepare } from '../../scene/canvas.js';
 import {
-  DASHES,
   clipped,
   densityRamp,
   drawAxes,
@@ -19,36 +12,29 @@ import {
   drawPixels,
   drawRobot,
 } from '../../scene/draw.js';
-import { whole } from '../../ui/format.js';
+import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
+import { counted } from '../../ui/format.js';
+import { deviation } from './reading.js';
+import { DASHES } from './settings.js';
 
 /**
- * @typedef {import('../../types.d.ts').BananaMachine} BananaMachine
- * @typedef {import('../../types.d.ts').Contours} Contours
- * @typedef {import('../../types.d.ts').Inspection} Inspection
- * @typedef {import('../../types.d.ts').Palette} Palette
- * @typedef {import('../../types.d.ts').Moments} Moments
- * @typedef {import('../../types.d.ts').Settings} Settings
- * @typedef {import('../../types.d.ts').Stats} Stats
- * @typedef {import('../../types.d.ts').Table} Table
- * @typedef {import('../../types.d.ts').ViewName} ViewName
- * @typedef {import('../../scene/canvas.js').Surface} Surface
+ * @import { BananaMachine, Moments } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ * @import { Palette } from '../../ui/theme.js'
  *
- * @typedef {object} Scene what both pictures are of
- * @property {BananaMachine} machine
- * @property {Settings} config
- * @property {Stats} stats
- * @property {Contours} contours
- * @property {Table} table
- * @property {Record<keyof typeof DASHES, boolean>} overlays
- * @property {Inspection | undefined} marked
+ * @typedef {import('./reading.js').Reading & {
+ *   machine: BananaMachine,
+ *   overlays: Record<keyof typeof DASHES, boolean>,
+ *   marked: import('../../types.d.ts').Inspection | undefined,
+ * }} Scene what both pictures are of
  */
 
-/** From here on the cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
-const DOTS_AT_MOST = 2500;
+/** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
+const MAX_DOTS = 2500;
 
 /** Rays of a fan of headings: more look no different. */
-const RAYS_AT_MOST = 400;
+const MAX_RAYS = 400;
 
 /** A cloud whose standard deviation is below this many pixels is drawn as one place. */
 const ONE_PLACE = 0.6;
@@ -56,75 +42,56 @@ const ONE_PLACE = 0.6;
 /** Standard deviations around the mean that a view makes room for. */
 const ROOM = 3.2;
 
-/** A picture: a canvas and its view. */
-class Picture {
-  /** Device pixels a CSS pixel. */
-  ratio = 1;
-  font = '';
+/** How near to a robot the pointer must be to mark it, CSS pixels. */
+const REACH = 14;
+
+/**
+ * A picture of the robots: as dots, or as a density.
+ *
+ * @extends {Picture<Scene, import('../../types.d.ts').ViewName>}
+ */
+class CloudPicture extends Picture {
   #grid = new OffscreenCanvas(1, 1);
-  /** Colours of its density. @type {Uint8Array} */
+  /** Colours of the density. @type {Uint8Array} */
   #ramp = new Uint8Array();
   /** What the ramp was made of. @type {Palette | undefined} */
   #palette;
 
   /**
-   * @param {ViewName} name
-   * @param {View} view
-   */
-  constructor(name, view) {
-    this.name = name;
-    this.view = view;
-  }
-
-  /**
-   * Prepares a canvas for drawing in CSS pixels.
-   *
-   * @param {HTMLCanvasElement | Surface} canvas
-   */
-  prepare(canvas) {
-    const { context, ratio, font } = prepare(canvas, this.view);
-    Object.assign(this, { ratio, font });
-    return context;
-  }
-
-  /**
-   * The sample nearest to the pointer.
+   * The robot nearest to the pointer; −1 for none.
    *
    * @param {BananaMachine} machine
-   * @param {number} x CSS pixels in the canvas
+   * @param {number} x CSS pixels of the canvas
    * @param {number} y
-   * @param {number} reach CSS pixels
    */
-  nearest(machine, x, y, reach) {
-    const { view } = this;
-    const [worldX, worldY] = [view.toWorldX(x), view.toWorldY(y)];
-    return machine.nearest(this.name, worldX, worldY, reach / view.scaleX, reach / view.scaleY);
+  nearest(machine, x, y) {
+    return machine.nearest(this.name, ...this.around(x, y, REACH));
   }
 
   /**
-   * @param {CanvasRenderingContext2D} context
-   * @param {Scene} scene
-   * @param {Palette} palette
-   * @param {number} cell CSS pixels
+   * @param {Brush} brush
+   * @param {BananaMachine} machine
+   * @param {number} area that the robots cover, square pixels
    */
-  drawCloud(context, { machine }, palette, cell) {
-    const { view, name } = this;
-    if (machine.shown > DOTS_AT_MOST) {
-      const { left, right, top, bottom } = view.frame;
-      const { xMin, yMin, xMax, yMax } = view.extent;
-      const columns = Math.max(1, Math.round((right - left) / cell));
-      const rows = Math.max(1, Math.round((bottom - top) / cell));
-      if (this.#palette !== palette) {
-        this.#palette = palette;
-        this.#ramp = densityRamp(palette);
-      }
-      const pixels = machine.picture(name, xMin, yMin, xMax, yMax, columns, rows, this.#ramp);
-      drawPixels(context, view, this.#grid, pixels, columns);
-    } else if (name === 'plane') {
-      drawDots(context, view, palette, machine.poses, { x: 0, y: 1, heading: 2, ratio: this.ratio });
-    } else {
-      drawDots(context, view, palette, machine.twists, { x: 0, y: 2, heading: null, ratio: this.ratio });
+  paintCloud(brush, machine, area) {
+    const { name } = this;
+    const { view, palette } = brush;
+    if (machine.shown <= MAX_DOTS) {
+      if (name === 'plane') drawDots(brush, machine.poses, { x: 0, y: 1, heading: 2 });
+      else drawDots(brush, machine.twists, { x: 0, y: 2, heading: null });
+      return;
     }
+    const cell = cellSize(area, machine.shown);
+    const { left, right, top, bottom } = view.frame;
+    const { xMin, yMin, xMax, yMax } = view.extent;
+    const columns = Math.max(1, Math.round((right - left) / cell));
+    const rows = Math.max(1, Math.round((bottom - top) / cell));
+    if (this.#palette !== palette) {
+      this.#palette = palette;
+      this.#ramp = densityRamp(palette);
+    }
+    const pixels = machine.picture(name, xMin, yMin, xMax, yMax, columns, rows, this.#ramp);
+    drawPixels(brush, this.#grid, pixels, columns);
   }
 }
 
@@ -138,13 +105,8 @@ function cellSize(area, count) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
 
-/** @param {number} variance whose quadrature may round to less than 0 */
-function deviation(variance) {
-  return Math.sqrt(Math.max(0, variance));
-}
-
 /** The floor from above. */
-export class PlanePicture extends Picture {
+export class PlanePicture extends CloudPicture {
   constructor() {
     super('plane', new View({ equal: true, inset: { left: 42, right: 8, top: 24, bottom: 30 } }));
   }
@@ -166,24 +128,22 @@ export class PlanePicture extends Picture {
   }
 
   /**
-   * @param {HTMLCanvasElement | Surface} canvas
+   * @param {Brush} brush
    * @param {Scene} scene
-   * @param {Palette} palette
    */
-  draw(canvas, scene, palette) {
-    const context = this.prepare(canvas);
-    const { view } = this;
-    const { contours, overlays, table, marked } = scene;
-    drawAxes(context, view, palette, { x: 'x (m)', y: 'y (m)', font: this.font });
-    clipped(context, view, () => {
+  paint(brush, scene) {
+    const { view, palette } = brush;
+    const { machine, contours, overlays, table, marked } = scene;
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
+    clipped(brush, () => {
       const { cov } = table.exact;
       const heaped = deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
       if (!heaped) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
         const area = 4 * Math.PI * Math.sqrt(determinant) * view.scaleX * view.scaleY;
-        this.drawCloud(context, scene, palette, cellSize(area, scene.machine.shown));
+        this.paintCloud(brush, machine, area);
       }
-      drawRobot(context, view, palette, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       const styles = /** @type {const} */ ([
         ['linearized', palette.prediction, 1.75],
         ['ellipse', palette.prediction, 2],
@@ -192,30 +152,25 @@ export class PlanePicture extends Picture {
       ]);
       for (const [name, colour, width] of styles) {
         if (!overlays[name]) continue;
-        drawOutline(context, view, palette, contours[name], { colour, width, dash: DASHES[name] });
+        drawOutline(brush, contours[name], { colour, width, dash: DASHES[name] });
       }
-      if (heaped && scene.machine.shown > 0) this.#drawHeap(context, scene, palette);
+      if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
       if (marked) {
         const { pose, path } = marked;
-        drawOutline(context, view, palette, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
-        drawMark(context, view, palette, { x: pose[0], y: pose[1], heading: pose[2] });
+        drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
+        drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] });
       }
     });
   }
+}
 
-  /**
-   * @param {CanvasRenderingContext2D} context
-   * @param {Scene} scene
-   * @param {Palette} palette
-   */
-  #drawHeap(context, { machine }, palette) {
-    const stride = Math.ceil(machine.shown / RAYS_AT_MOST);
-    const headings = [];
-    for (let i = 0; i < machine.shown; i += stride) headings.push(machine.heading(i));
-    const label = words.banana.robotsHere(machine.shown, whole(machine.shown));
-    const [x, y] = machine.inspect(0).pose;
-    drawHeap(context, this.view, palette, { x, y, headings, label, font: this.font });
-  }
+/** Robots that are all in one place. @param {BananaMachine} machine */
+function heapOf(machine) {
+  const stride = Math.ceil(machine.shown / MAX_RAYS);
+  const headings = [];
+  for (let i = 0; i < machine.shown; i += stride) headings.push(machine.heading(i));
+  const [x, y] = machine.inspect(0).pose;
+  return { x, y, headings, label: words.banana.robotsHere(machine.shown, counted(machine.shown)) };
 }
 
 /**
@@ -236,7 +191,7 @@ function twistMoments({ config, stats, table }) {
 }
 
 /** The same robots in exponential coordinates. */
-export class TwistPicture extends Picture {
+export class TwistPicture extends CloudPicture {
   constructor() {
     super('twist', new View({ equal: false, inset: { left: 46, right: 10, top: 24, bottom: 30 } }));
   }
@@ -254,22 +209,20 @@ export class TwistPicture extends Picture {
   }
 
   /**
-   * @param {HTMLCanvasElement | Surface} canvas
+   * @param {Brush} brush
    * @param {Scene} scene
-   * @param {Palette} palette
    */
-  draw(canvas, scene, palette) {
-    const context = this.prepare(canvas);
-    const { view } = this;
+  paint(brush, scene) {
+    const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
-    drawAxes(context, view, palette, { x: words.banana.axisAlong, y: words.banana.axisHeading, font: this.font });
-    clipped(context, view, () => {
+    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading });
+    clipped(brush, () => {
       const [{ cov }] = twistMoments(scene);
       const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;
-      this.drawCloud(context, scene, palette, cellSize(area, machine.shown));
+      this.paintCloud(brush, machine, area);
       if (overlays.exponential) {
         const style = { colour: palette.posterior, width: 2.25, dash: DASHES.exponential };
-        drawOutline(context, view, palette, contours.twistEllipse, style);
+        drawOutline(brush, contours.twistEllipse, style);
       }
       if (overlays.command) {
         const { v, omega, dt } = config.command;
@@ -281,7 +234,7 @@ export class TwistPicture extends Picture {
         context.lineWidth = 2.5;
         context.stroke();
       }
-      if (marked) drawMark(context, view, palette, { x: marked.twist[0], y: marked.twist[2], heading: null });
+      if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
   }
 }

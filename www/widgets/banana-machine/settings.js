@@ -1,95 +1,69 @@
-/**
- * The Banana Machine's settings: which attributes they have, and a machine in a given state.
- *
- * @module
- */
+/** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
 
-import { DASHES } from '../../scene/draw.js';
-import { NUMBER, WORD, WORDS, field, plain, preset } from '../../figure/attributes.js';
-import { showOnly } from '../../figure/cloud.js';
-import { refusal } from '../../figure/checks.js';
+import { WORDS, attributesOf, presetOf } from '../../figure/attributes.js';
+import { subset, wholeNumber } from '../../figure/checks.js';
+import { cloudState } from '../../figure/cloud.js';
+import { alphaCounts, presets, settings } from '../../settings.js';
+import { COMMAND_DASH, commandLooks } from '../shared/command.js';
 
-/**
- * @typedef {import('../../types.d.ts').Motion} Motion
- * @typedef {import('../../types.d.ts').OverlayName} Overlay
- */
+export const declared = settings['banana-machine'];
 
-export const OVERLAYS = /** @type {Overlay[]} */ (Object.keys(DASHES));
+/** The key of its words in the catalogues. */
+export const vocabulary = 'banana';
 
-/** Those that are shown when the widget opens. @type {readonly Overlay[]} */
-export const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
+/** Dashes of the outlines on the floor, CSS pixels. @satisfies {Record<string, number[]>} */
+export const DASHES = { command: COMMAND_DASH, ellipse: [7, 4], linearized: [9, 3, 2, 3], exponential: [] };
+export const OVERLAYS = /** @type {(keyof typeof DASHES)[]} */ (Object.keys(DASHES));
+const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 
-/** Noise parameters of each model. */
-export const ALPHAS = { velocity: 6, odometry: 4 };
-
-/**
- * A noise parameter of the present model.
- *
- * @param {number} index from 0
- * @returns {import('../../figure/attributes.js').Setting}
- */
-function alpha(index) {
-  return {
-    kind: NUMBER,
-    get: ({ alphas }) => alphas[index] ?? null,
-    change: (value, { model, alphas }) => {
-      if (index < alphas.length) return { alphas: alphas.with(index, value) };
-      throw refusal(`alpha${index + 1}`, value, `none, as the ${model} model has alpha1 to alpha${alphas.length}`);
-    },
-  };
-}
-
-/** What others depend on comes first. @type {import('../../figure/attributes.js').Attributes} */
-export const ATTRIBUTES = {
-  preset: preset(
-    ({ BananaMachine }) => BananaMachine.presets,
-    ({ v, omega, dt }) => ({ command: { v, omega, dt } }),
-    ['v', 'omega', 'dt'],
-  ),
-  model: plain('model', WORD),
-  noise: plain('noise', WORD),
-  v: field('command', 'v'),
-  omega: field('command', 'omega'),
-  dt: field('command', 'dt'),
-  ...Object.fromEntries([0, 1, 2, 3, 4, 5].map((index) => [`alpha${index + 1}`, alpha(index)])),
-  isolate: { ...plain('isolate', NUMBER), get: ({ isolate }) => isolate ?? null },
-  samples: plain('samples', NUMBER),
-  seed: plain('seed', NUMBER),
-  overlays: { kind: WORDS, own: true },
+/** @type {import('../../figure/attributes.js').Attributes} */
+export const attributes = {
+  preset: presetOf('command', presets['banana-machine']),
+  ...attributesOf(declared),
+  overlays: { kind: WORDS, own: true, words: OVERLAYS },
 };
 
-/**
- * A machine in a state; in that of the opening where there is none.
- *
- * @param {Motion} motion
- * @param {import('../../figure/state.js').State} [state]
- * @throws {TypeError | RangeError} and there is none then
- */
-export function machineIn(motion, state) {
-  const machine = new motion.BananaMachine();
-  if (!state) return machine;
-  const { model, noise, command, alphas, isolate, samples, seed, shown } = state;
-  try {
-    const other = model === 'velocity' ? 'odometry' : 'velocity';
-    machine.configure({ model: other, alphas: alphas[other] });
-    machine.configure({ model, noise, command, alphas: alphas[model], isolate, samples, seed });
-    showOnly(machine, shown);
-  } catch (error) {
-    machine.free();
-    throw error;
-  }
-  return machine;
-}
+/** @type {Record<string, import('../../figure/state.js').Owned>} */
+export const own = {
+  ...cloudState,
+  /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
+  isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, alphaCounts.velocity) },
+  overlays: { opening: OPENING_OVERLAYS, check: (field, overlays) => subset(field, overlays, OVERLAYS) },
+};
 
-/**
- * The settings that the widget opens with, in a model.
- *
- * @param {Motion} motion
- * @param {{ model: import('../../types.d.ts').ModelName }} settings
- */
-export function openingOf(motion, { model }) {
-  const machine = new motion.BananaMachine({ model });
-  const { config } = machine;
-  machine.free();
-  return config;
-}
+/** @type {import('../../figure/attributes.js').Documentation} */
+export const documentation = {
+  attributes: {
+    preset: 'A command worth starting from; none where the command is another.',
+    overlays: 'The outlines that are drawn; in the attribute with spaces between.',
+  },
+  properties: {
+    twists: {
+      type: 'Float64Array | null',
+      readonly: true,
+      sentence: 'ξ along, lateral (m), heading (rad) of each robot shown; a copy.',
+    },
+  },
+  state: {
+    alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six and four, of either model.' },
+    isolateChoice: { type: 'number', sentence: 'What Isolate leaves when it is turned on, from 1.' },
+  },
+};
+
+/** Up to a standard deviation of nearly half the command. */
+const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
+
+export const COMMAND = commandLooks(3);
+
+export const looks = {
+  ...COMMAND,
+  alpha1: { ...ALPHA, symbol: '*α*₁' },
+  alpha2: { ...ALPHA, symbol: '*α*₂' },
+  alpha3: { ...ALPHA, symbol: '*α*₃' },
+  alpha4: { ...ALPHA, symbol: '*α*₄' },
+  alpha5: { ...ALPHA, symbol: '*α*₅' },
+  alpha6: { ...ALPHA, symbol: '*α*₆' },
+};
+
+/** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
+export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);

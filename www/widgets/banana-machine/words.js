@@ -1,98 +1,23 @@
 /**
  * What the Banana Machine says when, in the words of the present language: sentences about degenerate
  * clouds, and the text that stands for the pictures.
- *
- * @module
  */
 
-import { html } from 'lit';
-import { words } from '../../messages/registry.js';
+import { addEnglish, words } from '../../messages/registry.js';
 import { longest } from '../../ui/controls.js';
-import { fixed, percent, whole, withError } from '../../ui/format.js';
+import { counted, fixed, percent, withError } from '../../ui/format.js';
+import { commandText } from '../shared/command.js';
+import { en } from './en.js';
+import { deviation } from './reading.js';
 
-/**
- * @typedef {import('../../types.d.ts').Settings} Settings
- * @typedef {import('../../types.d.ts').Stats} Stats
- * @typedef {import('../../types.d.ts').Table} Table
- */
+/** @import { Settings, Stats, Table } from '../../types.d.ts' */
 
-/** Largest sample count of the slider: beyond it a drag no longer follows the finger. */
-const MOST_SAMPLES = 1_000_000;
-
-/** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale. */
-export const SAMPLE_COUNTS = [1, 2, 3, 4, 5, 6]
-  .flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade))
-  .filter((count) => count <= MOST_SAMPLES);
-
-/** The sliders of the command, with the range that the handle and the chart keep to as well. */
-export const COMMAND_SLIDERS = /** @type {const} */ ([
-  { key: 'v', symbol: 'v', name: 'speed', unit: 'm/s', min: -1.5, max: 1.5, step: 0.01 },
-  { key: 'omega', symbol: 'ω', name: 'turnRate', unit: 'rad/s', min: -2, max: 2, step: 0.01 },
-  { key: 'dt', symbol: 'Δt', name: 'duration', unit: 's', min: 0.1, max: 3, step: 0.05 },
-]);
-
-/** Below this, metres or radians, a spread is none: rounding of the quadrature, not noise. */
-const NO_SPREAD = 1e-9;
-
-/** @param {number} index from 0 */
-export function alphaSymbol(index) {
-  return html`<i>α</i><sub>${index + 1}</sub>`;
-}
-
-/** @param {number} index from 0 */
-export function alphaName(index) {
-  return `α${String.fromCharCode(0x2081 + index)}`;
-}
-
-/**
- * What kind of spread the cloud has, by the exact covariance.
- *
- * @param {Table} table
- * @returns {'point' | 'headings' | 'cloud'} one pose; one place but many headings; or a spread
- */
-export function spreadOf(table) {
-  const { cov } = table.exact;
-  if (Math.sqrt(Math.max(0, cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
-  return Math.sqrt(Math.max(0, cov[2][2])) > NO_SPREAD ? 'headings' : 'point';
-}
-
-/**
- * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
- *
- * @param {Settings} config
- * @param {Table} table
- * @param {Stats} stats
- * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
- * @returns {string} empty for an ordinary cloud
- */
-export function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
-  const { notes, alphaIsZero, alphaIsSilent } = words.banana;
-  const spread = spreadOf(table);
-  const { v, omega } = command;
-  if (spread === 'point') {
-    if (v === 0 && omega === 0) return notes.still;
-    if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
-    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : alphaIsSilent[model][isolate - 1];
-  }
-  if (spread === 'headings') return notes.headings;
-  if (!chartHolds) return notes.circle;
-  if (model === 'odometry' && v < 0) return notes.backwards;
-  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
-}
+addEnglish({ banana: en });
 
 /** The longest of the sentences that may come, to keep room for. */
 export function longestNote() {
   const { notes, alphaIsSilent } = words.banana;
   return longest([...Object.values(notes), ...Object.values(alphaIsSilent).flat()]);
-}
-
-/**
- * The command in words.
- *
- * @param {Settings['command']} command
- */
-export function commandText({ v, omega, dt }) {
-  return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
 }
 
 /**
@@ -107,7 +32,7 @@ export function announcementOf(config, stats, note) {
   const outcome = Number.isNaN(stats.crossTrackSkew)
     ? noSkew
     : skew(withError(stats.crossTrackSkew, stats.crossTrackSkewError, 2));
-  return announcement(whole(stats.n), commandText(config.command), note || outcome);
+  return announcement(counted(stats.n), commandText(config.command), note || outcome);
 }
 
 /**
@@ -124,17 +49,17 @@ export function planeText(config, stats, note, overlays) {
   if (stats.n === 0) sentences.push(noRobots);
   else {
     const { mean: centre, cov } = stats.cartesian;
-    sentences.push(mean(whole(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
+    sentences.push(mean(counted(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
     if (note) sentences.push(note);
-    else sentences.push(spread(deviation(cov[0][0]), deviation(cov[1][1])), bendText(stats));
+    else sentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(stats));
   }
   if (overlays.length) sentences.push(drawnOver(overlays.join(', ')));
   return sentences.filter(Boolean).join(' ');
 }
 
 /** @param {number} variance */
-function deviation(variance) {
-  return fixed(Math.sqrt(variance), 2);
+function deviationText(variance) {
+  return fixed(deviation(variance), 2);
 }
 
 /** @param {Stats} stats */
@@ -145,11 +70,7 @@ function bendText({ crossTrackSkew: skew, crossTrackSkewError: error }) {
   return sentence(withError(skew, error, 2));
 }
 
-/**
- * What stands under the view of the floor while there is nothing to note.
- *
- * @param {Stats} stats
- */
+/** What stands under the view of the floor while there is nothing to note. @param {Stats} stats */
 export function captionOf(stats) {
   return stats.n === 0 ? words.banana.noRobots : bendText(stats) || words.banana.fewRobots;
 }
@@ -174,16 +95,12 @@ export function twistCaption({ model, noise, alphas, isolate }, note) {
   return `${twist}: ${twistIs[kind]}`;
 }
 
-/**
- * The text equivalent of the view in exponential coordinates.
- *
- * @param {Stats} stats
- */
+/** The text equivalent of the view in exponential coordinates. @param {Stats} stats */
 export function twistText({ n, exponential: { mean, cov }, coverage }) {
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
   const start = `${twist}, ${twistAxes}.`;
   if (n < 2) return `${start} ${n === 0 ? noRobots : oneRobot}`;
   const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
-  const [ofAlong, ofHeading] = [deviation(cov[0][0]), deviation(cov[2][2])];
+  const [ofAlong, ofHeading] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
   return `${start} ${twistMoments(along, heading, ofAlong, ofHeading, percent(coverage.exponential))}`;
 }

@@ -1,34 +1,16 @@
 /**
  * Map Squeeze's controls: where the robot stands, what it is told, how draws are judged, and maps of
  * the reader's own.
- *
- * @module
  */
 
 import { html, nothing } from 'lit';
+import { check, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, choice, inputOf, radioGroup, rich, sliderRow, toggle } from '../../ui/controls.js';
-import { fixed } from '../../ui/format.js';
-import { EXTENSIONS } from './maps/files.js';
-import {
-  CLEARANCE_SLIDER,
-  COMMAND_SLIDERS,
-  NOISE_SLIDER,
-  SAMPLERS,
-  STEPS_SLIDER,
-} from './words.js';
+import { button, choice, inputOf, radioGroup, rich } from '../../ui/controls.js';
+import { EXTENSIONS } from './maps/open.js';
+import { MOTION, PRESETS, SAMPLERS } from './settings.js';
 
-/**
- * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
- * @typedef {import('../../types.d.ts').MapSqueezeClass} MapSqueezeClass
- *
- * @typedef {Partial<Settings> | ((wanted: Settings) => Partial<Settings>)} Change settings, or what
- *   makes them from those wanted so far
- *
- * @typedef {object} Actions what the controls ask of the element
- * @property {(settings: Change) => void} change takes effect with the next frame
- * @property {() => void} commit after the last of a row of changes, which it puts into effect
- */
+/** @typedef {import('./map-squeeze.js').MapSqueezeElement} Figure */
 
 /** A floor plan to start from: a room with a gap in its wall. */
 const EXAMPLE = `{
@@ -40,135 +22,65 @@ const EXAMPLE = `{
   ]
 }`;
 
-/**
- * @param {Settings} config
- * @param {{ own: boolean, close: boolean, look: (close: boolean) => void }} map whether it is the
- *   reader's own, and whether the view is close
- * @param {MapSqueezeClass['presets']} presets
- * @param {(start: Settings['start']) => void} go puts the robot into the apartment
- */
-export function placeControls({ start }, { own, close, look }, presets, go) {
-  const there = (/** @type {Settings['start']} */ { x, y, theta }) =>
-    !own && start.x === x && start.y === y && start.theta === theta;
+/** @param {Figure} figure */
+export function placeControls(figure) {
+  const { x, y, theta } = figure.reading.config.start;
+  const { map, view } = figure.state.own;
   const say = words.squeeze;
   return html`<fieldset>
     <legend>${say.place}</legend>
     <div class="buttons">
-      ${presets.map((preset) =>
-        button(say.presets[preset.name], () => go(preset.start), { pressed: there(preset.start) }),
+      ${PRESETS.map(({ name, start }) =>
+        button(say.presets[/** @type {keyof typeof say.presets} */ (name)], () => figure.go(start), {
+          pressed: map === null && start.x === x && start.y === y && start.theta === theta,
+        }),
       )}
     </div>
-    ${radioGroup(say.view, 'view', say.views, close ? 'close' : 'whole', (name) => look(name === 'close'))}
+    ${radioGroup(say.settings.view.name, 'view', say.views, view, (name) => figure.choose('view', name))}
   </fieldset>`;
 }
 
-/**
- * @param {Settings} config
- * @param {Actions} actions
- */
-export function judgeControls({ conditioned, sampler, steps }, { change, commit }) {
-  const now = (/** @type {Partial<Settings>} */ settings) => {
-    change(settings);
-    commit();
-  };
+/** @param {Figure} figure */
+export function judgeControls(figure) {
+  const { conditioned, sampler } = figure.reading.config;
   const say = words.squeeze;
   return html`<fieldset class="judge">
-    <legend>
-      ${say.map}
-      ${toggle({ label: say.condition, checked: conditioned, change: (on) => now({ conditioned: on }) })}
-    </legend>
-    <div class="samplers" role="radiogroup" aria-label=${say.sampler} aria-describedby="sampler-effect">
+    <legend>${say.map} ${check(figure, 'conditioned', say.condition)}</legend>
+    <div class="samplers" role="radiogroup" aria-label=${say.settings.sampler.name} aria-describedby="sampler-effect">
       ${SAMPLERS.map((name) =>
         choice({
           group: 'sampler',
           label: say.samplers[name],
           checked: name === sampler,
-          choose: () => now({ sampler: name }),
+          choose: () => figure.decide({ sampler: name }),
         }),
       )}
     </div>
-    <p class="effect" id="sampler-effect">
-      ${rich(say.samplerEffects[conditioned ? sampler : 'off'])}
-    </p>
-    ${sampler === 'sub-stepped'
-      ? sliderRow({
-          ...STEPS_SLIDER,
-          id: 'steps',
-          symbol: html`<i>k</i>`,
-          name: say.steps,
-          effect: rich(say.effects.steps),
-          value: steps,
-          show: String,
-          role: 'prediction',
-          off: !conditioned,
-          input: (value) => change({ steps: value }),
-          commit,
-        })
-      : nothing}
+    <p class="effect" id="sampler-effect">${rich(say.samplerEffects[conditioned ? sampler : 'off'])}</p>
+    ${sampler === 'sub-stepped' ? slider(figure, 'steps', { off: !conditioned }) : nothing}
   </fieldset>`;
 }
 
-/**
- * @param {Settings} config
- * @param {MapSqueezeClass} squeeze
- * @param {Actions} actions
- */
-export function motionControls({ command, alphas, clearance }, squeeze, { change, commit }) {
-  const say = words.squeeze;
+/** @param {Figure} figure */
+export function motionControls(figure) {
   return html`<fieldset>
-    <legend>${say.commandAndNoise}</legend>
-    ${COMMAND_SLIDERS.map(({ key, symbol, name, unit, ...range }) =>
-      sliderRow({
-        ...range,
-        id: key,
-        symbol: html`<i>${symbol}</i>`,
-        name: words[name],
-        value: command[key],
-        show: (value) => `${fixed(value, 2)} ${unit}`,
-        effect: say.effects[key],
-        role: 'prior',
-        input: (value) => change(({ command }) => ({ command: { ...command, [key]: value } })),
-        commit,
-      }),
-    )}
-    ${sliderRow({
-      ...NOISE_SLIDER,
-      id: 'noise',
-      symbol: html`<i>n</i>`,
-      name: say.noise,
-      effect: rich(say.effects.noise),
-      value: alphas[0],
-      show: (value) => fixed(value, 3),
-      role: 'prediction',
-      input: (value) => change({ alphas: [...squeeze.alphasOfNoise(value)] }),
-      commit,
-    })}
-    ${sliderRow({
-      ...CLEARANCE_SLIDER,
-      id: 'clearance',
-      symbol: html`<i>r</i>`,
-      name: say.clearance,
-      effect: say.effects.clearance,
-      value: clearance,
-      show: (value) => `${fixed(value, 2)} m`,
-      role: 'truth',
-      input: (value) => change({ clearance: value }),
-      commit,
-    })}
+    <legend>${words.squeeze.commandAndNoise}</legend>
+    ${sliders(figure, MOTION)}
   </fieldset>`;
 }
 
 /**
- * @param {object} panel
- * @param {string} panel.map the present one, with its size
- * @param {boolean} panel.own whether it is the reader's own
- * @param {string} panel.complaint about the last one that was refused; empty for none
- * @param {(files: File[]) => void} panel.choose
- * @param {() => void} panel.paste takes what the text field holds
- * @param {() => void} panel.leave back to the apartment
+ * @param {Figure} figure
+ * @param {import('./maps/open.js').MapOpener} opener
+ * @param {string} map the present one, with its size
  */
-export function ownMap({ map, own, complaint, choose, paste, leave }) {
+export function ownMap(figure, opener, map) {
   const say = words.squeeze.own;
+  const paste = () => {
+    const text = /** @type {HTMLTextAreaElement} */ (figure.renderRoot.querySelector('#map-text'));
+    opener.paste(text.value);
+  };
+  const { complaint } = opener;
   return html`<fieldset class="own-map">
     <legend>${say.legend}</legend>
     <div>
@@ -181,14 +93,14 @@ export function ownMap({ map, own, complaint, choose, paste, leave }) {
         accept=${EXTENSIONS.join(',')}
         @change=${(/** @type {Event} */ event) => {
           const input = inputOf(event);
-          choose([...(input.files ?? [])]);
+          opener.choose([...(input.files ?? [])]);
           // So that choosing the same file again, mended, is a change too.
           input.value = '';
         }}
       />
       <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>
-      ${own ? button(say.leave, leave) : nothing}
+      ${figure.map === null ? nothing : button(say.leave, () => figure.go(PRESETS[0].start))}
     </div>
     <div>
       <label for="map-text">${say.plan}</label>

@@ -1,12 +1,10 @@
-/**
- * What each sampler costs on this device, measured.
- *
- * @module
- */
+/** What each sampler costs on this device, measured. */
+
+import { limits } from '../../settings.js';
+import { SAMPLERS } from './settings.js';
 
 /**
- * @typedef {import('../../types.d.ts').MapSqueeze} MapSqueeze
- * @typedef {import('../../types.d.ts').SamplerName} SamplerName
+ * @import { MapSqueeze, SamplerName } from '../../types.d.ts'
  *
  * @typedef {object} Cost of one accepted sample
  * @property {number} micros microseconds
@@ -23,9 +21,6 @@ const LONG_ENOUGH = 20;
 /** Runs of which the median is told. */
 const RUNS = 5;
 
-/** Most samples a trial, times the parts of each: what `trial` allows. */
-const MOST_SAMPLES = 100_000;
-
 /**
  * Measures a run at a time: the page goes on between two of them.
  *
@@ -35,7 +30,7 @@ const MOST_SAMPLES = 100_000;
  * @returns {Generator<undefined, Cost | 'wedged' | 'few'>} the cost, or why there is none
  */
 function* measuring(machine, sampler, parts) {
-  const most = Math.floor(MOST_SAMPLES / parts);
+  const most = Math.floor(limits.trial / parts);
   let count = 1;
   const run = () => {
     const start = performance.now();
@@ -53,7 +48,7 @@ function* measuring(machine, sampler, parts) {
         }
         runs.sort((one, other) => one.elapsed - other.elapsed);
         const { draws, wallTests, elapsed } = runs[(RUNS - 1) / 2];
-        // Otherwise it was long because the device was busy.
+        // If not, the warm-up was long because the device was busy, and more samples are needed.
         if (elapsed >= LONG_ENOUGH / 2 || count === most) {
           return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
         }
@@ -67,14 +62,32 @@ function* measuring(machine, sampler, parts) {
   }
 }
 
+/** Milliseconds of rest before measuring: a reader between two presses of a key is not kept waiting. */
+const REST = 300;
+
+/**
+ * @typedef {object} Bench where and for whom is measured
+ * @property {() => MapSqueeze | undefined} machine
+ * @property {() => void} told called after each sampler
+ * @property {(work: () => void) => void} attempt does what may trap
+ */
+
 /** Measures the samplers one after the other when things have come to rest, and tells of each. */
 export class CostMeter {
   /** @type {Partial<Record<SamplerName, Cost | 'wedged' | 'few'>>} as last measured, or why there is none */
   costs = {};
   /** Whether the costs are those of the present settings. */
   current = false;
+  #bench;
+  /** The settings that were measured, or are to be. */
+  #settings = '';
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
+
+  /** @param {Bench} bench */
+  constructor(bench) {
+    this.#bench = bench;
+  }
 
   /** The costs are no longer those of the present settings. */
   outdate() {
@@ -83,18 +96,23 @@ export class CostMeter {
   }
 
   /**
-   * Measures soon, unless `outdate` is called before.
+   * Measures once these settings have been at rest for a while.
    *
-   * @param {() => MapSqueeze | undefined} machine
-   * @param {SamplerName[]} samplers
-   * @param {() => void} told called after each
-   * @param {(work: () => void) => void} attempt does what may trap
+   * @param {object} config
+   * @param {boolean} atRest whether nothing moves at present
    */
-  measureSoon(machine, samplers, told, attempt) {
-    this.outdate();
+  heed(config, atRest) {
+    const settings = JSON.stringify(config);
+    if (atRest || settings !== this.#settings) this.outdate();
+    this.#settings = settings;
+    if (atRest) this.#measureSoon();
+  }
+
+  #measureSoon() {
+    const { machine, told, attempt } = this.#bench;
     const measured = machine();
     if (!measured) return;
-    const measurements = samplers.map((sampler) =>
+    const measurements = SAMPLERS.map((sampler) =>
       measuring(measured, sampler, sampler === 'sub-stepped' ? measured.config.steps : 1),
     );
     const next = (/** @type {number} */ index) => {
@@ -102,8 +120,8 @@ export class CostMeter {
       if (machine() !== measured) return;
       const { done, value } = measurements[index].next();
       if (done) {
-        this.costs[samplers[index]] = value;
-        this.current = index === samplers.length - 1;
+        this.costs[SAMPLERS[index]] = value;
+        this.current = index === SAMPLERS.length - 1;
         told();
       }
       if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
@@ -112,6 +130,3 @@ export class CostMeter {
     this.#timer = setTimeout(step, REST, 0);
   }
 }
-
-/** Milliseconds of rest before measuring: a reader between two presses of a key is not kept waiting. */
-const REST = 300;

@@ -1,18 +1,14 @@
-/**
- * The robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer
- * and by keyboard.
- *
- * @module
- */
+/** The robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer and by keyboard. */
 
-import { html } from 'lit';
 import { words } from '../../messages/registry.js';
+import { Handle, WAYS } from '../../scene/handle.js';
+import { clamp } from '../../ui/clamp.js';
 import { fixed } from '../../ui/format.js';
 import { turnDistance } from './picture.js';
 
 /**
- * @typedef {import('../../types.d.ts').Pose} Pose
- * @typedef {import('../../scene/view.js').View} View
+ * @import { Pose } from '../../types.d.ts'
+ * @import { View } from '../../scene/view.js'
  *
  * @typedef {object} Robot what the handles act on
  * @property {() => View} view
@@ -26,74 +22,67 @@ import { turnDistance } from './picture.js';
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
-/** Least size of the body's handle, CSS pixels. */
-const LEAST_BODY = 32;
+/** Which way a key turns it: to the left is counter-clockwise, as for a driver. @type {Record<string, number>} */
+const TURNS = { '[': 1, ']': -1, ArrowLeft: 1, ArrowUp: 1, ArrowRight: -1, ArrowDown: -1 };
 
-/** @typedef {'body' | 'turn'} Part */
+/** Least size of the body's handle, CSS pixels. */
+const MIN_BODY = 32;
+
+/** The handle that turns the robot stays this far inside of the picture, CSS pixels. */
+const MARGIN = 12;
 
 export class RobotHandles {
-  /** @type {Part | undefined} the one that is held */
-  held;
   #robot;
-  /** From the pointer to the robot's centre, metres. */
-  #grip = { x: 0, y: 0 };
+  #body;
+  #turn;
 
   /** @param {Robot} robot */
   constructor(robot) {
     this.#robot = robot;
+    const { view, start, commit } = robot;
+    this.#body = new Handle('body', {
+      view,
+      at: () => [start().x, start().y],
+      drag: (x, y) => this.#moveTo(x, y),
+      key: (event) => this.#key(event, !event.shiftKey),
+      commit,
+    });
+    this.#turn = new Handle('turn', {
+      view,
+      at: (pointer) => pointer,
+      drag: (x, y) => this.#turnTo(Math.atan2(y - start().y, x - start().x)),
+      key: (event) => this.#key(event, false),
+      commit,
+    });
+  }
+
+  /** The one that is held. @returns {'body' | 'turn' | undefined} */
+  get held() {
+    return this.#body.held ? 'body' : this.#turn.held ? 'turn' : undefined;
   }
 
   /** @param {Pose} start */
   render({ x, y, theta }) {
     const say = words.squeeze;
-    const heading = `${fixed(theta, 2)} rad`;
+    const { 0: left, 2: right } = this.#robot.bounds();
     return [
-      this.#handle('body', {
+      this.#body.render({
         name: say.robot,
         keys: say.robotKeys,
         title: say.robotTitle,
-        range: this.#range(),
+        range: [left, right],
         now: x,
         text: say.robotText(fixed(x, 2), fixed(y, 2)),
       }),
-      this.#handle('turn', {
+      this.#turn.render({
         name: say.heading,
         keys: say.headingKeys,
         title: say.headingTitle,
         range: [-Math.PI, Math.PI],
         now: theta,
-        text: heading,
+        text: `${fixed(theta, 2)} rad`,
       }),
     ];
-  }
-
-  #range() {
-    const [left, , right] = [...Array.from(this.#robot.bounds())];
-    return [left, right];
-  }
-
-  /**
-   * @param {Part} part
-   * @param {{ name: string, keys: string, title: string, range: number[], now: number, text: string }} words
-   */
-  #handle(part, { name, keys, title, range, now, text }) {
-    return html`<div
-      class="handle ${part}"
-      role="slider"
-      tabindex="0"
-      aria-label=${name}
-      aria-description=${keys}
-      aria-valuemin=${range[0]}
-      aria-valuemax=${range[1]}
-      aria-valuenow=${now}
-      aria-valuetext=${text}
-      title=${title}
-      @pointerdown=${(/** @type {PointerEvent} */ event) => this.#hold(part, event)}
-      @pointermove=${(/** @type {PointerEvent} */ event) => this.#drag(event)}
-      @pointerup=${() => this.#release()}
-      @pointercancel=${() => this.#release()}
-      @keydown=${(/** @type {KeyboardEvent} */ event) => this.#key(part, event)}
-    ></div>`;
   }
 
   /**
@@ -108,113 +97,37 @@ export class RobotHandles {
     const [x, y] = [view.toPixelX(start.x), view.toPixelY(start.y)];
     const ahead = view.direction(start.theta);
     const distance = turnDistance(view, clearance);
-    const inside = (/** @type {number} */ at, /** @type {number} */ size) => Math.min(size - 12, Math.max(12, at));
-    for (const handle of /** @type {NodeListOf<HTMLElement>} */ (root.querySelectorAll('.handle'))) {
-      if (handle.classList.contains('body')) {
-        const size = Math.max(LEAST_BODY, 2 * clearance * view.scaleX);
-        handle.style.width = handle.style.height = `${size}px`;
-        handle.style.translate = `${x - size / 2}px ${y - size / 2}px`;
-      } else {
-        const tipX = inside(x + distance * ahead.x, view.width);
-        const tipY = inside(y + distance * ahead.y, view.height);
-        handle.style.translate = `calc(${tipX}px - 50%) calc(${tipY}px - 50%)`;
-      }
-    }
+    const inside = (/** @type {number} */ at, /** @type {number} */ size) => clamp(at, MARGIN, size - MARGIN);
+    this.#body.place(root, x, y, Math.max(MIN_BODY, 2 * clearance * view.scaleX));
+    this.#turn.place(root, inside(x + distance * ahead.x, view.width), inside(y + distance * ahead.y, view.height));
   }
 
   /**
-   * @param {PointerEvent} event
-   * @returns {{ x: number, y: number }} metres
-   */
-  #at(event) {
-    const handle = /** @type {HTMLElement} */ (event.currentTarget);
-    const stage = /** @type {HTMLElement} */ (handle.parentElement);
-    const box = stage.getBoundingClientRect();
-    const view = this.#robot.view();
-    return { x: view.toWorldX(event.clientX - box.left), y: view.toWorldY(event.clientY - box.top) };
-  }
-
-  /**
-   * @param {Part} part
-   * @param {PointerEvent} event
-   */
-  #hold(part, event) {
-    if (event.button !== 0) return;
-    const handle = /** @type {HTMLElement} */ (event.currentTarget);
-    handle.setPointerCapture(event.pointerId);
-    this.held = part;
-    const at = this.#at(event);
-    const { x, y } = this.#robot.start();
-    this.#grip = { x: x - at.x, y: y - at.y };
-  }
-
-  /** @param {PointerEvent} event */
-  #drag(event) {
-    if (!this.held) return;
-    const at = this.#at(event);
-    const start = this.#robot.start();
-    if (this.held === 'body') this.#move(at.x + this.#grip.x, at.y + this.#grip.y);
-    else this.#turn(Math.atan2(at.y - start.y, at.x - start.x));
-  }
-
-  #release() {
-    if (!this.held) return;
-    this.held = undefined;
-    this.#robot.commit();
-  }
-
-  /**
-   * @param {Part} part
    * @param {KeyboardEvent} event
+   * @param {boolean} moves whether arrow keys move the robot rather than turn it
    */
-  #key(part, event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const moves = /** @type {Record<string, [number, number]>} */ ({
-      ArrowRight: [KEY_STEP, 0],
-      ArrowLeft: [-KEY_STEP, 0],
-      ArrowUp: [0, KEY_STEP],
-      ArrowDown: [0, -KEY_STEP],
-    });
-    // To the left is counter-clockwise, as for a driver.
-    const turns = /** @type {Record<string, number>} */ ({
-      '[': KEY_TURN,
-      ']': -KEY_TURN,
-      ArrowLeft: KEY_TURN,
-      ArrowUp: KEY_TURN,
-      ArrowRight: -KEY_TURN,
-      ArrowDown: -KEY_TURN,
-    });
+  #key({ key, ctrlKey, metaKey, altKey }, moves) {
+    const [way, turn] = [moves ? WAYS[key] : undefined, TURNS[key]];
+    if (ctrlKey || metaKey || altKey || !(way || turn)) return false;
     const { x, y, theta } = this.#robot.start();
-    const move = part === 'body' && !event.shiftKey ? moves[event.key] : undefined;
-    if (move) this.#move(x + move[0], y + move[1]);
-    else if (turns[event.key]) this.#turn(theta + turns[event.key]);
-    else return;
-    event.preventDefault();
-    this.#robot.commit();
+    if (way) this.#moveTo(x + KEY_STEP * way[0], y + KEY_STEP * way[1]);
+    else this.#turnTo(theta + KEY_TURN * turn);
+    return true;
   }
 
   /**
    * @param {number} x metres
    * @param {number} y
    */
-  #move(x, y) {
+  #moveTo(x, y) {
     const [left, bottom, right, top] = Array.from(this.#robot.bounds());
     const { theta } = this.#robot.start();
     this.#robot.change({ x: clamp(x, left, right), y: clamp(y, bottom, top), theta });
   }
 
   /** @param {number} theta radians */
-  #turn(theta) {
+  #turnTo(theta) {
     const { x, y } = this.#robot.start();
     this.#robot.change({ x, y, theta: Math.atan2(Math.sin(theta), Math.cos(theta)) });
   }
-}
-
-/**
- * @param {number} value
- * @param {number} min
- * @param {number} max
- */
-function clamp(value, min, max) {
-  return Math.min(max, Math.max(min, value));
 }

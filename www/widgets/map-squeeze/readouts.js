@@ -1,31 +1,26 @@
 /**
- * Map Squeeze's figures: the key to the picture, the tally of the draws, the marked one, and what each
+ * Map Squeeze's readouts: the key to the picture, the tally of the draws, the marked one, and what each
  * sampler costs.
- *
- * @module
  */
 
 import { html } from 'lit';
-import { live } from 'lit/directives/live.js';
 import { words } from '../../messages/registry.js';
-import { inputOf } from '../../ui/controls.js';
-import { fixed, percent, rounded, whole } from '../../ui/format.js';
-import { readoutList } from '../banana-machine/readouts.js';
+import { counted, fixed, percent, rounded } from '../../ui/format.js';
+import { markedSample } from '../../ui/marked.js';
+import { figureTable, readoutList } from '../../ui/readouts.js';
 import { DEMAND } from './cost.js';
-import { SAMPLERS, keptWords, shareOf } from './words.js';
+import { SAMPLERS } from './settings.js';
+import { keptWords, shareOf } from './words.js';
 
 /**
+ * @import { CostMeter } from './cost.js'
+ *
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../../types.d.ts').SqueezeStats} Stats
- * @typedef {import('./cost.js').CostMeter} CostMeter
  */
 
-/**
- * What the marks in the picture mean.
- *
- * @param {Settings} config
- */
-export function key(config) {
+/** What the marks in the picture mean. @param {Settings} config */
+export function legend(config) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;
   return html`<ul class="key" part="legend">
@@ -66,22 +61,22 @@ const CERTAIN = { throughWallRate: 1, throughWallInterval: [1, 1], gaveUp: false
 export function tally(stats, config, paths) {
   const { kept, through } = keptWords(config);
   const share = shareOf(stats, config);
-  const all = whole(config.samples);
+  const all = counted(config.samples);
   const say = words.squeeze.tally;
   return readoutList([
-    [say.drawn, whole(stats.drawn), all],
-    [kept, whole(stats.accepted), all],
+    [say.drawn, counted(stats.drawn), all],
+    [kept, counted(stats.accepted), all],
     [config.sampler === 'sub-stepped' ? say.rateOfParts : say.rate, percent(stats.acceptanceRate), percent(1)],
     [say.draws(kept), fixed(stats.drawsPerAccepted, 2), fixed(10, 2)],
-    [through, whole(stats.throughWall), all],
+    [through, counted(stats.throughWall), all],
     [say.share(kept) + (share.interval ? say.interval : ''), share.text, shareOf(CERTAIN, config).text],
-    [say.paths, paths < stats.throughWall ? say.first(whole(paths)) : whole(paths), say.first(all)],
+    [say.paths, paths < stats.throughWall ? say.first(counted(paths)) : counted(paths), say.first(all)],
     [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2), fixed(10, 2)],
   ]);
 }
 
 /**
- * The marked draw, and the way to it from the keyboard.
+ * The marked draw, with the verdict on it.
  *
  * @param {object} marked
  * @param {number} marked.index −1 for none
@@ -90,26 +85,8 @@ export function tally(stats, config, paths) {
  * @param {(index: number) => void} marked.mark
  */
 export function markedDraw({ index, shown, verdict, mark }) {
-  return html`<p class="marked">
-    <label>
-      ${words.squeeze.sample}
-      <input
-        id="sample"
-        type="number"
-        min="1"
-        max=${shown}
-        placeholder="1–${shown}"
-        .value=${live(index < 0 ? '' : String(index + 1))}
-        @input=${(/** @type {Event} */ event) => {
-          const value = inputOf(event).valueAsNumber;
-          mark(Number.isInteger(value) && value >= 1 && value <= shown ? value - 1 : -1);
-        }}
-      />
-    </label>
-    <output for="sample">
-      ${verdict || html`<span class="hint">${words.squeeze.markHint}</span>`}
-    </output>
-  </p>`;
+  const { sample, markHint } = words.squeeze;
+  return markedSample({ id: 'sample', label: sample, hint: markHint, index, shown, beyond: -1, told: verdict, mark });
 }
 
 /**
@@ -118,37 +95,27 @@ export function markedDraw({ index, shown, verdict, mark }) {
  */
 export function costTable({ costs, current }, steps) {
   const { samplers, costs: say } = words.squeeze;
-  const room = fixed(10, 2);
-  const name = (/** @type {import('../../types.d.ts').SamplerName} */ sampler) =>
-    sampler === 'sub-stepped' ? html`${samplers[sampler]}, <i>k</i> = ${steps}` : samplers[sampler];
+  const row = (/** @type {import('../../types.d.ts').SamplerName} */ sampler) => {
+    const name = samplers[sampler];
+    const cost = costs[sampler] ?? 'none';
+    return [
+      sampler === 'sub-stepped' ? html`${name}, <i>k</i> = ${steps}` : name,
+      ...(typeof cost === 'string' ? [say[cost]] : costText(cost)),
+    ];
+  };
   return html`<div class="table" aria-busy=${!current}>
-    <table part="table" class=${current ? '' : 'outdated'}>
-      <caption>${say.caption}</caption>
-      <thead>
-        <tr>
-          <th scope="col">${say.sampler}</th>
-          <th scope="col">${say.draws}</th>
-          <th scope="col">${say.tests}</th>
-          <th scope="col">µs</th>
-          <th scope="col">${say.core}</th>
-        </tr>
-      </thead>
-      <tbody>
-        ${SAMPLERS.map((sampler) => {
-          const cost = costs[sampler] ?? 'none';
-          return html`<tr>
-            <th scope="row">${name(sampler)}</th>
-            ${typeof cost === 'string'
-              ? html`<td colspan="4">${say[cost]}</td>`
-              : [
-                  fixed(cost.draws, 2),
-                  fixed(cost.wallTests, 2),
-                  rounded(cost.micros, 2),
-                  `${rounded(100 * cost.micros * 1e-6 * DEMAND, 2)}\u202f%`,
-                ].map((text) => html`<td class="roomy" data-room=${room}>${text}</td>`)}
-          </tr>`;
-        })}
-      </tbody>
-    </table>
+    ${figureTable({
+      caption: say.caption,
+      columns: [say.sampler, say.draws, say.tests, 'µs', say.core],
+      rows: SAMPLERS.map(row),
+      longest: fixed(10, 2),
+      outdated: !current,
+    })}
   </div>`;
+}
+
+/** @param {import('./cost.js').Cost} cost */
+function costText({ draws, wallTests, micros }) {
+  const share = `${rounded(100 * micros * 1e-6 * DEMAND, 2)}\u202f%`;
+  return [fixed(draws, 2), fixed(wallTests, 2), rounded(micros, 2), share];
 }

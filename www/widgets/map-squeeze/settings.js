@@ -1,90 +1,85 @@
-/**
- * Map Squeeze's settings: which attributes they have, and a machine in a given state.
- *
- * @module
- */
+/** Map Squeeze's settings as attributes, in its state, and as the eye sees them. */
 
-import { NUMBER, TRUTH, WORD, field, plain } from '../../figure/attributes.js';
-import { showOnly } from '../../figure/cloud.js';
-import { applyMap } from './maps/data.js';
+import { WORD, attributesOf } from '../../figure/attributes.js';
+import { word } from '../../figure/checks.js';
+import { cloudState } from '../../figure/cloud.js';
+import { presets, settings } from '../../settings.js';
+import { commandLooks } from '../shared/command.js';
+import { mapData } from './maps/data.js';
 
-/**
- * @typedef {import('../../types.d.ts').Motion} Motion
- * @typedef {import('../../types.d.ts').MapSqueeze} MapSqueeze
- */
+export const declared = settings['map-squeeze'];
 
-export const VIEWS = /** @type {const} */ (['whole', 'close']);
+/** The key of its words in the catalogues. */
+export const vocabulary = 'squeeze';
 
-/** What others depend on comes first. @type {import('../../figure/attributes.js').Attributes} */
-export const ATTRIBUTES = {
-  preset: { kind: WORD, own: true, covers: ['x', 'y', 'theta'] },
-  x: field('start', 'x'),
-  y: field('start', 'y'),
-  theta: field('start', 'theta'),
-  v: field('command', 'v'),
-  omega: field('command', 'omega'),
-  dt: field('command', 'dt'),
-  noise: {
-    kind: NUMBER,
-    get: ({ alphas }, { MapSqueeze }) => {
-      const level = /** @type {number[]} */ ([...MapSqueeze.alphasOfNoise(alphas[0])]);
-      return level.every((alpha, i) => alpha === alphas[i]) ? alphas[0] : null;
-    },
-    change: (level, _, { MapSqueeze }) => ({ alphas: [...MapSqueeze.alphasOfNoise(level)] }),
+export const PRESETS = presets['map-squeeze'];
+const PRESET_NAMES = PRESETS.map(({ name }) => name);
+
+const VIEWS = ['whole', 'close'];
+
+/** @type {import('../../figure/attributes.js').Attributes} */
+export const attributes = {
+  preset: {
+    kind: WORD,
+    own: true,
+    covers: ['x', 'y', 'theta'],
+    words: PRESET_NAMES,
+    opening: PRESET_NAMES[0],
   },
-  clearance: plain('clearance', NUMBER),
-  conditioned: plain('conditioned', TRUTH),
-  sampler: plain('sampler', WORD),
-  steps: plain('steps', NUMBER),
-  samples: plain('samples', NUMBER),
-  seed: plain('seed', NUMBER),
-  view: { kind: WORD, own: true },
+  ...attributesOf(declared),
+  view: { kind: WORD, own: true, words: VIEWS },
+};
+
+/** @type {Record<string, import('../../figure/state.js').Owned>} */
+export const own = {
+  ...cloudState,
+  view: { opening: 'whole', check: (field, view) => word(field, view, VIEWS) },
+  /** The reader's own; null for the apartment. */
+  map: { opening: null, check: (_, map, machine) => map && mapData(machine, map.name ?? '') },
+};
+
+/** @type {import('../../figure/attributes.js').Documentation} */
+export const documentation = {
+  attributes: {
+    preset: 'A place in the apartment to start from; none elsewhere.',
+    view: 'The whole map, or what is near the robot.',
+  },
+  properties: {
+    map: { type: 'MapData | null', sentence: "A map of the reader's own; null for the apartment." },
+    verdicts: {
+      type: 'Uint8Array | null',
+      readonly: true,
+      sentence: 'A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.',
+    },
+  },
 };
 
 /**
- * A machine in a state; in that of the opening where there is none.
- *
- * @param {Motion} motion
- * @param {import('../../figure/state.js').State} [state]
- * @throws {TypeError | RangeError} and there is none then
+ * @param {unknown} name
+ * @returns {typeof PRESETS[number]}
+ * @throws {TypeError | RangeError} where there is none of that name
  */
-export function machineIn(motion, state) {
-  const machine = new motion.MapSqueeze();
-  if (!state) return machine;
-  const { start, command, alphas, clearance, conditioned, sampler, steps, samples, seed, shown, map } = state;
-  try {
-    if (map !== null) applyMap(machine, map);
-    machine.configure({ start, command, alphas, clearance, conditioned, sampler, steps, samples, seed });
-    showOnly(machine, shown);
-  } catch (error) {
-    machine.free();
-    throw error;
-  }
-  return machine;
+export function presetNamed(name) {
+  return PRESETS[PRESET_NAMES.indexOf(word('preset', name, PRESET_NAMES))];
 }
 
-/**
- * The settings that the widget opens with.
- *
- * @param {Motion} motion
- */
-export function openingOf(motion) {
-  const machine = new motion.MapSqueeze();
-  const { config } = machine;
-  machine.free();
-  return config;
-}
+/** Of what the robot is told and what it is. @type {Record<string, import('../../figure/controls.js').Look>} */
+export const MOTION = {
+  ...commandLooks(4),
+  noise: { symbol: '*n*', role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas }) => alphas[0] },
+  clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
+};
 
-/**
- * Moves the robot to where it fits. In an occupancy grid it does so anyhow: the unknown is free there,
- * so that a place which is free may lie outside of everything that was mapped.
- *
- * @param {MapSqueeze} machine
- */
-export function findRoom(machine) {
-  if (machine.startFree && machine.grid === null) return;
-  const { freePoint, config, plan } = machine;
-  const [left, bottom, right, top] = plan.bounds;
-  const [x, y] = freePoint ?? [(left + right) / 2, (bottom + top) / 2];
-  machine.configure({ start: { ...config.start, x, y } });
-}
+/** @type {Record<string, import('../../figure/controls.js').Look>} */
+export const looks = {
+  ...MOTION,
+  steps: { symbol: '*k*', role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
+};
+
+/** The samplers in the order in which they are offered. */
+export const SAMPLERS = /** @type {('endpoint' | 'whole-arc' | 'sub-stepped')[]} */ (
+  declared.find(({ key }) => key === 'sampler')?.words
+);
+
+/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
+export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];

@@ -1,14 +1,9 @@
-/**
- * Map Squeeze's page: as the Banana Machine's, with a floor that is nearly square.
- *
- * @module
- */
+/** What Map Squeeze's page has of its own: the key to its marks, and room for maps of the reader's. */
 
 import { css } from 'lit';
-import { readoutStyles } from '../banana-machine/readouts.js';
-import { bananaStyles } from '../banana-machine/styles.js';
+import { layoutStyles } from '../../ui/layout.js';
 
-const layout = css`
+const own = css`
   canvas.plane {
     aspect-ratio: 4 / 3;
   }
@@ -41,9 +36,11 @@ const layout = css`
     outline-offset: 4px;
   }
 
+  /* In the middle of itself, whatever its size. */
   .handle {
     top: 0;
     left: 0;
+    transform: translate(-50%, -50%);
   }
 
   .handle.body::after {
@@ -134,9 +131,6 @@ const layout = css`
 
   .judge > .effect {
     margin: 0 0 0.6rem;
-    color: var(--muted);
-    font-size: 0.84rem;
-    line-height: 1.25;
   }
 
   .choices {
@@ -195,6 +189,12 @@ const layout = css`
     outline: 2px solid var(--accent);
     outline-offset: 2px;
   }
+
+  @media print {
+    .own-map :not(.present, :has(.present)) {
+      display: none !important;
+    }
+  }
 `;
 
-export const squeezeStyles = [readoutStyles, ...bananaStyles, layout];
+export const squeezeStyles = [...layoutStyles, own];

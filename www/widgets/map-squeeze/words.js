@@ -1,77 +1,41 @@
 /**
  * What Map Squeeze says when, in the words of the present language: verdicts, sentences about robots
  * that cannot move, and the text that stands for the picture.
- *
- * @module
  */
 
-import { words } from '../../messages/registry.js';
-import { fixed, percent, whole } from '../../ui/format.js';
-import { commandText } from '../banana-machine/words.js';
+import { addEnglish, words } from '../../messages/registry.js';
+import { verdict as bits } from '../../settings.js';
+import { counted, fixed, percent } from '../../ui/format.js';
+import { commandText } from '../shared/command.js';
+import { en } from './en.js';
 
 /**
+ * @import { Plan } from '../../types.d.ts'
+ *
  * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  * @typedef {import('../../types.d.ts').SqueezeStats} Stats
- * @typedef {import('../../types.d.ts').SamplerName} SamplerName
- * @typedef {import('../../types.d.ts').Plan} Plan
  */
 
-/** Bits of a verdict. */
-export const VERDICT = { endFree: 1, pathFree: 2, accepted: 4 };
+addEnglish({ squeeze: en });
 
-export const SAMPLERS = /** @type {SamplerName[]} */ (['endpoint', 'whole-arc', 'sub-stepped']);
-
-/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
-export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];
-
-export const COMMAND_SLIDERS = /** @type {const} */ ([
-  { key: 'v', symbol: 'v', name: 'speed', unit: 'm/s', min: -1.5, max: 1.5, step: 0.01 },
-  { key: 'omega', symbol: 'ω', name: 'turnRate', unit: 'rad/s', min: -2, max: 2, step: 0.01 },
-  { key: 'dt', symbol: 'Δt', name: 'duration', unit: 's', min: 0.1, max: 4, step: 0.05 },
-]);
-
-export const NOISE_SLIDER = { min: 0, max: 0.4, step: 0.005 };
-export const CLEARANCE_SLIDER = { min: 0, max: 0.4, step: 0.01 };
-export const STEPS_SLIDER = { min: 1, max: 64, step: 1 };
-
-/**
- * A sentence on a robot that gets nowhere.
- *
- * @param {Settings} config
- * @param {Stats} stats
- * @param {boolean} startFree
- * @returns {string} empty for an ordinary cloud
- */
-export function noteOn(config, stats, startFree) {
-  const { wedged, nothing, noRoom } = words.squeeze;
-  const drawn = whole(stats.drawn);
-  if (stats.gaveUp) return wedged(stats.accepted, whole(stats.accepted), whole(config.samples), drawn);
-  if (stats.drawn > 0 && stats.accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
-  return startFree ? '' : noRoom;
-}
-
-/**
- * What is said of a draw that stays.
- *
- * @param {Settings} config
- */
+/** What is said of a draw that stays. @param {Settings} config */
 export function keptWords({ conditioned }) {
   return conditioned ? words.squeeze.accepted : words.squeeze.kept;
 }
 
 /**
- * @param {number} verdict bits of `VERDICT`
+ * @param {number} verdict see `verdict` of settings.js
  * @param {Settings} config
  */
 export function verdictText(verdict, config) {
   const is = (/** @type {number} */ bit) => (verdict & bit) !== 0;
   const { rejected, verdict: reasons } = words.squeeze;
-  const accepted = is(VERDICT.accepted);
+  const accepted = is(bits.accepted);
   if (!accepted && config.sampler === 'sub-stepped') return `${rejected}: ${reasons.part}`;
   const { kept, through } = keptWords(config);
   const outcome = accepted ? kept : rejected;
-  if (!is(VERDICT.endFree)) return `${outcome}: ${reasons.end}`;
-  if (is(VERDICT.pathFree)) return `${outcome}: ${reasons.free}`;
+  if (!is(bits.endFree)) return `${outcome}: ${reasons.end}`;
+  if (is(bits.pathFree)) return `${outcome}: ${reasons.free}`;
   return `${accepted ? through : outcome}: ${reasons.way}`;
 }
 
@@ -102,8 +66,8 @@ export function announcementOf(config, stats, note) {
   if (note && accepted === 0) return note;
   const { kept, ofThem } = keptWords(config);
   const say = words.squeeze;
-  const share = accepted > 0 ? say.ofThem(whole(throughWall), ofThem, percent(throughWallRate)) : '';
-  return `${say.counts(whole(drawn), whole(accepted), kept)}${share}.${note ? ` ${note}` : ''}`;
+  const share = accepted > 0 ? say.ofThem(counted(throughWall), ofThem, percent(throughWallRate)) : '';
+  return `${say.counts(counted(drawn), counted(accepted), kept)}${share}.${note ? ` ${note}` : ''}`;
 }
 
 /**
@@ -115,7 +79,7 @@ export function announcementOf(config, stats, note) {
 export function mapText(name, { bounds, walls }) {
   const [left, bottom, right, top] = bounds;
   const count = walls.length / 4;
-  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, whole(count));
+  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), count, counted(count));
 }
 
 /**
@@ -134,7 +98,7 @@ export function pictureText(config, stats, map, note) {
   return [
     say.picture(map),
     say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(whole(drawn), whole(accepted), kept, whole(throughWall), ofThem),
+    say.outcome(counted(drawn), counted(accepted), kept, counted(throughWall), ofThem),
     config.conditioned ? say.rest : '',
     note,
   ].filter(Boolean).join(' ');

@@ -1,18 +1,10 @@
-/**
- * Maps as plain data: what a state holds of a map of the reader's own.
- *
- * @module
- */
+/** Maps as plain data: what a state holds of a map of the reader's own. */
 
-import { fromBase64, object, refusal, toBase64, whole } from '../../../figure/checks.js';
+import { object, refusal, wholeNumber } from '../../../figure/checks.js';
+import { fromBase64, toBase64 } from '../../../figure/packing.js';
+import { limits } from '../../../settings.js';
 
-/**
- * @typedef {import('../../../types.d.ts').MapSqueeze} MapSqueeze
- * @typedef {import('../../../types.d.ts').MapData} MapData
- */
-
-/** Cells of a map at most, as for the core. */
-const MOST_CELLS = 2 ** 24;
+/** @import { MapData, MapSqueeze } from '../../../types.d.ts' */
 
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'];
@@ -57,8 +49,8 @@ export function applyMap(machine, data) {
     machine.setPlan({ bounds: map.bounds, walls: map.walls });
     return;
   }
-  const columns = whole('map.columns', map.columns, 1, MOST_CELLS);
-  const rows = whole('map.rows', map.rows, 1, Math.floor(MOST_CELLS / columns));
+  const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
+  const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
   const cells = unpackBits(map.occupied, columns * rows);
   const header = new TextEncoder().encode(`P5 ${columns} ${rows} 255\n`);
   const image = new Uint8Array(header.length + cells.length);

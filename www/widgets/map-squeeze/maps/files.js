@@ -1,14 +1,12 @@
-/**
- * Maps of the reader's own: a JSON floor plan, or a pair of files as ROS map_server has them.
- *
- * @module
- */
+/** Maps of the reader's own: a JSON floor plan, or a pair of files as ROS map_server has them. */
 
 import { LONGEST_SIDE } from '../../../scene/canvas.js';
+import { limits } from '../../../settings.js';
 
 /**
+ * @import { MapSqueeze } from '../../../types.d.ts'
+ *
  * @typedef {import('../../../messages/registry.js').Messages['squeeze']['refused']} Refused
- * @typedef {import('../../../types.d.ts').MapSqueeze} MapSqueeze
  *
  * @typedef {object} OwnMap
  * @property {string} name
@@ -25,13 +23,8 @@ export class MapFileError extends Error {
   }
 }
 
-export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
-
 /** What a floor plan looks like. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
-
-/** Cells of a map at most, as for the core. */
-const MOST_PIXELS = 2 ** 24;
 
 /**
  * The map that files hold.
@@ -90,14 +83,8 @@ export async function readPlan(name, text) {
   const plan = await parsed(name, text, 'JSON');
   return {
     name,
-    apply: (machine) => {
-      try {
-        machine.setPlan(plan ?? null);
-      } catch (error) {
-        const reason = complaint(error);
-        throw new MapFileError((say) => say.plan(name, reason, PLAN_FORM));
-      }
-    },
+    apply: (machine) =>
+      retold(() => machine.setPlan(plan ?? null), (say, reason) => say.plan(name, reason, PLAN_FORM)),
   };
 }
 
@@ -146,14 +133,11 @@ async function readGrid(file, images) {
     : await readPng(image);
   return {
     name: file.name,
-    apply: (machine) => {
-      try {
-        machine.setGrid(description, pixels);
-      } catch (error) {
-        const reason = complaint(error);
-        throw new MapFileError((say) => gridComplaint(say, file.name, image.name, reason));
-      }
-    },
+    apply: (machine) =>
+      retold(
+        () => machine.setGrid(description, pixels),
+        (say, reason) => gridComplaint(say, file.name, image.name, reason),
+      ),
   };
 }
 
@@ -183,10 +167,10 @@ async function readPng(file) {
   const header = new DataView(await bytesOf(file.slice(0, 24), file.name));
   const isPng = header.byteLength === 24 && header.getUint32(0) === 0x89504e47;
   if (!isPng) throw new MapFileError((say) => say.noPng(file.name));
-  // Looked at before it is unpacked: a small file may hold an enormous image.
+  // Before the image is unpacked: a small file may hold an enormous one.
   const [width, height] = [header.getUint32(16), header.getUint32(20)];
-  if (Math.max(width, height) > LONGEST_SIDE || width * height > MOST_PIXELS) {
-    throw new MapFileError((say) => say.large(file.name, `${width} × ${height}`, LONGEST_SIDE, MOST_PIXELS));
+  if (Math.max(width, height) > LONGEST_SIDE || width * height > limits.cells) {
+    throw new MapFileError((say) => say.large(file.name, `${width} × ${height}`, LONGEST_SIDE, limits.cells));
   }
   try {
     return await decoded(file, width, height);
@@ -211,7 +195,7 @@ async function decoded(file, width, height) {
     const { format } = image;
     const pixels = new ImageData(width, height);
     const { data } = pixels;
-    // In its own format: a conversion would blacken what is fully transparent.
+    // In the image's own format: a conversion would blacken what is fully transparent.
     await image.copyTo(data);
     image.close();
     decoder.close();
@@ -221,7 +205,7 @@ async function decoded(file, width, height) {
     }
     return pixels;
   }
-  // A canvas blackens it too.
+  // Other browsers have a canvas only, which blackens what is fully transparent.
   const bitmap = await createImageBitmap(file, asTheyAre);
   const canvas = new OffscreenCanvas(width, height);
   const context = /** @type {OffscreenCanvasRenderingContext2D} */ (
@@ -245,8 +229,16 @@ function gridComplaint(say, description, image, reason) {
   return reason.startsWith('walls') ? say.cells(image, reason) : `${description}: ${reason}.`;
 }
 
-/** @param {unknown} error of the core, which names a field and what is allowed */
-function complaint(error) {
-  if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-  return error.message.replace(' is undefined;', ' is missing;');
+/**
+ * @param {() => void} apply what the core may refuse: it names a field and what is allowed
+ * @param {(say: Refused, reason: string) => string} sentence
+ */
+function retold(apply, sentence) {
+  try {
+    apply();
+  } catch (error) {
+    if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
+    const reason = error.message.replace(' is undefined;', ' is missing;');
+    throw new MapFileError((say) => sentence(say, reason));
+  }
 }

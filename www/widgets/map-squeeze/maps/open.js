@@ -1,13 +1,11 @@
-/**
- * How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused.
- *
- * @module
- */
+/** How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused. */
 
 import { words } from '../../../messages/registry.js';
-import { MapFileError, readMapFiles, readPlan } from './files.js';
 
-/** @typedef {import('./files.js').OwnMap} OwnMap */
+/** @import { OwnMap } from './files.js' */
+
+/** What the names of files may end in. */
+export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
 export class MapOpener {
   /** Why the latest map was refused. @type {(() => string) | undefined} */
@@ -37,26 +35,26 @@ export class MapOpener {
 
   /** @param {File[]} files */
   choose(files) {
-    this.#open(() => readMapFiles(files));
+    this.#open(({ readMapFiles }) => readMapFiles(files));
   }
 
   /** @param {string} text */
   paste(text) {
-    this.#open(() => readPlan(words.squeeze.pasted, text));
+    this.#open(({ readPlan }) => readPlan(words.squeeze.pasted, text));
   }
 
-  /** @param {() => Promise<OwnMap>} find */
+  /** @param {(reader: typeof import('./files.js')) => OwnMap | Promise<OwnMap>} find */
   async #open(find) {
     const reading = ++this.#reading;
     try {
-      const map = await find();
+      const map = await find(await import('./files.js'));
       if (reading === this.#reading) this.#enter(map);
     } catch (error) {
       if (reading !== this.#reading) return;
-      const reason = error instanceof Error ? error.message : String(error);
+      const { message, sentence } = /** @type {Error & Partial<import('./files.js').MapFileError>} */ (error);
       this.#complaint = () => {
         const { refused } = words.squeeze;
-        return error instanceof MapFileError ? error.sentence(refused) : refused.cannot(reason);
+        return sentence ? sentence(refused) : refused.cannot(message);
       };
       this.#told();
     }

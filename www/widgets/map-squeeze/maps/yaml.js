@@ -1,7 +1,6 @@
 /**
  * Reading YAML. In a file of its own, so that it can be loaded when it is first needed, and without
  * the other half of the library, which writes.
- *
- * @module
  */
+
 export { YAMLException, load } from 'js-yaml';

@@ -1,5 +1,9 @@
 //! The two pictures of a cloud, and what is asked of them: where is it dense, which sample is nearest.
 
+use crate::map::MAX_PIXELS;
+use crate::sim::settings::Words;
+use std::ops::RangeInclusive;
+
 /// A picture of the cloud.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
@@ -8,6 +12,16 @@ pub enum View {
     /// Exponential coordinates (along, heading), m and rad.
     Twist,
 }
+
+impl Words for View {
+    const WORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
+}
+
+/// Coordinates that a rectangle of a view may reach: as far as the fastest robot gets in the longest step, and some.
+pub const EXTENT: RangeInclusive<f64> = -1e18..=1e18;
+
+/// Cells of a [`Grid`] at most: as many as a picture of a map may have pixels, beyond any screen. They take 64 MB.
+pub const MAX_CELLS: u64 = MAX_PIXELS as u64;
 
 /// A rectangle of a view divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +44,7 @@ pub struct Nearest {
 }
 
 impl Nearest {
-    /// Of points inside the ellipse of the given radii around the target, distances counted in those radii.
+    /// Looks for the nearest of the points inside the ellipse of the given radii around the target, distances counted in those radii.
     pub fn new(target: [f64; 2], radii: [f64; 2]) -> Self {
         Self { target, radii, least: 1.0, seen: 0, index: None }
     }

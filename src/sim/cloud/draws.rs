@@ -41,7 +41,7 @@ impl Draws {
     /// Draws what is missing of `count` samples, for which there must be room.
     pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
-        let (begin, end) = (unit_noise.len(), count.div_ceil(LANES));
+        let (first, end) = (unit_noise.len(), count.div_ceil(LANES));
         while unit_noise.len() < end {
             let mut uniforms = [[0.0; LANES]; 3];
             for lane in 0..LANES {
@@ -49,10 +49,10 @@ impl Draws {
             }
             unit_noise.push(uniforms.map(f64x4::from));
         }
-        noise.quantiles(unit_noise.get_mut(begin..).unwrap_or_default().as_flattened_mut());
+        noise.quantiles(unit_noise.get_mut(first..).unwrap_or_default().as_flattened_mut());
     }
 
-    /// As many as there are, the last ones of four perhaps more than asked for.
+    /// All unit noise drawn so far, four samples an entry; the last four may be more than was asked for.
     pub fn fours(&self) -> &[[f64x4; 3]] {
         &self.unit_noise
     }

@@ -1,6 +1,6 @@
 //! The density of a cloud as an image, in buffers that stay.
 
-use super::cloud::Cloud;
+use super::Cloud;
 use super::views::{Grid, View};
 use std::collections::TryReserveError;
 use wide::{f64x4, u32x4};

@@ -1,17 +1,23 @@
 //! A cloud of robots from the origin: their draws, where they end, and what they say, refreshed in slices.
 
-use super::draws::Draws;
-use super::drive::Drive;
-use super::views::View;
+pub(super) mod draws;
+pub(super) mod drive;
+pub mod picture;
+pub mod views;
+
+pub use views::View;
+
 use crate::geom::lanes::{LANES, lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
 use crate::stats::fused::{CloudFigures, Shape, Spread};
+use draws::Draws;
+use drive::Drive;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Every robot starts at the origin, heading along x.
-const START: SE2 = SE2::identity();
+/// Every robot of a cloud starts at the origin, heading along x.
+pub const START: SE2 = SE2::identity();
 
 /// Fours that are summed naively and worked on between looks at the clock: 256 poses. Fewer would make the compensation of
 /// the sums felt, more would add to their rounding, which is proportional.
@@ -57,7 +63,7 @@ impl Cloud {
         self.positions.try_reserve_exact(fours.saturating_sub(self.positions.len()))
     }
 
-    /// Begins to show `shown` samples of these draws under this motion; there must be room for them.
+    /// Begins a refresh that is to show `shown` samples of these draws under this motion; there must be room for them.
     pub fn begin(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) {
         self.draws.restart(seed, noise);
         self.drive = drive;
@@ -76,8 +82,8 @@ impl Cloud {
             let ended = block.end == fours;
             *next = if ended { 0 } else { block.end };
             // The last four may be fewer.
-            let whole = if ended { block.start.max(*goal / LANES)..block.end } else { block.end..block.end };
-            let (whole, rest) = (block.start..whole.start, whole);
+            let rest = if ended { block.start.max(*goal / LANES)..block.end } else { block.end..block.end };
+            let full = block.start..rest.start;
             let rest_mask = lanes(|lane| if lane < *goal % LANES { ALL } else { 0.0 });
             match pass {
                 Pass::Spread { sums, first } => {
@@ -85,7 +91,7 @@ impl Cloud {
                     if positions.len() < block.end {
                         positions.resize(block.end, [f64x4::splat(0.0); 2]);
                     }
-                    for (part, mask) in [(whole, f64x4::splat(ALL)), (rest, rest_mask)] {
+                    for (part, mask) in [(full, f64x4::splat(ALL)), (rest, rest_mask)] {
                         spread(drive, &draws.fours()[part.clone()], &mut positions[part], mask, sums);
                     }
                     sums.close_block();
@@ -98,7 +104,7 @@ impl Cloud {
                     }
                 }
                 Pass::Shape(sums) => {
-                    for (part, mask) in [(whole, f64x4::splat(ALL)), (rest, rest_mask)] {
+                    for (part, mask) in [(full, f64x4::splat(ALL)), (rest, rest_mask)] {
                         shape(drive, &draws.fours()[part.clone()], &positions[part], mask, sums);
                     }
                     sums.close_block();
@@ -129,7 +135,7 @@ impl Cloud {
         self.goal.min(LANES * self.positions.len().min(self.draws.fours().len()))
     }
 
-    /// The number there will be.
+    /// The number of samples to show when the refresh is complete.
     pub fn goal(&self) -> usize {
         self.goal
     }
@@ -160,11 +166,11 @@ impl Cloud {
                 [poses.along, poses.half * 2.0]
             }
         };
-        let (whole, rest) = (shown / LANES, shown % LANES);
-        (0..whole).for_each(|four| see(point(four)));
+        let (full, rest) = (shown / LANES, shown % LANES);
+        (0..full).for_each(|four| see(point(four)));
         if rest > 0 {
             let there = lanes(|lane| if lane < rest { ALL } else { 0.0 });
-            see(point(whole).map(|points| there.bitselect(points, f64x4::splat(f64::INFINITY))));
+            see(point(full).map(|points| there.bitselect(points, f64x4::splat(f64::INFINITY))));
         }
     }
 }
@@ -182,7 +188,7 @@ fn spread(drive: &Drive, noise: &[[f64x4; 3]], ends: &mut [[f64x4; 2]], mask: f6
     }
 }
 
-/// Adds them to those of the second.
+/// Adds the robots that [`spread`] drove to the sums of the second pass.
 #[inline(never)]
 fn shape(drive: &Drive, noise: &[[f64x4; 3]], ends: &[[f64x4; 2]], mask: f64x4, sums: &mut Shape) {
     for (noise, ends) in noise.iter().zip(ends) {

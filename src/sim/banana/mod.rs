@@ -1,11 +1,16 @@
 //! The Banana Machine: one command from the origin, thousands of outcomes.
 
-use super::cloud::Cloud;
-use super::drive::Drive;
-pub use super::figures::Figures;
-use super::picture::{Picture, Ramp};
-use super::settings::{MAX_SAMPLES, SettingsError, check_alphas, check_command, check_whole};
-use super::views::{Grid, Nearest, View};
+mod figures;
+mod settings;
+
+pub use figures::{Column, Contours, Figures, Sample, Stats, Table};
+pub use settings::*;
+
+use super::cloud::drive::Drive;
+use super::cloud::picture::Ramp;
+use super::cloud::views::{Grid, Nearest, View};
+use super::cloud::{Cloud, START, picture::Picture};
+use super::settings::{Rules, SettingsError};
 use crate::geom::arc::{Arc, ArcInversion, invert_arc};
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
@@ -13,78 +18,12 @@ use crate::models::{
     MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd,
     VelocityModel,
 };
-use crate::noise::NoiseKind;
 use crate::stats::{CartesianMoments, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::TryReserveError;
 use std::f64::consts::TAU;
 
-/// Which of the chapter's models the machine runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ModelKind {
-    Velocity,
-    /// Fed with the reading that noise-free wheels would give for the command.
-    Odometry,
-}
-
-/// Everything a user sets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    pub model: ModelKind,
-    pub noise: NoiseKind,
-    pub command: VelocityCmd,
-    /// Each model keeps its own α's, so that switching back and forth loses nothing.
-    pub velocity_alphas: [f64; 6],
-    pub odometry_alphas: [f64; 4],
-    /// The number of the only α in effect (1 for α₁), all others counting as 0; None for all of them.
-    pub isolate: Option<usize>,
-    pub samples: usize,
-    /// Up to [`super::settings::MAX_SEED`].
-    pub seed: u64,
-}
-
-impl Default for Settings {
-    /// The widget's opening state.
-    fn default() -> Self {
-        Self {
-            model: ModelKind::Velocity,
-            noise: NoiseKind::Normal,
-            command: VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 },
-            velocity_alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01],
-            odometry_alphas: [0.05, 0.05, 0.05, 0.05],
-            isolate: None,
-            samples: 2000,
-            seed: 7,
-        }
-    }
-}
-
 impl Settings {
-    /// The α's of the present model as set, whether isolated or not.
-    pub fn alphas(&self) -> &[f64] {
-        match self.model {
-            ModelKind::Velocity => &self.velocity_alphas,
-            ModelKind::Odometry => &self.odometry_alphas,
-        }
-    }
-
-    fn check(&self) -> Result<(), SettingsError> {
-        check_command(&self.command)?;
-        check_alphas(self.alphas())?;
-        check_whole("samples", self.samples as f64, 1, MAX_SAMPLES as u64)?;
-        if let Some(number) = self.isolate {
-            check_whole("isolate", number as f64, 1, self.alphas().len() as u64)?;
-        }
-        check_whole("seed", self.seed as f64, 0, super::settings::MAX_SEED).map(|_| ())
-    }
-
-    /// The α's in effect.
-    fn effective<const N: usize>(&self, alphas: [f64; N]) -> [f64; N] {
-        std::array::from_fn(
-            |i| if self.isolate.is_none_or(|number| number == i + 1) { alphas[i] } else { 0.0 },
-        )
-    }
-
     /// The model in effect, with its control for a command.
     fn motion(&self, command: VelocityCmd) -> Motion {
         match self.model {
@@ -130,17 +69,6 @@ impl Motion {
     }
 }
 
-/// Every robot starts at the origin, heading along x.
-const START: SE2 = SE2::identity();
-
-/// The commands of the widget's presets.
-pub const PRESETS: [(&str, VelocityCmd); 4] = [
-    ("straight", VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 }),
-    ("gentle", VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 }),
-    ("hard", VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 }),
-    ("pivot", VelocityCmd { v: 0.06, omega: 1.5, dt: 1.0 }),
-];
-
 /// The command whose arc ends at (x, y), with the duration of `near` and, of the arcs that lead there (forward or in
 /// reverse, round the circle or not), the one whose turn is nearest to that of `near`.
 pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
@@ -163,30 +91,8 @@ fn command_end(command: &VelocityCmd) -> SE2 {
 /// There ξ runs to infinity; with fewer, single samples of a large cloud would already spoil its moments.
 const CHART_SIGMAS: f64 = 4.0;
 
-/// The curves drawn over the cloud, as (x, y) in m but for `twist_ellipse`, (m, rad). Outlines are closed; empty
-/// where fewer than two samples are shown, or without a chart to be drawn in.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contours {
-    /// The arc of the command, open.
-    pub command: Vec<[f64; 2]>,
-    pub ellipse: Vec<[f64; 2]>,
-    /// The 2σ ellipse of an EKF.
-    pub linearized: Vec<[f64; 2]>,
-    pub exponential: Vec<[f64; 2]>,
-    /// The 2σ ellipse of the exponential moments in (along, heading).
-    pub twist_ellipse: Vec<[f64; 2]>,
-}
-
-/// One sample, explained.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
-    pub pose: SE2,
-    pub twist: Vector3<f64>,
-    /// The arc and last turn that led to it; under the odometry model, which knows no arc, that would lead to it.
-    pub executed: ArcInversion,
-    /// That arc.
-    pub path: Vec<[f64; 2]>,
-}
+/// Points of a skew curve at most; each costs some ten microseconds.
+pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 const OUTLINE_SEGMENTS: usize = 128;
@@ -292,12 +198,12 @@ impl BananaMachine {
         (0..self.shown()).map(|index| self.cloud.pose(index))
     }
 
-    /// One of them.
+    /// Sample `index` of those shown.
     pub fn pose(&self, index: usize) -> Option<SE2> {
         (index < self.shown()).then(|| self.cloud.pose(index))
     }
 
-    /// Their exponential coordinates (along, lateral, heading), on the branch of the logarithm that belongs to the
+    /// The exponential coordinates of the samples shown (along, lateral, heading), on the branch of the logarithm that belongs to the
     /// commanded turn.
     pub fn twists(&self) -> impl ExactSizeIterator<Item = Vector3<f64>> {
         self.poses().map(|pose| self.twist(&pose))
@@ -310,6 +216,10 @@ impl BananaMachine {
 
     pub fn figures(&self) -> &Figures {
         &self.figures
+    }
+
+    pub fn stats(&self) -> Stats<'_> {
+        Stats { n: self.shown(), figures: &self.figures }
     }
 
     /// Whether the robots keep short of turning a whole circle, where exponential coordinates end. Where not, every
@@ -345,6 +255,19 @@ impl BananaMachine {
     /// The model's own moments, by quadrature.
     pub fn exact(&self) -> ExactMoments {
         self.settings.motion(self.settings.command).exact()
+    }
+
+    /// The moments of the pose in three ways, and those of its exponential coordinates as the model has them.
+    pub fn table(&self) -> Table {
+        let (linearized, exact, Figures { cartesian, cross_track, .. }) =
+            (self.linearized(), self.exact(), self.figures);
+        Table {
+            // A Gaussian in (x, y), whatever its moments, has no skew.
+            linearized: Column { mean: linearized.mean, cov: linearized.cov, cross_track_skew: 0.0 },
+            exact: Column { mean: exact.mean, cov: exact.cov, cross_track_skew: exact.cross_track_skew },
+            measured: Column { mean: cartesian.mean, cov: cartesian.cov, cross_track_skew: cross_track.skew },
+            tangent: self.tangent(),
+        }
     }
 
     /// The exact cross-track skew at `points` rotational velocities spread evenly from `first` to `last` (rad/s), all
@@ -396,7 +319,7 @@ impl BananaMachine {
         self.picture.density(&self.cloud, view, grid)
     }
 
-    /// The same in colours: see [`Picture::paint`].
+    /// The density of the shown samples in colours: see [`Picture::paint`].
     ///
     /// # Errors
     /// As [`Picture::paint`].

@@ -1,0 +1,6 @@
+//! What `cargo test` runs WebAssembly tests with.
+
+fn main() -> impl std::process::Termination {
+    env_logger::init();
+    wasm_bindgen_cli::wasm_bindgen_test_runner::run_cli_with_args(std::env::args_os())
+}

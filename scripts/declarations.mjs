@@ -1,0 +1,147 @@
+// What the widgets declare of themselves, as scripts/manifest.mjs and scripts/types.mjs tell it: from the settings of
+// the core, and from each widget's settings.js.
+
+import { presets, settings } from '../www/settings.js';
+
+/**
+ * @typedef {import('../www/settings.js').Declaration} Declaration
+ *
+ * @typedef {object} Named
+ * @property {string} name
+ * @property {string} type in TypeScript
+ * @property {string} description
+ * @property {true} [readonly]
+ *
+ * @typedef {Named & { opening?: string, allowed?: string, told: string }} Attribute with its text when the widget opens,
+ *   the range of a number, and the description without that
+ *
+ * @typedef {object} Widget
+ * @property {string} tag
+ * @property {string} machine its class in the core; that of its element ends in Element
+ * @property {Attribute[]} attributes each of them is a property too
+ * @property {Named[]} properties the others
+ * @property {Named[]} state without what every state has
+ */
+
+/** Of the settings that are no words and no groups. @type {Record<string, string>} */
+const TYPES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
+
+/** @param {string} name of a tag or key */
+export const pascal = (name) => name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase());
+
+/** @param {readonly string[]} words */
+export const union = (words) => words.map((word) => `'${word}'`).join(' | ');
+
+/** @param {Declaration} declaration */
+export function typeOf({ key, type, words, nullable }) {
+  const text = words ? union(words) : (TYPES[type] ?? pascal(key));
+  return nullable ? `${text} | null` : text;
+}
+
+/**
+ * What a setting is, and what it may be.
+ *
+ * @param {Declaration} declaration
+ * @param {string} [opening]
+ */
+export function describe(declaration, opening) {
+  const { sentence, type } = declaration;
+  const range = allowedIn(declaration);
+  const kind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
+  const allowed = range && `${kind} from ${range}`.trim();
+  const all = [allowed, opening && `opens with ${opening}`].filter(Boolean).join('; ');
+  return all ? `${sentence} ${all[0].toUpperCase()}${all.slice(1)}.` : sentence;
+}
+
+/** @param {Declaration} declaration */
+function allowedIn({ min, max, unit }) {
+  return min === undefined || max === undefined ? undefined : `${number(min)} to ${number(max)}${unit ? ` ${unit}` : ''}`;
+}
+
+/** @param {number} value */
+function number(value) {
+  if (value === Number.MAX_SAFE_INTEGER) return '2⁵³ − 1';
+  const format = new Intl.NumberFormat('en', { maximumSignificantDigits: 7, useGrouping: 'min2' });
+  return format.format(value).replaceAll(',', '\u202f').replace('-', '−');
+}
+
+/** @returns {Promise<Widget[]>} */
+export function widgets() {
+  return Promise.all(Object.keys(settings).map(widget));
+}
+
+/**
+ * @param {string} tag
+ * @returns {Promise<Widget>}
+ */
+async function widget(tag) {
+  // They import libraries, which a bare clone does not have yet.
+  const { COMMON, WORDS, documentation: ofFigures } = await import('../www/figure/attributes.js');
+  const { documentation: ofClouds } = await import('../www/figure/cloud.js');
+  const { attributes, declared, documentation, own } = await import(`../www/widgets/${tag}/settings.js`);
+  /** @type {import('../www/figure/attributes.js').Documentation[]} */
+  const documents = [ofFigures, ...('marked' in own ? [ofClouds] : []), documentation];
+  /** @type {Record<string, string>} */
+  const sentences = Object.assign({}, ...documents.map(({ attributes }) => attributes));
+  const propertyTable = Object.assign({}, ...documents.map(({ properties }) => properties));
+  const stateTable = Object.assign({}, ...documents.map(({ state }) => state));
+  const setting = (/** @type {string} */ name) => declared.find((/** @type {Declaration} */ { key }) => key === name);
+
+  /** @returns {Attribute} */
+  const attribute = (/** @type {[string, any]} */ [name, entry]) => {
+    const declaration = setting(name);
+    if (declaration) {
+      const given = declaration.default;
+      const opening = given === null ? undefined : String(given);
+      const shown = typeof given === 'number' ? number(given) : opening;
+      const told = describe({ ...declaration, min: undefined }, shown);
+      return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), told };
+    }
+    const { words, covers, kind } = entry;
+    const opening = entry.opening ?? own[name]?.opening ?? (covers && openingPreset(tag));
+    const type = words === undefined ? 'boolean' : kind === WORDS ? `(${union(words)})[]` : union(words);
+    const text = Array.isArray(opening) ? opening.join(' ') : opening;
+    const description = describe({ ...entry, sentence: sentences[name] }, text);
+    return { name, type: covers ? `${type} | null` : type, description, opening: text, told: description };
+  };
+  const told = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
+
+  const attributeList = Object.entries({ ...attributes, ...COMMON }).map(attribute);
+  /** @type {Declaration[]} */
+  const whole = declared.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
+  const groups = whole.filter(({ key }) => !(key in attributes)).map(plain);
+  const properties = [...groups, ...Object.entries(propertyTable).map(told)];
+  const ofElement = Object.keys(own).map((name) => {
+    const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((each) => each.name === name) ?? {});
+    return { name, type, description };
+  });
+  const state = new Map([...whole.map(plain), ...ofElement, ...Object.entries(stateTable).map(told)].map((each) => [each.name, each]));
+  for (const { name, type } of state.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
+  return { tag, machine: pascal(tag), attributes: attributeList, properties, state: [...state.values()] };
+}
+
+/** @param {Declaration} declaration */
+function plain(declaration) {
+  return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
+}
+
+/**
+ * The preset that the widget opens with, if it is one.
+ *
+ * @param {string} tag
+ */
+function openingPreset(tag) {
+  const opening = Object.fromEntries(settings[tag].map(({ key, default: value }) => [key, value]));
+  /** @returns {boolean} */
+  const same = (/** @type {object} */ fields) =>
+    Object.entries(fields).every(([key, value]) => key === 'name' || (typeof value === 'object' ? same(value) : value === opening[key]));
+  return presetsOf(tag).find(same)?.name;
+}
+
+/**
+ * @param {string} tag
+ * @returns {(Record<string, unknown> & { name: string })[]}
+ */
+export function presetsOf(tag) {
+  return /** @type {Record<string, any[]>} */ (presets)[tag] ?? [];
+}

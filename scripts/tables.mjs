@@ -1,0 +1,98 @@
+// The tables of the gallery that document the elements, made of what is declared and of their manifest: in index.html a
+// comment stands for each.
+
+/**
+ * @typedef {import('./declarations.mjs').Widget} Widget
+ * @typedef {import('./manifest.mjs').Element} Element
+ * @typedef {import('./manifest.mjs').Item} Item
+ */
+
+/** What stands for tables, and which they are. @type {Record<string, (elements: Element[], widgets: Widget[]) => string>} */
+const TABLES = {
+  attributes: (_, widgets) =>
+    widgets
+      .map(({ tag, attributes }) => {
+        const rows = attributes.map((each) => [code(each.name), valuesOf(each), prose(each.told)]);
+        return table(tag, 'attribute', `Of ${code(`<${tag}>`)}`, ['attribute', 'values', 'what it says'], rows);
+      })
+      .join('\n\n'),
+  events: (elements) => shared(elements, 'event', 'Events; all of them bubble', ['event', 'when'], ({ events }) => events),
+  methods: (elements) =>
+    shared(elements, 'method', 'Methods', ['method', 'what it gives or does'], ({ members }) =>
+      members
+        .filter(({ kind }) => kind === 'method')
+        .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((each) => each.name).join(', ')})`, description })),
+    ),
+  properties: (elements) => shared(elements, 'property', 'Custom properties', ['property', 'of what'], ({ cssProperties }) => cssProperties),
+  parts: (elements) => shared(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'what it is'], ({ cssParts }) => cssParts),
+};
+
+/**
+ * @param {string} page HTML with comments like `<!-- table of events -->`
+ * @param {Element[]} elements
+ * @param {Widget[]} widgets
+ * @returns {string} it with the tables
+ */
+export function withTables(page, elements, widgets) {
+  return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLES[name](elements, widgets));
+}
+
+/**
+ * A table of what the elements have in common, and of what only some have.
+ *
+ * @param {Element[]} elements
+ * @param {string} kind
+ * @param {string} caption
+ * @param {string[]} heads
+ * @param {(element: Element) => Item[]} items
+ */
+function shared(elements, kind, caption, heads, items) {
+  const all = new Map(elements.flatMap(items).map((item) => [item.name, item]));
+  const bearers = (/** @type {string} */ name) => elements.filter((element) => items(element).some((item) => item.name === name));
+  const rows = [...all.values()].map(({ name, description }) => {
+    const of = bearers(name);
+    const only = of.length < elements.length ? ` Of ${of.map(({ tagName }) => code(`<${tagName}>`)).join(' and ')}.` : '';
+    return [code(name), prose(description) + only];
+  });
+  return table('both', kind, caption, heads, rows);
+}
+
+/**
+ * @param {string} of
+ * @param {string} kind
+ * @param {string} caption
+ * @param {string[]} heads
+ * @param {string[][]} rows of HTML
+ */
+function table(of, kind, caption, heads, rows) {
+  const head = heads.map((text) => `<th scope="col">${text}</th>`).join('');
+  const body = rows.map(([name, ...cells]) => `            <tr><th scope="row">${name}</th>${cells.map((cell) => `<td>${cell}</td>`).join('')}</tr>`);
+  return `        <table class="api" data-of="${of}" data-kind="${kind}">
+          <caption>${caption}</caption>
+          <thead><tr>${head}</tr></thead>
+          <tbody>
+${body.join('\n')}
+          </tbody>
+        </table>`;
+}
+
+/** @param {import('./declarations.mjs').Attribute} attribute */
+function valuesOf({ type, allowed }) {
+  const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => code(word));
+  return words.length ? words.join(', ') : (allowed ?? type);
+}
+
+/** @param {string} [text] in which what stands between backticks is code */
+function prose(text = '') {
+  return escaped(text).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
+}
+
+/** @param {string} text */
+function code(text) {
+  return `<code>${escaped(text)}</code>`;
+}
+
+/** @param {string} text */
+function escaped(text) {
+  return text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
+}

@@ -1,0 +1,95 @@
+// Types that follow from what is declared: build/machines.d.ts of the core, and build/elements.d.ts of the elements.
+// What is left is in www/types.d.ts, which has them all.
+
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { settings } from '../www/settings.js';
+import { describe, pascal, presetsOf, typeOf, union, widgets } from './declarations.mjs';
+import { ROOT } from './process.mjs';
+
+/** @typedef {import('./declarations.mjs').Named} Named */
+
+const HEAD = '// Generated from the declarations: not to be edited.\n';
+
+/** Writes both. */
+export async function writeTypes() {
+  const all = await widgets();
+  const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
+  writeFileSync(join(ROOT, 'build/machines.d.ts'), [HEAD, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), ...all.map(elementTypes), tagNames(all)].join('\n'));
+}
+
+/** Groups of the same name are the same in all widgets. */
+function groupTypes() {
+  /** @type {Map<string, string>} */
+  const groups = new Map();
+  for (const [tag, declared] of Object.entries(settings)) {
+    for (const { key, type } of declared) {
+      if (type !== 'group') continue;
+      const parts = declared.filter((part) => part.in === key).map(named);
+      const text = asInterface(pascal(key), parts);
+      if ((groups.get(key) ?? text) !== text) throw new Error(`${tag}: ${key} is not the group that it is in another widget; call it otherwise.`);
+      groups.set(key, text);
+    }
+  }
+  return groups.values();
+}
+
+/** @param {string} tag */
+function settingTypes(tag) {
+  const machine = pascal(tag);
+  const whole = settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(named);
+  const presets = presetsOf(tag);
+  if (!presets.length) return asInterface(`${machine}Settings`, whole);
+  const fields = Object.entries(presets[0]).map(([name, value]) => ({
+    name,
+    type: name === 'name' ? union(presets.map((preset) => preset.name)) : typeof value === 'object' ? pascal(name) : typeof value,
+    description: '',
+  }));
+  return `${asInterface(`${machine}Settings`, whole)}\n${asInterface(`${machine}Preset`, fields)}`;
+}
+
+/** @param {import('../www/settings.js').Declaration} declaration */
+function named(declaration) {
+  return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
+}
+
+/** @param {import('./declarations.mjs').Widget} widget */
+function elementTypes({ tag, machine, attributes, properties, state }) {
+  const element = `FigureElement<${machine}State, ${machine}['stats']>`;
+  const widget = { name: 'widget', type: `'${tag}'`, description: '' };
+  // What every figure has is there already.
+  const own = attributes.filter(({ name }) => !['theme', 'share'].includes(name));
+  return (
+    `${asInterface(`${machine}State`, [widget, ...state], 'FigureState')}\n` +
+    `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
+    asInterface(`${machine}Element`, [...own, ...properties], element)
+  );
+}
+
+/** @param {import('./declarations.mjs').Widget[]} all */
+function imported(all) {
+  const types = all.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
+  const names = new Set(['FigureElement', 'FigureState', ...all.map(({ machine }) => machine), ...types]);
+  const ours = [...names].filter((name) => !(name in globalThis));
+  return `import type { ${ours.sort().join(', ')} } from '../www/types.d.ts';\n`;
+}
+
+/** @param {import('./declarations.mjs').Widget[]} all */
+function tagNames(all) {
+  const names = all.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
+  return `declare global {\n  interface HTMLElementTagNameMap {\n${names.join('')}  }\n}\n`;
+}
+
+/**
+ * @param {string} name
+ * @param {Named[]} fields
+ * @param {string} [base]
+ */
+function asInterface(name, fields, base) {
+  const lines = fields.map(({ name: key, type, description, readonly }) => {
+    const comment = description && `  /** ${description} */\n`;
+    return `${comment}  ${readonly ? 'readonly ' : ''}${key}: ${type};\n`;
+  });
+  return `export interface ${name}${base ? ` extends ${base}` : ''} {\n${lines.join('')}}\n`;
+}

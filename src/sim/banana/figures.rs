@@ -1,0 +1,138 @@
+//! What a cloud of the Banana Machine says, as the widget shows it.
+
+use crate::geom::arc::ArcInversion;
+use crate::geom::se2::SE2;
+use crate::stats::fused::CloudFigures;
+use crate::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
+use nalgebra::{ArrayStorage, Matrix3, Vector3};
+
+/// What the shown samples say. Figures without meaning (no spread, too few samples) are NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    pub cartesian: CartesianMoments,
+    pub exponential: ExponentialMoments,
+    pub cross_track: CrossTrack,
+    /// The cross-track skew of the Gaussian with the exponential moments.
+    pub gaussian_skew: f64,
+    /// Shares of the samples inside the two 2σ contours.
+    pub inside_ellipse: f64,
+    pub inside_exponential: f64,
+}
+
+impl Figures {
+    /// The figures of a cloud without samples.
+    pub const NONE: Self = {
+        let (mean, cov) = (
+            Vector3::new(f64::NAN, f64::NAN, f64::NAN),
+            Matrix3::from_array_storage(ArrayStorage([[f64::NAN; 3]; 3])),
+        );
+        Self {
+            cartesian: CartesianMoments { mean, cov },
+            exponential: ExponentialMoments { mean, cov },
+            cross_track: CrossTrack { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN },
+            gaussian_skew: f64::NAN,
+            inside_ellipse: f64::NAN,
+            inside_exponential: f64::NAN,
+        }
+    };
+
+    /// The figures of a cloud; without a chart nothing is said in exponential coordinates.
+    pub fn of(cloud: &CloudFigures, chart_holds: bool) -> Self {
+        let CloudFigures { cartesian, exponential, cross_track, inside_ellipse, inside_exponential } = *cloud;
+        let figures = Self {
+            cartesian,
+            exponential,
+            cross_track,
+            gaussian_skew: predicted_cross_track_skew(&exponential.mean, &exponential.cov),
+            inside_ellipse,
+            inside_exponential,
+        };
+        if chart_holds {
+            return figures;
+        }
+        let (mean, cov) = (Vector3::repeat(f64::NAN), Matrix3::repeat(f64::NAN));
+        let exponential = ExponentialMoments { mean, cov };
+        Self { exponential, gaussian_skew: f64::NAN, inside_exponential: f64::NAN, ..figures }
+    }
+}
+
+/// The figures, and the number of samples that are shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stats<'a> {
+    pub n: usize,
+    pub figures: &'a Figures,
+}
+
+#[cfg(target_arch = "wasm32")]
+impl serde::Serialize for Stats<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        #[derive(serde::Serialize)]
+        struct Coverage {
+            ellipse: f64,
+            exponential: f64,
+        }
+        let Self { n, figures } = self;
+        let coverage = Coverage { ellipse: figures.inside_ellipse, exponential: figures.inside_exponential };
+        let mut stats = serializer.serialize_struct("Stats", 8)?;
+        stats.serialize_field("n", n)?;
+        stats.serialize_field("cartesian", &figures.cartesian)?;
+        stats.serialize_field("exponential", &figures.exponential)?;
+        stats.serialize_field("crossTrackSkew", &figures.cross_track.skew)?;
+        stats.serialize_field("crossTrackSkewError", &figures.cross_track.skew_error)?;
+        stats.serialize_field("gaussianSkew", &figures.gaussian_skew)?;
+        stats.serialize_field("rhoCrossHeading", &figures.cross_track.rho_heading)?;
+        stats.serialize_field("coverage", &coverage)?;
+        stats.end()
+    }
+}
+
+/// Moments of the pose, in m and rad, and its cross-track skew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+pub struct Column {
+    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "crate::stats::plain::vector"))]
+    pub mean: Vector3<f64>,
+    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "crate::stats::plain::matrix"))]
+    pub cov: Matrix3<f64>,
+    pub cross_track_skew: f64,
+}
+
+/// Moments of the pose three ways, and of its exponential coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+pub struct Table {
+    /// The noise-free end, and the covariance to first order in the noise.
+    pub linearized: Column,
+    /// By quadrature.
+    pub exact: Column,
+    /// Of the samples shown.
+    pub measured: Column,
+    /// The commanded twist and its noise; None where the noise has no such form.
+    pub tangent: Option<ExponentialMoments>,
+}
+
+/// The curves drawn over the cloud, as (x, y) in m but for `twist_ellipse`, (m, rad). Outlines are closed; empty
+/// where fewer than two samples are shown, or without a chart to be drawn in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contours {
+    /// The arc of the command, open.
+    pub command: Vec<[f64; 2]>,
+    pub ellipse: Vec<[f64; 2]>,
+    /// The 2σ ellipse of an EKF.
+    pub linearized: Vec<[f64; 2]>,
+    pub exponential: Vec<[f64; 2]>,
+    /// The 2σ ellipse of the exponential moments in (along, heading).
+    pub twist_ellipse: Vec<[f64; 2]>,
+}
+
+/// One sample, explained.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    pub pose: SE2,
+    pub twist: Vector3<f64>,
+    /// The arc and last turn that led to it; under the odometry model, which knows no arc, that would lead to it.
+    pub executed: ArcInversion,
+    /// The arc of `executed`, as (x, y) in m.
+    pub path: Vec<[f64; 2]>,
+}

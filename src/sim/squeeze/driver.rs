@@ -1,0 +1,101 @@
+//! Attempts of Map Squeeze, each from its own noise.
+
+use super::settings::Settings;
+use crate::geom::arc::Arc;
+use crate::geom::lanes::LANES;
+use crate::geom::se2::SE2;
+use crate::map::{Accepted, Cost, Judging, MapConditioned, Sampler, Wedged};
+use crate::sim::cloud::draws::Draws;
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use std::ops::Range;
+
+/// What became of one attempt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attempt {
+    pub pose: SE2,
+    pub accepted: bool,
+    /// Whether the robot fits where it ends, and all along the way.
+    pub end_free: bool,
+    pub path_free: bool,
+}
+
+/// Bits of a verdict as a number, see [`Attempt::verdict`].
+pub const END_FREE: u8 = 1;
+pub const PATH_FREE: u8 = 2;
+pub const ACCEPTED: u8 = 4;
+
+impl Attempt {
+    /// What became of it in bits: [`END_FREE`], [`PATH_FREE`], [`ACCEPTED`].
+    pub fn verdict(&self) -> u8 {
+        END_FREE * u8::from(self.end_free)
+            + PATH_FREE * u8::from(self.path_free)
+            + ACCEPTED * u8::from(self.accepted)
+    }
+}
+
+/// Makes attempts, each from its own noise.
+pub struct Driver<'a> {
+    model: &'a MapConditioned<'a>,
+    judging: Judging<'a>,
+    settings: &'a Settings,
+    draws: &'a Draws,
+}
+
+impl<'a> Driver<'a> {
+    pub fn new(model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
+        Self { model, judging: model.judging(&settings.command, &settings.start()), settings, draws }
+    }
+
+    /// The first of these attempts, or up to four where they are judged once.
+    #[inline(always)]
+    pub fn drive_some(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
+        if let Sampler::SubStepped(steps) = self.settings.sampler {
+            let (attempt, cost) = self.drive_parts(indices.start, steps, &mut |_| ());
+            return see(attempt, cost);
+        }
+        let conditioned = self.settings.conditioned;
+        let (four, first) = (indices.start / LANES, indices.start % LANES);
+        let lanes = first..LANES.min(first + indices.len());
+        self.judging.judge_four(&self.draws.fours()[four], lanes, |draw| {
+            let deciding = self.model.deciding(&draw);
+            let attempt = Attempt {
+                pose: draw.pose,
+                accepted: !conditioned || deciding.free,
+                end_free: draw.end.free,
+                path_free: draw.path.free,
+            };
+            see(attempt, Cost { draws: 1, wall_tests: if conditioned { deciding.wall_tests } else { 0 } });
+        });
+    }
+
+    /// The arcs driven in an attempt.
+    pub fn arcs(&self, index: usize) -> Vec<Arc> {
+        let Sampler::SubStepped(steps) = self.settings.sampler else {
+            return vec![self.judging.arc(self.draws.of(index))];
+        };
+        let mut arcs = Vec::new();
+        self.drive_parts(index, steps, &mut |arc| arcs.push(*arc));
+        arcs
+    }
+
+    fn drive_parts(&self, index: usize, steps: u32, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
+        let Settings { command, conditioned, seed, .. } = *self.settings;
+        let start = self.settings.start();
+        // How many numbers an attempt uses depends on the walls, so that each has a stream of its own.
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
+        if !conditioned {
+            let (end, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, along);
+            let attempt = Attempt { pose: end.pose, accepted: true, end_free: end.end.free, path_free };
+            return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
+        }
+        match self.model.sample_along(&command, &start, &mut rng, along) {
+            Ok(Accepted { pose, path_free, cost }) => {
+                (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
+            }
+            Err(Wedged(cost)) => {
+                (Attempt { pose: start, accepted: false, end_free: false, path_free: false }, cost)
+            }
+        }
+    }
+}

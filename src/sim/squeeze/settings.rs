@@ -1,0 +1,131 @@
+//! What a user sets of Map Squeeze, but for the map.
+
+use crate::geom::se2::SE2;
+use crate::map::Sampler;
+use crate::models::VelocityCmd;
+use crate::sim::settings::{
+    ALPHA, Level, MAX_SEED, QUANTITY, Rules, Settable, Setting, SettingsError, Words, check_whole, group,
+    settings,
+};
+use std::f64::consts::FRAC_PI_2;
+use std::ops::RangeInclusive;
+
+impl Words for Sampler {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("endpoint", Self::Endpoint),
+        ("whole-arc", Self::WholeArc),
+        // Its parts are those of the setting `steps`.
+        ("sub-stepped", Self::SubStepped(1)),
+    ];
+}
+
+group!([f64; 3] as [x, y, theta] => {
+    /// Where the robot starts.
+    x: "m", in QUANTITY;
+    /// Where the robot starts.
+    y: "m", in QUANTITY;
+    /// Its heading at the start.
+    theta: "rad", in QUANTITY;
+});
+
+impl Settable for [f64; 6] {
+    type Allowed = RangeInclusive<f64>;
+    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+        Setting::Numbers(self, allowed)
+    }
+}
+
+/// Where the presets start, in the apartment.
+pub const PRESETS: [(&str, [f64; 3]); 3] =
+    [("doorway", [2.05, 2.6, FRAC_PI_2]), ("wall", [3.3, 2.6, FRAC_PI_2]), ("corridor", [1.4, 4.4, 0.0])];
+
+/// A million attempts take 56 MB, and some seconds where the map is hard.
+pub const MAX_SAMPLES: usize = 1_000_000;
+/// Parts of a command: at a thousand the sampler is as good as judging the arc, and a thousand times as dear.
+pub const MAX_STEPS: u64 = 1000;
+
+settings! {
+    /// Everything that a user sets, but for the map.
+    pub struct Settings {
+        /// The pose that the robot starts from.
+        start: [f64; 3] = PRESETS[0].1;
+        /// The same for every motion tried.
+        command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
+        /// Noise parameters, the six of the velocity model.
+        alphas: [f64; 6] = alphas_of_noise(0.12), in ALPHA;
+        /// Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.
+        noise, by noise_level of alphas, in ALPHA;
+        /// Radius of the robot.
+        clearance: f64 = 0.13, "m", in 0.0..=10.0;
+        /// Whether draws are judged by the map at all; where not, all of them are accepted.
+        conditioned: bool = true;
+        /// How draws are judged.
+        sampler: Sampler = Sampler::Endpoint;
+        // Opens with the first number that shows the point.
+        /// Parts of the command, for the sub-stepped sampler.
+        steps: u32 = 4, in 1..=MAX_STEPS;
+        /// Motions tried.
+        samples: usize = 600, in 1..=MAX_SAMPLES as u64;
+        /// The same seed draws the same motions.
+        seed: u64 = 7, in 0..=MAX_SEED;
+    }
+}
+
+/// The α's of a noise level n: α₁₋₄ = n, α₅,₆ = n/4.
+pub fn alphas_of_noise(n: f64) -> [f64; 6] {
+    [n, n, n, n, n / 4.0, n / 4.0]
+}
+
+/// The level of α's that may be those of one.
+struct NoiseLevel<'a>(&'a mut [f64; 6]);
+
+impl Level for NoiseLevel<'_> {
+    fn get(&self) -> Option<f64> {
+        let n = self.0[0];
+        (*self.0 == alphas_of_noise(n)).then_some(n)
+    }
+
+    fn set(&mut self, level: f64) {
+        *self.0 = alphas_of_noise(level);
+    }
+}
+
+impl Settable for NoiseLevel<'_> {
+    type Allowed = RangeInclusive<f64>;
+    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+        Setting::Level(self, allowed)
+    }
+}
+
+impl Settings {
+    fn noise_level(&mut self) -> NoiseLevel<'_> {
+        NoiseLevel(&mut self.alphas)
+    }
+
+    /// The noise level whose α's these are; None where they are not those of a level.
+    pub fn noise(mut self) -> Option<f64> {
+        self.noise_level().get()
+    }
+
+    /// The parts that an attempt is made of.
+    pub fn parts(&self) -> u32 {
+        self.sampler.parts()
+    }
+
+    pub(super) fn start(&self) -> SE2 {
+        let [x, y, theta] = self.start;
+        SE2::new(x, y, theta)
+    }
+}
+
+impl Rules for Settings {
+    /// `steps` is kept while another sampler is in use.
+    fn settle(&mut self, _: &Self, _: &[&str]) {
+        self.sampler = self.sampler.in_parts(self.steps);
+    }
+
+    fn check_together(&self) -> Result<(), SettingsError> {
+        let parts = check_whole("steps", f64::from(self.parts()), &(1..=MAX_STEPS))?;
+        check_whole("samples", self.samples as f64, &(1..=MAX_SAMPLES as u64 / parts)).map(|_| ())
+    }
+}

@@ -1,0 +1,62 @@
+// Who imports whom in www/, as doc/implementation-notes.md has it.
+
+import assert from 'node:assert/strict';
+import { dirname } from 'node:path';
+import { test } from 'node:test';
+import { build } from 'esbuild';
+
+/** From the top floor down: a file imports from its own floor and from those below. */
+const FLOORS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
+
+const { metafile } = await build({
+  entryPoints: ['www/motion-widgets.js', 'www/external.js', 'www/de.js', 'www/embed.js'],
+  absWorkingDir: new URL('../..', import.meta.url).pathname,
+  bundle: true,
+  write: false,
+  metafile: true,
+  format: 'esm',
+  outdir: 'nowhere',
+  loader: { '.wasm': 'empty' },
+});
+
+/** @type {[string, string][]} importer and imported, of those in www/ */
+const imports = Object.entries(metafile.inputs).flatMap(([importer, { imports }]) =>
+  imports.filter(({ path }) => importer.startsWith('www/') && path.startsWith('www/')).map(({ path }) => /** @type {[string, string]} */ ([importer, path])),
+);
+
+test('all scripts of the page are looked at', () => {
+  assert.ok(imports.length > 150, `${imports.length} imports`);
+  for (const floor of FLOORS) assert.ok(imports.some(([, imported]) => imported.startsWith(floor)), floor);
+});
+
+test('no import runs in a circle', () => {
+  /** @type {Map<string, 'open' | 'done'>} */
+  const seen = new Map();
+  /**
+   * @param {string} file
+   * @param {string[]} way
+   */
+  const visit = (file, way) => {
+    assert.notEqual(seen.get(file), 'open', [...way, file].join(' → '));
+    if (seen.has(file)) return;
+    seen.set(file, 'open');
+    for (const [importer, imported] of imports) if (importer === file) visit(imported, [...way, file]);
+    seen.set(file, 'done');
+  };
+  for (const [importer] of imports) visit(importer, []);
+});
+
+test('no import runs up, and none from one widget to another', () => {
+  const floorOf = (/** @type {string} */ path) => FLOORS.findIndex((floor) => path.startsWith(`${floor}/`));
+  for (const [importer, imported] of imports) {
+    const [from, to] = [floorOf(importer), floorOf(imported)];
+    if (from >= 0 && to >= 0) assert.ok(from <= to, `${importer} imports ${imported}`);
+    const [widget, other] = [importer, imported].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
+    if (widget && other) assert.ok(widget === other || other === 'shared', `${importer} imports ${imported}`);
+  }
+});
+
+test('only core.js touches the generated glue', () => {
+  const glue = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
+  assert.deepEqual(glue.map(([path]) => [dirname(path), path]), [['www', 'www/core.js']]);
+});

@@ -1,0 +1,55 @@
+/**
+ * As motion-widgets.js, with the WebAssembly module in a file of its own and each widget in another, which is
+ * loaded when its tag is met: in the document, or in an open shadow root.
+ */
+
+import { vocabularies, widgets } from '../build/widgets.js';
+import { en } from './messages/en.js';
+import { addEnglish } from './messages/registry.js';
+
+export { load } from './core.js';
+export { setMessages } from './messages/registry.js';
+
+// The page may give a widget words before it has come.
+addEnglish({ ...en, ...Object.fromEntries(vocabularies.map((key) => [key, {}])) });
+
+/** Those that were not met yet. */
+const waiting = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
+
+/** @param {ParentNode} root a document, a shadow root, or an element with all that is in it */
+function meet(root) {
+  for (const element of [root, ...root.querySelectorAll('*')]) {
+    if (!(element instanceof Element)) continue;
+    const { localName } = element;
+    if (waiting.delete(localName)) widgets[localName]();
+    // What a widget shows has no widget in it.
+    else if (localName in widgets) continue;
+    else if (element.shadowRoot) watch(element.shadowRoot);
+    else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watch(element.shadowRoot));
+  }
+}
+
+/** @type {MutationObserver | undefined} */
+const observer =
+  typeof MutationObserver === 'undefined'
+    ? undefined
+    : new MutationObserver((changes) => {
+        for (const { addedNodes } of changes) {
+          for (const node of addedNodes) if (node instanceof Element) meet(node);
+        }
+        if (waiting.size === 0) observer?.disconnect();
+      });
+
+/** @type {WeakSet<Node>} */
+const watched = new WeakSet();
+
+/** @param {Document | ShadowRoot} root */
+function watch(root) {
+  if (waiting.size === 0 || watched.has(root)) return;
+  watched.add(root);
+  observer?.observe(root, { childList: true, subtree: true });
+  meet(root);
+}
+
+// Where there is no DOM, as in Node, no tag is met.
+if (observer) watch(document);

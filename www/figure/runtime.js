@@ -1,0 +1,221 @@
+/**
+ * A core of the figure's own: made when the figure comes near the reader, freed when it goes, abandoned
+ * at a trap and made again from the last good state.
+ */
+
+import { abandon, instantiate } from '../core.js';
+import { unwatch, watch } from './page/sight.js';
+
+/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
+
+/** Cores that may trap one after the other, without a picture between, until the figure gives up. */
+const MAX_CRASHES = 3;
+
+export class Runtime {
+  /** The core, once it runs. @type {import('../types.d.ts').Motion | undefined} */
+  motion;
+  /** The simulation, which owns all of its state. @type {any} */
+  machine;
+  /** The reason why it cannot run. @type {string | undefined} */
+  failure;
+  /** Whether what is shown is that of a machine which is being made again. */
+  mending = false;
+  #host;
+  #near = false;
+  #starting = false;
+  #crashes = 0;
+
+  /** @param {Figure} host */
+  constructor(host) {
+    this.#host = host;
+    host.addController(this);
+  }
+
+  hostConnected() {
+    watch(this.#host, {
+      approach: () => {
+        this.#near = true;
+        this.#start();
+      },
+      sight: (inSight) => this.#host.stage.sight(inSight),
+    });
+  }
+
+  hostDisconnected() {
+    // An element that is being moved is back in the document by the time the microtasks run.
+    queueMicrotask(() => {
+      if (this.#host.isConnected) return;
+      unwatch(this.#host);
+      this.#near = false;
+      this.#host.stage.sight(false);
+      this.#stop();
+    });
+  }
+
+  /** @param {any} machine that takes the place of the present one */
+  replace(machine) {
+    const former = this.machine;
+    this.machine = machine;
+    former?.free();
+  }
+
+  /**
+   * Does what may trap: a trap is mended, anything else is thrown on.
+   *
+   * @template Result
+   * @param {() => Result} work
+   * @returns {Result | undefined} undefined where it trapped
+   */
+  attempt(work) {
+    try {
+      return work();
+    } catch (error) {
+      if (!this.#mend(error)) throw error;
+    }
+  }
+
+  /**
+   * As `attempt`, where nobody would hear of an error: it ends in the sentence.
+   *
+   * @template Result
+   * @param {() => Result} work
+   * @returns {Result | undefined} undefined where it failed
+   */
+  attemptOrFail(work) {
+    try {
+      return work();
+    } catch (error) {
+      if (!this.#mend(error)) this.fail(error);
+    }
+  }
+
+  /** @param {() => void} work what may refuse: an error is reported, and all is as it was */
+  tolerate(work) {
+    try {
+      this.attempt(work);
+    } catch (error) {
+      if (!(error instanceof TypeError || error instanceof RangeError)) throw error;
+      this.report(error);
+    }
+  }
+
+  /** A picture was drawn, so that the present core is taken for a sound one. */
+  prove() {
+    this.#crashes = 0;
+  }
+
+  /** Tells the page of what went wrong. @param {unknown} error */
+  report(error) {
+    const message = messageOf(error);
+    this.#host.dispatchEvent(new ErrorEvent('error', { error, message, bubbles: true, composed: true }));
+  }
+
+  /** Shows a sentence in the figure's place and tells the page. @param {unknown} error */
+  fail(error) {
+    if (isTrap(error)) this.#abandon();
+    this.#stop();
+    this.failure = messageOf(error);
+    this.report(error);
+  }
+
+  /**
+   * After a trap, takes a new core and the last good state: the old core's memory may be damaged, and
+   * nothing of it is used again. What is shown stays until then.
+   *
+   * @param {unknown} error
+   * @returns {boolean} whether it was one that this mends
+   */
+  #mend(error) {
+    if (!isTrap(error) || ++this.#crashes > MAX_CRASHES) return false;
+    this.#abandon();
+    this.mending = true;
+    this.report(error);
+    this.#host.stage.rest();
+    this.#start();
+    return true;
+  }
+
+  #abandon() {
+    if (this.machine) abandon(this.machine);
+    this.machine = this.motion = undefined;
+  }
+
+  async #start() {
+    if (this.#starting || this.machine || !this.#near) return;
+    this.#starting = true;
+    try {
+      const [motion] = await Promise.all([instantiate(), this.#host.link.prepare()]);
+      if (!this.#near) return;
+      const machine = this.#host.createMachine(motion, this.#host.state.kept);
+      Object.assign(this, { motion, machine, failure: undefined });
+      this.#host.machineMade();
+      // It may have trapped at once.
+      if (this.machine) await this.#show();
+    } catch (error) {
+      this.fail(error);
+    } finally {
+      this.#starting = false;
+    }
+    // It went and came back meanwhile, or trapped again.
+    if (this.#near && !this.machine && this.failure === undefined) this.#start();
+  }
+
+  async #show() {
+    const mended = this.mending;
+    this.mending = false;
+    this.#host.requestUpdate();
+    await this.#host.updateComplete;
+    // What was rendered may have trapped or failed, and the element may have gone.
+    if (!this.machine) return;
+    if (mended) this.#host.stage.wake();
+    else this.#host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
+  }
+
+  #stop() {
+    this.mending = false;
+    this.#host.stage.clear();
+    if (this.machine) {
+      this.attempt(() => {
+        this.#host.settings.settle();
+        this.#host.state.keep();
+      });
+      this.machine?.free();
+    }
+    this.machine = this.motion = undefined;
+    this.#host.requestUpdate();
+  }
+}
+
+/**
+ * Does something with a machine that is not in its place yet: it is freed where that is refused.
+ *
+ * @template {{ free(): void }} Machine
+ * @param {Machine} machine
+ * @param {(machine: Machine) => void} work
+ * @returns {Machine}
+ */
+export function orFree(machine, work) {
+  try {
+    work(machine);
+    return machine;
+  } catch (error) {
+    machine.free();
+    throw error;
+  }
+}
+
+/**
+ * Whether an error is the core's end: a trap, or what its glue throws where a machine is used after one,
+ * which are plain errors. What refuses a value is a TypeError or RangeError.
+ *
+ * @param {unknown} error
+ */
+function isTrap(error) {
+  if (typeof WebAssembly === 'undefined') return false;
+  return error instanceof WebAssembly.RuntimeError || (error instanceof Error && error.constructor === Error);
+}
+
+/** @param {unknown} error */
+function messageOf(error) {
+  return error instanceof Error ? error.message : String(error);
+}

@@ -1,0 +1,196 @@
+/**
+ * What the figure is drawn on: canvases that match the screen's pixels, frames while it is in sight, and
+ * colours that follow the page, the theme and paper.
+ */
+
+import { onLanguage } from '../messages/registry.js';
+import { resolvePalette } from '../ui/theme.js';
+import { sleep, wake } from './page/frames.js';
+import { onPrint } from './page/print.js';
+import { surroundings } from './page/scheme.js';
+import { LONGEST_WORK } from './settings.js';
+
+/**
+ * @typedef {import('./figure.js').FigureElement<any, any>} Figure
+ * @typedef {import('../scene/picture.js').Picture<any>} Picture
+ */
+
+/** Whether the reader has asked for less motion. */
+export const isCalm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
+
+export class Stage {
+  /** Whether the reader can see it. */
+  inSight = false;
+  #host;
+  /** @type {import('../ui/theme.js').Palette | undefined} */
+  #palette;
+  #drawable = false;
+  /** Whether there is something to draw when it comes into sight. */
+  #due = false;
+  /** @type {import('./page/scheme.js').Surroundings} */
+  #surroundings = '';
+  /** @type {ResizeObserver | undefined} */
+  #sizes;
+  /** What ends listening for the printer and for other words. @type {(() => void)[]} */
+  #ends = [];
+
+  /** @param {Figure} host */
+  constructor(host) {
+    this.#host = host;
+    host.addController(this);
+  }
+
+  hostConnected() {
+    this.#ends = [onPrint((printing) => this.#print(printing)), onLanguage(this.#host, () => this.#speakAgain())];
+  }
+
+  hostDisconnected() {
+    for (const end of this.#ends) end();
+  }
+
+  /** The words or the language may be others. */
+  #speakAgain() {
+    this.#host.settings.stale = true;
+    this.#host.requestUpdate();
+    this.wake();
+  }
+
+  hostUpdated() {
+    if (!this.#drawable) this.recolour();
+    if (!this.#host.machine || this.#drawable) return;
+    this.#drawable = true;
+    this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
+    for (const canvas of this.#canvases) {
+      try {
+        this.#sizes.observe(canvas, { box: 'device-pixel-content-box' });
+      } catch {
+        this.#sizes.observe(canvas);
+      }
+    }
+    this.wake();
+  }
+
+  /** @param {boolean} inSight */
+  sight(inSight) {
+    this.inSight = inSight;
+    if (!inSight) this.rest();
+    else if (this.#due) this.wake();
+  }
+
+  /** Asks for one drawing in the next frame, when there is somebody to see it. */
+  wake() {
+    this.#due = true;
+    if (this.#host.machine && this.inSight) wake(this);
+  }
+
+  /** Asks for none any more. */
+  rest() {
+    sleep(this);
+  }
+
+  /** The canvases are about to go. */
+  clear() {
+    this.rest();
+    this.#sizes?.disconnect();
+    this.#drawable = false;
+    this.#palette = undefined;
+  }
+
+  /** @param {number} elapsed milliseconds since the frame before */
+  frame(elapsed) {
+    if (!this.#host.machine || !this.#drawable || !this.#hasSize) return;
+    this.#due = false;
+    this.#host.runtime.attemptOrFail(() => {
+      this.#draw(elapsed);
+      this.#host.runtime.prove();
+    });
+  }
+
+  /** @param {number} elapsed */
+  #draw(elapsed) {
+    const host = this.#host;
+    // A large cloud takes several frames: the former one is shown until then.
+    if (!host.settings.settle(LONGEST_WORK) || host.cloud?.grow() === false) {
+      this.wake();
+      return;
+    }
+    const { scene } = host;
+    const how = { elapsed, still: host.held, atOnce: isCalm() };
+    const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
+    host.placeHandles(scene);
+    host.requestUpdate();
+    if (moving.includes(true) || host.cloud?.playing) this.wake();
+  }
+
+  /** @param {Picture} picture */
+  canvasOf({ name }) {
+    return /** @type {HTMLCanvasElement} */ (this.#host.renderRoot.querySelector(`canvas.${name}`));
+  }
+
+  get #canvases() {
+    return [...this.#host.renderRoot.querySelectorAll('canvas')];
+  }
+
+  /** Whether there is something to draw on: not inside a closed tab, where everything has size 0. */
+  get #hasSize() {
+    return this.#canvases.every(
+      ({ width, height, clientWidth, clientHeight }) => Math.min(width, height, clientWidth, clientHeight) > 0,
+    );
+  }
+
+  /** Gives each canvas as many pixels as the screen has under it. @param {ResizeObserverEntry[]} entries */
+  #resize(entries) {
+    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
+      const canvas = /** @type {HTMLCanvasElement} */ (target);
+      const exact = devicePixelContentBoxSize?.[0];
+      canvas.width = exact?.inlineSize ?? Math.round(contentRect.width * devicePixelRatio);
+      canvas.height = exact?.blockSize ?? Math.round(contentRect.height * devicePixelRatio);
+    }
+    // Inside a closed tab, nothing tells of a change of colours.
+    this.#palette = undefined;
+    // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
+    this.frame(0);
+  }
+
+  /** The colours as they are now. */
+  get palette() {
+    return (this.#palette ??= resolvePalette(this.#probe('.surface')));
+  }
+
+  /** The class of the surface: light, dark, or empty where the page's `color-scheme` decides. */
+  get scheme() {
+    return this.#host.theme === 'auto' ? this.#surroundings : this.#host.theme;
+  }
+
+  /** The page's colours may be others. */
+  recolour() {
+    const now = surroundings(this.#probe('.scheme-probe'));
+    if (now !== this.#surroundings) {
+      this.#surroundings = now;
+      this.#host.requestUpdate();
+    }
+    this.repaint();
+  }
+
+  /** Takes the colours anew, once what is about to be rendered is there. */
+  async repaint() {
+    await this.#host.updateComplete;
+    this.#palette = undefined;
+    this.wake();
+  }
+
+  /** Paper is light, whatever the screen is. @param {boolean} printing */
+  #print(printing) {
+    const surface = this.#probe('.surface');
+    if (!surface) return;
+    surface.style.colorScheme = printing ? 'light' : '';
+    this.#palette = undefined;
+    // At once: the printer waits for no frame.
+    this.frame(0);
+  }
+
+  /** @param {string} selector */
+  #probe(selector) {
+    return /** @type {HTMLElement} */ (this.#host.renderRoot.querySelector(selector));
+  }
+}

@@ -1,0 +1,116 @@
+/** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
+
+import { html } from 'lit';
+
+/**
+ * @typedef {object} Hooks what a handle acts on; lengths in metres
+ * @property {() => import('./view.js').View} view
+ * @property {(pointer: number[]) => number[]} [at] x and y of what is held by a pointer that is there; the middle of
+ *   the handle where it is left out
+ * @property {(x: number, y: number) => void} drag what is held is wanted there
+ * @property {(event: KeyboardEvent) => boolean} key whether the key is one that moved it
+ * @property {() => void} commit it has come to rest
+ *
+ * @typedef {object} Said of a handle
+ * @property {string} name
+ * @property {string} keys
+ * @property {string} title
+ * @property {number[]} range from and to
+ * @property {number} now
+ * @property {string} text the value in words
+ */
+
+/** Where the arrow keys go, y up. @type {Record<string, [x: number, y: number]>} */
+export const WAYS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+export class Handle {
+  held = false;
+  #part;
+  #hooks;
+  /** From the pointer to what is held, metres: taken by its edge it does not jump. */
+  #grip = [0, 0];
+
+  /**
+   * @param {string} part class of its element
+   * @param {Hooks} hooks
+   */
+  constructor(part, hooks) {
+    this.#part = part;
+    this.#hooks = hooks;
+  }
+
+  /** @param {Said} said */
+  render({ name, keys, title, range, now, text }) {
+    return html`<div
+      class="handle ${this.#part}"
+      role="slider"
+      tabindex="0"
+      aria-label=${name}
+      aria-description=${keys}
+      aria-valuemin=${range[0]}
+      aria-valuemax=${range[1]}
+      aria-valuenow=${now}
+      aria-valuetext=${text}
+      title=${title}
+      @pointerdown=${this.#hold}
+      @pointermove=${this.#drag}
+      @pointerup=${this.#release}
+      @pointercancel=${this.#release}
+      @keydown=${this.#key}
+    ></div>`;
+  }
+
+  /**
+   * @param {ParentNode} root that it was rendered into
+   * @param {number} x of its middle, CSS pixels: its style has that at 0
+   * @param {number} y
+   * @param {number} [size] its width and height, CSS pixels; that of its style where it is left out
+   */
+  place(root, x, y, size) {
+    const handle = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${this.#part}`));
+    if (!handle) return;
+    if (size !== undefined) handle.style.width = handle.style.height = `${size}px`;
+    handle.style.translate = `${x}px ${y}px`;
+  }
+
+  /**
+   * @param {Element} handle
+   * @param {number} x CSS pixels of the window
+   * @param {number} y
+   * @returns {number[]} the same in metres
+   */
+  #world(handle, x, y) {
+    const { left, top } = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
+    const view = this.#hooks.view();
+    return [view.toWorldX(x - left), view.toWorldY(y - top)];
+  }
+
+  #hold = (/** @type {PointerEvent} */ event) => {
+    if (event.button !== 0) return;
+    const handle = /** @type {Element} */ (event.currentTarget);
+    handle.setPointerCapture(event.pointerId);
+    this.held = true;
+    const pointer = this.#world(handle, event.clientX, event.clientY);
+    const { left, top, width, height } = handle.getBoundingClientRect();
+    const held = this.#hooks.at?.(pointer) ?? this.#world(handle, left + width / 2, top + height / 2);
+    this.#grip = [held[0] - pointer[0], held[1] - pointer[1]];
+  };
+
+  #drag = (/** @type {PointerEvent} */ event) => {
+    if (!this.held) return;
+    const [x, y] = this.#world(/** @type {Element} */ (event.currentTarget), event.clientX, event.clientY);
+    this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]);
+  };
+
+  #release = () => {
+    if (!this.held) return;
+    this.held = false;
+    this.#hooks.commit();
+  };
+
+  #key = (/** @type {KeyboardEvent} */ event) => {
+    if (!this.#hooks.key(event)) return;
+    event.preventDefault();
+    this.#hooks.commit();
+  };
+}

@@ -1,0 +1,87 @@
+// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test settings_js`: not to be edited.
+
+/**
+ * What is said of a setting where it is declared.
+ *
+ * @typedef {object} Declaration
+ * @property {string} key its name, as attribute, property and in states
+ * @property {string} [in] the group or list that it is a part of
+ * @property {string} [of] the setting that it is another way to say
+ * @property {number} [index] its place in that list, from 0
+ * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
+ * @property {string[]} [words] those that are allowed
+ * @property {string[]} [fields] the keys of a group
+ * @property {string} [unit]
+ * @property {boolean} [nullable] whether it may be null
+ * @property {number} [min] least value allowed, of a list that of each number
+ * @property {number} [max] greatest value allowed
+ * @property {string | number | boolean | number[] | null} [default] the value that the widget opens with
+ * @property {string} sentence what it is
+ */
+
+/** @type {Record<string, Declaration[]>} settings of each widget, by its tag, in the order in which they are declared */
+export const settings = {
+  'banana-machine': [
+    { key: 'model', type: 'word', words: ['velocity', 'odometry'], default: 'velocity', sentence: 'Whose noise it is; each model keeps its own alphas.' },
+    { key: 'noise', type: 'word', words: ['normal', 'triangular'], default: 'normal', sentence: 'Distribution of the noise; the variances are the same.' },
+    { key: 'command', type: 'group', fields: ['v', 'omega', 'dt'], sentence: 'The same for every robot.' },
+    { key: 'v', in: 'command', type: 'number', unit: 'm/s', min: -1000000, max: 1000000, default: 1, sentence: 'Commanded speed; negative in reverse.' },
+    { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0.5, sentence: 'Commanded turn rate; positive to the left.' },
+    { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 1, sentence: 'Duration of the command.' },
+    { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], sentence: 'Noise parameters of the present model: six of the velocity model, four of the odometry model.' },
+    { key: 'alpha1', in: 'alphas', index: 0, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha2', in: 'alphas', index: 1, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha3', in: 'alphas', index: 2, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.09, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha5', in: 'alphas', index: 4, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha6', in: 'alphas', index: 5, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'isolate', type: 'whole', nullable: true, min: 1, max: 6, default: null, sentence: 'Number of the only noise parameter in effect; null for all of them.' },
+    { key: 'samples', type: 'whole', min: 1, max: 10000000, default: 2000, sentence: 'Robots in the whole cloud.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 7, sentence: 'The same seed is the same robots.' },
+  ],
+  'map-squeeze': [
+    { key: 'start', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'The pose that the robot starts from.' },
+    { key: 'x', in: 'start', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 2.05, sentence: 'Where the robot starts.' },
+    { key: 'y', in: 'start', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 2.6, sentence: 'Where the robot starts.' },
+    { key: 'theta', in: 'start', type: 'number', unit: 'rad', min: -1000000, max: 1000000, default: 1.5707963267948966, sentence: 'Its heading at the start.' },
+    { key: 'command', type: 'group', fields: ['v', 'omega', 'dt'], sentence: 'The same for every motion tried.' },
+    { key: 'v', in: 'command', type: 'number', unit: 'm/s', min: -1000000, max: 1000000, default: 1, sentence: 'Commanded speed; negative in reverse.' },
+    { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0, sentence: 'Commanded turn rate; positive to the left.' },
+    { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 2, sentence: 'Duration of the command.' },
+    { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.12, 0.12, 0.12, 0.12, 0.03, 0.03], sentence: 'Noise parameters, the six of the velocity model.' },
+    { key: 'noise', of: 'alphas', type: 'number', nullable: true, min: 0, max: 1000000, default: 0.12, sentence: 'Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.' },
+    { key: 'clearance', type: 'number', unit: 'm', min: 0, max: 10, default: 0.13, sentence: 'Radius of the robot.' },
+    { key: 'conditioned', type: 'boolean', default: true, sentence: 'Whether draws are judged by the map at all; where not, all of them are accepted.' },
+    { key: 'sampler', type: 'word', words: ['endpoint', 'whole-arc', 'sub-stepped'], default: 'endpoint', sentence: 'How draws are judged.' },
+    { key: 'steps', type: 'whole', min: 1, max: 1000, default: 4, sentence: 'Parts of the command, for the sub-stepped sampler.' },
+    { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 600, sentence: 'Motions tried.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 7, sentence: 'The same seed draws the same motions.' },
+  ],
+};
+
+/** What the widgets may open with, by their tags. */
+export const presets = {
+  'banana-machine': [
+    { name: 'straight', v: 1, omega: 0, dt: 2 },
+    { name: 'gentle', v: 1, omega: 0.5, dt: 1 },
+    { name: 'hard', v: 1, omega: 1.2, dt: 1.4 },
+    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1 },
+  ],
+  'map-squeeze': [
+    { name: 'doorway', start: { x: 2.05, y: 2.6, theta: 1.5707963267948966 } },
+    { name: 'wall', start: { x: 3.3, y: 2.6, theta: 1.5707963267948966 } },
+    { name: 'corridor', start: { x: 1.4, y: 4.4, theta: 0 } },
+  ],
+};
+
+/** How many noise parameters each model has. */
+export const alphaCounts = { velocity: 6, odometry: 4 };
+
+/**
+ * What the core takes at most: `cells` of a grid or pixels of an image, `trial` samples times parts in `trial`, and the
+ * number of colours that a `ramp` has.
+ */
+export const limits = { cells: 16777216, trial: 100000, ramp: 256 };
+
+/** Bits of a verdict of Map Squeeze. */
+export const verdict = { endFree: 1, pathFree: 2, accepted: 4 };

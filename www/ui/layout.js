@@ -1,0 +1,181 @@
+/**
+ * The page of a widget: its picture large at the left with the controls beside it, everything in one column
+ * where there is little room.
+ */
+
+import { css } from 'lit';
+import { controlStyles } from './controls.js';
+import { markedStyles } from './marked.js';
+import { readoutStyles } from './readouts.js';
+
+const layout = css`
+  .figures {
+    display: grid;
+    gap: 1.5rem 2.75rem;
+    align-items: start;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
+    margin-top: 1.5rem;
+  }
+
+  figure,
+  dl {
+    margin: 0;
+  }
+
+  @container (min-width: 56rem) {
+    .machine {
+      display: grid;
+      column-gap: 2.75rem;
+      grid-template-columns: minmax(0, 1fr) 22rem;
+    }
+
+    .figures {
+      grid-column: 1 / -1;
+      grid-template-columns: minmax(0, 1fr) minmax(0, 1fr) 22rem;
+    }
+  }
+
+  .stage {
+    position: relative;
+  }
+
+  canvas {
+    display: block;
+    width: 100%;
+    touch-action: pan-y pinch-zoom;
+    font-size: 13px;
+    cursor: crosshair;
+  }
+
+  .handle {
+    position: absolute;
+    top: -1.125rem;
+    left: -1.125rem;
+    width: 2.25rem;
+    height: 2.25rem;
+    border-radius: 50%;
+    cursor: grab;
+    touch-action: none;
+  }
+
+  .handle:active {
+    cursor: grabbing;
+  }
+
+  .handle::after {
+    content: '';
+    position: absolute;
+    inset: 0.55rem;
+    box-sizing: border-box;
+    background: var(--paper);
+    border: 3px solid var(--prior);
+    border-radius: 50%;
+  }
+
+  .handle:hover::after {
+    background: var(--prior);
+  }
+
+  .caption {
+    display: grid;
+    margin: 0;
+    padding: 0.25rem 0;
+  }
+
+  .caption > * {
+    grid-area: 1 / 1;
+  }
+
+  /* Room for the longest note, which is indented. */
+  .caption::after {
+    grid-area: 1 / 1;
+    height: auto;
+    padding-left: calc(0.8rem + 3px);
+  }
+
+  .caption.note::after {
+    padding-left: 0;
+  }
+
+  .note {
+    margin: 0.5rem 0;
+    padding-left: 0.8rem;
+    border-left: 3px solid var(--accent);
+  }
+
+  .caption.note {
+    margin: 0;
+  }
+
+  @container (max-width: 34rem) {
+    .caption {
+      font-size: 0.95rem;
+      line-height: 1.25;
+    }
+  }
+
+  .legend {
+    display: grid;
+    grid-template-columns: repeat(auto-fill, minmax(min(100%, 20rem), 1fr));
+    column-gap: 2.5rem;
+    margin-top: 0.4rem;
+  }
+
+  .buttons {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: 0.5rem;
+    margin-bottom: 0.7rem;
+  }
+
+  .cloud {
+    margin: 1rem 0 0;
+  }
+
+  .seed {
+    margin-left: auto;
+    color: var(--muted);
+  }
+
+  figcaption {
+    margin: 0.4rem 0 1.25rem;
+    color: var(--muted);
+    font-size: 0.92rem;
+  }
+
+  /* In one column the floor stays in sight while the controls below it are used. */
+  @container (width < 56rem) {
+    .floor {
+      display: contents;
+    }
+
+    .controls {
+      margin-top: 1.5rem;
+    }
+
+    @media (min-height: 37.5rem) {
+      .stage {
+        position: sticky;
+        top: 0;
+        z-index: 1;
+        background: var(--paper);
+        box-shadow:
+          -0.5rem 0 var(--paper),
+          0.5rem 0 var(--paper),
+          0 0.5rem 0.5rem var(--paper);
+      }
+
+      .stage canvas {
+        max-height: 38svh;
+      }
+
+      /* What has the focus stays clear of the floor above it. */
+      :is(button, input, summary, textarea, .chart-marker) {
+        scroll-margin-top: calc(38svh + 6.5rem);
+      }
+    }
+  }
+`;
+
+export const layoutStyles = [readoutStyles, markedStyles, controlStyles, layout];

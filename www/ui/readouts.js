@@ -1,0 +1,151 @@
+/** Figures in print: a list of readouts, and tables. */
+
+import { css, html, nothing } from 'lit';
+import { rich } from './controls.js';
+
+export const readoutStyles = css`
+  .readouts {
+    display: grid;
+    column-gap: 2.5rem;
+    margin: 0.7rem 0 0.5rem;
+    border-bottom: 1px solid var(--rule);
+  }
+
+  @container (min-width: 43rem) {
+    .readouts {
+      grid: repeat(4, auto) / auto-flow minmax(0, 1fr);
+    }
+  }
+
+  .readouts div {
+    display: flex;
+    flex-wrap: wrap;
+    justify-content: space-between;
+    align-items: baseline;
+    column-gap: 0.75rem;
+    padding: 0.28rem 0;
+    border-top: 1px solid var(--rule);
+  }
+
+  .readouts dt {
+    flex: 1;
+    min-width: min-content;
+  }
+
+  .readouts dd {
+    margin: 0 0 0 auto;
+    text-align: right;
+    white-space: nowrap;
+  }
+
+  sub {
+    line-height: 0;
+  }
+
+  table {
+    width: 100%;
+    max-width: 34rem;
+    margin-bottom: 1.25rem;
+    border-collapse: collapse;
+    font-size: 0.92rem;
+    border-block: 1.5px solid var(--ink);
+  }
+
+  caption {
+    caption-side: bottom;
+    padding-top: 0.5rem;
+    text-align: left;
+    color: var(--muted);
+  }
+
+  thead {
+    border-bottom: 0.75px solid var(--ink);
+  }
+
+  th {
+    font-weight: normal;
+    text-align: left;
+  }
+
+  :is(th, td) {
+    padding: 0.14rem 0 0.14rem 0.5rem;
+  }
+
+  :is(th, td):first-child {
+    padding-left: 0;
+  }
+
+  thead th:not(:first-child),
+  td {
+    text-align: right;
+  }
+
+  /* The name of a row above its numbers, which have the whole width then. */
+  @container (width < 26rem) {
+    table {
+      font-size: 0.82rem;
+    }
+
+    table :is(caption, thead, tbody) {
+      display: block;
+    }
+
+    tr {
+      display: flex;
+      flex-wrap: wrap;
+    }
+
+    tr > :is(th, td) {
+      flex: 1;
+      min-width: 0;
+      padding-left: 0.3rem;
+      overflow-wrap: anywhere;
+    }
+
+    tr > :first-child {
+      flex-basis: 100%;
+      padding-left: 0;
+    }
+  }
+`;
+
+/** @param {[name: string, value: string, longest?: string][]} rows each with room for the longest value there is */
+export function readoutList(rows) {
+  return html`<dl class="readouts" part="readouts">
+    ${rows.map(
+      ([name, value, longest = value]) =>
+        html`<div><dt>${rich(name)}</dt><dd class="roomy" data-room=${longest}>${value}</dd></div>`,
+    )}
+  </dl>`;
+}
+
+/**
+ * @param {object} table
+ * @param {string} table.caption
+ * @param {string[]} table.columns their names, that of the rows' names first
+ * @param {unknown[][]} table.rows the name of each first; a single cell after it takes the place of all
+ * @param {string} table.longest of all cells: while they change, no column moves
+ * @param {boolean} [table.outdated] whether other figures are on their way
+ */
+export function figureTable({ caption, columns, rows, longest, outdated = false }) {
+  const cells = (/** @type {unknown[]} */ [first, ...others]) =>
+    others.length === 0
+      ? html`<td colspan=${columns.length - 1}>${first}</td>`
+      : [first, ...others].map((cell) => html`<td class="roomy" data-room=${longest}>${cell}</td>`);
+  return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
+    <caption>${caption}</caption>
+    <thead>
+      <tr>
+        ${columns.map((name) => html`<th scope="col">${name}</th>`)}
+      </tr>
+    </thead>
+    <tbody>
+      ${rows.map(
+        ([name, ...row]) => html`<tr>
+          <th scope="row">${name}</th>
+          ${cells(row)}
+        </tr>`,
+      )}
+    </tbody>
+  </table>`;
+}

@@ -1,0 +1,161 @@
+/** The Banana Machine in English; see messages/en.js. */
+
+import { plural } from '../../messages/en.js';
+
+/**
+ * A sentence on an α that has nothing to multiply.
+ *
+ * @param {string} zero
+ * @param {string} cause
+ * @param {string} picture what turning that up would show
+ */
+const silent = (zero, cause, picture) => `${zero}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`;
+
+export const en = /** @satisfies {import('../../messages/registry.js').Message} */ ({
+  title: 'The Banana Machine',
+  presets: { straight: 'Straight', gentle: 'Gentle arc', hard: 'Hard arc', pivot: 'Pivot' },
+  settings: {
+    v: { effect: 'How far along the arc; below zero the robot backs up.' },
+    omega: { effect: 'How sharply the arc bends; positive turns left.' },
+    dt: { effect: 'How long it drives: errors spread on the way.' },
+    model: { name: 'Motion model' },
+    noise: { name: 'Noise' },
+    alphas: {
+      name: 'Noise parameters',
+      /** One line for each α: the noise it feeds, and what that does to the picture. */
+      effects: {
+        velocity: [
+          ['v² into v̂', 'smears the cloud along the arc'],
+          ['ω² into v̂', 'smears it too, but only in turns'],
+          ['v² into ω̂', 'fans the cloud open and bends it'],
+          ['ω² into ω̂', 'fans it too, but only in turns'],
+          ['v² into γ̂', 'turns each robot where it stopped'],
+          ['ω² into γ̂', 'turns it too, but only in turns'],
+        ],
+        odometry: [
+          ['rotation into rotation', 'swings the cloud about the start'],
+          ['distance into rotation', 'fans the cloud, even on a straight'],
+          ['distance into distance', 'smears it along the line of travel'],
+          ['rotation into distance', 'smears it too, but only in turns'],
+        ],
+      },
+    },
+    samples: { name: 'N, robots in the whole cloud', effect: 'Robots sent: dots with headings while they are few, a density when they are many.' },
+  },
+  cloud: {
+    legend: 'Cloud',
+    play: 'Grow the cloud',
+    step: (batch) => `Add ${batch} robots`,
+    reset: 'Empty the cloud; the same seed sends the same robots',
+    reseed: 'Send other robots',
+  },
+  overlaysLabel: 'Overlays',
+  overlays: {
+    command: 'commanded arc',
+    ellipse: '2σ Gaussian in (x, y)',
+    linearized: 'linearized (EKF) ellipse',
+    exponential: '2σ Gaussian in exponential coordinates',
+  },
+  modelAndNoise: 'Model and noise',
+  models: { velocity: 'velocity', odometry: 'odometry' },
+  noises: { normal: 'normal', triangular: 'triangular' },
+  isolate: 'Isolate one',
+  only: (alpha) => `Only ${alpha}`,
+  off: (value) => `${value} off`,
+  notes: {
+    still: 'The command is to stand still, and a robot at rest has no motion noise.',
+    silent: 'Every α is 0: no noise at all, so every robot stops exactly where it was told to.',
+    unfed: 'No α that is above 0 has anything to multiply in this command: no noise at all.',
+    headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
+    circle: 'Some robots turn nearly a full circle. Exponential coordinates end there, and their figures with them.',
+    backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
+    line: 'Only one number is noisy: the robots lie on a line, and an outline without area holds no share of them.',
+  },
+  alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
+  /** For each α what feeds it and is 0, and what turning that up would show. */
+  alphaIsSilent: {
+    velocity: [
+      silent('α₁ multiplies v², and v is 0', 'v', 'smear along the arc'),
+      silent('α₂ multiplies ω², and ω is 0', 'ω', 'smear along the arc'),
+      silent('α₃ multiplies v², and v is 0', 'v', 'fan'),
+      silent('α₄ multiplies ω², and ω is 0', 'ω', 'fan'),
+      silent('α₅ multiplies v², and v is 0', 'v', 'turn in place'),
+      silent('α₆ multiplies ω², and ω is 0', 'ω', 'blur its headings'),
+    ],
+    odometry: [
+      silent('α₁ multiplies the squared rotations, and they are 0', 'ω', 'swing'),
+      silent('α₂ multiplies the squared distance, and it is 0', 'v', 'fan'),
+      silent('α₃ multiplies the squared distance, and it is 0', 'v', 'smear'),
+      silent('α₄ multiplies the squared rotations, and they are 0', 'ω', 'smear'),
+    ],
+  },
+  announcement: (robots, command, outcome) => `${robots} robots, ${command}. ${outcome}`,
+  skew: (skew) => `Cross-track skew ${skew}.`,
+  noSkew: 'Cross-track skew undefined.',
+  plane: (command) => `View of the floor from above, x to the right and y up. Commanded: ${command}.`,
+  drawnOver: (overlays) => `Drawn over it: ${overlays}.`,
+  noRobots: 'No robots yet.',
+  oneRobot: 'One robot.',
+  mean: (robots, x, y) => `${robots} robots end around x ${x} m, y ${y} m.`,
+  spread: (x, y) => `Standard deviations ${x} m in x and ${y} m in y.`,
+  bend: {
+    unsure: (skew) => `Too few robots to tell to which side the cloud leans: skew ${skew}.`,
+    hardly: (skew) => `The cloud hardly leans to either side: skew ${skew}.`,
+    right: (skew) => `The cloud is bent, with its tail to the right of the mean heading: skew ${skew}.`,
+    left: (skew) => `The cloud is bent, with its tail to the left of the mean heading: skew ${skew}.`,
+  },
+  fewRobots: 'Too few robots for a skew.',
+  robotsHere: (count, printed) => `${printed} ${plural(count, 'robot')} here`,
+  exactSkew: (skew) => `exact skew ${skew}`,
+  noExactSkew: 'exact skew undefined',
+  twist: 'The same robots in exponential coordinates',
+  twistIs: {
+    odometry:
+      'only roughly a Gaussian. Odometry noise enters at three hinges, not along one arc, and the predicted skew misses.',
+    triangular: 'no longer bent, though triangular noise is not Gaussian.',
+    turned: 'nearly a Gaussian. What keeps it from being one is γ̂, which turns a robot after its arc.',
+    exact: 'exactly a Gaussian, whose outline is an ellipse.',
+  },
+  twistAxes: 'ξ along to the right and ξ heading up',
+  twistMoments: (along, heading, deviationAlong, deviationHeading, share) =>
+    `Mean ${along} m and ${heading} rad, standard deviations ${deviationAlong} m and ${deviationHeading} rad. ` +
+    `${share} lie inside the 2σ ellipse.`,
+  axisAlong: 'ξ along (m)',
+  axisHeading: 'ξ heading (rad)',
+  handle: 'End of the commanded arc',
+  handleKeys: 'Arrow keys move it over the floor',
+  handleTitle: 'Drag the end of the arc',
+  chart: 'Exact cross-track skew against commanded ω, for the present noise',
+  chartAxis: 'cross-track skew',
+  chartMarker: 'Commanded ω on the chart',
+  chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
+  chartCaption:
+    'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*.',
+  readouts: {
+    skew: 'cross-track skew ± standard error',
+    gaussian: 'skew, exponential-coordinate Gaussian',
+    plane: 'skew, any Gaussian in *(x, y)*',
+    rho: '*ρ*(cross-track, heading)',
+    robots: 'robots shown, *n* of *N*',
+    exponential: 'inside 2σ, exponential coordinates',
+    ellipse: 'inside 2σ, Gaussian in *(x, y)*',
+    nominal: 'inside 2σ, nominal',
+  },
+  nOfAll: (n, all) => `${n} of ${all}`,
+  robot: 'Robot',
+  markHint: 'Point at one in either view to mark it in both.',
+  table: {
+    caption:
+      'Moments of the pose: linearized at the command, exact, and measured on the robots shown. Metres and radians.',
+    twistCaption: 'Moments in exponential coordinates: of the command with its noise, and measured.',
+    quantity: 'quantity',
+    linearized: 'linearized',
+    exact: 'exact',
+    measured: 'measured',
+    command: 'command',
+    mean: (symbol) => `mean ${symbol}`,
+    variance: (symbol) => `variance of ${symbol}`,
+    skew: 'cross-track skew',
+    axes: ['*ξ* along', '*ξ* lateral', '*ξ* heading'],
+  },
+});

@@ -1,0 +1,105 @@
+/** What the Banana Machine shows of its machine. */
+
+import { words } from '../../messages/registry.js';
+import { looks } from './settings.js';
+
+/** @import { Settings, Stats, Table } from '../../types.d.ts' */
+
+/**
+ * @typedef {import('../../types.d.ts').BananaMachine} Machine
+ * @typedef {ReturnType<typeof readingOf>} Reading
+ */
+
+/** Below this, metres or radians, a spread is none: rounding of the quadrature, not noise. */
+const NO_SPREAD = 1e-9;
+
+/**
+ * Points of the chart's curve. Fewer would draw the fall of the skew across ω = 0 as a kinked line;
+ * more than a pixel each would be wasted.
+ */
+const CURVE_POINTS = 241;
+
+/** The skew against ω, which costs milliseconds and which only some of the settings alter. */
+export class CurveMemo {
+  /** @type {Float64Array} */
+  #curve = new Float64Array();
+  #holdsFor = '';
+
+  /** @param {Machine} machine */
+  of(machine) {
+    const { model, noise, command, alphas, isolate } = machine.config;
+    const wanted = JSON.stringify([model, noise, command.v, command.dt, alphas, isolate]);
+    if (wanted !== this.#holdsFor) {
+      this.#holdsFor = wanted;
+      this.#curve = machine.skewCurve(looks.omega.min, looks.omega.max, CURVE_POINTS);
+    }
+    return this.#curve;
+  }
+}
+
+/**
+ * Everything that the pictures and readouts need of the machine, asked once a change.
+ *
+ * @param {Machine} machine
+ * @param {CurveMemo} memo
+ */
+export function readingOf(machine, memo) {
+  const { config, shown, stats, contours, table, chartHolds } = machine;
+  return {
+    config,
+    shown,
+    stats,
+    contours,
+    table,
+    note: noteOn(config, table, stats, chartHolds),
+    exactSkew: table.exact.crossTrackSkew,
+    curve: memo.of(machine),
+    /** The end of the commanded arc, metres. */
+    end: /** @type {[number, number]} */ ([...contours.command.slice(-2)]),
+  };
+}
+
+/** @param {number} index from 0 */
+export function alphaName(index) {
+  return `α${String.fromCharCode(0x2081 + index)}`;
+}
+
+/** @param {number} variance whose quadrature may round to less than 0 */
+export function deviation(variance) {
+  return Math.sqrt(Math.max(0, variance));
+}
+
+/**
+ * What kind of spread the cloud has, by the exact covariance.
+ *
+ * @param {Table} table
+ * @returns {'point' | 'headings' | 'cloud'} one pose; one place but many headings; or a spread
+ */
+function spreadOf({ exact: { cov } }) {
+  if (deviation(Math.max(cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
+  return deviation(cov[2][2]) > NO_SPREAD ? 'headings' : 'point';
+}
+
+/**
+ * A sentence on a cloud that is not what a reader expects, from the settings that made it so.
+ *
+ * @param {Settings} config
+ * @param {Table} table
+ * @param {Stats} stats
+ * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
+ * @returns {string} empty for an ordinary cloud
+ */
+function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
+  const { notes, alphaIsZero, alphaIsSilent } = words.banana;
+  const spread = spreadOf(table);
+  const { v, omega } = command;
+  if (spread === 'point') {
+    if (v === 0 && omega === 0) return notes.still;
+    if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
+    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : alphaIsSilent[model][isolate - 1];
+  }
+  if (spread === 'headings') return notes.headings;
+  if (!chartHolds) return notes.circle;
+  if (model === 'odometry' && v < 0) return notes.backwards;
+  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
+}

@@ -1,0 +1,135 @@
+/** Map Squeeze in German; see messages/en.js. */
+
+/** @type {typeof import('./en.js').en} */
+export const de = {
+  title: 'Map Squeeze: mit Karte durch die Wand',
+  presets: { doorway: 'Vor einer Tür', wall: 'Vor einer Wand', corridor: 'Im freien Flur' },
+  samplers: { endpoint: 'Endpunkt', 'whole-arc': 'ganzer Bogen', 'sub-stepped': 'Teilschritte' },
+  samplerEffects: {
+    endpoint: 'Behält einen Zug, wenn der Roboter an dessen Ende Platz hat; wie er hinkam, fragt niemand.',
+    'whole-arc': 'Behält einen Zug, wenn der Roboter auf dem ganzen gefahrenen Bogen keine Wand berührt.',
+    'sub-stepped':
+      'Teilt den Befehl in *k* Teile und behält einen Teil, wenn der Roboter an dessen Ende Platz hat. Vor der Tür und im Flur kommen mit wachsendem *k* weniger durch die Wand; vor der Wand wird ihr Anteil größer, bis der Roboter festsitzt.',
+    off: 'Aus: Jeder Zug bleibt, wo immer er endet.',
+  },
+  settings: {
+    v: { effect: 'Wie weit er geschickt wird, und wie viele Wände er also trifft.' },
+    omega: { effect: 'Biegt den Weg: Er kann hinter einer Ecke im Freien enden.' },
+    dt: { effect: 'Wie lange er unbeobachtet fährt, zwischen zwei Blicken auf die Karte.' },
+    noise: { name: 'n, Rauschen', effect: 'Verbreitert die Wolke: *α*₁ bis *α*₄ sind *n*, die anderen *n*/4.' },
+    clearance: { name: 'r, Abstand', effect: 'Radius des Roboters: Ein breiterer hat an weniger Stellen Platz und trifft mehr Wände.' },
+    sampler: { name: 'Verfahren' },
+    steps: { name: 'k, Teile des Befehls', effect: 'Teile des Befehls. Jeder rauscht für sich, sodass die Streuung wie 1/√*k* schrumpft.' },
+    samples: { name: 'N, Stichproben', effect: 'Versuchte Bewegungen: je mehr, desto enger das Intervall des Anteils durch die Wand.' },
+    view: { name: 'Ansicht' },
+  },
+  cloud: {
+    legend: 'Stichproben',
+    play: 'Zieht eine nach der anderen',
+    step: (batch) => `Zieht ${batch} mehr`,
+    reset: 'Nimmt alle weg; derselbe Startwert zieht dieselben',
+    reseed: 'Zieht andere',
+  },
+  place: 'Ort',
+  views: { whole: 'ganze Karte', close: 'aus der Nähe' },
+  map: 'Karte',
+  condition: 'Auf sie bedingen',
+  commandAndNoise: 'Fahrbefehl und Rauschen',
+  wedged: (accepted, printed, all, drawn) =>
+    `Der Roboter sitzt fest: ${accepted === 0 ? 'keine Bewegung kam' : `nur ${printed} von ${all} Bewegungen kamen`} zu einem Ende in den ${drawn} Zügen bis zum Aufgeben.`,
+  nothing: (count, drawn, wholeArc) =>
+    `Nichts wurde angenommen: Von ${drawn} ${count === 1 ? 'versuchten Zug' : 'versuchten Zügen'} ${wholeArc ? 'blieb unterwegs keiner ohne Berührung einer Wand' : 'endet keiner, wo der Roboter Platz hat'}.`,
+  noRoom: 'Der Roboter hat keinen Platz, wo er steht; so beginnt jeder Weg von hier in einer Wand.',
+  accepted: { kept: 'angenommen', through: 'angenommen durch die Wand', ofThem: 'durch die Wand' },
+  kept: { kept: 'behalten', through: 'behalten, Weg nicht frei', ofThem: 'mit einem Weg, der nicht frei ist' },
+  rejected: 'verworfen',
+  verdict: {
+    part: 'einer der Teile fand kein freies Ende',
+    end: 'der Roboter hat am Ende keinen Platz',
+    free: 'frei am Ende und auf dem ganzen Weg',
+    way: 'frei am Ende, aber der Weg berührt eine Wand oder verlässt die Karte',
+  },
+  byConstruction: '0, nach Bauart',
+  counts: (drawn, accepted, kept) => `${drawn} gezogen, ${accepted} ${kept}`,
+  ofThem: (through, ofThem, share) => `, davon ${through} ${ofThem}: ${share}`,
+  apartment: 'Die Wohnung',
+  pasted: 'Eingegebener Plan',
+  mapText: (name, width, height, walls, printed) =>
+    `${name}: ${width} m × ${height} m, ${printed} ${walls === 1 ? 'Wand' : 'Wände'}`,
+  picture: (map) => `Grundriss von oben, x nach rechts und y nach oben. ${map}.`,
+  robotAt: (x, y, theta, command) =>
+    `Der Roboter steht bei x ${x} m, y ${y} m, Richtung ${theta} rad. Befohlen: ${command}.`,
+  outcome: (drawn, accepted, kept, through, ofThem) =>
+    `${drawn} gezogen; ${accepted} ${kept}, als Punkte; davon ${through} ${ofThem}, mit Ring.`,
+  rest: 'Der Rest ist verworfen, als Kreuze.',
+  robot: 'Roboter',
+  robotKeys: 'Die Pfeiltasten bewegen ihn; [ und ] oder Umschalt mit einer Pfeiltaste drehen ihn',
+  robotTitle: 'Zieh den Roboter',
+  robotText: (x, y) => `x = ${x} m, y = ${y} m`,
+  heading: 'Richtung des Roboters',
+  headingKeys: 'Die Pfeiltasten drehen ihn',
+  headingTitle: 'Dreh den Roboter',
+  key: {
+    accepted: (kept) => `${kept}, mit Richtung`,
+    through: (through) =>
+      `${through}: der Weg, die dünne Linie, ist nicht frei, er berührt eine Wand oder verlässt die Karte`,
+    commanded: 'der Befehl ohne Rauschen',
+  },
+  tally: {
+    drawn: 'gezogen',
+    rate: 'Annahmerate',
+    rateOfParts: 'Annahmerate eines Teils',
+    draws: (kept) => `Züge je Stichprobe (${kept})`,
+    share: (kept) => `Anteil unter „${kept}“`,
+    interval: ' (95 %)',
+    paths: 'davon mit Weg gezeichnet',
+    first: (count) => `die ersten ${count}`,
+    tests: (kept) => `Wandtests je Stichprobe (${kept})`,
+  },
+  sample: 'Stichprobe',
+  markHint: 'Zeig auf eine, um ihren Weg und das Urteil über sie zu sehen.',
+  costs: {
+    caption:
+      'Eine angenommene Stichprobe jedes Verfahrens unter den Einstellungen oben, auf diesem Gerät gemessen, wenn sich nichts bewegt; und der Anteil eines Rechenkerns, den 2000 Partikel bei 20 Hz bräuchten. Alles von dieser einen Pose aus; wiederholte Messungen weichen um einige Prozent ab.',
+    sampler: 'Verfahren',
+    draws: 'Züge',
+    tests: 'Wandtests',
+    core: 'vom Kern',
+    none: 'noch nicht gemessen',
+    wedged: 'sitzt fest: keine wird angenommen',
+    few: 'zu wenige angenommen, um zu messen',
+  },
+  own: {
+    legend: 'Eine eigene Karte',
+    text: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
+    files: 'Kartendateien',
+    leave: 'Zurück in die Wohnung',
+    plan: 'Oder hier ein Grundriss, in Metern',
+    use: 'Diesen Plan nehmen',
+  },
+  refused: {
+    cannot: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
+    kind: (name) =>
+      `${name}: Dateien dieser Art werden nicht gelesen; erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
+    several: (names, count) => `${names}: Das sind ${count} Karten; erwartet wird eine auf einmal.`,
+    noFile: 'Keine Datei',
+    alone: (name) => `${name}: Ein Bild allein hat keinen Maßstab; erwartet wird seine .yaml-Datei dazu.`,
+    gone: (name, reason) => `${name}: Die Datei ist nicht lesbar (${reason}); erwartet wird eine, die noch da ist.`,
+    plan: (name, reason, form) => `${name}: ${reason}; ein Grundriss ist ${form} in Metern.`,
+    planForm: (form) => `${form} in Metern`,
+    yamlForm: 'ein Feld je Zeile, wie in resolution: 0.05',
+    syntax: (name, line, format, reason, expected) =>
+      `${name}${line ? `, Zeile ${line}` : ''}: Das ist kein ${format} (${reason}); erwartet wird ${expected}.`,
+    image: (name, value) =>
+      `${name}: image ${value ? `ist ${value}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
+    pair: (name, wanted, given) =>
+      `${name}: image nennt ${wanted}, das nicht dabei ist${given && ` (dafür kam ${given})`}; erwartet werden beide Dateien zusammen.`,
+    fields: (name) => `${name}: Darin sind keine Felder; erwartet werden mindestens image, resolution und origin.`,
+    noPng: (name) => `${name}: Die ersten Bytes sind nicht die eines PNG-Bildes; erwartet wird PNG.`,
+    large: (name, size, side, pixels) =>
+      `${name}: Breite × Höhe ist ${size}; erwartet werden Seiten bis ${side} und höchstens ${pixels} Pixel.`,
+    broken: (name) => `${name}: Die Bilddaten lassen sich nicht entziffern; erwartet wird ein vollständiges PNG-Bild.`,
+    line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
+    cells: (name, reason) => `${name}: Die belegten Zellen haben zu viele Seiten: ${reason}.`,
+  },
+};

@@ -1,0 +1,137 @@
+/** Map Squeeze in English; see messages/en.js. */
+
+import { plural } from '../../messages/en.js';
+
+export const en = /** @satisfies {import('../../messages/registry.js').Message} */ ({
+  title: 'Map Squeeze',
+  presets: { doorway: 'Facing a doorway', wall: 'Facing a wall', corridor: 'Open corridor' },
+  samplers: { endpoint: 'endpoint', 'whole-arc': 'whole arc', 'sub-stepped': 'sub-stepped' },
+  samplerEffects: {
+    endpoint: 'Keeps a draw if the robot fits where it ends; nobody asks how it got there.',
+    'whole-arc': 'Keeps a draw if the robot touches no wall all along the arc it drove.',
+    'sub-stepped':
+      'Splits the command into *k* parts and keeps a part if the robot fits where that ends. At the doorway and in the corridor fewer pass a wall as *k* grows; facing the wall a larger share does, until the robot is stuck.',
+    off: 'Off: every draw is kept, wherever it ends.',
+  },
+  settings: {
+    v: { effect: 'How far it is sent, and so how many walls it may meet.' },
+    omega: { effect: 'Bends the way there: it can end in the open behind a corner.' },
+    dt: { effect: 'How long it drives unwatched between two looks at the map.' },
+    noise: { name: 'n, noise', effect: 'Spreads the cloud: *α*₁ to *α*₄ are *n*, the others *n*/4.' },
+    clearance: { name: 'r, clearance', effect: 'Radius of the robot: a wider one fits in fewer places and meets more walls.' },
+    sampler: { name: 'Sampler' },
+    steps: { name: 'k, parts of the command', effect: 'Parts of the command. Each has noise of its own, so that the spread shrinks as 1/√*k*.' },
+    samples: { name: 'N, samples', effect: 'Motions tried: more of them narrow the interval of the share through a wall.' },
+    view: { name: 'View' },
+  },
+  cloud: {
+    legend: 'Samples',
+    play: 'Draw one after the other',
+    step: (batch) => `Draw ${batch} more`,
+    reset: 'Take all away; the same seed draws the same again',
+    reseed: 'Draw others',
+  },
+  place: 'Place',
+  views: { whole: 'whole map', close: 'close-up' },
+  map: 'Map',
+  condition: 'Condition on it',
+  commandAndNoise: 'Command and noise',
+  wedged: (accepted, printed, all, drawn) =>
+    `The robot is wedged: ${accepted === 0 ? 'no motion' : `only ${printed} of ${all} motions`} came to an end in the ${drawn} draws that were tried before giving up.`,
+  nothing: (count, drawn, wholeArc) =>
+    `Nothing was accepted: of the ${drawn} ${plural(count, 'draw')} that ${count === 1 ? 'was' : 'were'} tried, none ${wholeArc ? 'touches no wall on its way' : 'ends where the robot fits'}.`,
+  noRoom: 'The robot does not fit where it stands, so that every way from here begins in a wall.',
+  /** What is said of a draw that stays: without the condition nothing is judged, so nothing is accepted. */
+  accepted: { kept: 'accepted', through: 'accepted through a wall', ofThem: 'through a wall' },
+  kept: { kept: 'kept', through: 'kept, way not free', ofThem: 'with a way that is not free' },
+  rejected: 'rejected',
+  verdict: {
+    part: 'one of its parts found no free end',
+    end: 'the robot does not fit where it ends',
+    free: 'free at the end and all along the way',
+    way: 'free at the end, but its way touches a wall or leaves the map',
+  },
+  byConstruction: '0, by construction',
+  counts: (drawn, accepted, kept) => `${drawn} drawn, ${accepted} ${kept}`,
+  ofThem: (through, ofThem, share) => `, ${through} of them ${ofThem}: ${share}`,
+  apartment: 'The apartment',
+  pasted: 'Pasted plan',
+  mapText: (name, width, height, walls, printed) =>
+    `${name}: ${width} m × ${height} m, ${printed} ${plural(walls, 'wall')}`,
+  picture: (map) => `Floor plan from above, x to the right and y up. ${map}.`,
+  robotAt: (x, y, theta, command) =>
+    `The robot stands at x ${x} m, y ${y} m, heading ${theta} rad. Commanded: ${command}.`,
+  outcome: (drawn, accepted, kept, through, ofThem) =>
+    `${drawn} drawn; ${accepted} ${kept}, as dots; ${through} of those ${ofThem}, ringed.`,
+  rest: 'The rest is rejected, as crosses.',
+  robot: 'Robot',
+  robotKeys: 'Arrow keys move it; [ and ], or Shift with an arrow key, turn it',
+  robotTitle: 'Drag the robot',
+  robotText: (x, y) => `x = ${x} m, y = ${y} m`,
+  heading: 'Heading of the robot',
+  headingKeys: 'Arrow keys turn it',
+  headingTitle: 'Turn the robot',
+  key: {
+    accepted: (kept) => `${kept}, with its heading`,
+    through: (through) =>
+      `${through}: the way it took, the thin line, is not free, it touches a wall or leaves the map`,
+    commanded: 'the command without noise',
+  },
+  tally: {
+    drawn: 'drawn',
+    rate: 'acceptance rate',
+    rateOfParts: 'acceptance rate of a part',
+    draws: (kept) => `draws per ${kept} sample`,
+    share: (kept) => `share of the ${kept}`,
+    interval: ' (95 %)',
+    paths: 'of these, drawn with their path',
+    first: (count) => `the first ${count}`,
+    tests: (kept) => `wall tests per ${kept} sample`,
+  },
+  sample: 'Sample',
+  markHint: 'Point at one to see its path and the verdict on it.',
+  costs: {
+    caption:
+      'One accepted sample of each sampler under the settings above, timed on this device when nothing moves; and the share of one core that 2000 particles at 20 Hz would take. All is from this one pose, and repeated runs differ by several per cent.',
+    sampler: 'sampler',
+    draws: 'draws',
+    tests: 'wall tests',
+    core: 'of a core',
+    none: 'not yet measured',
+    wedged: 'wedged: not one is accepted',
+    few: 'too few are accepted to time',
+  },
+  own: {
+    legend: 'A map of your own',
+    text: 'Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS map_server, its YAML file and its PGM or PNG image together. They do not leave this device.',
+    files: 'Map files',
+    leave: 'Back to the apartment',
+    plan: 'Or a floor plan here, in metres',
+    use: 'Use this plan',
+  },
+  /** Why files are refused: the file, the line or field, and what was expected. */
+  refused: {
+    cannot: (reason) => `The map cannot be opened: ${reason}.`,
+    kind: (name) =>
+      `${name}: this kind of file is not read; expected is a .json floor plan, or a .yaml file together with its .pgm or .png image.`,
+    several: (names, count) => `${names}: these are ${count} maps; expected is one at a time.`,
+    noFile: 'No file',
+    alone: (name) => `${name}: an image alone has no scale; expected is its .yaml file together with it.`,
+    gone: (name, reason) => `${name}: the file cannot be read (${reason}); expected is one that is still there.`,
+    plan: (name, reason, form) => `${name}: ${reason}; a floor plan is ${form} in metres.`,
+    planForm: (form) => `${form} in metres`,
+    yamlForm: 'one field a line, as in resolution: 0.05',
+    syntax: (name, line, format, reason, expected) =>
+      `${name}${line ? `, line ${line}` : ''}: this is not ${format} (${reason}); expected is ${expected}.`,
+    image: (name, value) => `${name}: image is ${value || 'missing'}; expected is the name of a .pgm or .png file.`,
+    pair: (name, wanted, given) =>
+      `${name}: image names ${wanted}, which is not there${given && ` (${given} came instead)`}; expected are both files together.`,
+    fields: (name) => `${name}: there are no fields in it; expected are at least image, resolution and origin.`,
+    noPng: (name) => `${name}: its first bytes are not those of a PNG image; expected is PNG.`,
+    large: (name, size, side, pixels) =>
+      `${name}: width × height is ${size}; expected are sides up to ${side} and at most ${pixels} pixels.`,
+    broken: (name) => `${name}: the image data cannot be decoded; expected is a complete PNG image.`,
+    line: (name, line, reason) => `${name}, line ${line}: ${reason}.`,
+    cells: (name, reason) => `${name}: its occupied cells have too many sides: ${reason}.`,
+  },
+});

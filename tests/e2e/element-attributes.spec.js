@@ -171,6 +171,7 @@ test.describe('properties', () => {
       [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
       [banana, 'marked', 2000, 'RangeError: marked is 2000; allowed is a whole number from 0 to 1999'],
       [banana, 'alphas', [1, 2], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
+      [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'conditioned', 'maybe', 'TypeError: conditioned is "maybe"; allowed is true or false'],
       [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "whole" or "close"'],

@@ -161,3 +161,22 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await ready(widget);
   expect(await stateOf(widget)).toEqual(after);
 });
+
+for (const name of NAMES) {
+  test(`a sample of ${name} that is marked and no longer shown leaves a state that can be entered`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const marks = await widget.evaluate((element) => {
+      const figure = /** @type {AnyElement} */ (element);
+      figure.marked = 5;
+      const before = figure.getState()?.marked;
+      const reset = [...(figure.shadowRoot?.querySelectorAll('button') ?? [])].find(({ innerText }) => innerText === 'Reset');
+      reset?.click();
+      figure.setState(/** @type {any} */ (figure.getState()));
+      return [before, figure.getState()?.marked];
+    });
+    expect(marks).toEqual([5, null]);
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+}

@@ -45,7 +45,7 @@ export async function bundle() {
   await writeTypes();
   writeFileSync(at('build/widgets.js'), await chunks());
   const wasm = readFileSync(at('build/motion_bg.wasm'));
-  const { build } = await import('esbuild');
+  const { build, transformSync } = await import('esbuild');
   /**
    * @param {Record<string, string>} entryPoints by the name of the product, from www/
    * @param {keyof typeof MODULE} form
@@ -69,8 +69,14 @@ export async function bundle() {
           setup({ onLoad }) {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
-            onLoad({ filter: /[/\\]js-yaml\.mjs$/ }, ({ path }) => ({ contents: withoutEffects(readFileSync(path, 'utf8')), loader: 'js' }));
-            onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({ contents: withShortStyles(readFileSync(path, 'utf8')), loader: 'js' }));
+            onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
+              contents: withoutEffects(readFileSync(path, 'utf8')),
+              loader: 'js',
+            }));
+            onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({
+              contents: withShortStyles(readFileSync(path, 'utf8'), transformSync),
+              loader: 'js',
+            }));
           },
         },
       ],
@@ -117,13 +123,14 @@ export async function bundle() {
 }
 
 /**
- * A script with the line ends and indentation of its styles as single spaces, and without their comments: as templates
- * are texts, nobody else takes them out.
+ * A script with its styles as short as other scripts are: as templates are texts, a bundler leaves them as they stand.
  *
  * @param {string} script
+ * @param {typeof import('esbuild').transformSync} transform
  */
-function withShortStyles(script) {
-  return script.replace(/\bcss`[^`]*`/g, (style) => style.replace(/\/\*.*?\*\//gs, '').replace(/\s*\n\s*/g, ' '));
+function withShortStyles(script, transform) {
+  const short = (/** @type {string} */ style) => transform(style, { loader: 'css', minify: true }).code.trim();
+  return script.replace(/(?<=\bcss`)[^`$]*(?=`)/g, short);
 }
 
 /**
@@ -163,14 +170,14 @@ function ofDeclarations() {
 }
 
 /**
- * A library whose constants are left out where nothing uses them. Here they are half of what only writes YAML: that
- * computing them has no effect, a bundler cannot know.
+ * A library whose constants are left out where nothing uses them. They are half of what only writes YAML, and what only
+ * blurs and shuffles arrays: that computing them has no effect, a bundler cannot know.
  *
  * @param {string} library with each constant at the start of a line
  */
 function withoutEffects(library) {
   return library
-    .replaceAll(/^(var \w+ = )((?:new |`|\w+\().*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
+    .replaceAll(/^((?:var|const) \w+ = )((?:new |`|\w+[.(]).*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
 }
 

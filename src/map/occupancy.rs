@@ -15,6 +15,13 @@ pub struct Interpretation {
     pub occupied_thresh: f64,
 }
 
+/// What `map_server` takes where its YAML file says nothing.
+impl Default for Interpretation {
+    fn default() -> Self {
+        Self { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Pixels darker than the threshold are occupied.

@@ -54,14 +54,15 @@ pub fn read_grid(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid
         if value.as_bool().is_some() { boolean(field, value) } else { Ok(whole(field, value, 0..=1)? == 1) }
     })?;
     let threshold = |key: &str| fields.optional(key, |field, value| in_range(field, value, &(0.0..=1.0)));
-    let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(0.65);
+    let usual = Interpretation::default();
+    let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(usual.occupied_thresh);
     if threshold("free_thresh")?.is_some_and(|free| free > occupied_thresh) {
         let limit = printed(occupied_thresh);
         let message = format!("free_thresh is above occupied_thresh ({limit}); allowed is at most that");
         return Err(RangeError::new(&message).into());
     }
-    let mode = fields.optional("mode", word)?.unwrap_or(Mode::Trinary);
-    let interpretation = Interpretation { mode, negate: negate.unwrap_or(false), occupied_thresh };
+    let mode = fields.optional("mode", word)?.unwrap_or(usual.mode);
+    let interpretation = Interpretation { mode, negate: negate.unwrap_or(usual.negate), occupied_thresh };
     let [x, y, yaw] = origin;
     Ok(OccupancyGrid::new(&read_image(image)?, &interpretation, resolution, SE2::new(x, y, yaw)))
 }

@@ -116,3 +116,25 @@ test('a core that traps again and again ends in a sentence, not in a loop', asyn
   await frames(page);
   expect(await heard(page, ['error'])).toEqual([]);
 });
+
+for (const name of NAMES) {
+  test(`what fails while ${name} is rendered is said at once`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await heard(page);
+    const shown = await widget.evaluate(async (element) => {
+      const widget = /** @type {any} */ (element);
+      widget.content = () => {
+        throw new TypeError('there is no such figure');
+      };
+      widget.requestUpdate();
+      // The very update in which it fails: nothing else asks for another.
+      await widget.updateComplete;
+      return widget.shadowRoot.querySelector('[role=alert]')?.textContent;
+    });
+    expect(shown).toContain('there is no such figure');
+    const errors = await heard(page, ['error']);
+    expect(errors.map(({ message }) => message)).toEqual(['there is no such figure']);
+  });
+}

@@ -1,9 +1,11 @@
 // Who imports whom in www/, as doc/implementation-notes.md has it.
 
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { test } from 'node:test';
 import { build } from 'esbuild';
+import { settings } from '../../www/settings.js';
 
 /** From the top floor down: a file imports from its own floor and from those below. */
 const FLOORS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
@@ -59,4 +61,19 @@ test('no import runs up, and none from one widget to another', () => {
 test('only core.js touches the generated glue', () => {
   const glue = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
   assert.deepEqual(glue.map(([path]) => [dirname(path), path]), [['www', 'www/core.js']]);
+});
+
+test('a widget is one class above the base, which is one above Lit', () => {
+  const files = new Set(imports.flat());
+  const chains = [...files].flatMap((file) =>
+    [...readFileSync(new URL(`../../${file}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+) extends (\w+)/g)].map(([, name, base]) => ({ file, name, base })),
+  );
+  const elements = chains.filter(({ base }) => /Element$/.test(base));
+  assert.deepEqual(
+    elements.filter(({ base }) => base !== 'FigureElement').map(({ file, name, base }) => [file, name, base]),
+    [['www/figure/figure.js', 'FigureElement', 'LitElement']],
+  );
+  for (const tag of Object.keys(settings)) {
+    assert.ok(elements.some(({ file, base }) => file === `www/widgets/${tag}/${tag}.js` && base === 'FigureElement'), tag);
+  }
 });

@@ -23,6 +23,8 @@ import { csvOf, pngOf, svgOf } from './takeaway/export.js';
 /**
  * @import { Motion } from '../types.d.ts'
  * @import { Values } from './state.js'
+ *
+ * @typedef {FigureElement<any, any>} Figure of whatever widget
  */
 
 addEnglish(en);
@@ -92,7 +94,7 @@ export class FigureElement extends LitElement {
   reflection = new Reflection(this, this.#class.attributes, this.#class.basis);
   link = new Link(this);
   announcer = new Announcer();
-  copies = new CopyMenu(this, () => this.requestUpdate());
+  copies = new CopyMenu(this);
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
   cloud;
   /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */

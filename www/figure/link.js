@@ -4,25 +4,17 @@
  */
 
 import { pack, unpack } from './packing.js';
+import { Part } from './part.js';
 
-/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
-
-export class Link {
-  #host;
+export class Link extends Part {
   /** A state from the address that waits for the machine. @type {unknown} */
   #waiting;
   /** The latest text for the address: an earlier one that is ready later is void. */
   #writing = 0;
 
-  /** @param {Figure} host */
-  constructor(host) {
-    this.#host = host;
-    host.addController(this);
-  }
-
   hostConnected() {
     addEventListener('hashchange', this.follow);
-    if (this.#host.share) goToAnchor();
+    if (this.host.share) goToAnchor();
   }
 
   hostDisconnected() {
@@ -31,7 +23,7 @@ export class Link {
 
   /** Looks for a state to open in: the first time only, as the address says where the figure began. */
   async prepare() {
-    if (this.#host.share && !this.#host.state.kept) this.#waiting = await this.#look();
+    if (this.host.share && !this.host.state.kept) this.#waiting = await this.#look();
   }
 
   /** Enters the state that waited for the machine. */
@@ -43,38 +35,38 @@ export class Link {
 
   /** The page's address may carry another state. */
   follow = async () => {
-    if (this.#host.share && this.#host.machine) this.#enter(await this.#look());
+    if (this.host.share && this.host.machine) this.#enter(await this.#look());
   };
 
   /** @param {unknown} state as the address has it; undefined for none */
   #enter(state) {
-    if (state !== undefined) this.#host.runtime.tolerate(() => this.#host.setState(state));
+    if (state !== undefined) this.host.runtime.tolerate(() => this.host.setState(state));
   }
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
   async #look() {
-    const text = fragmentOf(keyOf(this.#host));
+    const text = fragmentOf(keyOf(this.host));
     if (text === undefined) return undefined;
     try {
       return await unpack(text);
     } catch (error) {
-      this.#host.runtime.report(error);
+      this.host.runtime.report(error);
     }
   }
 
   async write() {
     const writing = ++this.#writing;
     const text = await this.#pack();
-    if (writing === this.#writing && this.#host.isConnected) writeFragment(keyOf(this.#host), text);
+    if (writing === this.#writing && this.host.isConnected) writeFragment(keyOf(this.host), text);
   }
 
   /** @returns {Promise<string>} the address of this page with the present state */
   async address() {
-    return addressWith(keyOf(this.#host), await this.#pack());
+    return addressWith(keyOf(this.host), await this.#pack());
   }
 
   #pack() {
-    return pack(this.#host.getState() ?? {});
+    return pack(this.host.getState() ?? {});
   }
 }
 

@@ -43,20 +43,8 @@ export class MapSqueezeElement extends FigureElement {
   cloud = new Cloud(this, (/** @type {Machine} */ machine) => machine.stats.gaveUp);
 
   #picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
-  #meter = new CostMeter({
-    machine: () => this.machine,
-    told: () => this.requestUpdate(),
-    attempt: (work) => this.runtime.attempt(work),
-  });
-  #opener = new MapOpener(
-    (map) => {
-      if (!this.machine) return;
-      this.runtime.attempt(() => this.#enter(map));
-      this.gesture.step();
-      this.commit();
-    },
-    () => this.requestUpdate(),
-  );
+  #meter = new CostMeter(this);
+  #opener = new MapOpener(this);
   #handles = new RobotHandles({
     view: () => this.#picture.view,
     start: () => this.settings.wanted.start,
@@ -170,6 +158,14 @@ export class MapSqueezeElement extends FigureElement {
   go(start) {
     this.runtime.attempt(() => this.#leave());
     this.decide({ start });
+  }
+
+  /** The reader wants the robot in a map of their own. @param {OwnMap} map */
+  open(map) {
+    if (!this.machine) return;
+    this.runtime.attempt(() => this.#enter(map));
+    this.gesture.step();
+    this.commit();
   }
 
   /** Leaves the reader's own map, if it is there. */

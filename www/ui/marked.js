@@ -30,10 +30,6 @@ export const markedStyles = css`
     min-height: 1.75rem;
     margin-left: 0.3rem;
     padding: 0 0.3rem;
-    background: none;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
-    color: var(--ink);
     font: inherit;
     font-variant-numeric: inherit;
   }

@@ -8,7 +8,7 @@ import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent, withError } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
-import { deviation } from './reading.js';
+import { deviation, silenceOf } from './reading.js';
 
 /** @import { Settings, Stats, Table } from '../../types.d.ts' */
 
@@ -16,8 +16,10 @@ addEnglish({ banana: en });
 
 /** The longest of the sentences that may come, to keep room for. */
 export function longestNote() {
-  const { notes, alphaIsSilent } = words.banana;
-  return longest([...Object.values(notes), ...Object.values(alphaIsSilent).flat()]);
+  const { notes, settings } = words.banana;
+  const { velocity, odometry } = settings.alphas.effects;
+  const silences = [...velocity.map((_, i) => silenceOf('velocity', i)), ...odometry.map((_, i) => silenceOf('odometry', i))];
+  return longest([...Object.values(notes), ...silences]);
 }
 
 /**

@@ -23,7 +23,7 @@ import { keptWords, shareOf } from './words.js';
 export function legend(config) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;
-  return html`<ul class="key" part="legend">
+  return html`<ul class="legend key" part="legend">
     <li>
       <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
       ${rejected}

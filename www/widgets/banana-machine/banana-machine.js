@@ -105,10 +105,7 @@ export class BananaMachineElement extends FigureElement {
     };
   }
 
-  /** @param {Reading} reading */
-  announcement({ config, stats, note }) {
-    return announcementOf(config, stats, note);
-  }
+  announcement = announcementOf;
 
   snapshot() {
     return { ...super.snapshot(), alphas: this.machine?.alphasOfModels };
@@ -165,36 +162,31 @@ export class BananaMachineElement extends FigureElement {
 
   /** @param {Reading} reading */
   content(reading) {
-    const { config, shown, stats, table, note } = reading;
+    const { config, note } = reading;
     const say = words.banana;
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
       <section class="machine" aria-label=${say.title}>
         <div class="floor">
           <div class="stage" part="picture">
-            ${canvas(this, this.#plane, planeText(config, stats, note, overlays))} ${this.#handle.render(config.command)}
+            ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}
             <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
-              <span>${note || captionOf(stats)}</span>
+              <span>${captionOf(reading)}</span>
             </p>
           </div>
-          ${overlayToggles(this)} ${readouts(stats, config.samples)}
-          ${markedRobot({
-            index: this.cloud.index,
-            shown,
-            inspection: this.#inspection,
-            mark: (index) => this.cloud.mark(index),
-          })}
+          ${overlayToggles(this)} ${readouts(reading)}
+          ${markedRobot(this, this.#inspection)}
           ${cloudControls(this, SAMPLE_COUNTS)}
         </div>
         <div class="controls" part="controls">${commandControls(this)} ${noiseControls(this)}</div>
         <div class="figures" part="figures">
           <figure>
-            ${canvas(this, this.#twist, twistText(stats))}
-            <figcaption>${twistCaption(config, note)}</figcaption>
-            ${twistTable(table, stats)}
+            ${canvas(this, this.#twist, twistText(reading))}
+            <figcaption>${twistCaption(reading)}</figcaption>
+            ${twistTable(reading)}
           </figure>
           <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
-          ${workedExample(table, stats)}
+          ${workedExample(reading)}
         </div>
       </section>
     `;

@@ -19,7 +19,7 @@ import { readingOf } from './reading.js';
 import { costTable, legend, markedDraw, tally } from './readouts.js';
 import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
-import { announcementOf, mapText, pictureText, verdictText } from './words.js';
+import { announcementOf, mapText, pictureText } from './words.js';
 
 /**
  * @import { MapData, Pose } from '../../types.d.ts'
@@ -105,10 +105,7 @@ export class MapSqueezeElement extends FigureElement {
     };
   }
 
-  /** @param {Reading} reading */
-  announcement({ config, stats, note }) {
-    return announcementOf(config, stats, note);
-  }
+  announcement = announcementOf;
 
   get held() {
     return this.#handles.held !== undefined;
@@ -208,10 +205,10 @@ export class MapSqueezeElement extends FigureElement {
   }
 
   /** @param {Reading} reading */
-  content({ config, stats, note, verdicts, paths }) {
+  content(reading) {
+    const { config, note } = reading;
     const own = this.map;
     const map = mapText(own ? own.name || words.squeeze.pasted : words.squeeze.apartment, this.#picture.plan);
-    const { index, isMarked } = this.cloud;
     return html`
       <section
         class="machine"
@@ -222,17 +219,11 @@ export class MapSqueezeElement extends FigureElement {
       >
         <div class="floor">
           <div class="stage" part="picture">
-            ${canvas(this, this.#picture, pictureText(config, stats, map, note))}
+            ${canvas(this, this.#picture, pictureText(reading, map))}
             ${this.#handles.render(this.settings.wanted.start)}
           </div>
           <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
-          ${legend(config)} ${tally(stats, config, paths.length)}
-          ${markedDraw({
-            index,
-            shown: stats.attempts,
-            verdict: isMarked ? verdictText(verdicts[index], config) : '',
-            mark: (index) => this.cloud.mark(index),
-          })}
+          ${legend(config)} ${tally(reading)} ${markedDraw(this)}
           ${cloudControls(this, SAMPLE_COUNTS)}
         </div>
         <div class="controls" part="controls">

@@ -21,7 +21,7 @@ import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
 
 /**
- * @import { Motion } from '../types.d.ts'
+ * @import { FigureState, Motion } from '../types.d.ts'
  * @import { Values } from './state.js'
  *
  * @typedef {FigureElement<any, any>} Figure of whatever widget
@@ -36,6 +36,9 @@ addEnglish(en);
  * Attributes and properties say what the figure shows, whoever has changed it. What is out of range is
  * refused with a TypeError or RangeError that names the field, the value and what is allowed: a property
  * throws it, an attribute reports it by `error`, and the last good value stays.
+ *
+ * @attr theme - Colours for a light page or a dark one; auto is as the surroundings are.
+ * @attr share - Keeps the state in the fragment of the page’s address, and opens in the state that it carries.
  *
  * @fires load - The figure is ready.
  * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run;
@@ -330,21 +333,21 @@ export class FigureElement extends LitElement {
   }
 
   /**
-   * Puts the element into a state. What is left out stays as it is.
+   * Puts the element into a state; what is left out stays as it is. Throws a TypeError or RangeError that names the
+   * field, the value and what is allowed, and changes nothing then.
    *
    * @public
-   * @param {unknown} state
-   * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then
+   * @param {Partial<Values> & FigureState} state
    */
   setState(state) {
     this.reflection.whenReady('state', state, () => this.state.enter(state));
   }
 
   /**
-   * The picture with twice the pixels of the screen.
+   * The picture with twice the pixels of the screen, image/png. As the next two, throws before `load`.
    *
    * @public
-   * @returns {Promise<Blob>} image/png
+   * @returns {Promise<Blob>}
    */
   async toPNG() {
     return pngOf(this);
@@ -371,11 +374,10 @@ export class FigureElement extends LitElement {
   }
 
   /**
-   * The address of this page with the present state.
+   * The address of this page with the present state; rejects where `share` is not set.
    *
    * @public
    * @returns {Promise<string>}
-   * @throws {Error} if the element does not heed the address
    */
   async shareLink() {
     if (!this.share) throw new Error('shareLink: the element lacks the attribute share, and would not heed the link.');

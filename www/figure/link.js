@@ -40,7 +40,7 @@ export class Link extends Part {
 
   /** @param {unknown} state as the address has it; undefined for none */
   #enter(state) {
-    if (state !== undefined) this.host.runtime.tolerate(() => this.host.setState(state));
+    if (state !== undefined) this.host.runtime.tolerate(() => this.host.setState(/** @type {any} */ (state)));
   }
 
   /** @returns {Promise<unknown>} undefined where the address has no state */

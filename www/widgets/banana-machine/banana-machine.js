@@ -36,6 +36,9 @@ import { announcementOf, captionOf, longestNote, planeText, skewText, twistCapti
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
  *
+ * @attr preset - A command worth starting from; none where the command is another.
+ * @attr overlays - The outlines that are drawn; in the attribute with spaces between.
+ *
  * @csspart figures - Readouts, chart and table.
  * @csspart chart - The chart of the skew.
  *
@@ -129,7 +132,12 @@ export class BananaMachineElement extends FigureElement {
     this.#handle.place(this.renderRoot, end);
   }
 
-  /** ξ along, lateral (m), heading (rad) of each robot shown; a copy. */
+  /**
+   * ξ along, lateral (m), heading (rad) of each robot shown; a copy.
+   *
+   * @public
+   * @returns {Float64Array | null}
+   */
   get twists() {
     return this.ask((machine) => machine.twists);
   }

@@ -30,7 +30,14 @@ import { announcementOf, mapText, pictureText } from './words.js';
  * @typedef {import('../../types.d.ts').MapSqueeze} Machine
  */
 
-/** Motion conditioned on a map, and what the condition cannot see. @extends {FigureElement<Machine, Reading>} */
+/**
+ * Motion conditioned on a map, and what the condition cannot see.
+ *
+ * @attr preset - A place in the apartment to start from; none elsewhere.
+ * @attr view - The whole map, or what is near the robot.
+ *
+ * @extends {FigureElement<Machine, Reading>}
+ */
 export class MapSqueezeElement extends FigureElement {
   static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...squeezeStyles];
 
@@ -132,7 +139,12 @@ export class MapSqueezeElement extends FigureElement {
     });
   }
 
-  /** The map of the reader's own; null for the apartment. @returns {MapData | null} */
+  /**
+   * A map of the reader's own; null for the apartment.
+   *
+   * @public
+   * @returns {MapData | null}
+   */
   get map() {
     return this.state.own.map;
   }
@@ -146,7 +158,12 @@ export class MapSqueezeElement extends FigureElement {
     });
   }
 
-  /** A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted. */
+  /**
+   * A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.
+   *
+   * @public
+   * @returns {Uint8Array | null}
+   */
   get verdicts() {
     return this.ask((machine) => machine.verdicts);
   }

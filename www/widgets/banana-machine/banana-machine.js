@@ -59,12 +59,7 @@ export class BananaMachineElement extends FigureElement {
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   pictures = [this.#plane, this.#twist];
-  #handle = new ArcHandle({
-    view: () => this.#plane.view,
-    end: () => this.runtime.attempt(() => this.fresh.end) ?? [0, 0],
-    reach: (x, y) => this.#reach(x, y),
-    commit: () => this.commit(),
-  });
+  #handle = new ArcHandle(this);
 
   /**
    * @param {import('../../types.d.ts').Motion} motion
@@ -128,8 +123,9 @@ export class BananaMachineElement extends FigureElement {
   }
 
   /** @param {Reading} scene */
-  placeHandles({ end }) {
-    this.#handle.place(this.renderRoot, end);
+  placeHandles({ end: [x, y] }) {
+    const { view } = this.#plane;
+    this.#handle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
   /**
@@ -160,7 +156,7 @@ export class BananaMachineElement extends FigureElement {
    * @param {number} x metres
    * @param {number} y
    */
-  #reach(x, y) {
+  reach(x, y) {
     this.settings.want(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command);
       const within = (/** @type {number} */ value, /** @type {{ min: number, max: number }} */ { min, max }) => clamp(value, min, max);

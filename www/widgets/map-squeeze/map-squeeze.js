@@ -49,16 +49,11 @@ export class MapSqueezeElement extends FigureElement {
 
   cloud = new Cloud(this, (/** @type {Machine} */ machine) => machine.stats.gaveUp);
 
-  #picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
+  /** Of the map that the robot is in. */
+  picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
-  #handles = new RobotHandles({
-    view: () => this.#picture.view,
-    start: () => this.settings.wanted.start,
-    bounds: () => this.#picture.plan.bounds,
-    change: (start) => this.settings.want({ start }),
-    commit: () => this.commit(),
-  });
+  #handles = new RobotHandles(this);
 
   /**
    * @param {import('../../types.d.ts').Motion} motion
@@ -79,8 +74,8 @@ export class MapSqueezeElement extends FigureElement {
     if (!machine) return;
     this.#opener.forgive();
     this.#meter.outdate();
-    this.#picture = new FloorPicture(machine.plan, machine.grid);
-    this.pictures = [this.#picture];
+    this.picture = new FloorPicture(machine.plan, machine.grid);
+    this.pictures = [this.picture];
   }
 
   /** @param {Machine} machine */
@@ -93,7 +88,7 @@ export class MapSqueezeElement extends FigureElement {
   get scene() {
     const { fresh } = this;
     const { index, isMarked } = this.cloud;
-    this.#picture.close = this.state.own.view === 'close';
+    this.picture.close = this.state.own.view === 'close';
     const marked = isMarked && { pose: fresh.poses.subarray(3 * index), path: this.machine?.path(index) };
     return { ...fresh, marked: marked || undefined };
   }
@@ -120,7 +115,7 @@ export class MapSqueezeElement extends FigureElement {
 
   /** @param {Reading} scene */
   placeHandles({ config: { start, clearance } }) {
-    this.#handles.place(this.renderRoot, start, clearance);
+    this.#handles.place(start, clearance);
   }
 
   /** The place in the apartment that the robot starts from; null elsewhere. @returns {string | null} */
@@ -225,7 +220,7 @@ export class MapSqueezeElement extends FigureElement {
   content(reading) {
     const { config, note } = reading;
     const own = this.map;
-    const map = mapText(own ? own.name || words.squeeze.pasted : words.squeeze.apartment, this.#picture.plan);
+    const map = mapText(own ? own.name || words.squeeze.pasted : words.squeeze.apartment, this.picture.plan);
     return html`
       <section
         class="machine"
@@ -236,8 +231,8 @@ export class MapSqueezeElement extends FigureElement {
       >
         <div class="floor">
           <div class="stage" part="picture">
-            ${canvas(this, this.#picture, pictureText(reading, map))}
-            ${this.#handles.render(this.settings.wanted.start)}
+            ${canvas(this, this.picture, pictureText(reading, map))}
+            ${this.#handles.render()}
           </div>
           <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
           ${legend(config)} ${tally(reading)} ${markedDraw(this)}

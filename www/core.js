@@ -104,7 +104,6 @@ function forbidden() {
  * else than application/wasm.
  *
  * @param {URL | string} source
- * @returns {Promise<WebAssembly.Module>}
  */
 async function streamed(source) {
   const response = await fetch(source).catch((error) => {

@@ -85,7 +85,6 @@ export const groupsOf = (declared) => settingsIn(declared, ({ type }) => !(type 
 /**
  * @param {Declaration[]} declared
  * @param {(setting: Declaration) => boolean} are
- * @returns {Record<string, Attribute & Setting>}
  */
 function settingsIn(declared, are) {
   return Object.fromEntries(declared.filter(are).map((setting) => [setting.key, settingOf(setting)]));

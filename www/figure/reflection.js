@@ -161,7 +161,6 @@ export class Reflection extends Part {
    *
    * @param {Present} present
    * @param {(name: string) => unknown} own what the element itself has by that name
-   * @returns {Texts}
    */
   #texts(present, own) {
     return new Map(

@@ -184,7 +184,6 @@ export class Runtime extends Part {
  * @template {{ free(): void }} Machine
  * @param {Machine} machine
  * @param {(machine: Machine) => void} work
- * @returns {Machine}
  */
 export function orFree(machine, work) {
   try {

@@ -26,15 +26,18 @@ export class Stage extends Part {
   #surroundings = '';
   /** @type {ResizeObserver | undefined} */
   #sizes;
-  /** What ends listening for the printer and for other words. @type {(() => void)[]} */
-  #ends = [];
+  /** Ends listening for the printer and for other words. */
+  #listening = new AbortController();
 
   hostConnected() {
-    this.#ends = [onPrint((printing) => this.#print(printing)), onLanguage(this.host, () => this.#speakAgain())];
+    this.#listening = new AbortController();
+    const { signal } = this.#listening;
+    onPrint((printing) => this.#print(printing), signal);
+    onLanguage(this.host, () => this.#speakAgain(), signal);
   }
 
   hostDisconnected() {
-    for (const end of this.#ends) end();
+    this.#listening.abort();
   }
 
   /** The words or the language may be others. */

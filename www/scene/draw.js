@@ -179,7 +179,6 @@ function headingTick({ context, view }, x, y, heading, length) {
 /**
  * @param {string} colour
  * @param {number} radius device pixels
- * @returns {OffscreenCanvas}
  */
 function sprite(colour, radius) {
   const half = Math.ceil(radius) + 1;

@@ -308,12 +308,13 @@ export function longest(texts) {
 /**
  * One of a group of radio buttons.
  *
- * @param {{ group: string, label: unknown, checked: boolean, choose: () => void }} option
+ * @param {{ group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }} option with a name for
+ *   screen readers where it has no label
  */
-export function choice({ group, label, checked, choose }) {
+export function choice({ group, label, name, checked, choose }) {
   return html`<label class="choice">
-    <input type="radio" name=${group} .checked=${live(checked)} @change=${choose} />
-    <span>${label}</span>
+    <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${choose} />
+    ${label ? html`<span>${label}</span>` : nothing}
   </label>`;
 }
 

@@ -27,10 +27,9 @@ import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
 
 /**
+ * @import { BananaMachine as Machine, Motion } from '../../types.d.ts'
  * @import { Values } from '../../figure/state.js'
  * @import { Reading } from './reading.js'
- *
- * @typedef {import('../../types.d.ts').BananaMachine} Machine
  */
 
 /**
@@ -62,7 +61,7 @@ export class BananaMachineElement extends FigureElement {
   #handle = new ArcHandle(this);
 
   /**
-   * @param {import('../../types.d.ts').Motion} motion
+   * @param {Motion} motion
    * @param {Values} [state]
    */
   createMachine(motion, state) {

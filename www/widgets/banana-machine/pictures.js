@@ -108,23 +108,19 @@ function cellSize(area, count) {
 /** The floor from above. */
 export class PlanePicture extends CloudPicture {
   constructor() {
-    super('plane', new View({ equal: true, inset: { left: 42, right: 8, top: 24, bottom: 30 } }));
+    super('plane', new View());
   }
 
   /** @param {Scene} scene */
-  fit({ contours, table }) {
+  fit({ contours, table, end }) {
     const { mean, cov } = table.exact;
     const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
-    /** @type {[number, number][]} */
-    const points = [[mean[0] - sx, mean[1] - sy], [mean[0] + sx, mean[1] + sy]];
-    const { command } = contours;
-    for (let i = 0; i < command.length; i += 2) points.push([command[i], command[i + 1]]);
+    const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command];
     const box = extentOf(points, 0.4);
     // Around the end there is room for a fan of headings, which may be all there is to see.
     const fan = 0.2 * (box.xMax - box.xMin);
-    const [x, y] = command.slice(-2);
-    points.push([x - fan, y - fan], [x + fan, y + fan]);
-    this.view.fit(extentOf(points, 0.4));
+    const [x, y] = end;
+    this.view.fit(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4));
   }
 
   /**
@@ -193,17 +189,16 @@ function twistMoments({ config, stats, table }) {
 /** The same robots in exponential coordinates. */
 export class TwistPicture extends CloudPicture {
   constructor() {
-    super('twist', new View({ equal: false, inset: { left: 46, right: 10, top: 24, bottom: 30 } }));
+    super('twist', new View({ equal: false, left: 46, right: 10 }));
   }
 
   /** @param {Scene} scene */
   fit(scene) {
     const { v, omega, dt } = scene.config.command;
-    /** @type {[number, number][]} */
-    const points = [[v * dt, omega * dt]];
+    const points = [v * dt, omega * dt];
     for (const { mean, cov } of twistMoments(scene)) {
       const [along, heading] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[2][2])];
-      points.push([mean[0] - along, mean[2] - heading], [mean[0] + along, mean[2] + heading]);
+      points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
     }
     this.view.fit(extentOf(points, 0.1));
   }

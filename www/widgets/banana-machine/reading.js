@@ -3,10 +3,9 @@
 import { words } from '../../messages/registry.js';
 import { looks } from './settings.js';
 
-/** @import { Settings, Stats, Table } from '../../types.d.ts' */
-
 /**
- * @typedef {import('../../types.d.ts').BananaMachine} Machine
+ * @import { BananaMachine as Machine, Settings, Stats, Table } from '../../types.d.ts'
+ *
  * @typedef {ReturnType<typeof readingOf>} Reading
  */
 

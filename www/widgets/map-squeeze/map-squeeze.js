@@ -22,12 +22,10 @@ import { squeezeStyles } from './styles.js';
 import { announcementOf, mapText, pictureText } from './words.js';
 
 /**
- * @import { MapData, Pose } from '../../types.d.ts'
+ * @import { MapData, MapSqueeze as Machine, Motion, Pose } from '../../types.d.ts'
  * @import { Values } from '../../figure/state.js'
  * @import { OwnMap } from './maps/files.js'
  * @import { Reading } from './reading.js'
- *
- * @typedef {import('../../types.d.ts').MapSqueeze} Machine
  */
 
 /**
@@ -56,7 +54,7 @@ export class MapSqueezeElement extends FigureElement {
   #handles = new RobotHandles(this);
 
   /**
-   * @param {import('../../types.d.ts').Motion} motion
+   * @param {Motion} motion
    * @param {Values} [state]
    */
   createMachine(motion, state) {

@@ -8,11 +8,9 @@ import { clamp } from '../../ui/clamp.js';
 import { COMMAND_DASH } from '../shared/command.js';
 
 /**
- * @import { MapSqueeze, Plan } from '../../types.d.ts'
+ * @import { MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Extent } from '../../scene/view.js'
- *
- * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  *
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
  *   marked: { pose: Float64Array, path: Float64Array } | undefined,
@@ -38,7 +36,7 @@ const REACH = 12;
 /** @extends {Picture<Scene>} */
 export class FloorPicture extends Picture {
   plan;
-  #near = newView();
+  #near = new View();
   #whole = this.view;
   #walls;
 
@@ -47,7 +45,7 @@ export class FloorPicture extends Picture {
    * @param {import('../../types.d.ts').Grid | null} grid
    */
   constructor(plan, grid) {
-    super('plane', newView());
+    super('plane', new View());
     this.plan = plan;
     this.#walls = new WallLayer(plan, grid);
   }
@@ -110,17 +108,12 @@ export class FloorPicture extends Picture {
   }
 }
 
-function newView() {
-  return new View({ equal: true, inset: { left: 42, right: 8, top: 24, bottom: 30 } });
-}
-
 /**
  * The part of a plan that has walls, as long as the robot is in it; otherwise all of it. Around what
  * a robot has mapped there is often as much again of which nothing is known.
  *
  * @param {Plan} plan
  * @param {{ x: number, y: number }} robot
- * @returns {Extent}
  */
 function mapped({ bounds, walls }, { x, y }) {
   const [xMin, yMin, xMax, yMax] = bounds;
@@ -131,7 +124,7 @@ function mapped({ bounds, walls }, { x, y }) {
 
 /**
  * @param {Brush} brush
- * @param {number[]} triples
+ * @param {Float64Array} triples
  */
 function drawCrosses({ context, view, palette }, triples) {
   context.beginPath();
@@ -189,7 +182,7 @@ function drawRings({ context, view, palette }, poses, through) {
  * The robot where it starts, and its outline where the command would bring it.
  *
  * @param {Brush} brush
- * @param {Settings} config
+ * @param {SqueezeSettings} config
  * @param {Float64Array} commanded
  */
 function drawRobots({ context, view, palette }, { start, clearance }, commanded) {

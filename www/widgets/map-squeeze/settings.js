@@ -40,7 +40,6 @@ export const own = {
 
 /**
  * @param {unknown} name
- * @returns {typeof PRESETS[number]}
  * @throws {TypeError | RangeError} where there is none of that name
  */
 export function presetNamed(name) {

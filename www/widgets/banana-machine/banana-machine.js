@@ -27,7 +27,7 @@ import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
 
 /**
- * @import { BananaMachine as Machine, Motion } from '../../types.d.ts'
+ * @import { BananaMachine as Machine } from '../../types.d.ts'
  * @import { Values } from '../../figure/state.js'
  * @import { Reading } from './reading.js'
  */
@@ -60,11 +60,8 @@ export class BananaMachineElement extends FigureElement {
   pictures = [this.#plane, this.#twist];
   #handle = new ArcHandle(this);
 
-  /**
-   * @param {Motion} motion
-   * @param {Values} [state]
-   */
-  createMachine(motion, state) {
+  /** @type {FigureElement<Machine, Reading>['createMachine']} */
+  createMachine = (motion, state) => {
     const machine = new motion.BananaMachine();
     if (!state) return machine;
     const { model, alphas, shown } = state;
@@ -75,7 +72,7 @@ export class BananaMachineElement extends FigureElement {
       machine.configure({ ...this.settingsOf(state), alphas: alphas[model] });
       showOnly(machine, shown);
     });
-  }
+  };
 
   /** @param {Machine} machine */
   read(machine) {

@@ -123,11 +123,8 @@ export class PlanePicture extends CloudPicture {
     this.view.fit(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4));
   }
 
-  /**
-   * @param {Brush} brush
-   * @param {Scene} scene
-   */
-  paint(brush, scene) {
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, scene) => {
     const { view, palette } = brush;
     const { machine, contours, overlays, table, marked } = scene;
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
@@ -157,7 +154,7 @@ export class PlanePicture extends CloudPicture {
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] });
       }
     });
-  }
+  };
 }
 
 /** Robots that are all in one place. @param {BananaMachine} machine */
@@ -203,11 +200,8 @@ export class TwistPicture extends CloudPicture {
     this.view.fit(extentOf(points, 0.1));
   }
 
-  /**
-   * @param {Brush} brush
-   * @param {Scene} scene
-   */
-  paint(brush, scene) {
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, scene) => {
     const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading });
@@ -231,5 +225,5 @@ export class TwistPicture extends CloudPicture {
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
-  }
+  };
 }

@@ -22,8 +22,7 @@ import { squeezeStyles } from './styles.js';
 import { announcementOf, mapText, pictureText } from './words.js';
 
 /**
- * @import { MapData, MapSqueeze as Machine, Motion, Pose } from '../../types.d.ts'
- * @import { Values } from '../../figure/state.js'
+ * @import { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts'
  * @import { OwnMap } from './maps/files.js'
  * @import { Reading } from './reading.js'
  */
@@ -53,11 +52,8 @@ export class MapSqueezeElement extends FigureElement {
   #opener = new MapOpener(this);
   #handles = new RobotHandles(this);
 
-  /**
-   * @param {Motion} motion
-   * @param {Values} [state]
-   */
-  createMachine(motion, state) {
+  /** @type {FigureElement<Machine, Reading>['createMachine']} */
+  createMachine = (motion, state) => {
     const machine = new motion.MapSqueeze();
     if (!state) return machine;
     return orFree(machine, () => {
@@ -65,7 +61,7 @@ export class MapSqueezeElement extends FigureElement {
       machine.configure(this.settingsOf(state));
       showOnly(machine, state.shown);
     });
-  }
+  };
 
   machineChanged() {
     const { machine } = this;

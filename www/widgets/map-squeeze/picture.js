@@ -83,11 +83,8 @@ export class FloorPicture extends Picture {
     return machine.nearest(worldX, worldY, radius);
   }
 
-  /**
-   * @param {Brush} brush
-   * @param {Scene} scene
-   */
-  paint(brush, { sorted, poses, paths, commanded, config, marked }) {
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, { sorted, poses, paths, commanded, config, marked }) => {
     const { palette } = brush;
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
     clipped(brush, () => {
@@ -105,7 +102,7 @@ export class FloorPicture extends Picture {
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
       }
     });
-  }
+  };
 }
 
 /**

@@ -28,7 +28,7 @@ import { exportMenu } from './takeaway/export.js';
  * @param {Row} [otherwise] what is not as in every row
  */
 export function slider(figure, key, otherwise) {
-  const { looks, declared, attributes } = classOf(figure);
+  const { looks, declared, attributes } = figure.kind;
   const { symbol, decimals, value, ...look } = looks[key];
   const { name, effect } = wordsFor(figure, key);
   const { unit } = declared.find((setting) => setting.key === key) ?? {};
@@ -137,18 +137,13 @@ export function cloudControls(figure, counts) {
  * @param {unknown} value
  */
 function want(figure, key, value) {
-  const setting = /** @type {Setting} */ (classOf(figure).attributes[key]);
+  const setting = /** @type {Setting} */ (figure.kind.attributes[key]);
   figure.settings.want((wanted) => setting.change(value, { config: wanted, machine: figure.machine }));
 }
 
 /** @param {Figure} figure */
-function classOf(figure) {
-  return /** @type {typeof import('./figure.js').FigureElement} */ (figure.constructor);
-}
-
-/** @param {Figure} figure */
 function wordsOf(figure) {
-  return /** @type {any} */ (words)[classOf(figure).vocabulary];
+  return /** @type {any} */ (words)[figure.kind.vocabulary];
 }
 
 /**

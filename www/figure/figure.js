@@ -93,8 +93,8 @@ export class FigureElement extends LitElement {
   stage = new Stage(this);
   gesture = new Gesture((name) => this.#done(name));
   settings = new Settings(this);
-  state = new State(this, this.#class.own);
-  reflection = new Reflection(this, this.#class.attributes, this.#class.basis);
+  state = new State(this, this.kind.own);
+  reflection = new Reflection(this, this.kind.attributes, this.kind.basis);
   link = new Link(this);
   announcer = new Announcer();
   copies = new CopyMenu(this);
@@ -105,7 +105,8 @@ export class FigureElement extends LitElement {
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
 
-  get #class() {
+  /** The class of the widget, with what it says of all of its kind. */
+  get kind() {
     return /** @type {typeof FigureElement} */ (this.constructor);
   }
 
@@ -177,7 +178,7 @@ export class FigureElement extends LitElement {
 
   /** Those of some values that are declared settings of the machine. @param {Values} values */
   settingsOf(values) {
-    const keys = this.#class.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
+    const keys = this.kind.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
@@ -208,7 +209,7 @@ export class FigureElement extends LitElement {
     this.state.restore();
     this.reflection.catchUp();
     this.link.catchUp();
-    if (this.machine) this.state.introduceOnce();
+    if (this.machine && !this.state.introduced) this.introduce(this.state.kept);
   }
 
   /** @param {Values} [state] that the machine is in, if it is not the opening */

@@ -45,7 +45,8 @@ export class Link extends Part {
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
   async #look() {
-    const text = fragmentOf(keyOf(this.host));
+    const key = `${keyOf(this.host)}=`;
+    const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
     if (text === undefined) return undefined;
     try {
       return await unpack(text);
@@ -80,14 +81,6 @@ function keyOf(element) {
   if (id) return `${localName}:${encodeURIComponent(id)}`;
   const kind = [...document.querySelectorAll(localName)];
   return `${localName}.${kind.indexOf(element) + 1}`;
-}
-
-/**
- * @param {string} key
- * @returns {string | undefined} what the fragment has for it
- */
-function fragmentOf(key) {
-  return parts().find((part) => part.startsWith(`${key}=`))?.slice(key.length + 1);
 }
 
 /**

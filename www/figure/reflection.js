@@ -221,25 +221,15 @@ export class Reflection extends Part {
 }
 
 /**
- * Gives a widget's class the properties of its settings and defines it, unless the page has it already: it
- * may carry the script twice.
+ * Gives a widget's class the properties of its settings, and of what is the element's own and has an attribute, and
+ * defines it, unless the page has it already: it may carry the script twice.
  *
- * @param {string} name
+ * @param {string} tag
  * @param {typeof import('./figure.js').FigureElement<any, any>} Widget
  */
-export function define(name, Widget) {
-  if (customElements.get(name)) return;
-  defineProperties(Widget);
-  if ('marked' in Widget.own) Object.defineProperties(Widget.prototype, cloudProperties);
-  customElements.define(name, Widget);
-}
-
-/**
- * Gives a class the properties of its settings, and of what is the element's own and has an attribute.
- *
- * @param {{ prototype: any, attributes: Attributes, declared: import('../settings.js').Declaration[], own: object }} Widget
- */
-function defineProperties({ prototype, attributes, declared, own }) {
+export function define(tag, Widget) {
+  if (customElements.get(tag)) return;
+  const { prototype, attributes, declared, own } = Widget;
   const property = (/** @type {string} */ name, /** @type {PropertyDescriptor & ThisType<any>} */ accessors) =>
     Object.defineProperty(prototype, name, { configurable: true, enumerable: true, ...accessors });
   for (const [name, entry] of Object.entries({ ...attributes, ...groupsOf(declared) })) {
@@ -266,4 +256,6 @@ function defineProperties({ prototype, attributes, declared, own }) {
       });
     }
   }
+  if ('marked' in own) Object.defineProperties(prototype, cloudProperties);
+  customElements.define(tag, Widget);
 }

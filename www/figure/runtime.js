@@ -66,20 +66,14 @@ export class Runtime extends Part {
     }
   }
 
-  /**
-   * As `attempt`, where nobody would hear of an error: it ends in the sentence.
-   *
-   * @template Result
-   * @param {() => Result} work
-   * @returns {Result | undefined} undefined where it failed
-   */
-  attemptOrFail(work) {
+  /** As `attempt`, where nobody would hear of an error: it ends in the sentence. @type {Runtime['attempt']} */
+  attemptOrFail = (work) => {
     try {
-      return work();
+      return this.attempt(work);
     } catch (error) {
-      if (!this.#mend(error)) this.fail(error);
+      this.fail(error);
     }
-  }
+  };
 
   /** @param {() => void} work what may refuse: an error is reported, and all is as it was */
   tolerate(work) {

@@ -23,7 +23,8 @@ export class State extends Part {
   /** What is the element's own, by name. @type {Values} */
   own;
   #owned;
-  #introduced = false;
+  /** Whether the machine was introduced by a state that came before it was shown. */
+  introduced = false;
 
   /**
    * @param {Figure} host
@@ -58,13 +59,8 @@ export class State extends Part {
 
   /** A machine was made of the last good state: the element takes up its own part of that. */
   restore() {
-    this.#introduced = false;
+    this.introduced = false;
     if (this.kept) this.#adopt(this.kept);
-  }
-
-  /** Introduces the machine, unless a state that came meanwhile has. */
-  introduceOnce() {
-    if (!this.#introduced) this.host.introduce(this.kept);
   }
 
   /**
@@ -91,7 +87,7 @@ export class State extends Part {
     host.runtime.replace(machine);
     host.machineChanged();
     host.settings.reset();
-    this.#introduced = true;
+    this.introduced = true;
     host.introduce(whole);
   }
 

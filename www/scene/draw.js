@@ -45,7 +45,7 @@ export function drawAxes({ context, view, palette, font }, names) {
   context.textBaseline = 'top';
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
-    line(context, x, top, x, bottom, 0.5);
+    line(context, [x, top, x, bottom], 0.5);
     const text = tick(value, xTicks.step);
     if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
   }
@@ -54,12 +54,12 @@ export function drawAxes({ context, view, palette, font }, names) {
   context.textBaseline = 'middle';
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
-    line(context, left, y, right, y, 0.5);
+    line(context, [left, y, right, y], 0.5);
     context.fillText(tick(value, yTicks.step), left - 6, y);
   }
 
-  line(context, left, bottom + 0.5, right, bottom + 0.5, 1);
-  line(context, left - 0.5, top, left - 0.5, bottom, 1);
+  line(context, [left, bottom + 0.5, right, bottom + 0.5], 1);
+  line(context, [left - 0.5, top, left - 0.5, bottom], 1);
   context.font = `italic ${font}`;
   context.textAlign = 'right';
   context.textBaseline = 'top';
@@ -80,13 +80,10 @@ function ticksOf(from, to, count) {
 
 /**
  * @param {Context} context
- * @param {number} x1
- * @param {number} y1
- * @param {number} x2
- * @param {number} y2
+ * @param {number[]} ends
  * @param {number} alpha
  */
-function line(context, x1, y1, x2, y2, alpha) {
+function line(context, [x1, y1, x2, y2], alpha) {
   context.globalAlpha = alpha;
   context.beginPath();
   context.moveTo(x1, y1);

@@ -163,12 +163,7 @@ export class View {
     }
     const x = (needed.xMin + needed.xMax) / 2;
     const y = (needed.yMin + needed.yMax) / 2;
-    return {
-      xMin: x - width / 2,
-      xMax: x + width / 2,
-      yMin: y - height / 2,
-      yMax: y + height / 2,
-    };
+    return extentAround([x - width / 2, y - height / 2, x + width / 2, y + height / 2], 2);
   }
 }
 
@@ -213,10 +208,5 @@ export function extentOf(points, smallest) {
   const box = extentAround(points, 2);
   const growX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;
   const growY = Math.max(0, smallest - (box.yMax - box.yMin)) / 2;
-  return {
-    xMin: box.xMin - growX,
-    xMax: box.xMax + growX,
-    yMin: box.yMin - growY,
-    yMax: box.yMax + growY,
-  };
+  return extentAround([box.xMin - growX, box.yMin - growY, box.xMax + growX, box.yMax + growY], 2);
 }

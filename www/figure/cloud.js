@@ -152,24 +152,17 @@ export class Cloud extends Part {
   }
 
   play() {
-    this.#turn(() => {
+    this.#turn(!this.playing, () => {
       if (!this.playing && this.complete) this.#machine.restart();
-      this.playing = !this.playing;
     });
   }
 
   step() {
-    this.#turn(() => {
-      this.playing = false;
-      this.#machine.grow(this.#batch);
-    });
+    this.#turn(false, () => this.#machine.grow(this.#batch));
   }
 
   reset() {
-    this.#turn(() => {
-      this.playing = false;
-      this.#machine.restart();
-    });
+    this.#turn(false, () => this.#machine.restart());
   }
 
   reseed() {
@@ -177,11 +170,15 @@ export class Cloud extends Part {
     this.host.commit();
   }
 
-  /** @param {() => void} act the reader's, on the growth of the cloud */
-  #turn(act) {
+  /**
+   * @param {boolean} playing from now on
+   * @param {() => void} act the reader's, on the growth of the cloud
+   */
+  #turn(playing, act) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
       act();
+      this.playing = playing;
       this.host.gesture.step();
       this.host.commit();
     });

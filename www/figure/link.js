@@ -55,10 +55,18 @@ export class Link extends Part {
     }
   }
 
+  /** Puts the state into the page's address. The page does not move, and going back does not lead through it. */
   async write() {
     const writing = ++this.#writing;
     const text = await this.#pack();
-    if (writing === this.#writing && this.host.isConnected) writeFragment(keyOf(this.host), text);
+    if (writing !== this.#writing || !this.host.isConnected) return;
+    const address = addressWith(keyOf(this.host), text);
+    if (address === location.href) return;
+    try {
+      history.replaceState(history.state, '', address);
+    } catch {
+      // A page that was put together by a script has no address to write.
+    }
   }
 
   /** @returns {Promise<string>} the address of this page with the present state */
@@ -95,22 +103,6 @@ function addressWith(key, text) {
   const next = at < 0 ? [...all, part] : all.with(at, part);
   // In full: a base element of the page does not matter then.
   return `${location.href.replace(/#.*$/s, '')}#${next.join('&')}`;
-}
-
-/**
- * Puts a text into the page's address. The page does not move, and going back does not lead through it.
- *
- * @param {string} key
- * @param {string} text
- */
-function writeFragment(key, text) {
-  const address = addressWith(key, text);
-  if (address === location.href) return;
-  try {
-    history.replaceState(history.state, '', address);
-  } catch {
-    // A page that was put together by a script has no address to write.
-  }
 }
 
 function parts() {

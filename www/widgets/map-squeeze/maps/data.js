@@ -30,15 +30,11 @@ export function mapData(machine, name) {
  * Puts a map into a machine.
  *
  * @param {MapSqueeze} machine
- * @param {unknown} data MapData, or null for the apartment
+ * @param {unknown} data to be MapData
  * @throws {TypeError | RangeError} with the machine's present map left as it is
  */
 export function applyMap(machine, data) {
-  if (data === null) {
-    machine.setPlan(undefined);
-    return;
-  }
-  const isGrid = typeof data === 'object' && 'occupied' in data;
+  const isGrid = typeof data === 'object' && data !== null && 'occupied' in data;
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {

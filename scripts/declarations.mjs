@@ -1,7 +1,8 @@
 // What the widgets declare of themselves, as scripts/manifest.mjs and scripts/types.mjs tell it: from the settings of
-// the core, and from each widget's settings.js.
+// the core, from each widget's settings.js, and from the comments of the elements' classes.
 
 import { presets, settings } from '../www/settings.js';
+import { ROOT } from './process.mjs';
 
 /**
  * @typedef {import('../www/settings.js').Declaration} Declaration
@@ -65,6 +66,27 @@ function number(value) {
   return format.format(value).replaceAll(',', '\u202f').replace('-', '−');
 }
 
+/** @type {Promise<{ schemaVersion: string, classes: Map<string, any> }> | undefined} */
+let analyzed;
+
+/** What the comments of the elements' classes say, as the analyzer reads them, by the classes' names. */
+export function comments() {
+  return (analyzed ??= analyze());
+}
+
+async function analyze() {
+  // @ts-expect-error It comes without types.
+  const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
+  const argv = ['analyze', '--litelement', '--quiet', '--globs', 'www/figure/figure.js', 'www/widgets/*/*.js'];
+  const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
+  /** @type {any[]} */
+  const declarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
+  return { schemaVersion, classes: new Map(declarations.map((each) => [each.name, each])) };
+}
+
+/** A description without the line ends of the comment that it stands in. @param {string} text */
+export const oneLine = (text) => text.replaceAll('\n', ' ');
+
 /** @returns {Promise<Widget[]>} */
 export function widgets() {
   return Promise.all(Object.keys(settings).map(widget));
@@ -76,13 +98,15 @@ export function widgets() {
  */
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
-  const { COMMON, WORDS, documentation: ofFigures } = await import('../www/figure/attributes.js');
+  const { COMMON, WORDS } = await import('../www/figure/attributes.js');
   const { documentation: ofClouds } = await import('../www/figure/cloud.js');
   const { attributes, declared, documentation, own } = await import(`../www/widgets/${tag}/settings.js`);
   /** @type {import('../www/figure/attributes.js').Documentation[]} */
-  const documents = [ofFigures, ...('marked' in own ? [ofClouds] : []), documentation];
+  const documents = [...('marked' in own ? [ofClouds] : []), ...(documentation ? [documentation] : [])];
+  const { classes } = await comments();
+  const element = classes.get(`${pascal(tag)}Element`);
   /** @type {Record<string, string>} */
-  const sentences = Object.assign({}, ...documents.map(({ attributes }) => attributes));
+  const sentences = Object.fromEntries(element.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
   const propertyTable = Object.assign({}, ...documents.map(({ properties }) => properties));
   const stateTable = Object.assign({}, ...documents.map(({ state }) => state));
   const setting = (/** @type {string} */ name) => declared.find((/** @type {Declaration} */ { key }) => key === name);
@@ -110,7 +134,10 @@ async function widget(tag) {
   /** @type {Declaration[]} */
   const whole = declared.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groups = whole.filter(({ key }) => !(key in attributes)).map(plain);
-  const properties = [...groups, ...Object.entries(propertyTable).map(told)];
+  const ofClass = element.members
+    .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
+    .map((/** @type {any} */ { name, description, readonly, return: { type } }) => ({ name, description: oneLine(description), readonly, type: type.text }));
+  const properties = [...groups, ...Object.entries(propertyTable).map(told), ...ofClass];
   const ofElement = Object.keys(own).map((name) => {
     const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((each) => each.name === name) ?? {});
     return { name, type, description };

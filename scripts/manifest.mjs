@@ -3,8 +3,7 @@
 // Attributes and properties follow from what is declared; methods, events, parts and colours are what the classes'
 // comments say, as the analyzer reads them. That it is true of the elements is tested in a browser.
 
-import { widgets } from './declarations.mjs';
-import { ROOT } from './process.mjs';
+import { comments, oneLine, widgets } from './declarations.mjs';
 
 /**
  * @typedef {{ name: string, type?: { text: string }, description?: string }} Item
@@ -22,30 +21,25 @@ import { ROOT } from './process.mjs';
 
 /** @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>} */
 export async function manifest() {
-  // @ts-expect-error It comes without types.
-  const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  const argv = ['analyze', '--litelement', '--quiet', '--globs', 'www/figure/figure.js', 'www/widgets/*/*.js'];
-  const analyzed = await cli({ argv, cwd: ROOT, noWrite: true });
-  /** @type {any[]} */
-  const classes = analyzed.modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
+  const { schemaVersion, classes } = await comments();
   const declarations = (await widgets()).map((widget) => {
     const name = `${widget.machine}Element`;
-    return elementOf(widget, name, classes.find((each) => each.name === name));
+    return elementOf(widget, name, classes.get(name));
   });
   const path = 'dist/motion-widgets.js';
   const exports = declarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: path } }));
-  return { schemaVersion: analyzed.schemaVersion, modules: [{ kind: 'javascript-module', path, declarations, exports }] };
+  return { schemaVersion, modules: [{ kind: 'javascript-module', path, declarations, exports }] };
 }
 
 /**
  * @param {import('./declarations.mjs').Widget} widget
  * @param {string} name of its element's class
- * @param {any} comments what the class's say
+ * @param {any} said what the class's comments say
  */
-function elementOf({ tag, machine, attributes, properties }, name, comments) {
+function elementOf({ tag, machine, attributes, properties }, name, said) {
   /** In the comments of what all of them have, types are of no one machine. @param {string} type */
   const ours = (type) => ({ text: type.replace(/\bMachine\b/, machine).replace(/\bValues\b/, `${machine}State`) });
-  const item = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: ours(type.text) }), description: description?.replaceAll('\n', ' ') });
+  const item = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: ours(type.text) }), description: description && oneLine(description) });
   const documented = (/** @type {any[]} */ items) => items.filter(({ description }) => description).map(item);
   const member = (/** @type {any} */ { kind, parameters, return: result, readonly, ...rest }) => ({
     kind,
@@ -60,7 +54,7 @@ function elementOf({ tag, machine, attributes, properties }, name, comments) {
     name,
     tagName: tag,
     customElement: true,
-    description: comments.description,
+    description: said.description,
     attributes: attributes.map(({ name, type, description, opening }) => ({
       name,
       type: { text: type.replace(' | null', '') },
@@ -71,10 +65,12 @@ function elementOf({ tag, machine, attributes, properties }, name, comments) {
     members: [
       ...attributes.map(({ name, type, description }) => ({ kind: 'field', name, type: { text: type }, description, attribute: name, reflects: true })),
       ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
-      ...comments.members.filter((/** @type {any} */ { privacy }) => privacy === 'public').map(member),
+      ...said.members
+        .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
+        .map(member),
     ],
-    events: documented(comments.events),
-    cssParts: documented(comments.cssParts),
-    cssProperties: documented(comments.cssProperties),
+    events: documented(said.events),
+    cssParts: documented(said.cssParts),
+    cssProperties: documented(said.cssProperties),
   };
 }

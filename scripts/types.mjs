@@ -4,7 +4,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
-import { describe, pascal, presetsOf, typeOf, union, widgets } from './declarations.mjs';
+import { comments, describe, oneLine, pascal, presetsOf, typeOf, union, widgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 
 /** @typedef {import('./declarations.mjs').Named} Named */
@@ -16,7 +16,7 @@ export async function writeTypes() {
   const all = await widgets();
   const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
   writeFileSync(join(ROOT, 'build/machines.d.ts'), [HEAD, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), ...all.map(elementTypes), tagNames(all)].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), await figureType(all), ...all.map(elementTypes), tagNames(all)].join('\n'));
 }
 
 /** Groups of the same name are the same in all widgets. */
@@ -54,12 +54,33 @@ function named(declaration) {
   return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
+/** Attributes that every figure has. */
+const COMMON = ['theme', 'share'];
+
+/** What every figure has, by what the comments of its class say is public. @param {import('./declarations.mjs').Widget[]} all */
+async function figureType([{ attributes }]) {
+  const { classes } = await comments();
+  /** @type {any[]} */
+  const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
+  /** @param {{ type: { text: string } }} [typed] what it is in TypeScript; in the comments it is of any widget */
+  const typeIn = (typed) => (typed?.type.text ?? 'void').replace(/\bMachine\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
+  const fields = members.map(({ kind, name, description, parameters = [], return: result, readonly }) => {
+    const given = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
+    return { name: kind === 'method' ? `${name}(${given.join(', ')})` : name, type: typeIn(result), description: oneLine(description), readonly };
+  });
+  const common = attributes.filter(({ name }) => COMMON.includes(name));
+  return (
+    '/** What every element has; `Stats` are those of its machine. */\n' +
+    asInterface('FigureElement<State extends FigureState, Stats>', [...common, ...fields], 'HTMLElement')
+  );
+}
+
 /** @param {import('./declarations.mjs').Widget} widget */
 function elementTypes({ tag, machine, attributes, properties, state }) {
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
   const widget = { name: 'widget', type: `'${tag}'`, description: '' };
   // What every figure has is there already.
-  const own = attributes.filter(({ name }) => !['theme', 'share'].includes(name));
+  const own = attributes.filter(({ name }) => !COMMON.includes(name));
   return (
     `${asInterface(`${machine}State`, [widget, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
@@ -70,7 +91,7 @@ function elementTypes({ tag, machine, attributes, properties, state }) {
 /** @param {import('./declarations.mjs').Widget[]} all */
 function imported(all) {
   const types = all.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
-  const names = new Set(['FigureElement', 'FigureState', ...all.map(({ machine }) => machine), ...types]);
+  const names = new Set(['FigureState', ...all.map(({ machine }) => machine), ...types]);
   const ours = [...names].filter((name) => !(name in globalThis));
   return `import type { ${ours.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }

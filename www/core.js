@@ -71,8 +71,7 @@ async function compile() {
   const source = wanted ?? carried();
   try {
     if (source instanceof WebAssembly.Module) return source;
-    if (source instanceof ArrayBuffer) return await WebAssembly.compile(source);
-    if (ArrayBuffer.isView(source)) return await WebAssembly.compile(/** @type {BufferSource} */ (source));
+    if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return await WebAssembly.compile(source);
     if (source instanceof URL || typeof source === 'string') {
       const file = fileAt(source);
       return file ? await WebAssembly.compile(await file) : await streamed(source);
@@ -104,7 +103,6 @@ function forbidden() {
  * else than application/wasm.
  *
  * @param {URL | string} source
- * @returns {Promise<WebAssembly.Module>}
  */
 async function streamed(source) {
   const response = await fetch(source).catch((error) => {

@@ -15,7 +15,6 @@ const GLOBAL = ['dir', 'lang'];
  * The widget that a query describes.
  *
  * @param {URLSearchParams} query
- * @returns {HTMLElement}
  * @throws {Error} with a sentence that names the parameter and what is allowed
  */
 function widgetOf(query) {

@@ -1,7 +1,7 @@
 /** All types. Those of settings, machines and elements follow from what is declared: scripts/types.mjs writes them. */
 
 import type { BananaMachinePreset, BananaMachineSettings, MapSqueezeSettings, Start } from '../build/machines.d.ts';
-import type { BananaMachineElement, BananaMachineState, MapSqueezeState } from '../build/elements.d.ts';
+import type { BananaMachineElement, BananaMachineState, FigureElement, MapSqueezeState } from '../build/elements.d.ts';
 
 export type * from '../build/machines.d.ts';
 export type * from '../build/elements.d.ts';
@@ -19,32 +19,6 @@ export interface FigureState {
   /** The tag of the element. */
   widget: string;
   version: 1;
-}
-
-/** What every element has; `Stats` are those of its machine. */
-export interface FigureElement<State extends FigureState, Stats> extends HTMLElement {
-  theme: 'auto' | 'light' | 'dark';
-  /** Whether the fragment of the page's address carries the state. */
-  share: boolean;
-  /** Null before there are any. */
-  readonly stats: Stats | null;
-  /** Plain data; null before the figure has come near the reader for the first time. */
-  getState(): State | null;
-  /**
-   * Puts the element into a state; what is left out stays as it is. Throws a TypeError or RangeError that
-   * names the field, the value and what is allowed, and changes nothing then.
-   */
-  setState(state: Partial<State> & FigureState): void;
-  /** The picture with twice the pixels of the screen, image/png. As the next two, throws before `load`. */
-  toPNG(): Promise<Blob>;
-  /** The picture as vector graphics, with a title and a description. */
-  toSVG(): string;
-  /** Every sample shown, after a line with the settings and the seed. */
-  toCSV(): string;
-  /** This page's address with the present state; rejects where `share` is not set. */
-  shareLink(): Promise<string>;
-  /** HTML for another page. What no attribute says, a map of one's own among it, is not in it. */
-  embedCode(): string;
 }
 
 /**

@@ -36,8 +36,7 @@ import { THEMES } from './page/scheme.js';
  *
  * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} Table by name, with types in TypeScript
  *
- * @typedef {object} Documentation of what follows from no declaration
- * @property {Record<string, string>} [attributes] sentences
+ * @typedef {object} Documentation of what neither a declaration nor the comments of a class say
  * @property {Table} [properties] that have no attribute
  * @property {Table} [state] what is otherwise in states
  */
@@ -69,14 +68,6 @@ export const COMMON = {
   share: {},
 };
 
-/** @type {Documentation} */
-export const documentation = {
-  attributes: {
-    theme: 'Colours for a light page or a dark one; auto is as the surroundings are.',
-    share: 'Keeps the state in the fragment of the page’s address, and opens in the state that it carries.',
-  },
-};
-
 /**
  * @param {Setting | Own} entry
  * @returns {entry is Setting}
@@ -94,7 +85,6 @@ export const groupsOf = (declared) => settingsIn(declared, ({ type }) => !(type 
 /**
  * @param {Declaration[]} declared
  * @param {(setting: Declaration) => boolean} are
- * @returns {Record<string, Attribute & Setting>}
  */
 function settingsIn(declared, are) {
   return Object.fromEntries(declared.filter(are).map((setting) => [setting.key, settingOf(setting)]));

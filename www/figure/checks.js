@@ -22,7 +22,6 @@ function described(value) {
  * @param {string} field
  * @param {unknown} value
  * @param {readonly string[]} keys that it may have
- * @returns {Record<string, unknown>}
  */
 export function object(field, value, keys) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
@@ -40,7 +39,6 @@ export function object(field, value, keys) {
  * @param {string} field
  * @param {unknown} value
  * @param {readonly Word[]} allowed
- * @returns {Word}
  */
 export function word(field, value, allowed) {
   const found = allowed.find((each) => each === value);
@@ -52,7 +50,6 @@ export function word(field, value, allowed) {
 /**
  * @param {string} field
  * @param {unknown} value
- * @returns {boolean}
  */
 export function truth(field, value) {
   if (typeof value === 'boolean') return value;
@@ -64,7 +61,6 @@ export function truth(field, value) {
  * @param {unknown} value
  * @param {number} least
  * @param {number} most
- * @returns {number}
  */
 export function wholeNumber(field, value, least, most) {
   const allowed = `a whole number from ${least} to ${most}`;

@@ -5,10 +5,12 @@ import { words } from '../messages/registry.js';
 import { button } from '../ui/controls.js';
 import { counted } from '../ui/format.js';
 import { truth, wholeNumber } from './checks.js';
+import { Part } from './part.js';
 import { LONGEST_WORK } from './settings.js';
 import { isCalm } from './stage.js';
 
 /**
+ * @import { Figure } from './figure.js'
  * @import { Values } from './state.js'
  *
  * @typedef {object} Growing a machine with a cloud
@@ -19,16 +21,13 @@ import { isCalm } from './stage.js';
  * @property {() => void} restart
  *
  * @typedef {{ play: string, step: (batch: string) => string, reset: string, reseed: string }} CloudWords
- *
- * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
 /** Steps that a cloud grows in. */
 const BATCHES = 150;
 
-export class Cloud {
+export class Cloud extends Part {
   playing = false;
-  #host;
   #gaveUp;
 
   /**
@@ -36,13 +35,13 @@ export class Cloud {
    * @param {(machine: any) => boolean} [gaveUp] whether the machine has stopped short of its samples for good
    */
   constructor(host, gaveUp = () => false) {
-    this.#host = host;
+    super(host);
     this.#gaveUp = gaveUp;
   }
 
   /** @returns {Growing} */
   get #machine() {
-    return /** @type {Growing} */ (this.#host.machine);
+    return /** @type {Growing} */ (this.host.machine);
   }
 
   /** Whether it will not grow any more. */
@@ -103,14 +102,14 @@ export class Cloud {
 
   /** The sample that is marked; −1 for none. @returns {number} */
   get index() {
-    return this.#host.state.own.marked ?? -1;
+    return this.host.state.own.marked ?? -1;
   }
 
   /** @param {number} index −1 for none */
   mark(index) {
     if (index === this.index) return;
-    this.#host.state.own.marked = index < 0 ? null : index;
-    this.#host.stage.wake();
+    this.host.state.own.marked = index < 0 ? null : index;
+    this.host.stage.wake();
   }
 
   /**
@@ -120,8 +119,8 @@ export class Cloud {
    * @param {PointerEvent} event
    */
   point(picture, event) {
-    this.#host.runtime.attempt(() => {
-      const { machine, held } = this.#host;
+    this.host.runtime.attempt(() => {
+      const { machine, held } = this.host;
       // A finger that moves scrolls the page; one that taps comes as a click.
       if (!machine || held || (event.pointerType === 'touch' && event.type !== 'click')) return;
       const index = picture.nearest(machine, event.offsetX, event.offsetY);
@@ -141,50 +140,47 @@ export class Cloud {
       const machine = this.#machine;
       if (machine.beginToGrow) machine.beginToGrow(this.#batch);
       else machine.grow(this.#batch);
-      this.#host.settings.work();
-      if (!this.#host.settings.settle(LONGEST_WORK)) return false;
+      this.host.settings.work();
+      if (!this.host.settings.settle(LONGEST_WORK)) return false;
     }
-    this.#host.settings.stale = true;
+    this.host.settings.stale = true;
     if (this.complete) {
       this.playing = false;
-      this.#host.announcer.expect();
+      this.host.announcer.expect();
     }
     return true;
   }
 
   play() {
-    this.#turn(() => {
+    this.#turn(!this.playing, () => {
       if (!this.playing && this.complete) this.#machine.restart();
-      this.playing = !this.playing;
     });
   }
 
   step() {
-    this.#turn(() => {
-      this.playing = false;
-      this.#machine.grow(this.#batch);
-    });
+    this.#turn(false, () => this.#machine.grow(this.#batch));
   }
 
   reset() {
-    this.#turn(() => {
-      this.playing = false;
-      this.#machine.restart();
-    });
+    this.#turn(false, () => this.#machine.restart());
   }
 
   reseed() {
-    this.#host.settings.want(() => ({ seed: this.#host.motion.randomSeed() }));
-    this.#host.commit();
+    this.host.settings.want(() => ({ seed: this.host.motion.randomSeed() }));
+    this.host.commit();
   }
 
-  /** @param {() => void} act the reader's, on the growth of the cloud */
-  #turn(act) {
-    this.#host.runtime.attempt(() => {
-      if (!this.#host.machine) return;
+  /**
+   * @param {boolean} playing from now on
+   * @param {() => void} act the reader's, on the growth of the cloud
+   */
+  #turn(playing, act) {
+    this.host.runtime.attempt(() => {
+      if (!this.host.machine) return;
       act();
-      this.#host.gesture.step();
-      this.#host.commit();
+      this.playing = playing;
+      this.host.gesture.step();
+      this.host.commit();
     });
   }
 

@@ -7,6 +7,9 @@ import { counted, fixed } from '../ui/format.js';
 import { exportMenu } from './takeaway/export.js';
 
 /**
+ * @import { Setting } from './attributes.js'
+ * @import { Figure } from './figure.js'
+ *
  * @typedef {object} Look what the eye needs of a setting that is a number
  * @property {string} symbol as in the book, in the marks of messages
  * @property {'prior' | 'prediction' | 'truth'} role
@@ -16,7 +19,6 @@ import { exportMenu } from './takeaway/export.js';
  * @property {number} decimals
  * @property {(config: any) => number} [value] where several may be shown as one
  *
- * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  * @typedef {Partial<Parameters<typeof sliderRow>[0]>} Row
  */
 
@@ -26,12 +28,12 @@ import { exportMenu } from './takeaway/export.js';
  * @param {Row} [otherwise] what is not as in every row
  */
 export function slider(figure, key, otherwise) {
-  const { looks, declared, attributes } = classOf(figure);
+  const { looks, declared, attributes } = figure.kind;
   const { symbol, decimals, value, ...look } = looks[key];
   const { name, effect } = wordsFor(figure, key);
   const { unit } = declared.find((setting) => setting.key === key) ?? {};
   const { config } = figure.reading;
-  const setting = /** @type {import('./attributes.js').Setting} */ (attributes[key]);
+  const setting = /** @type {Setting} */ (attributes[key]);
   return sliderRow({
     ...look,
     id: key,
@@ -135,18 +137,13 @@ export function cloudControls(figure, counts) {
  * @param {unknown} value
  */
 function want(figure, key, value) {
-  const setting = /** @type {import('./attributes.js').Setting} */ (classOf(figure).attributes[key]);
+  const setting = /** @type {Setting} */ (figure.kind.attributes[key]);
   figure.settings.want((wanted) => setting.change(value, { config: wanted, machine: figure.machine }));
 }
 
 /** @param {Figure} figure */
-function classOf(figure) {
-  return /** @type {typeof import('./figure.js').FigureElement} */ (figure.constructor);
-}
-
-/** @param {Figure} figure */
 function wordsOf(figure) {
-  return /** @type {any} */ (words)[classOf(figure).vocabulary];
+  return /** @type {any} */ (words)[figure.kind.vocabulary];
 }
 
 /**

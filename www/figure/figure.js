@@ -21,8 +21,10 @@ import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
 
 /**
- * @import { Motion } from '../types.d.ts'
+ * @import { FigureState, Motion } from '../types.d.ts'
  * @import { Values } from './state.js'
+ *
+ * @typedef {FigureElement<any, any>} Figure of whatever widget
  */
 
 addEnglish(en);
@@ -34,6 +36,9 @@ addEnglish(en);
  * Attributes and properties say what the figure shows, whoever has changed it. What is out of range is
  * refused with a TypeError or RangeError that names the field, the value and what is allowed: a property
  * throws it, an attribute reports it by `error`, and the last good value stays.
+ *
+ * @attr theme - Colours for a light page or a dark one; auto is as the surroundings are.
+ * @attr share - Keeps the state in the fragment of the page’s address, and opens in the state that it carries.
  *
  * @fires load - The figure is ready.
  * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run;
@@ -88,11 +93,11 @@ export class FigureElement extends LitElement {
   stage = new Stage(this);
   gesture = new Gesture((name) => this.#done(name));
   settings = new Settings(this);
-  state = new State(this, this.#class.own);
-  reflection = new Reflection(this, this.#class.attributes, this.#class.basis);
+  state = new State(this, this.kind.own);
+  reflection = new Reflection(this, this.kind.attributes, this.kind.basis);
   link = new Link(this);
   announcer = new Announcer();
-  copies = new CopyMenu(this, () => this.requestUpdate());
+  copies = new CopyMenu(this);
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
   cloud;
   /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */
@@ -100,7 +105,8 @@ export class FigureElement extends LitElement {
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
 
-  get #class() {
+  /** The class of the widget, with what it says of all of its kind. */
+  get kind() {
     return /** @type {typeof FigureElement} */ (this.constructor);
   }
 
@@ -172,7 +178,7 @@ export class FigureElement extends LitElement {
 
   /** Those of some values that are declared settings of the machine. @param {Values} values */
   settingsOf(values) {
-    const keys = this.#class.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
+    const keys = this.kind.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
@@ -203,7 +209,7 @@ export class FigureElement extends LitElement {
     this.state.restore();
     this.reflection.catchUp();
     this.link.catchUp();
-    if (this.machine) this.state.introduceOnce();
+    if (this.machine && !this.state.introduced) this.introduce(this.state.kept);
   }
 
   /** @param {Values} [state] that the machine is in, if it is not the opening */
@@ -328,21 +334,21 @@ export class FigureElement extends LitElement {
   }
 
   /**
-   * Puts the element into a state. What is left out stays as it is.
+   * Puts the element into a state; what is left out stays as it is. Throws a TypeError or RangeError that names the
+   * field, the value and what is allowed, and changes nothing then.
    *
    * @public
-   * @param {unknown} state
-   * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then
+   * @param {Partial<Values> & FigureState} state
    */
   setState(state) {
     this.reflection.whenReady('state', state, () => this.state.enter(state));
   }
 
   /**
-   * The picture with twice the pixels of the screen.
+   * The picture with twice the pixels of the screen, image/png. As the next two, throws before `load`.
    *
    * @public
-   * @returns {Promise<Blob>} image/png
+   * @returns {Promise<Blob>}
    */
   async toPNG() {
     return pngOf(this);
@@ -369,11 +375,10 @@ export class FigureElement extends LitElement {
   }
 
   /**
-   * The address of this page with the present state.
+   * The address of this page with the present state; rejects where `share` is not set.
    *
    * @public
    * @returns {Promise<string>}
-   * @throws {Error} if the element does not heed the address
    */
   async shareLink() {
     if (!this.share) throw new Error('shareLink: the element lacks the attribute share, and would not heed the link.');

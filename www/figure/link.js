@@ -4,25 +4,17 @@
  */
 
 import { pack, unpack } from './packing.js';
+import { Part } from './part.js';
 
-/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
-
-export class Link {
-  #host;
+export class Link extends Part {
   /** A state from the address that waits for the machine. @type {unknown} */
   #waiting;
   /** The latest text for the address: an earlier one that is ready later is void. */
   #writing = 0;
 
-  /** @param {Figure} host */
-  constructor(host) {
-    this.#host = host;
-    host.addController(this);
-  }
-
   hostConnected() {
     addEventListener('hashchange', this.follow);
-    if (this.#host.share) goToAnchor();
+    if (this.host.share) goToAnchor();
   }
 
   hostDisconnected() {
@@ -31,7 +23,7 @@ export class Link {
 
   /** Looks for a state to open in: the first time only, as the address says where the figure began. */
   async prepare() {
-    if (this.#host.share && !this.#host.state.kept) this.#waiting = await this.#look();
+    if (this.host.share && !this.host.state.kept) this.#waiting = await this.#look();
   }
 
   /** Enters the state that waited for the machine. */
@@ -43,38 +35,47 @@ export class Link {
 
   /** The page's address may carry another state. */
   follow = async () => {
-    if (this.#host.share && this.#host.machine) this.#enter(await this.#look());
+    if (this.host.share && this.host.machine) this.#enter(await this.#look());
   };
 
   /** @param {unknown} state as the address has it; undefined for none */
   #enter(state) {
-    if (state !== undefined) this.#host.runtime.tolerate(() => this.#host.setState(state));
+    if (state !== undefined) this.host.runtime.tolerate(() => this.host.setState(/** @type {any} */ (state)));
   }
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
   async #look() {
-    const text = fragmentOf(keyOf(this.#host));
+    const key = `${keyOf(this.host)}=`;
+    const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
     if (text === undefined) return undefined;
     try {
       return await unpack(text);
     } catch (error) {
-      this.#host.runtime.report(error);
+      this.host.runtime.report(error);
     }
   }
 
+  /** Puts the state into the page's address. The page does not move, and going back does not lead through it. */
   async write() {
     const writing = ++this.#writing;
     const text = await this.#pack();
-    if (writing === this.#writing && this.#host.isConnected) writeFragment(keyOf(this.#host), text);
+    if (writing !== this.#writing || !this.host.isConnected) return;
+    const address = addressWith(keyOf(this.host), text);
+    if (address === location.href) return;
+    try {
+      history.replaceState(history.state, '', address);
+    } catch {
+      // A page that was put together by a script has no address to write.
+    }
   }
 
   /** @returns {Promise<string>} the address of this page with the present state */
   async address() {
-    return addressWith(keyOf(this.#host), await this.#pack());
+    return addressWith(keyOf(this.host), await this.#pack());
   }
 
   #pack() {
-    return pack(this.#host.getState() ?? {});
+    return pack(this.host.getState() ?? {});
   }
 }
 
@@ -92,14 +93,6 @@ function keyOf(element) {
 
 /**
  * @param {string} key
- * @returns {string | undefined} what the fragment has for it
- */
-function fragmentOf(key) {
-  return parts().find((part) => part.startsWith(`${key}=`))?.slice(key.length + 1);
-}
-
-/**
- * @param {string} key
  * @param {string} text
  * @returns {string} the page's address with it
  */
@@ -110,22 +103,6 @@ function addressWith(key, text) {
   const next = at < 0 ? [...all, part] : all.with(at, part);
   // In full: a base element of the page does not matter then.
   return `${location.href.replace(/#.*$/s, '')}#${next.join('&')}`;
-}
-
-/**
- * Puts a text into the page's address. The page does not move, and going back does not lead through it.
- *
- * @param {string} key
- * @param {string} text
- */
-function writeFragment(key, text) {
-  const address = addressWith(key, text);
-  if (address === location.href) return;
-  try {
-    history.replaceState(history.state, '', address);
-  } catch {
-    // A page that was put together by a script has no address to write.
-  }
 }
 
 function parts() {

@@ -52,7 +52,6 @@ export function toBase64(bytes) {
 
 /**
  * @param {string} text
- * @returns {Uint8Array<ArrayBuffer>}
  * @throws {DOMException} if it is not base64
  */
 export function fromBase64(text) {

@@ -2,17 +2,16 @@
 
 import { groupsOf, isSetting, renamed } from './attributes.js';
 import { cloudProperties } from './cloud.js';
+import { Part } from './part.js';
 
 /**
  * @import { Attributes, Present, Setting } from './attributes.js'
+ * @import { Figure } from './figure.js'
  *
  * @typedef {Map<string, string | null>} Texts of attributes; null for none
- *
- * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
-export class Reflection {
-  #host;
+export class Reflection extends Part {
   #attributes;
   /** The settings whose values decide what others open with. */
   #basis;
@@ -33,15 +32,14 @@ export class Reflection {
    * @param {string[]} basis
    */
   constructor(host, attributes, basis) {
-    this.#host = host;
+    super(host);
     this.#attributes = attributes;
     this.#basis = basis;
-    host.addController(this);
   }
 
   /** Takes up the properties that were set before the element was one. */
   hostConnected() {
-    const host = /** @type {Record<string, unknown>} */ (/** @type {unknown} */ (this.#host));
+    const host = /** @type {Record<string, unknown>} */ (/** @type {unknown} */ (this.host));
     for (const name of Object.keys(host)) {
       for (let at = Object.getPrototypeOf(host); at !== HTMLElement.prototype; at = Object.getPrototypeOf(at)) {
         if (!Object.getOwnPropertyDescriptor(at, name)?.set) continue;
@@ -61,7 +59,7 @@ export class Reflection {
       if (text !== undefined) this.#take(name, text);
     }
     this.#early.clear();
-    for (const { take } of this.#wishes.splice(0)) this.#host.runtime.tolerate(take);
+    for (const { take } of this.#wishes.splice(0)) this.host.runtime.tolerate(take);
   }
 
   /**
@@ -72,7 +70,7 @@ export class Reflection {
    * @param {() => void} take
    */
   whenReady(property, value, take) {
-    if (this.#host.machine) this.#host.runtime.attempt(take);
+    if (this.host.machine) this.host.runtime.attempt(take);
     else this.#wishes.push({ property, value, take });
   }
 
@@ -93,7 +91,7 @@ export class Reflection {
    */
   hear(name, text) {
     if (this.#writing || !(name in this.#attributes)) return;
-    if (this.#host.machine) this.#take(name, text);
+    if (this.host.machine) this.#take(name, text);
     else this.#early.set(name, text);
   }
 
@@ -102,13 +100,13 @@ export class Reflection {
    * @param {string | null} text
    */
   #take(name, text) {
-    const { machine } = this.#host;
+    const { machine } = this.host;
     if (!machine) return;
     const entry = this.#attributes[name];
     const given = text === null ? undefined : entry.kind.parse(text);
     this.#hearing = name;
-    this.#host.runtime.tolerate(() => {
-      if (!isSetting(entry)) Reflect.set(this.#host, name, text === null ? this.#usual(name) : given);
+    this.host.runtime.tolerate(() => {
+      if (!isSetting(entry)) Reflect.set(this.host, name, text === null ? this.#usual(name) : given);
       else this.assign(name, entry, text === null ? this.#opening((opening) => entry.get(opening)) : given);
     });
     this.#hearing = undefined;
@@ -124,7 +122,7 @@ export class Reflection {
    */
   assign(name, setting, value) {
     try {
-      this.#host.settings.assign(setting.change(value, this.#present));
+      this.host.settings.assign(setting.change(value, this.#present));
     } catch (error) {
       throw renamed(error, name, setting);
     }
@@ -132,13 +130,13 @@ export class Reflection {
 
   /** @returns {Present} */
   get #present() {
-    return { config: this.#host.settings.wanted, machine: this.#host.machine };
+    return { config: this.host.settings.wanted, machine: this.host.machine };
   }
 
   /** What something of the element's own is when the widget opens. @param {string} name */
   #usual(name) {
     const entry = this.#attributes[name];
-    return isSetting(entry) ? undefined : (entry.opening ?? this.#host.state.opening(name));
+    return isSetting(entry) ? undefined : (entry.opening ?? this.host.state.opening(name));
   }
 
   /**
@@ -148,8 +146,8 @@ export class Reflection {
    * @param {(opening: Present) => Answer} question
    */
   #opening(question) {
-    const { wanted } = this.#host.settings;
-    const machine = this.#host.createMachine(this.#host.motion);
+    const { wanted } = this.host.settings;
+    const machine = this.host.createMachine(this.host.motion);
     try {
       machine.configure(Object.fromEntries(this.#basis.map((key) => [key, wanted[key]])));
       return question({ config: machine.config, machine });
@@ -163,7 +161,6 @@ export class Reflection {
    *
    * @param {Present} present
    * @param {(name: string) => unknown} own what the element itself has by that name
-   * @returns {Texts}
    */
   #texts(present, own) {
     return new Map(
@@ -175,13 +172,13 @@ export class Reflection {
   }
 
   get #now() {
-    return this.#texts(this.#present, (name) => Reflect.get(this.#host, name));
+    return this.#texts(this.#present, (name) => Reflect.get(this.host, name));
   }
 
   /** Lets the attributes say what has changed. The first time nothing has: so the element opens. */
   tell() {
-    this.#host.runtime.attempt(() => {
-      if (this.#host.machine) this.#tell(this.#now);
+    this.host.runtime.attempt(() => {
+      if (this.host.machine) this.#tell(this.#now);
     });
   }
 
@@ -199,8 +196,8 @@ export class Reflection {
     this.#writing = true;
     for (const name of changed) {
       const text = texts.get(name) ?? null;
-      if (text === null) this.#host.removeAttribute(name);
-      else this.#host.setAttribute(name, text);
+      if (text === null) this.host.removeAttribute(name);
+      else this.host.setAttribute(name, text);
     }
     this.#writing = false;
   }
@@ -224,25 +221,15 @@ export class Reflection {
 }
 
 /**
- * Gives a widget's class the properties of its settings and defines it, unless the page has it already: it
- * may carry the script twice.
+ * Gives a widget's class the properties of its settings, and of what is the element's own and has an attribute, and
+ * defines it, unless the page has it already: it may carry the script twice.
  *
- * @param {string} name
+ * @param {string} tag
  * @param {typeof import('./figure.js').FigureElement<any, any>} Widget
  */
-export function define(name, Widget) {
-  if (customElements.get(name)) return;
-  defineProperties(Widget);
-  if ('marked' in Widget.own) Object.defineProperties(Widget.prototype, cloudProperties);
-  customElements.define(name, Widget);
-}
-
-/**
- * Gives a class the properties of its settings, and of what is the element's own and has an attribute.
- *
- * @param {{ prototype: any, attributes: Attributes, declared: import('../settings.js').Declaration[], own: object }} Widget
- */
-function defineProperties({ prototype, attributes, declared, own }) {
+export function define(tag, Widget) {
+  if (customElements.get(tag)) return;
+  const { prototype, attributes, declared, own } = Widget;
   const property = (/** @type {string} */ name, /** @type {PropertyDescriptor & ThisType<any>} */ accessors) =>
     Object.defineProperty(prototype, name, { configurable: true, enumerable: true, ...accessors });
   for (const [name, entry] of Object.entries({ ...attributes, ...groupsOf(declared) })) {
@@ -269,4 +256,6 @@ function defineProperties({ prototype, attributes, declared, own }) {
       });
     }
   }
+  if ('marked' in own) Object.defineProperties(prototype, cloudProperties);
+  customElements.define(tag, Widget);
 }

@@ -5,13 +5,12 @@
 
 import { abandon, instantiate } from '../core.js';
 import { unwatch, watch } from './page/sight.js';
-
-/** @typedef {import('./figure.js').FigureElement<any, any>} Figure */
+import { Part } from './part.js';
 
 /** Cores that may trap one after the other, without a picture between, until the figure gives up. */
 const MAX_CRASHES = 3;
 
-export class Runtime {
+export class Runtime extends Part {
   /** The core, once it runs. @type {import('../types.d.ts').Motion | undefined} */
   motion;
   /** The simulation, which owns all of its state. @type {any} */
@@ -20,34 +19,27 @@ export class Runtime {
   failure;
   /** Whether what is shown is that of a machine which is being made again. */
   mending = false;
-  #host;
   #near = false;
   #starting = false;
   #crashes = 0;
 
-  /** @param {Figure} host */
-  constructor(host) {
-    this.#host = host;
-    host.addController(this);
-  }
-
   hostConnected() {
-    watch(this.#host, {
+    watch(this.host, {
       approach: () => {
         this.#near = true;
         this.#start();
       },
-      sight: (inSight) => this.#host.stage.sight(inSight),
+      sight: (inSight) => this.host.stage.sight(inSight),
     });
   }
 
   hostDisconnected() {
     // An element that is being moved is back in the document by the time the microtasks run.
     queueMicrotask(() => {
-      if (this.#host.isConnected) return;
-      unwatch(this.#host);
+      if (this.host.isConnected) return;
+      unwatch(this.host);
       this.#near = false;
-      this.#host.stage.sight(false);
+      this.host.stage.sight(false);
       this.#stop();
     });
   }
@@ -74,20 +66,14 @@ export class Runtime {
     }
   }
 
-  /**
-   * As `attempt`, where nobody would hear of an error: it ends in the sentence.
-   *
-   * @template Result
-   * @param {() => Result} work
-   * @returns {Result | undefined} undefined where it failed
-   */
-  attemptOrFail(work) {
+  /** As `attempt`, where nobody would hear of an error: it ends in the sentence. @type {Runtime['attempt']} */
+  attemptOrFail = (work) => {
     try {
-      return work();
+      return this.attempt(work);
     } catch (error) {
-      if (!this.#mend(error)) this.fail(error);
+      this.fail(error);
     }
-  }
+  };
 
   /** @param {() => void} work what may refuse: an error is reported, and all is as it was */
   tolerate(work) {
@@ -107,7 +93,7 @@ export class Runtime {
   /** Tells the page of what went wrong. @param {unknown} error */
   report(error) {
     const message = messageOf(error);
-    this.#host.dispatchEvent(new ErrorEvent('error', { error, message, bubbles: true, composed: true }));
+    this.host.dispatchEvent(new ErrorEvent('error', { error, message, bubbles: true, composed: true }));
   }
 
   /** Shows a sentence in the figure's place and tells the page. @param {unknown} error */
@@ -130,7 +116,7 @@ export class Runtime {
     this.#abandon();
     this.mending = true;
     this.report(error);
-    this.#host.stage.rest();
+    this.host.stage.rest();
     this.#start();
     return true;
   }
@@ -144,11 +130,11 @@ export class Runtime {
     if (this.#starting || this.machine || !this.#near) return;
     this.#starting = true;
     try {
-      const [motion] = await Promise.all([instantiate(), this.#host.link.prepare()]);
+      const [motion] = await Promise.all([instantiate(), this.host.link.prepare()]);
       if (!this.#near) return;
-      const machine = this.#host.createMachine(motion, this.#host.state.kept);
+      const machine = this.host.createMachine(motion, this.host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });
-      this.#host.machineMade();
+      this.host.machineMade();
       // It may have trapped at once.
       if (this.machine) await this.#show();
     } catch (error) {
@@ -163,26 +149,26 @@ export class Runtime {
   async #show() {
     const mended = this.mending;
     this.mending = false;
-    this.#host.requestUpdate();
-    await this.#host.updateComplete;
+    this.host.requestUpdate();
+    await this.host.updateComplete;
     // What was rendered may have trapped or failed, and the element may have gone.
     if (!this.machine) return;
-    if (mended) this.#host.stage.wake();
-    else this.#host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
+    if (mended) this.host.stage.wake();
+    else this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
   #stop() {
     this.mending = false;
-    this.#host.stage.clear();
+    this.host.stage.clear();
     if (this.machine) {
       this.attempt(() => {
-        this.#host.settings.settle();
-        this.#host.state.keep();
+        this.host.settings.settle();
+        this.host.state.keep();
       });
       this.machine?.free();
     }
     this.machine = this.motion = undefined;
-    this.#host.requestUpdate();
+    this.host.requestUpdate();
   }
 }
 
@@ -192,7 +178,6 @@ export class Runtime {
  * @template {{ free(): void }} Machine
  * @param {Machine} machine
  * @param {(machine: Machine) => void} work
- * @returns {Machine}
  */
 export function orFree(machine, work) {
   try {

@@ -3,10 +3,9 @@
  * the next frame, what the page does at once.
  */
 
-/**
- * @typedef {import('./figure.js').FigureElement<any, any>} Figure
- * @typedef {Record<string, any>} Values settings by name
- */
+import { Part } from './part.js';
+
+/** @typedef {Record<string, any>} Values settings by name */
 
 /** Longest work in a frame, milliseconds: with the pictures, a touch is answered within 50. */
 export const LONGEST_WORK = 25;
@@ -14,20 +13,14 @@ export const LONGEST_WORK = 25;
 /** Samples between two looks at the clock: a millisecond's work, ten on a slow phone. */
 const SLICE = 50_000;
 
-export class Settings {
+export class Settings extends Part {
   /** Whether what is shown is no longer what the machine would say. */
   stale = true;
-  #host;
   /** The reader's changes that wait for the next frame. @type {Values} */
   #pending = {};
   /** Whether the machine is in the middle of what it has begun. */
   #working = false;
   #showing = false;
-
-  /** @param {Figure} host */
-  constructor(host) {
-    this.#host = host;
-  }
 
   /** Another machine is there: nothing waits for it. */
   reset() {
@@ -38,7 +31,7 @@ export class Settings {
 
   /** Those in effect with the changes that wait. @returns {Values} */
   get wanted() {
-    return { ...this.#host.machine?.config, ...this.#pending };
+    return { ...this.host.machine?.config, ...this.#pending };
   }
 
   /**
@@ -47,11 +40,11 @@ export class Settings {
    * @param {Values | ((wanted: Values) => Values)} change
    */
   want(change) {
-    this.#host.runtime.attempt(() => {
-      if (!this.#host.machine) return;
+    this.host.runtime.attempt(() => {
+      if (!this.host.machine) return;
       Object.assign(this.#pending, typeof change === 'function' ? change(this.wanted) : change);
-      this.#host.gesture.step();
-      this.#host.stage.wake();
+      this.host.gesture.step();
+      this.host.stage.wake();
     });
   }
 
@@ -62,11 +55,11 @@ export class Settings {
    * @throws {TypeError | RangeError} and nothing is changed
    */
   assign(values) {
-    this.#host.runtime.attempt(() => {
+    this.host.runtime.attempt(() => {
       this.settle();
-      this.#host.machine?.configure(values);
+      this.host.machine?.configure(values);
       this.stale = true;
-      this.#host.reflection.tell();
+      this.host.reflection.tell();
       this.show();
     });
   }
@@ -82,14 +75,14 @@ export class Settings {
     if (!this.#working && Object.keys(this.#pending).length > 0) {
       const pending = this.#pending;
       this.#pending = {};
-      this.#host.runtime.tolerate(() => this.#begin(pending));
+      this.host.runtime.tolerate(() => this.#begin(pending));
     }
     return this.#proceed(limit);
   }
 
   /** @param {Values} values */
   #begin(values) {
-    const { machine } = this.#host;
+    const { machine } = this.host;
     if (!machine) return;
     if (machine.begin) {
       machine.begin(values);
@@ -98,7 +91,7 @@ export class Settings {
       machine.configure(values);
     }
     this.stale = true;
-    this.#host.reflection.tell();
+    this.host.reflection.tell();
   }
 
   /** To be called when the machine has begun something that `settle` is to go on with. */
@@ -113,7 +106,7 @@ export class Settings {
   #proceed(limit) {
     if (!this.#working) return true;
     const end = performance.now() + limit;
-    while (this.#host.machine?.advance?.(SLICE) === false) {
+    while (this.host.machine?.advance?.(SLICE) === false) {
       if (performance.now() > end) return false;
     }
     this.#working = false;
@@ -123,13 +116,13 @@ export class Settings {
 
   /** Shows what the page changed, also to one who listens while the element is out of sight. */
   show() {
-    const { stage, runtime } = this.#host;
+    const { stage, runtime } = this.host;
     stage.wake();
     if (stage.inSight || this.#showing) return;
     this.#showing = true;
     queueMicrotask(() => {
       this.#showing = false;
-      if (this.stale && !stage.inSight) runtime.attempt(() => this.#host.refresh());
+      if (this.stale && !stage.inSight) runtime.attempt(() => this.host.refresh());
     });
   }
 }

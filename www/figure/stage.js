@@ -8,20 +8,15 @@ import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
 import { onPrint } from './page/print.js';
 import { surroundings } from './page/scheme.js';
+import { Part } from './part.js';
 import { LONGEST_WORK } from './settings.js';
-
-/**
- * @typedef {import('./figure.js').FigureElement<any, any>} Figure
- * @typedef {import('../scene/picture.js').Picture<any>} Picture
- */
 
 /** Whether the reader has asked for less motion. */
 export const isCalm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-export class Stage {
+export class Stage extends Part {
   /** Whether the reader can see it. */
   inSight = false;
-  #host;
   /** @type {import('../ui/theme.js').Palette | undefined} */
   #palette;
   #drawable = false;
@@ -31,33 +26,30 @@ export class Stage {
   #surroundings = '';
   /** @type {ResizeObserver | undefined} */
   #sizes;
-  /** What ends listening for the printer and for other words. @type {(() => void)[]} */
-  #ends = [];
-
-  /** @param {Figure} host */
-  constructor(host) {
-    this.#host = host;
-    host.addController(this);
-  }
+  /** Ends listening for the printer and for other words. */
+  #listening = new AbortController();
 
   hostConnected() {
-    this.#ends = [onPrint((printing) => this.#print(printing)), onLanguage(this.#host, () => this.#speakAgain())];
+    this.#listening = new AbortController();
+    const { signal } = this.#listening;
+    onPrint((printing) => this.#print(printing), signal);
+    onLanguage(this.host, () => this.#speakAgain(), signal);
   }
 
   hostDisconnected() {
-    for (const end of this.#ends) end();
+    this.#listening.abort();
   }
 
   /** The words or the language may be others. */
   #speakAgain() {
-    this.#host.settings.stale = true;
-    this.#host.requestUpdate();
+    this.host.settings.stale = true;
+    this.host.requestUpdate();
     this.wake();
   }
 
   hostUpdated() {
     if (!this.#drawable) this.recolour();
-    if (!this.#host.machine || this.#drawable) return;
+    if (!this.host.machine || this.#drawable) return;
     this.#drawable = true;
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
     for (const canvas of this.#canvases) {
@@ -80,7 +72,7 @@ export class Stage {
   /** Asks for one drawing in the next frame, when there is somebody to see it. */
   wake() {
     this.#due = true;
-    if (this.#host.machine && this.inSight) wake(this);
+    if (this.host.machine && this.inSight) wake(this);
   }
 
   /** Asks for none any more. */
@@ -98,17 +90,17 @@ export class Stage {
 
   /** @param {number} elapsed milliseconds since the frame before */
   frame(elapsed) {
-    if (!this.#host.machine || !this.#drawable || !this.#hasSize) return;
+    if (!this.host.machine || !this.#drawable || !this.#hasSize) return;
     this.#due = false;
-    this.#host.runtime.attemptOrFail(() => {
+    this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
-      this.#host.runtime.prove();
+      this.host.runtime.prove();
     });
   }
 
   /** @param {number} elapsed */
   #draw(elapsed) {
-    const host = this.#host;
+    const host = this.host;
     // A large cloud takes several frames: the former one is shown until then.
     if (!host.settings.settle(LONGEST_WORK) || host.cloud?.grow() === false) {
       this.wake();
@@ -122,13 +114,13 @@ export class Stage {
     if (moving.includes(true) || host.cloud?.playing) this.wake();
   }
 
-  /** @param {Picture} picture */
+  /** @param {import('../scene/picture.js').Picture<any>} picture */
   canvasOf({ name }) {
-    return /** @type {HTMLCanvasElement} */ (this.#host.renderRoot.querySelector(`canvas.${name}`));
+    return /** @type {HTMLCanvasElement} */ (this.host.renderRoot.querySelector(`canvas.${name}`));
   }
 
   get #canvases() {
-    return [...this.#host.renderRoot.querySelectorAll('canvas')];
+    return [...this.host.renderRoot.querySelectorAll('canvas')];
   }
 
   /** Whether there is something to draw on: not inside a closed tab, where everything has size 0. */
@@ -159,7 +151,7 @@ export class Stage {
 
   /** The class of the surface: light, dark, or empty where the page's `color-scheme` decides. */
   get scheme() {
-    return this.#host.theme === 'auto' ? this.#surroundings : this.#host.theme;
+    return this.host.theme === 'auto' ? this.#surroundings : this.host.theme;
   }
 
   /** The page's colours may be others. */
@@ -167,14 +159,14 @@ export class Stage {
     const now = surroundings(this.#probe('.scheme-probe'));
     if (now !== this.#surroundings) {
       this.#surroundings = now;
-      this.#host.requestUpdate();
+      this.host.requestUpdate();
     }
     this.repaint();
   }
 
   /** Takes the colours anew, once what is about to be rendered is there. */
   async repaint() {
-    await this.#host.updateComplete;
+    await this.host.updateComplete;
     this.#palette = undefined;
     this.wake();
   }
@@ -191,6 +183,6 @@ export class Stage {
 
   /** @param {string} selector */
   #probe(selector) {
-    return /** @type {HTMLElement} */ (this.#host.renderRoot.querySelector(selector));
+    return /** @type {HTMLElement} */ (this.host.renderRoot.querySelector(selector));
   }
 }

@@ -1,36 +1,37 @@
 /** The whole state as plain data: given, taken, and kept over a removal and a trap. */
 
 import { object, refusal, word } from './checks.js';
+import { Part } from './part.js';
 import { orFree } from './runtime.js';
 
 /**
+ * @import { Figure } from './figure.js'
+ *
  * @typedef {Record<string, any>} Values plain data; which fields, the widget says
  *
  * @typedef {object} Owned something in the state that is the element's and not its machine's
  * @property {unknown} opening what it is when the widget opens
  * @property {(field: string, value: any, machine: any) => any} check what is taken of a value; throws
- *
- * @typedef {import('./figure.js').FigureElement<any, any>} Figure
  */
 
 /** Version of the states that `getState` gives; `setState` refuses any other. */
 const VERSION = 1;
 
-export class State {
+export class State extends Part {
   /** The last good one. @type {Values | undefined} */
   kept;
   /** What is the element's own, by name. @type {Values} */
   own;
-  #host;
   #owned;
-  #introduced = false;
+  /** Whether the machine was introduced by a state that came before it was shown. */
+  introduced = false;
 
   /**
    * @param {Figure} host
    * @param {Record<string, Owned>} owned
    */
   constructor(host, owned) {
-    this.#host = host;
+    super(host);
     this.#owned = owned;
     this.own = Object.fromEntries(Object.keys(owned).map((name) => [name, this.opening(name)]));
   }
@@ -43,7 +44,7 @@ export class State {
   /** The part that every widget's state has. @returns {Values} */
   get common() {
     const own = Object.keys(this.own).map((name) => [name, this.copy(name)]);
-    return { widget: this.#host.localName, version: VERSION, ...Object.fromEntries(own) };
+    return { widget: this.host.localName, version: VERSION, ...Object.fromEntries(own) };
   }
 
   /** Something of the element's own, for the page: a list is a copy. @param {string} name */
@@ -53,18 +54,13 @@ export class State {
   }
 
   keep() {
-    if (this.#host.machine) this.kept = this.#host.snapshot();
+    if (this.host.machine) this.kept = this.host.snapshot();
   }
 
   /** A machine was made of the last good state: the element takes up its own part of that. */
   restore() {
-    this.#introduced = false;
+    this.introduced = false;
     if (this.kept) this.#adopt(this.kept);
-  }
-
-  /** Introduces the machine, unless a state that came meanwhile has. */
-  introduceOnce() {
-    if (!this.#introduced) this.#host.introduce(this.kept);
   }
 
   /**
@@ -74,7 +70,7 @@ export class State {
    * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then
    */
   enter(state) {
-    const host = this.#host;
+    const host = this.host;
     host.settings.settle();
     const present = host.snapshot();
     const given = object('state', state, Object.keys(present));
@@ -91,7 +87,7 @@ export class State {
     host.runtime.replace(machine);
     host.machineChanged();
     host.settings.reset();
-    this.#introduced = true;
+    this.introduced = true;
     host.introduce(whole);
   }
 
@@ -102,7 +98,7 @@ export class State {
    * @param {unknown} value
    */
   assign(name, value) {
-    this.own[name] = this.#owned[name].check(name, value, this.#host.machine);
+    this.own[name] = this.#owned[name].check(name, value, this.host.machine);
   }
 
   /** @param {Values} state */

@@ -84,7 +84,6 @@ function kind(value) {
 /**
  * @param {any} base
  * @param {any} over
- * @returns {any}
  */
 function merge(base, over) {
   const merged = { ...base };
@@ -145,9 +144,9 @@ function tellAll() {
  *
  * @param {Element} element
  * @param {() => void} listener
- * @returns {() => void} ends it
+ * @param {AbortSignal} signal that ends it
  */
-export function onLanguage(element, listener) {
+export function onLanguage(element, listener, signal) {
   const { listeners } = shared;
   observer ??= new MutationObserver(tellAll);
   const watch = { attributeFilter: ['lang'], subtree: true };
@@ -155,5 +154,5 @@ export function onLanguage(element, listener) {
   const root = element.getRootNode();
   if (root !== document) observer.observe(root, watch);
   listeners.add(listener);
-  return () => listeners.delete(listener);
+  signal.addEventListener('abort', () => listeners.delete(listener));
 }

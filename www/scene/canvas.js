@@ -27,7 +27,6 @@ export const LONGEST_SIDE = 16_384;
  * @param {HTMLCanvasElement | Surface} canvas
  * @param {import('./view.js').View} view
  * @param {import('../ui/theme.js').Palette} palette
- * @returns {Brush}
  */
 export function brushOn(canvas, view, palette) {
   const ratio = canvas.width / Math.max(1, canvas.clientWidth);

@@ -45,7 +45,7 @@ export function drawAxes({ context, view, palette, font }, names) {
   context.textBaseline = 'top';
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
-    line(context, x, top, x, bottom, 0.5);
+    line(context, [x, top, x, bottom], 0.5);
     const text = tick(value, xTicks.step);
     if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
   }
@@ -54,12 +54,12 @@ export function drawAxes({ context, view, palette, font }, names) {
   context.textBaseline = 'middle';
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
-    line(context, left, y, right, y, 0.5);
+    line(context, [left, y, right, y], 0.5);
     context.fillText(tick(value, yTicks.step), left - 6, y);
   }
 
-  line(context, left, bottom + 0.5, right, bottom + 0.5, 1);
-  line(context, left - 0.5, top, left - 0.5, bottom, 1);
+  line(context, [left, bottom + 0.5, right, bottom + 0.5], 1);
+  line(context, [left - 0.5, top, left - 0.5, bottom], 1);
   context.font = `italic ${font}`;
   context.textAlign = 'right';
   context.textBaseline = 'top';
@@ -80,13 +80,10 @@ function ticksOf(from, to, count) {
 
 /**
  * @param {Context} context
- * @param {number} x1
- * @param {number} y1
- * @param {number} x2
- * @param {number} y2
+ * @param {number[]} ends
  * @param {number} alpha
  */
-function line(context, x1, y1, x2, y2, alpha) {
+function line(context, [x1, y1, x2, y2], alpha) {
   context.globalAlpha = alpha;
   context.beginPath();
   context.moveTo(x1, y1);
@@ -120,43 +117,36 @@ export function clipped({ context, view }, paint) {
  */
 export function drawDots(brush, triples, layout) {
   const { context, view, palette, ratio } = brush;
-  const few = triples.length < 3 * 400;
+  const count = triples.length / 3;
+  const few = count < 400;
   // Smaller in a small picture, where as many robots share less room.
   const size = Math.min(1, Math.max(0.7, view.width / 720));
   const radius = size * (few ? 2.4 : 1.8);
+  const x = (/** @type {number} */ i) => view.toPixelX(triples[3 * i + layout.x]);
+  const y = (/** @type {number} */ i) => view.toPixelY(triples[3 * i + layout.y]);
   if (layout.heading !== null) {
     const length = size * (few ? 13 : 9);
     context.strokeStyle = palette.cloud;
     context.lineWidth = 1;
     context.globalAlpha = few ? 0.6 : 0.32;
-    for (let first = 0; first < triples.length; first += 3 * TICKS_A_STROKE) {
-      const last = Math.min(triples.length, first + 3 * TICKS_A_STROKE);
-      context.beginPath();
-      for (let i = first; i < last; i += 3) {
-        const x = view.toPixelX(triples[i + layout.x]);
-        const y = view.toPixelY(triples[i + layout.y]);
-        headingTick(brush, x, y, triples[i + layout.heading], length);
-      }
-      context.stroke();
+    for (let i = 0; i < count; i++) {
+      if (i % TICKS_A_STROKE === 0) context.beginPath();
+      headingTick(brush, x(i), y(i), triples[3 * i + layout.heading], length);
+      if (i % TICKS_A_STROKE === TICKS_A_STROKE - 1 || i === count - 1) context.stroke();
     }
   }
   context.globalAlpha = few ? 0.9 : 0.5;
-  if ('vector' in context) {
-    context.fillStyle = palette.cloud;
-    for (let i = 0; i < triples.length; i += 3) {
+  context.fillStyle = palette.cloud;
+  const dot = 'vector' in context ? undefined : sprite(palette.cloud, radius * ratio);
+  for (let i = 0; i < count; i++) {
+    if (dot) {
+      const side = dot.width / ratio;
+      context.drawImage(dot, x(i) - side / 2, y(i) - side / 2, side, side);
+    } else {
       context.beginPath();
-      context.arc(view.toPixelX(triples[i + layout.x]), view.toPixelY(triples[i + layout.y]), radius, 0, 2 * Math.PI);
+      context.arc(x(i), y(i), radius, 0, 2 * Math.PI);
       context.fill();
     }
-    context.globalAlpha = 1;
-    return;
-  }
-  const dot = sprite(palette.cloud, radius * ratio);
-  const side = dot.width / ratio;
-  for (let i = 0; i < triples.length; i += 3) {
-    const x = view.toPixelX(triples[i + layout.x]) - side / 2;
-    const y = view.toPixelY(triples[i + layout.y]) - side / 2;
-    context.drawImage(dot, x, y, side, side);
   }
   context.globalAlpha = 1;
 }
@@ -179,7 +169,6 @@ function headingTick({ context, view }, x, y, heading, length) {
 /**
  * @param {string} colour
  * @param {number} radius device pixels
- * @returns {OffscreenCanvas}
  */
 function sprite(colour, radius) {
   const half = Math.ceil(radius) + 1;

@@ -40,7 +40,7 @@ export class Handle {
   }
 
   /** @param {Said} said */
-  render({ name, keys, title, range, now, text }) {
+  element({ name, keys, title, range, now, text }) {
     return html`<div
       class="handle ${this.#part}"
       role="slider"

@@ -148,17 +148,15 @@ export class SvgContext {
 
   /**
    * @param {CanvasImageSource & { width: number, height: number }} image
-   * @param {number} x
-   * @param {number} y
-   * @param {number} width
-   * @param {number} height
+   * @param {number[]} place x, y, width and height
    */
-  drawImage(image, x, y, width, height) {
+  drawImage(image, ...place) {
+    const [x, y, width, height] = place.map(short);
     const canvas = document.createElement('canvas');
     canvas.width = image.width;
     canvas.height = image.height;
     /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')).drawImage(image, 0, 0);
-    const box = `x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}"`;
+    const box = `x="${x}" y="${y}" width="${width}" height="${height}"`;
     this.#marks.push(`<image ${box} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacity()}/>`);
   }
 }

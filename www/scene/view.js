@@ -33,10 +33,10 @@ export class View {
   height = 1;
   #inset;
 
-  /** @param {{ equal: boolean, inset: { left: number, right: number, top: number, bottom: number } }} options */
-  constructor({ equal, inset }) {
+  /** @param {{ equal?: boolean, left?: number, right?: number, top?: number, bottom?: number }} options */
+  constructor({ equal = true, left = 42, right = 8, top = 24, bottom = 30 } = {}) {
     this.#equal = equal;
-    this.#inset = inset;
+    this.#inset = { left, right, top, bottom };
   }
 
   /** The part of the canvas inside the axes, CSS pixels. */
@@ -148,10 +148,7 @@ export class View {
     return inside && fill >= LOOSEST_FIT;
   }
 
-  /**
-   * @param {Extent} needed
-   * @returns {Extent}
-   */
+  /** @param {Extent} needed */
   #around(needed) {
     const { left, right, top, bottom } = this.frame;
     let width = (needed.xMax - needed.xMin) * (1 + 2 * MARGIN);
@@ -166,12 +163,7 @@ export class View {
     }
     const x = (needed.xMin + needed.xMax) / 2;
     const y = (needed.yMin + needed.yMax) / 2;
-    return {
-      xMin: x - width / 2,
-      xMax: x + width / 2,
-      yMin: y - height / 2,
-      yMax: y + height / 2,
-    };
+    return extentAround([x - width / 2, y - height / 2, x + width / 2, y + height / 2], 2);
   }
 }
 
@@ -194,7 +186,6 @@ const NOWHERE = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infini
  * @param {ArrayLike<number>} numbers of which the first two of each `stride` are x and y
  * @param {number} stride
  * @param {Extent} [around]
- * @returns {Extent}
  */
 export function extentAround(numbers, stride, around = NOWHERE) {
   const box = { ...around };
@@ -210,18 +201,12 @@ export function extentAround(numbers, stride, around = NOWHERE) {
 /**
  * The smallest extent around points.
  *
- * @param {[number, number][]} points
+ * @param {number[]} points x, y pairs
  * @param {number} smallest least width and height, so that a single point still has surroundings
- * @returns {Extent}
  */
 export function extentOf(points, smallest) {
-  const box = extentAround(points.flat(), 2);
+  const box = extentAround(points, 2);
   const growX = Math.max(0, smallest - (box.xMax - box.xMin)) / 2;
   const growY = Math.max(0, smallest - (box.yMax - box.yMin)) / 2;
-  return {
-    xMin: box.xMin - growX,
-    xMax: box.xMax + growX,
-    yMin: box.yMin - growY,
-    yMax: box.yMax + growY,
-  };
+  return extentAround([box.xMin - growX, box.yMin - growY, box.xMax + growX, box.yMax + growY], 2);
 }

@@ -112,7 +112,7 @@ export const controlStyles = css`
     box-shadow: 0 0 0 3px var(--paper);
   }
 
-  :is(button, input, summary, .handle, .chart-marker):focus-visible {
+  :is(button, input, textarea, summary, .handle, .chart-marker):focus-visible {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
   }
@@ -123,14 +123,18 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  button,
+  :is(button, textarea, input[type='number']),
   ::file-selector-button {
-    min-height: 2rem;
-    padding: 0.15rem 0.65rem 0.25rem;
     background: none;
     border: 1px solid var(--muted);
     border-radius: 3px;
     color: var(--ink);
+  }
+
+  button,
+  ::file-selector-button {
+    min-height: 2rem;
+    padding: 0.15rem 0.65rem 0.25rem;
     font: inherit;
     cursor: pointer;
   }
@@ -153,10 +157,7 @@ export const controlStyles = css`
   }
 
   @media (forced-colors: active) {
-    input[type='range'],
-    .swatch,
-    .handle,
-    .chart {
+    :is(input[type='range'], svg, .handle) {
       forced-color-adjust: none;
     }
 
@@ -307,12 +308,13 @@ export function longest(texts) {
 /**
  * One of a group of radio buttons.
  *
- * @param {{ group: string, label: unknown, checked: boolean, choose: () => void }} option
+ * @param {{ group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }} option with a name for
+ *   screen readers where it has no label
  */
-export function choice({ group, label, checked, choose }) {
+export function choice({ group, label, name, checked, choose }) {
   return html`<label class="choice">
-    <input type="radio" name=${group} .checked=${live(checked)} @change=${choose} />
-    <span>${label}</span>
+    <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${choose} />
+    ${label ? html`<span>${label}</span>` : nothing}
   </label>`;
 }
 

@@ -49,10 +49,11 @@ const layout = css`
 
   .handle {
     position: absolute;
-    top: -1.125rem;
-    left: -1.125rem;
+    top: 0;
+    left: 0;
     width: 2.25rem;
     height: 2.25rem;
+    transform: translate(-50%, -50%);
     border-radius: 50%;
     cursor: grab;
     touch-action: none;
@@ -117,7 +118,7 @@ const layout = css`
   .legend {
     display: grid;
     grid-template-columns: repeat(auto-fill, minmax(min(100%, 20rem), 1fr));
-    column-gap: 2.5rem;
+    gap: 0 2.5rem;
     margin-top: 0.4rem;
   }
 

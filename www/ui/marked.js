@@ -30,10 +30,6 @@ export const markedStyles = css`
     min-height: 1.75rem;
     margin-left: 0.3rem;
     padding: 0 0.3rem;
-    background: none;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
-    color: var(--ink);
     font: inherit;
     font-variant-numeric: inherit;
   }
@@ -45,17 +41,16 @@ export const markedStyles = css`
 `;
 
 /**
+ * @param {{ index: number, mark: (index: number) => void }} cloud −1 for none
  * @param {object} marked
  * @param {string} marked.id
  * @param {string} marked.label
- * @param {number} marked.index −1 for none
  * @param {number} marked.shown samples there are
  * @param {number} marked.beyond the index that a number above them means; −1 for none
  * @param {unknown} marked.told what is said of it; nothing where none is marked
  * @param {string} marked.hint said where none is
- * @param {(index: number) => void} marked.mark
  */
-export function markedSample({ id, label, index, shown, beyond, told, hint, mark }) {
+export function markedSample(cloud, { id, label, shown, beyond, told, hint }) {
   return html`<p class="marked">
     <label>
       ${label}
@@ -66,11 +61,11 @@ export function markedSample({ id, label, index, shown, beyond, told, hint, mark
         max=${Math.max(1, shown)}
         placeholder=${shown === 0 ? '' : `1–${counted(shown)}`}
         ?disabled=${shown === 0}
-        .value=${live(index < 0 ? '' : String(index + 1))}
+        .value=${live(cloud.index < 0 ? '' : String(cloud.index + 1))}
         @input=${(/** @type {Event} */ event) => {
           const number = inputOf(event).valueAsNumber;
           const valid = Number.isInteger(number) && number >= 1;
-          mark(!valid ? -1 : number > shown ? beyond : number - 1);
+          cloud.mark(!valid ? -1 : number > shown ? beyond : number - 1);
         }}
       />
     </label>

@@ -131,7 +131,6 @@ export const theme = css`
  * The palette as the element sees it now.
  *
  * @param {HTMLElement} surface
- * @returns {Palette}
  */
 export function resolvePalette(surface) {
   const swatch = document.createElement('span');

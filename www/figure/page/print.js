@@ -2,20 +2,12 @@
 
 /**
  * @param {(printing: boolean) => void} listener
- * @returns {() => void} ends it
+ * @param {AbortSignal} signal that ends it
  */
-export function onPrint(listener) {
-  const before = () => listener(true);
-  const after = () => listener(false);
+export function onPrint(listener, signal) {
+  addEventListener('beforeprint', () => listener(true), { signal });
+  addEventListener('afterprint', () => listener(false), { signal });
   // Some browsers have only the one, others tell too late by the other.
   const media = matchMedia('print');
-  const change = () => listener(media.matches);
-  addEventListener('beforeprint', before);
-  addEventListener('afterprint', after);
-  media.addEventListener('change', change);
-  return () => {
-    removeEventListener('beforeprint', before);
-    removeEventListener('afterprint', after);
-    media.removeEventListener('change', change);
-  };
+  media.addEventListener('change', () => listener(media.matches), { signal });
 }

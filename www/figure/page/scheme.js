@@ -3,12 +3,9 @@
 import { css } from 'lit';
 import { channels } from '../../ui/theme.js';
 
-/**
- * @typedef {"auto" | "light" | "dark"} Theme
- * @typedef {"light" | "dark" | ""} Surroundings empty where `color-scheme` says it
- */
+/** @typedef {"light" | "dark" | ""} Surroundings empty where `color-scheme` says it */
 
-export const THEMES = /** @type {Theme[]} */ (['auto', 'light', 'dark']);
+export const THEMES = /** @type {const} */ (['auto', 'light', 'dark']);
 
 /**
  * The probe stands outside of the surface: its colours are those that the page hands down, and the

@@ -4,44 +4,32 @@ import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.js';
 import { escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
-
-/** @typedef {import('../figure.js').FigureElement<any, any>} Figure */
+import { Part } from '../part.js';
 
 /** What was copied last, and where the reader finds it. */
-export class CopyMenu {
+export class CopyMenu extends Part {
   /** @type {{ text: string, done: boolean } | undefined} */
   #copied;
-  #element;
-  #told;
-
-  /**
-   * @param {Figure} element
-   * @param {() => void} told called when there is something else to show
-   */
-  constructor(element, told) {
-    this.#element = element;
-    this.#told = told;
-  }
 
   /** @param {string} text */
   async #copy(text) {
     // Refused in a frame without the permission, and absent where the page came without encryption.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
     this.#copied = { text, done: done === true };
-    this.#told();
+    this.host.requestUpdate();
   }
 
   render() {
     const say = words.copies;
-    const element = this.#element;
+    const { host } = this;
     const copied = this.#copied;
     return html`<details class="copies" part="copies">
       <summary>${say.label}</summary>
       <div class="buttons">
-        ${element.share
-          ? button(say.link, async () => this.#copy(await element.shareLink()), { title: say.linkTitle })
+        ${host.share
+          ? button(say.link, async () => this.#copy(await host.shareLink()), { title: say.linkTitle })
           : nothing}
-        ${button(say.code, () => this.#copy(element.embedCode()), { title: say.codeTitle })}
+        ${button(say.code, () => this.#copy(host.embedCode()), { title: say.codeTitle })}
       </div>
       <output>${copied ? (copied.done ? say.done : say.byHand) : nothing}</output>
       ${copied && !copied.done
@@ -54,7 +42,7 @@ export class CopyMenu {
 /**
  * HTML for a page that has the script beside it, with the attributes that the figure needs to open as it is now.
  *
- * @param {Figure} figure
+ * @param {import('../figure.js').Figure} figure
  */
 export function embedding(figure) {
   const given = ['theme', 'lang', 'dir'].map((name) => /** @type {[string, string]} */ ([name, figure.getAttribute(name) ?? '']));

@@ -6,7 +6,7 @@ import { SvgContext, escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
 
 /**
- * @import { Surface } from '../../scene/canvas.js'
+ * @import { Figure } from '../figure.js'
  *
  * @typedef {object} Takeaway what there is to take along, besides the picture
  * @property {string} title
@@ -14,8 +14,6 @@ import { button } from '../../ui/controls.js';
  * @property {string[]} columns of the samples, with their units in their names
  * @property {(i: number) => number[]} row of a sample
  * @property {number} count of the samples
- *
- * @typedef {import('../figure.js').FigureElement<any, any>} Figure
  */
 
 /** Pixels of a PNG image a CSS pixel: as fine as a page in print wants a figure. */

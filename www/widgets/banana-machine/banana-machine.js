@@ -27,14 +27,16 @@ import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
 
 /**
+ * @import { BananaMachine as Machine } from '../../types.d.ts'
  * @import { Values } from '../../figure/state.js'
  * @import { Reading } from './reading.js'
- *
- * @typedef {import('../../types.d.ts').BananaMachine} Machine
  */
 
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
+ *
+ * @attr preset - A command worth starting from; none where the command is another.
+ * @attr overlays - The outlines that are drawn; in the attribute with spaces between.
  *
  * @csspart figures - Readouts, chart and table.
  * @csspart chart - The chart of the skew.
@@ -56,18 +58,10 @@ export class BananaMachineElement extends FigureElement {
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   pictures = [this.#plane, this.#twist];
-  #handle = new ArcHandle({
-    view: () => this.#plane.view,
-    end: () => this.runtime.attempt(() => this.fresh.end) ?? [0, 0],
-    reach: (x, y) => this.#reach(x, y),
-    commit: () => this.commit(),
-  });
+  #handle = new ArcHandle(this);
 
-  /**
-   * @param {import('../../types.d.ts').Motion} motion
-   * @param {Values} [state]
-   */
-  createMachine(motion, state) {
+  /** @type {FigureElement<Machine, Reading>['createMachine']} */
+  createMachine = (motion, state) => {
     const machine = new motion.BananaMachine();
     if (!state) return machine;
     const { model, alphas, shown } = state;
@@ -78,7 +72,7 @@ export class BananaMachineElement extends FigureElement {
       machine.configure({ ...this.settingsOf(state), alphas: alphas[model] });
       showOnly(machine, shown);
     });
-  }
+  };
 
   /** @param {Machine} machine */
   read(machine) {
@@ -105,10 +99,7 @@ export class BananaMachineElement extends FigureElement {
     };
   }
 
-  /** @param {Reading} reading */
-  announcement({ config, stats, note }) {
-    return announcementOf(config, stats, note);
-  }
+  announcement = announcementOf;
 
   snapshot() {
     return { ...super.snapshot(), alphas: this.machine?.alphasOfModels };
@@ -128,11 +119,17 @@ export class BananaMachineElement extends FigureElement {
   }
 
   /** @param {Reading} scene */
-  placeHandles({ end }) {
-    this.#handle.place(this.renderRoot, end);
+  placeHandles({ end: [x, y] }) {
+    const { view } = this.#plane;
+    this.#handle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
-  /** ξ along, lateral (m), heading (rad) of each robot shown; a copy. */
+  /**
+   * ξ along, lateral (m), heading (rad) of each robot shown; a copy.
+   *
+   * @public
+   * @returns {Float64Array | null}
+   */
   get twists() {
     return this.ask((machine) => machine.twists);
   }
@@ -155,7 +152,7 @@ export class BananaMachineElement extends FigureElement {
    * @param {number} x metres
    * @param {number} y
    */
-  #reach(x, y) {
+  reach(x, y) {
     this.settings.want(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command);
       const within = (/** @type {number} */ value, /** @type {{ min: number, max: number }} */ { min, max }) => clamp(value, min, max);
@@ -165,36 +162,31 @@ export class BananaMachineElement extends FigureElement {
 
   /** @param {Reading} reading */
   content(reading) {
-    const { config, shown, stats, table, note } = reading;
+    const { config, note } = reading;
     const say = words.banana;
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
       <section class="machine" aria-label=${say.title}>
         <div class="floor">
           <div class="stage" part="picture">
-            ${canvas(this, this.#plane, planeText(config, stats, note, overlays))} ${this.#handle.render(config.command)}
+            ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}
             <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
-              <span>${note || captionOf(stats)}</span>
+              <span>${captionOf(reading)}</span>
             </p>
           </div>
-          ${overlayToggles(this)} ${readouts(stats, config.samples)}
-          ${markedRobot({
-            index: this.cloud.index,
-            shown,
-            inspection: this.#inspection,
-            mark: (index) => this.cloud.mark(index),
-          })}
+          ${overlayToggles(this)} ${readouts(reading)}
+          ${markedRobot(this, this.#inspection)}
           ${cloudControls(this, SAMPLE_COUNTS)}
         </div>
         <div class="controls" part="controls">${commandControls(this)} ${noiseControls(this)}</div>
         <div class="figures" part="figures">
           <figure>
-            ${canvas(this, this.#twist, twistText(stats))}
-            <figcaption>${twistCaption(config, note)}</figcaption>
-            ${twistTable(table, stats)}
+            ${canvas(this, this.#twist, twistText(reading))}
+            <figcaption>${twistCaption(reading)}</figcaption>
+            ${twistTable(reading)}
           </figure>
           <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
-          ${workedExample(table, stats)}
+          ${workedExample(reading)}
         </div>
       </section>
     `;

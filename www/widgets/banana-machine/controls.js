@@ -1,11 +1,10 @@
 /** The Banana Machine's controls: the command, the noise and the overlays. */
 
 import { html } from 'lit';
-import { live } from 'lit/directives/live.js';
 import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { presets } from '../../settings.js';
-import { button, toggle } from '../../ui/controls.js';
+import { button, choice, toggle } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { alphaName } from './reading.js';
 import { COMMAND, DASHES, OVERLAYS } from './settings.js';
@@ -64,33 +63,17 @@ export function noiseControls(figure) {
 function alphaSlider(figure, key, number, [path, picture]) {
   const { isolate } = figure.reading.config;
   const off = isolate !== null && isolate !== number;
+  const choose = () => figure.leaveAlone(number);
   return slider(figure, key, {
     off,
-    pick: isolate === null ? undefined : isolateButton(figure, number, !off),
+    pick: isolate === null ? undefined : choice({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose }),
     show: (value) => (off ? words.banana.off(fixed(value, 3)) : fixed(value, 3)),
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
-      if (off) figure.leaveAlone(number);
+      if (off) choose();
       figure.settings.want(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
     },
   });
-}
-
-/**
- * @param {Figure} figure
- * @param {number} number of the α, from 1
- * @param {boolean} checked
- */
-function isolateButton(figure, number, checked) {
-  return html`<label class="choice">
-    <input
-      type="radio"
-      name="isolate"
-      aria-label=${words.banana.only(alphaName(number - 1))}
-      .checked=${live(checked)}
-      @change=${() => figure.leaveAlone(number)}
-    />
-  </label>`;
 }
 
 /** The legend of the floor, in which each overlay can be turned off. @param {Figure} figure */

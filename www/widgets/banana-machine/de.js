@@ -1,15 +1,5 @@
 /** The Banana Machine in German; see messages/en.js. */
 
-/**
- * A sentence on an α that has nothing to multiply.
- *
- * @param {string} zero
- * @param {string} cause
- * @param {string} picture what turning that up would show
- */
-const silent = (zero, cause, picture) =>
-  `${zero}: gar kein Rauschen. Dreh ${cause} etwas auf und sieh, wie es die Wolke ${picture}.`;
-
 /** @type {typeof import('./en.js').en} */
 export const de = {
   title: 'Die Bananenmaschine',
@@ -24,18 +14,18 @@ export const de = {
       name: 'Rauschparameter',
       effects: {
         velocity: [
-          ['v² in v̂', 'verschmiert die Wolke den Bogen entlang'],
-          ['ω² in v̂', 'ebenso, aber nur in Kurven'],
-          ['v² in ω̂', 'fächert die Wolke auf und biegt sie'],
-          ['ω² in ω̂', 'fächert ebenso, aber nur in Kurven'],
-          ['v² in γ̂', 'dreht jeden Roboter, wo er hält'],
-          ['ω² in γ̂', 'dreht ebenso, aber nur in Kurven'],
+          ['v² in v̂', 'verschmiert die Wolke den Bogen entlang', 'den Bogen entlang verschmiert'],
+          ['ω² in v̂', 'ebenso, aber nur in Kurven', 'den Bogen entlang verschmiert'],
+          ['v² in ω̂', 'fächert die Wolke auf und biegt sie', 'auffächert'],
+          ['ω² in ω̂', 'fächert ebenso, aber nur in Kurven', 'auffächert'],
+          ['v² in γ̂', 'dreht jeden Roboter, wo er hält', 'auf der Stelle dreht'],
+          ['ω² in γ̂', 'dreht ebenso, aber nur in Kurven', 'in ihren Richtungen verwischt'],
         ],
         odometry: [
-          ['Drehung in Drehung', 'schwenkt die Wolke um den Start'],
-          ['Weg in Drehung', 'fächert sie auf, auch geradeaus'],
-          ['Weg in Weg', 'verschmiert sie in Fahrtrichtung'],
-          ['Drehung in Weg', 'ebenso, aber nur in Kurven'],
+          ['Drehung in Drehung', 'schwenkt die Wolke um den Start', 'schwenkt'],
+          ['Weg in Drehung', 'fächert sie auf, auch geradeaus', 'auffächert'],
+          ['Weg in Weg', 'verschmiert sie in Fahrtrichtung', 'verschmiert'],
+          ['Drehung in Weg', 'ebenso, aber nur in Kurven', 'verschmiert'],
         ],
       },
     },
@@ -71,21 +61,11 @@ export const de = {
     line: 'Nur eine Zahl rauscht: Die Roboter liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
   },
   alphaIsZero: (alpha) => `${alpha} gilt allein und ist 0: gar kein Rauschen. Dreh es auf.`,
-  alphaIsSilent: {
-    velocity: [
-      silent('α₁ vervielfacht v², und v ist 0', 'v', 'den Bogen entlang verschmiert'),
-      silent('α₂ vervielfacht ω², und ω ist 0', 'ω', 'den Bogen entlang verschmiert'),
-      silent('α₃ vervielfacht v², und v ist 0', 'v', 'auffächert'),
-      silent('α₄ vervielfacht ω², und ω ist 0', 'ω', 'auffächert'),
-      silent('α₅ vervielfacht v², und v ist 0', 'v', 'auf der Stelle dreht'),
-      silent('α₆ vervielfacht ω², und ω ist 0', 'ω', 'in ihren Richtungen verwischt'),
-    ],
-    odometry: [
-      silent('α₁ vervielfacht die Quadrate der Drehungen, und sie sind 0', 'ω', 'schwenkt'),
-      silent('α₂ vervielfacht das Quadrat des Weges, und es ist 0', 'v', 'auffächert'),
-      silent('α₃ vervielfacht das Quadrat des Weges, und es ist 0', 'v', 'verschmiert'),
-      silent('α₄ vervielfacht die Quadrate der Drehungen, und sie sind 0', 'ω', 'verschmiert'),
-    ],
+  alphaIsSilent: (alpha, factor, cause, picture) =>
+    `${alpha} vervielfacht ${factor}: gar kein Rauschen. Dreh ${cause} etwas auf und sieh, wie es die Wolke ${picture}.`,
+  nothingToMultiply: {
+    velocity: { v: 'v², und v ist 0', ω: 'ω², und ω ist 0' },
+    odometry: { v: 'das Quadrat des Weges, und es ist 0', ω: 'die Quadrate der Drehungen, und sie sind 0' },
   },
   announcement: (robots, command, outcome) => `${robots} Roboter, ${command}. ${outcome}`,
   skew: (skew) => `Schiefe quer zur Fahrt ${skew}.`,

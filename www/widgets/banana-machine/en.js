@@ -2,15 +2,6 @@
 
 import { plural } from '../../messages/en.js';
 
-/**
- * A sentence on an α that has nothing to multiply.
- *
- * @param {string} zero
- * @param {string} cause
- * @param {string} picture what turning that up would show
- */
-const silent = (zero, cause, picture) => `${zero}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`;
-
 export const en = /** @satisfies {import('../../messages/registry.js').Message} */ ({
   title: 'The Banana Machine',
   presets: { straight: 'Straight', gentle: 'Gentle arc', hard: 'Hard arc', pivot: 'Pivot' },
@@ -22,21 +13,21 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     noise: { name: 'Noise' },
     alphas: {
       name: 'Noise parameters',
-      /** One line for each α: the noise it feeds, and what that does to the picture. */
+      /** One line for each α: the noise it feeds, what that does to the picture, and what can be watched as it begins. */
       effects: {
         velocity: [
-          ['v² into v̂', 'smears the cloud along the arc'],
-          ['ω² into v̂', 'smears it too, but only in turns'],
-          ['v² into ω̂', 'fans the cloud open and bends it'],
-          ['ω² into ω̂', 'fans it too, but only in turns'],
-          ['v² into γ̂', 'turns each robot where it stopped'],
-          ['ω² into γ̂', 'turns it too, but only in turns'],
+          ['v² into v̂', 'smears the cloud along the arc', 'smear along the arc'],
+          ['ω² into v̂', 'smears it too, but only in turns', 'smear along the arc'],
+          ['v² into ω̂', 'fans the cloud open and bends it', 'fan'],
+          ['ω² into ω̂', 'fans it too, but only in turns', 'fan'],
+          ['v² into γ̂', 'turns each robot where it stopped', 'turn in place'],
+          ['ω² into γ̂', 'turns it too, but only in turns', 'blur its headings'],
         ],
         odometry: [
-          ['rotation into rotation', 'swings the cloud about the start'],
-          ['distance into rotation', 'fans the cloud, even on a straight'],
-          ['distance into distance', 'smears it along the line of travel'],
-          ['rotation into distance', 'smears it too, but only in turns'],
+          ['rotation into rotation', 'swings the cloud about the start', 'swing'],
+          ['distance into rotation', 'fans the cloud, even on a straight', 'fan'],
+          ['distance into distance', 'smears it along the line of travel', 'smear'],
+          ['rotation into distance', 'smears it too, but only in turns', 'smear'],
         ],
       },
     },
@@ -72,22 +63,12 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     line: 'Only one number is noisy: the robots lie on a line, and an outline without area holds no share of them.',
   },
   alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
-  /** For each α what feeds it and is 0, and what turning that up would show. */
-  alphaIsSilent: {
-    velocity: [
-      silent('α₁ multiplies v², and v is 0', 'v', 'smear along the arc'),
-      silent('α₂ multiplies ω², and ω is 0', 'ω', 'smear along the arc'),
-      silent('α₃ multiplies v², and v is 0', 'v', 'fan'),
-      silent('α₄ multiplies ω², and ω is 0', 'ω', 'fan'),
-      silent('α₅ multiplies v², and v is 0', 'v', 'turn in place'),
-      silent('α₆ multiplies ω², and ω is 0', 'ω', 'blur its headings'),
-    ],
-    odometry: [
-      silent('α₁ multiplies the squared rotations, and they are 0', 'ω', 'swing'),
-      silent('α₂ multiplies the squared distance, and it is 0', 'v', 'fan'),
-      silent('α₃ multiplies the squared distance, and it is 0', 'v', 'smear'),
-      silent('α₄ multiplies the squared rotations, and they are 0', 'ω', 'smear'),
-    ],
+  alphaIsSilent: (alpha, factor, cause, picture) =>
+    `${alpha} multiplies ${factor}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`,
+  /** What an α multiplies where that is 0, by what the command lacks then. */
+  nothingToMultiply: {
+    velocity: { v: 'v², and v is 0', ω: 'ω², and ω is 0' },
+    odometry: { v: 'the squared distance, and it is 0', ω: 'the squared rotations, and they are 0' },
   },
   announcement: (robots, command, outcome) => `${robots} robots, ${command}. ${outcome}`,
   skew: (skew) => `Cross-track skew ${skew}.`,

@@ -9,39 +9,29 @@ import { looks } from './settings.js';
 const KEY_STEP = 0.02;
 const LONG_KEY_STEP = 0.1;
 
-/**
- * @typedef {object} Hooks what the handle asks of the element
- * @property {() => import('../../scene/view.js').View} view of the floor
- * @property {() => [number, number]} end of the arc, with every change so far in effect, metres
- * @property {(x: number, y: number) => void} reach wants the command that ends there
- * @property {() => void} commit after the last of a row of changes
- */
-
-export class ArcHandle {
-  #hooks;
-  #ring;
-
-  /** @param {Hooks} hooks */
-  constructor(hooks) {
-    this.#hooks = hooks;
-    this.#ring = new Handle('end', {
-      view: hooks.view,
-      drag: hooks.reach,
-      key: (event) => this.#key(event),
-      commit: hooks.commit,
+export class ArcHandle extends Handle {
+  /** @param {import('./banana-machine.js').BananaMachineElement} figure */
+  constructor(figure) {
+    super('end', {
+      view: () => figure.pictures[0].view,
+      drag: (x, y) => figure.reach(x, y),
+      key: ({ key, shiftKey }) => {
+        const way = WAYS[key];
+        if (!way) return false;
+        const step = shiftKey ? LONG_KEY_STEP : KEY_STEP;
+        const [x, y] = figure.runtime.attempt(() => figure.fresh.end) ?? [0, 0];
+        figure.reach(x + step * way[0], y + step * way[1]);
+        return true;
+      },
+      commit: () => figure.commit(),
     });
-  }
-
-  /** Whether it is held: the views keep still under it. */
-  get held() {
-    return this.#ring.held;
   }
 
   /** @param {import('../../types.d.ts').Command} command */
   render({ v, omega }) {
     const say = words.banana;
     const { min, max } = looks.omega;
-    return this.#ring.render({
+    return this.element({
       name: say.handle,
       keys: say.handleKeys,
       title: say.handleTitle,
@@ -49,26 +39,5 @@ export class ArcHandle {
       now: omega,
       text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
     });
-  }
-
-  /**
-   * Puts the ring where the arc ends.
-   *
-   * @param {ParentNode} root that it was rendered into
-   * @param {[number, number]} end metres
-   */
-  place(root, [x, y]) {
-    const view = this.#hooks.view();
-    this.#ring.place(root, view.toPixelX(x), view.toPixelY(y));
-  }
-
-  /** @param {KeyboardEvent} event */
-  #key({ key, shiftKey }) {
-    const way = WAYS[key];
-    if (!way) return false;
-    const step = shiftKey ? LONG_KEY_STEP : KEY_STEP;
-    const [x, y] = this.#hooks.end();
-    this.#hooks.reach(x + step * way[0], y + step * way[1]);
-    return true;
   }
 }

@@ -108,30 +108,23 @@ function cellSize(area, count) {
 /** The floor from above. */
 export class PlanePicture extends CloudPicture {
   constructor() {
-    super('plane', new View({ equal: true, inset: { left: 42, right: 8, top: 24, bottom: 30 } }));
+    super('plane', new View());
   }
 
   /** @param {Scene} scene */
-  fit({ contours, table }) {
+  fit({ contours, table, end }) {
     const { mean, cov } = table.exact;
     const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
-    /** @type {[number, number][]} */
-    const points = [[mean[0] - sx, mean[1] - sy], [mean[0] + sx, mean[1] + sy]];
-    const { command } = contours;
-    for (let i = 0; i < command.length; i += 2) points.push([command[i], command[i + 1]]);
+    const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command];
     const box = extentOf(points, 0.4);
     // Around the end there is room for a fan of headings, which may be all there is to see.
     const fan = 0.2 * (box.xMax - box.xMin);
-    const [x, y] = command.slice(-2);
-    points.push([x - fan, y - fan], [x + fan, y + fan]);
-    this.view.fit(extentOf(points, 0.4));
+    const [x, y] = end;
+    this.view.fit(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4));
   }
 
-  /**
-   * @param {Brush} brush
-   * @param {Scene} scene
-   */
-  paint(brush, scene) {
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, scene) => {
     const { view, palette } = brush;
     const { machine, contours, overlays, table, marked } = scene;
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
@@ -161,7 +154,7 @@ export class PlanePicture extends CloudPicture {
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] });
       }
     });
-  }
+  };
 }
 
 /** Robots that are all in one place. @param {BananaMachine} machine */
@@ -193,26 +186,22 @@ function twistMoments({ config, stats, table }) {
 /** The same robots in exponential coordinates. */
 export class TwistPicture extends CloudPicture {
   constructor() {
-    super('twist', new View({ equal: false, inset: { left: 46, right: 10, top: 24, bottom: 30 } }));
+    super('twist', new View({ equal: false, left: 46, right: 10 }));
   }
 
   /** @param {Scene} scene */
   fit(scene) {
     const { v, omega, dt } = scene.config.command;
-    /** @type {[number, number][]} */
-    const points = [[v * dt, omega * dt]];
+    const points = [v * dt, omega * dt];
     for (const { mean, cov } of twistMoments(scene)) {
       const [along, heading] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[2][2])];
-      points.push([mean[0] - along, mean[2] - heading], [mean[0] + along, mean[2] + heading]);
+      points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
     }
     this.view.fit(extentOf(points, 0.1));
   }
 
-  /**
-   * @param {Brush} brush
-   * @param {Scene} scene
-   */
-  paint(brush, scene) {
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, scene) => {
     const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading });
@@ -236,5 +225,5 @@ export class TwistPicture extends CloudPicture {
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
-  }
+  };
 }

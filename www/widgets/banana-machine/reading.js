@@ -3,10 +3,9 @@
 import { words } from '../../messages/registry.js';
 import { looks } from './settings.js';
 
-/** @import { Settings, Stats, Table } from '../../types.d.ts' */
-
 /**
- * @typedef {import('../../types.d.ts').BananaMachine} Machine
+ * @import { BananaMachine as Machine, Settings, Stats, Table } from '../../types.d.ts'
+ *
  * @typedef {ReturnType<typeof readingOf>} Reading
  */
 
@@ -64,6 +63,21 @@ export function alphaName(index) {
   return `α${String.fromCharCode(0x2081 + index)}`;
 }
 
+/** What the α's of each model have multiplied by their squares: the speed, or the turn rate. */
+const CAUSES = /** @type {const} */ ({ velocity: [...'vωvωvω'], odometry: [...'ωvvω'] });
+
+/**
+ * A sentence on an α that has nothing to multiply.
+ *
+ * @param {Settings['model']} model
+ * @param {number} index of the α, from 0
+ */
+export function silenceOf(model, index) {
+  const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
+  const cause = /** @type {'v' | 'ω'} */ (CAUSES[model][index]);
+  return alphaIsSilent(alphaName(index), nothingToMultiply[model][cause], cause, settings.alphas.effects[model][index][2]);
+}
+
 /** @param {number} variance whose quadrature may round to less than 0 */
 export function deviation(variance) {
   return Math.sqrt(Math.max(0, variance));
@@ -90,13 +104,13 @@ function spreadOf({ exact: { cov } }) {
  * @returns {string} empty for an ordinary cloud
  */
 function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
-  const { notes, alphaIsZero, alphaIsSilent } = words.banana;
+  const { notes, alphaIsZero } = words.banana;
   const spread = spreadOf(table);
   const { v, omega } = command;
   if (spread === 'point') {
     if (v === 0 && omega === 0) return notes.still;
     if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
-    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : alphaIsSilent[model][isolate - 1];
+    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : silenceOf(model, isolate - 1);
   }
   if (spread === 'headings') return notes.headings;
   if (!chartHolds) return notes.circle;

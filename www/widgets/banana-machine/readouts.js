@@ -7,17 +7,17 @@ import { NOTHING, counted, fixed, percent, significant, withError } from '../../
 import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 
-/** @import { Inspection, Stats, Table } from '../../types.d.ts' */
+/**
+ * @import { Inspection, Moments, Table } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ */
 
 /** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const NOMINAL = 1 - Math.exp(-2);
 
-/**
- * @param {Stats} stats
- * @param {number} samples robots in the whole cloud
- */
-export function readouts(stats, samples) {
-  const all = counted(samples);
+/** @param {Reading} reading */
+export function readouts({ config, stats }) {
+  const all = counted(config.samples);
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutList([
@@ -35,14 +35,12 @@ export function readouts(stats, samples) {
 /**
  * The marked robot, with the arc that reaches its place.
  *
- * @param {object} marked
- * @param {number} marked.index −1 for none
- * @param {number} marked.shown robots there are
- * @param {Inspection | undefined} marked.inspection
- * @param {(index: number) => void} marked.mark
+ * @param {import('./banana-machine.js').BananaMachineElement} figure
+ * @param {Inspection | undefined} inspection of it, if there is one
  */
-export function markedRobot({ index, shown, inspection, mark }) {
+export function markedRobot(figure, inspection) {
   const { robot, markHint } = words.banana;
+  const { shown } = figure.reading;
   const quantity = (/** @type {string} */ symbol, /** @type {number} */ value, /** @type {string} */ unit) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
   const arc = inspection && [
@@ -50,7 +48,7 @@ export function markedRobot({ index, shown, inspection, mark }) {
     quantity('ω̂', inspection.omegaHat, 'rad/s'),
     quantity('γ̂', inspection.gammaHat, 'rad/s'),
   ];
-  return markedSample({ id: 'robot', label: robot, hint: markHint, index, shown, beyond: shown - 1, told: arc, mark });
+  return markedSample(figure.cloud, { id: 'robot', label: robot, hint: markHint, shown, beyond: shown - 1, told: arc });
 }
 
 /** Digits of what is computed, as many as the book prints; and of what chance leaves uncertain. */
@@ -63,11 +61,8 @@ const longestMeasured = () => significant(-1e-5, MEASURED_DIGITS);
 /** @param {string} indices */
 const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 
-/**
- * @param {Table} table
- * @param {Stats} stats
- */
-export function workedExample({ linearized, exact, measured }, stats) {
+/** @param {Reading} reading */
+export function workedExample({ table: { linearized, exact, measured }, stats }) {
   const computed = [linearized, exact];
   const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
   // Two lines, also while there is no error: the row keeps its height.
@@ -99,20 +94,13 @@ export function workedExample({ linearized, exact, measured }, stats) {
   });
 }
 
-/**
- * @param {Table} table
- * @param {Stats} stats
- */
-export function twistTable({ tangent }, { exponential }) {
+/** @param {Reading} reading */
+export function twistTable({ table: { tangent }, stats: { exponential } }) {
   const say = words.banana.table;
-  const rows = say.axes.flatMap((axis, i) => {
-    /** @type {[string, (moments: import('../../types.d.ts').Moments) => number][]} */
-    const both = [
-      [say.mean(axis), ({ mean }) => mean[i]],
-      [say.variance(axis), ({ cov }) => cov[i][i]],
-    ];
-    return both;
-  });
+  const rows = say.axes.flatMap((axis, i) => /** @type {[string, (moments: Moments) => number][]} */ ([
+    [say.mean(axis), ({ mean }) => mean[i]],
+    [say.variance(axis), ({ cov }) => cov[i][i]],
+  ]));
   return figureTable({
     caption: say.twistCaption,
     columns: [say.quantity, say.command, say.measured],

@@ -33,17 +33,6 @@ export const own = {
 
 /** @type {import('../../figure/attributes.js').Documentation} */
 export const documentation = {
-  attributes: {
-    preset: 'A command worth starting from; none where the command is another.',
-    overlays: 'The outlines that are drawn; in the attribute with spaces between.',
-  },
-  properties: {
-    twists: {
-      type: 'Float64Array | null',
-      readonly: true,
-      sentence: 'ξ along, lateral (m), heading (rad) of each robot shown; a copy.',
-    },
-  },
   state: {
     alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six and four, of either model.' },
     isolateChoice: { type: 'number', sentence: 'What Isolate leaves when it is turned on, from 1.' },

@@ -8,26 +8,25 @@ import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent, withError } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
-import { deviation } from './reading.js';
+import { deviation, silenceOf } from './reading.js';
 
-/** @import { Settings, Stats, Table } from '../../types.d.ts' */
+/**
+ * @import { Stats } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ */
 
 addEnglish({ banana: en });
 
 /** The longest of the sentences that may come, to keep room for. */
 export function longestNote() {
-  const { notes, alphaIsSilent } = words.banana;
-  return longest([...Object.values(notes), ...Object.values(alphaIsSilent).flat()]);
+  const { notes, settings } = words.banana;
+  const { velocity, odometry } = settings.alphas.effects;
+  const silences = [...velocity.map((_, i) => silenceOf('velocity', i)), ...odometry.map((_, i) => silenceOf('odometry', i))];
+  return longest([...Object.values(notes), ...silences]);
 }
 
-/**
- * What is announced after a change has come to rest.
- *
- * @param {Settings} config
- * @param {Stats} stats
- * @param {string} note
- */
-export function announcementOf(config, stats, note) {
+/** What is announced after a change has come to rest. @param {Reading} reading */
+export function announcementOf({ config, stats, note }) {
   const { announcement, skew, noSkew } = words.banana;
   const outcome = Number.isNaN(stats.crossTrackSkew)
     ? noSkew
@@ -38,12 +37,10 @@ export function announcementOf(config, stats, note) {
 /**
  * The text equivalent of the view of the floor.
  *
- * @param {Settings} config
- * @param {Stats} stats
- * @param {string} note
+ * @param {Reading} reading
  * @param {string[]} overlays names of the outlines that are shown
  */
-export function planeText(config, stats, note, overlays) {
+export function planeText({ config, stats, note }, overlays) {
   const { plane, noRobots, mean, spread, drawnOver } = words.banana;
   const sentences = [plane(commandText(config.command))];
   if (stats.n === 0) sentences.push(noRobots);
@@ -70,9 +67,9 @@ function bendText({ crossTrackSkew: skew, crossTrackSkewError: error }) {
   return sentence(withError(skew, error, 2));
 }
 
-/** What stands under the view of the floor while there is nothing to note. @param {Stats} stats */
-export function captionOf(stats) {
-  return stats.n === 0 ? words.banana.noRobots : bendText(stats) || words.banana.fewRobots;
+/** What stands under the view of the floor. @param {Reading} reading */
+export function captionOf({ note, stats }) {
+  return note || (stats.n === 0 ? words.banana.noRobots : bendText(stats) || words.banana.fewRobots);
 }
 
 /** @param {number} skew exact */
@@ -84,10 +81,9 @@ export function skewText(skew) {
  * What stands under the view in exponential coordinates: how Gaussian they make this cloud, unless
  * there is something else to note about it.
  *
- * @param {Settings} config
- * @param {string} note
+ * @param {Reading} reading
  */
-export function twistCaption({ model, noise, alphas, isolate }, note) {
+export function twistCaption({ config: { model, noise, alphas, isolate }, note }) {
   const { twist, twistIs } = words.banana;
   if (note) return `${twist}.`;
   const turned = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
@@ -95,8 +91,9 @@ export function twistCaption({ model, noise, alphas, isolate }, note) {
   return `${twist}: ${twistIs[kind]}`;
 }
 
-/** The text equivalent of the view in exponential coordinates. @param {Stats} stats */
-export function twistText({ n, exponential: { mean, cov }, coverage }) {
+/** The text equivalent of the view in exponential coordinates. @param {Reading} reading */
+export function twistText({ stats: { n, exponential, coverage } }) {
+  const { mean, cov } = exponential;
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
   const start = `${twist}, ${twistAxes}.`;
   if (n < 2) return `${start} ${n === 0 ? noRobots : oneRobot}`;

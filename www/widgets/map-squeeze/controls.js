@@ -46,7 +46,7 @@ export function judgeControls(figure) {
   const say = words.squeeze;
   return html`<fieldset class="judge">
     <legend>${say.map} ${check(figure, 'conditioned', say.condition)}</legend>
-    <div class="samplers" role="radiogroup" aria-label=${say.settings.sampler.name} aria-describedby="sampler-effect">
+    <div class="choices" role="radiogroup" aria-label=${say.settings.sampler.name} aria-describedby="sampler-effect">
       ${SAMPLERS.map((name) =>
         choice({
           group: 'sampler',

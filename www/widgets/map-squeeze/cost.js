@@ -1,5 +1,6 @@
 /** What each sampler costs on this device, measured. */
 
+import { Part } from '../../figure/part.js';
 import { limits } from '../../settings.js';
 import { SAMPLERS } from './settings.js';
 
@@ -65,29 +66,16 @@ function* measuring(machine, sampler, parts) {
 /** Milliseconds of rest before measuring: a reader between two presses of a key is not kept waiting. */
 const REST = 300;
 
-/**
- * @typedef {object} Bench where and for whom is measured
- * @property {() => MapSqueeze | undefined} machine
- * @property {() => void} told called after each sampler
- * @property {(work: () => void) => void} attempt does what may trap
- */
-
 /** Measures the samplers one after the other when things have come to rest, and tells of each. */
-export class CostMeter {
+export class CostMeter extends Part {
   /** @type {Partial<Record<SamplerName, Cost | 'wedged' | 'few'>>} as last measured, or why there is none */
   costs = {};
   /** Whether the costs are those of the present settings. */
   current = false;
-  #bench;
   /** The settings that were measured, or are to be. */
   #settings = '';
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
-
-  /** @param {Bench} bench */
-  constructor(bench) {
-    this.#bench = bench;
-  }
 
   /** The costs are no longer those of the present settings. */
   outdate() {
@@ -109,24 +97,24 @@ export class CostMeter {
   }
 
   #measureSoon() {
-    const { machine, told, attempt } = this.#bench;
-    const measured = machine();
+    const { host } = this;
+    const measured = host.machine;
     if (!measured) return;
     const measurements = SAMPLERS.map((sampler) =>
       measuring(measured, sampler, sampler === 'sub-stepped' ? measured.config.steps : 1),
     );
     const next = (/** @type {number} */ index) => {
       // The element may have gone, and its machine with it.
-      if (machine() !== measured) return;
+      if (host.machine !== measured) return;
       const { done, value } = measurements[index].next();
       if (done) {
         this.costs[SAMPLERS[index]] = value;
         this.current = index === SAMPLERS.length - 1;
-        told();
+        host.requestUpdate();
       }
       if (!this.current) this.#timer = setTimeout(step, 0, done ? index + 1 : index);
     };
-    const step = (/** @type {number} */ index) => attempt(() => next(index));
+    const step = (/** @type {number} */ index) => host.runtime.attempt(() => next(index));
     this.#timer = setTimeout(step, REST, 0);
   }
 }

@@ -1,22 +1,13 @@
 /** The robot under the reader's hand: its body moves it, a handle ahead of it turns it, by pointer and by keyboard. */
 
+import { Part } from '../../figure/part.js';
 import { words } from '../../messages/registry.js';
 import { Handle, WAYS } from '../../scene/handle.js';
 import { clamp } from '../../ui/clamp.js';
 import { fixed } from '../../ui/format.js';
 import { turnDistance } from './picture.js';
 
-/**
- * @import { Pose } from '../../types.d.ts'
- * @import { View } from '../../scene/view.js'
- *
- * @typedef {object} Robot what the handles act on
- * @property {() => View} view
- * @property {() => Pose} start as wanted so far
- * @property {() => ArrayLike<number>} bounds of the map
- * @property {(start: Pose) => void} change takes effect with the next frame
- * @property {() => void} commit it has come to rest
- */
+/** @import { Pose } from '../../types.d.ts' */
 
 /** What a key moves the robot by, metres, and turns it by, radians. */
 const KEY_STEP = 0.05;
@@ -31,29 +22,25 @@ const MIN_BODY = 32;
 /** The handle that turns the robot stays this far inside of the picture, CSS pixels. */
 const MARGIN = 12;
 
-export class RobotHandles {
-  #robot;
-  #body;
-  #turn;
+/** @extends {Part<import('./map-squeeze.js').MapSqueezeElement>} */
+export class RobotHandles extends Part {
+  #hooks = { view: () => this.host.picture.view, commit: () => this.host.commit() };
+  #body = new Handle('body', {
+    ...this.#hooks,
+    at: () => [this.#start.x, this.#start.y],
+    drag: (x, y) => this.#moveTo(x, y),
+    key: (event) => this.#key(event, !event.shiftKey),
+  });
+  #turn = new Handle('turn', {
+    ...this.#hooks,
+    at: (pointer) => pointer,
+    drag: (x, y) => this.#turnTo(Math.atan2(y - this.#start.y, x - this.#start.x)),
+    key: (event) => this.#key(event, false),
+  });
 
-  /** @param {Robot} robot */
-  constructor(robot) {
-    this.#robot = robot;
-    const { view, start, commit } = robot;
-    this.#body = new Handle('body', {
-      view,
-      at: () => [start().x, start().y],
-      drag: (x, y) => this.#moveTo(x, y),
-      key: (event) => this.#key(event, !event.shiftKey),
-      commit,
-    });
-    this.#turn = new Handle('turn', {
-      view,
-      at: (pointer) => pointer,
-      drag: (x, y) => this.#turnTo(Math.atan2(y - start().y, x - start().x)),
-      key: (event) => this.#key(event, false),
-      commit,
-    });
+  /** Where the robot is wanted so far. @returns {Pose} */
+  get #start() {
+    return this.host.settings.wanted.start;
   }
 
   /** The one that is held. @returns {'body' | 'turn' | undefined} */
@@ -61,12 +48,12 @@ export class RobotHandles {
     return this.#body.held ? 'body' : this.#turn.held ? 'turn' : undefined;
   }
 
-  /** @param {Pose} start */
-  render({ x, y, theta }) {
+  render() {
     const say = words.squeeze;
-    const { 0: left, 2: right } = this.#robot.bounds();
+    const { x, y, theta } = this.#start;
+    const { 0: left, 2: right } = this.host.picture.plan.bounds;
     return [
-      this.#body.render({
+      this.#body.element({
         name: say.robot,
         keys: say.robotKeys,
         title: say.robotTitle,
@@ -74,7 +61,7 @@ export class RobotHandles {
         now: x,
         text: say.robotText(fixed(x, 2), fixed(y, 2)),
       }),
-      this.#turn.render({
+      this.#turn.element({
         name: say.heading,
         keys: say.headingKeys,
         title: say.headingTitle,
@@ -88,12 +75,11 @@ export class RobotHandles {
   /**
    * Puts the handles where the robot is drawn.
    *
-   * @param {ParentNode} root
    * @param {Pose} start
    * @param {number} clearance metres
    */
-  place(root, start, clearance) {
-    const view = this.#robot.view();
+  place(start, clearance) {
+    const { picture: { view }, renderRoot: root } = this.host;
     const [x, y] = [view.toPixelX(start.x), view.toPixelY(start.y)];
     const ahead = view.direction(start.theta);
     const distance = turnDistance(view, clearance);
@@ -109,7 +95,7 @@ export class RobotHandles {
   #key({ key, ctrlKey, metaKey, altKey }, moves) {
     const [way, turn] = [moves ? WAYS[key] : undefined, TURNS[key]];
     if (ctrlKey || metaKey || altKey || !(way || turn)) return false;
-    const { x, y, theta } = this.#robot.start();
+    const { x, y, theta } = this.#start;
     if (way) this.#moveTo(x + KEY_STEP * way[0], y + KEY_STEP * way[1]);
     else this.#turnTo(theta + KEY_TURN * turn);
     return true;
@@ -120,14 +106,19 @@ export class RobotHandles {
    * @param {number} y
    */
   #moveTo(x, y) {
-    const [left, bottom, right, top] = Array.from(this.#robot.bounds());
-    const { theta } = this.#robot.start();
-    this.#robot.change({ x: clamp(x, left, right), y: clamp(y, bottom, top), theta });
+    const [left, bottom, right, top] = this.host.picture.plan.bounds;
+    const { theta } = this.#start;
+    this.#want({ x: clamp(x, left, right), y: clamp(y, bottom, top), theta });
   }
 
   /** @param {number} theta radians */
   #turnTo(theta) {
-    const { x, y } = this.#robot.start();
-    this.#robot.change({ x, y, theta: Math.atan2(Math.sin(theta), Math.cos(theta)) });
+    const { x, y } = this.#start;
+    this.#want({ x, y, theta: Math.atan2(Math.sin(theta), Math.cos(theta)) });
+  }
+
+  /** @param {Pose} start */
+  #want(start) {
+    this.host.settings.want({ start });
   }
 }

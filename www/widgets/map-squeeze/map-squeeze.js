@@ -19,18 +19,22 @@ import { readingOf } from './reading.js';
 import { costTable, legend, markedDraw, tally } from './readouts.js';
 import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
-import { announcementOf, mapText, pictureText, verdictText } from './words.js';
+import { announcementOf, mapText, pictureText } from './words.js';
 
 /**
- * @import { MapData, Pose } from '../../types.d.ts'
- * @import { Values } from '../../figure/state.js'
+ * @import { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts'
  * @import { OwnMap } from './maps/files.js'
  * @import { Reading } from './reading.js'
- *
- * @typedef {import('../../types.d.ts').MapSqueeze} Machine
  */
 
-/** Motion conditioned on a map, and what the condition cannot see. @extends {FigureElement<Machine, Reading>} */
+/**
+ * Motion conditioned on a map, and what the condition cannot see.
+ *
+ * @attr preset - A place in the apartment to start from; none elsewhere.
+ * @attr view - The whole map, or what is near the robot.
+ *
+ * @extends {FigureElement<Machine, Reading>}
+ */
 export class MapSqueezeElement extends FigureElement {
   static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...squeezeStyles];
 
@@ -42,34 +46,14 @@ export class MapSqueezeElement extends FigureElement {
 
   cloud = new Cloud(this, (/** @type {Machine} */ machine) => machine.stats.gaveUp);
 
-  #picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
-  #meter = new CostMeter({
-    machine: () => this.machine,
-    told: () => this.requestUpdate(),
-    attempt: (work) => this.runtime.attempt(work),
-  });
-  #opener = new MapOpener(
-    (map) => {
-      if (!this.machine) return;
-      this.runtime.attempt(() => this.#enter(map));
-      this.gesture.step();
-      this.commit();
-    },
-    () => this.requestUpdate(),
-  );
-  #handles = new RobotHandles({
-    view: () => this.#picture.view,
-    start: () => this.settings.wanted.start,
-    bounds: () => this.#picture.plan.bounds,
-    change: (start) => this.settings.want({ start }),
-    commit: () => this.commit(),
-  });
+  /** Of the map that the robot is in. */
+  picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
+  #meter = new CostMeter(this);
+  #opener = new MapOpener(this);
+  #handles = new RobotHandles(this);
 
-  /**
-   * @param {import('../../types.d.ts').Motion} motion
-   * @param {Values} [state]
-   */
-  createMachine(motion, state) {
+  /** @type {FigureElement<Machine, Reading>['createMachine']} */
+  createMachine = (motion, state) => {
     const machine = new motion.MapSqueeze();
     if (!state) return machine;
     return orFree(machine, () => {
@@ -77,15 +61,15 @@ export class MapSqueezeElement extends FigureElement {
       machine.configure(this.settingsOf(state));
       showOnly(machine, state.shown);
     });
-  }
+  };
 
   machineChanged() {
     const { machine } = this;
     if (!machine) return;
     this.#opener.forgive();
     this.#meter.outdate();
-    this.#picture = new FloorPicture(machine.plan, machine.grid);
-    this.pictures = [this.#picture];
+    this.picture = new FloorPicture(machine.plan, machine.grid);
+    this.pictures = [this.picture];
   }
 
   /** @param {Machine} machine */
@@ -98,7 +82,7 @@ export class MapSqueezeElement extends FigureElement {
   get scene() {
     const { fresh } = this;
     const { index, isMarked } = this.cloud;
-    this.#picture.close = this.state.own.view === 'close';
+    this.picture.close = this.state.own.view === 'close';
     const marked = isMarked && { pose: fresh.poses.subarray(3 * index), path: this.machine?.path(index) };
     return { ...fresh, marked: marked || undefined };
   }
@@ -117,10 +101,7 @@ export class MapSqueezeElement extends FigureElement {
     };
   }
 
-  /** @param {Reading} reading */
-  announcement({ config, stats, note }) {
-    return announcementOf(config, stats, note);
-  }
+  announcement = announcementOf;
 
   get held() {
     return this.#handles.held !== undefined;
@@ -128,7 +109,7 @@ export class MapSqueezeElement extends FigureElement {
 
   /** @param {Reading} scene */
   placeHandles({ config: { start, clearance } }) {
-    this.#handles.place(this.renderRoot, start, clearance);
+    this.#handles.place(start, clearance);
   }
 
   /** The place in the apartment that the robot starts from; null elsewhere. @returns {string | null} */
@@ -147,7 +128,12 @@ export class MapSqueezeElement extends FigureElement {
     });
   }
 
-  /** The map of the reader's own; null for the apartment. @returns {MapData | null} */
+  /**
+   * A map of the reader's own; null for the apartment.
+   *
+   * @public
+   * @returns {MapData | null}
+   */
   get map() {
     return this.state.own.map;
   }
@@ -161,7 +147,12 @@ export class MapSqueezeElement extends FigureElement {
     });
   }
 
-  /** A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted. */
+  /**
+   * A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.
+   *
+   * @public
+   * @returns {Uint8Array | null}
+   */
   get verdicts() {
     return this.ask((machine) => machine.verdicts);
   }
@@ -170,6 +161,14 @@ export class MapSqueezeElement extends FigureElement {
   go(start) {
     this.runtime.attempt(() => this.#leave());
     this.decide({ start });
+  }
+
+  /** The reader wants the robot in a map of their own. @param {OwnMap} map */
+  open(map) {
+    if (!this.machine) return;
+    this.runtime.attempt(() => this.#enter(map));
+    this.gesture.step();
+    this.commit();
   }
 
   /** Leaves the reader's own map, if it is there. */
@@ -212,10 +211,10 @@ export class MapSqueezeElement extends FigureElement {
   }
 
   /** @param {Reading} reading */
-  content({ config, stats, note, verdicts, paths }) {
+  content(reading) {
+    const { config, note } = reading;
     const own = this.map;
-    const map = mapText(own ? own.name || words.squeeze.pasted : words.squeeze.apartment, this.#picture.plan);
-    const { index, isMarked } = this.cloud;
+    const map = mapText(own ? own.name || words.squeeze.pasted : words.squeeze.apartment, this.picture.plan);
     return html`
       <section
         class="machine"
@@ -226,17 +225,11 @@ export class MapSqueezeElement extends FigureElement {
       >
         <div class="floor">
           <div class="stage" part="picture">
-            ${canvas(this, this.#picture, pictureText(config, stats, map, note))}
-            ${this.#handles.render(this.settings.wanted.start)}
+            ${canvas(this, this.picture, pictureText(reading, map))}
+            ${this.#handles.render()}
           </div>
           <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
-          ${legend(config)} ${tally(stats, config, paths.length)}
-          ${markedDraw({
-            index,
-            shown: stats.attempts,
-            verdict: isMarked ? verdictText(verdicts[index], config) : '',
-            mark: (index) => this.cloud.mark(index),
-          })}
+          ${legend(config)} ${tally(reading)} ${markedDraw(this)}
           ${cloudControls(this, SAMPLE_COUNTS)}
         </div>
         <div class="controls" part="controls">

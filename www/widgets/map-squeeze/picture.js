@@ -8,11 +8,9 @@ import { clamp } from '../../ui/clamp.js';
 import { COMMAND_DASH } from '../shared/command.js';
 
 /**
- * @import { MapSqueeze, Plan } from '../../types.d.ts'
+ * @import { MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Extent } from '../../scene/view.js'
- *
- * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
  *
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
  *   marked: { pose: Float64Array, path: Float64Array } | undefined,
@@ -38,7 +36,7 @@ const REACH = 12;
 /** @extends {Picture<Scene>} */
 export class FloorPicture extends Picture {
   plan;
-  #near = newView();
+  #near = new View();
   #whole = this.view;
   #walls;
 
@@ -47,7 +45,7 @@ export class FloorPicture extends Picture {
    * @param {import('../../types.d.ts').Grid | null} grid
    */
   constructor(plan, grid) {
-    super('plane', newView());
+    super('plane', new View());
     this.plan = plan;
     this.#walls = new WallLayer(plan, grid);
   }
@@ -85,11 +83,8 @@ export class FloorPicture extends Picture {
     return machine.nearest(worldX, worldY, radius);
   }
 
-  /**
-   * @param {Brush} brush
-   * @param {Scene} scene
-   */
-  paint(brush, { sorted, poses, paths, commanded, config, marked }) {
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, { sorted, poses, paths, commanded, config, marked }) => {
     const { palette } = brush;
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
     clipped(brush, () => {
@@ -107,11 +102,7 @@ export class FloorPicture extends Picture {
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
       }
     });
-  }
-}
-
-function newView() {
-  return new View({ equal: true, inset: { left: 42, right: 8, top: 24, bottom: 30 } });
+  };
 }
 
 /**
@@ -120,7 +111,6 @@ function newView() {
  *
  * @param {Plan} plan
  * @param {{ x: number, y: number }} robot
- * @returns {Extent}
  */
 function mapped({ bounds, walls }, { x, y }) {
   const [xMin, yMin, xMax, yMax] = bounds;
@@ -131,7 +121,7 @@ function mapped({ bounds, walls }, { x, y }) {
 
 /**
  * @param {Brush} brush
- * @param {number[]} triples
+ * @param {Float64Array} triples
  */
 function drawCrosses({ context, view, palette }, triples) {
   context.beginPath();
@@ -189,7 +179,7 @@ function drawRings({ context, view, palette }, poses, through) {
  * The robot where it starts, and its outline where the command would bring it.
  *
  * @param {Brush} brush
- * @param {Settings} config
+ * @param {SqueezeSettings} config
  * @param {Float64Array} commanded
  */
 function drawRobots({ context, view, palette }, { start, clearance }, commanded) {

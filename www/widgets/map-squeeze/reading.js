@@ -38,22 +38,16 @@ export function readingOf(machine) {
  * @param {Uint8Array} verdicts
  */
 function sort(poses, verdicts) {
-  /** @type {number[]} */
-  const rejected = [];
-  /** @type {number[]} */
-  const accepted = [];
-  /** @type {number[]} indices */
-  const through = [];
-  for (let i = 0; i < verdicts.length; i++) {
-    const pose = [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]];
-    if ((verdicts[i] & bits.accepted) === 0) {
-      rejected.push(...pose);
-      continue;
-    }
-    accepted.push(...pose);
-    if ((verdicts[i] & bits.pathFree) === 0) through.push(i);
-  }
-  return { rejected, accepted: Float64Array.from(accepted), through };
+  const indices = [...verdicts.keys()];
+  const isAccepted = (/** @type {number} */ i) => (verdicts[i] & bits.accepted) !== 0;
+  const accepted = indices.filter(isAccepted);
+  const posesOf = (/** @type {number[]} */ some) => Float64Array.from(some.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
+  return {
+    rejected: posesOf(indices.filter((i) => !isAccepted(i))),
+    accepted: posesOf(accepted),
+    /** Indices of those whose path is not free. */
+    through: accepted.filter((i) => (verdicts[i] & bits.pathFree) === 0),
+  };
 }
 
 /**

@@ -10,20 +10,19 @@ import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 import { DEMAND } from './cost.js';
 import { SAMPLERS } from './settings.js';
-import { keptWords, shareOf } from './words.js';
+import { keptWords, shareOf, verdictText } from './words.js';
 
 /**
- * @import { CostMeter } from './cost.js'
- *
- * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
- * @typedef {import('../../types.d.ts').SqueezeStats} Stats
+ * @import { SamplerName, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts'
+ * @import { Cost, CostMeter } from './cost.js'
+ * @import { Reading } from './reading.js'
  */
 
 /** What the marks in the picture mean. @param {Settings} config */
 export function legend(config) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;
-  return html`<ul class="key" part="legend">
+  return html`<ul class="legend key" part="legend">
     <li>
       <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
       ${rejected}
@@ -53,12 +52,8 @@ export function legend(config) {
 /** The share that is longest in print. @type {Pick<Stats, 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} */
 const CERTAIN = { throughWallRate: 1, throughWallInterval: [1, 1], gaveUp: false };
 
-/**
- * @param {Stats} stats
- * @param {Settings} config
- * @param {number} paths how many paths are drawn
- */
-export function tally(stats, config, paths) {
+/** @param {Reading} reading */
+export function tally({ stats, config, paths: { length: paths } }) {
   const { kept, through } = keptWords(config);
   const share = shareOf(stats, config);
   const all = counted(config.samples);
@@ -75,18 +70,11 @@ export function tally(stats, config, paths) {
   ]);
 }
 
-/**
- * The marked draw, with the verdict on it.
- *
- * @param {object} marked
- * @param {number} marked.index −1 for none
- * @param {number} marked.shown draws there are
- * @param {string} marked.verdict empty for none
- * @param {(index: number) => void} marked.mark
- */
-export function markedDraw({ index, shown, verdict, mark }) {
+/** The marked draw, with the verdict on it. @param {import('./map-squeeze.js').MapSqueezeElement} figure */
+export function markedDraw({ cloud, reading: { config, stats, verdicts } }) {
   const { sample, markHint } = words.squeeze;
-  return markedSample({ id: 'sample', label: sample, hint: markHint, index, shown, beyond: -1, told: verdict, mark });
+  const told = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
+  return markedSample(cloud, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, beyond: -1, told });
 }
 
 /**
@@ -95,7 +83,7 @@ export function markedDraw({ index, shown, verdict, mark }) {
  */
 export function costTable({ costs, current }, steps) {
   const { samplers, costs: say } = words.squeeze;
-  const row = (/** @type {import('../../types.d.ts').SamplerName} */ sampler) => {
+  const row = (/** @type {SamplerName} */ sampler) => {
     const name = samplers[sampler];
     const cost = costs[sampler] ?? 'none';
     return [
@@ -114,7 +102,7 @@ export function costTable({ costs, current }, steps) {
   </div>`;
 }
 
-/** @param {import('./cost.js').Cost} cost */
+/** @param {Cost} cost */
 function costText({ draws, wallTests, micros }) {
   const share = `${rounded(100 * micros * 1e-6 * DEMAND, 2)}\u202f%`;
   return [fixed(draws, 2), fixed(wallTests, 2), rounded(micros, 2), share];

@@ -38,25 +38,8 @@ export const own = {
   map: { opening: null, check: (_, map, machine) => map && mapData(machine, map.name ?? '') },
 };
 
-/** @type {import('../../figure/attributes.js').Documentation} */
-export const documentation = {
-  attributes: {
-    preset: 'A place in the apartment to start from; none elsewhere.',
-    view: 'The whole map, or what is near the robot.',
-  },
-  properties: {
-    map: { type: 'MapData | null', sentence: "A map of the reader's own; null for the apartment." },
-    verdicts: {
-      type: 'Uint8Array | null',
-      readonly: true,
-      sentence: 'A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.',
-    },
-  },
-};
-
 /**
  * @param {unknown} name
- * @returns {typeof PRESETS[number]}
  * @throws {TypeError | RangeError} where there is none of that name
  */
 export function presetNamed(name) {

@@ -36,13 +36,6 @@ const own = css`
     outline-offset: 4px;
   }
 
-  /* In the middle of itself, whatever its size. */
-  .handle {
-    top: 0;
-    left: 0;
-    transform: translate(-50%, -50%);
-  }
-
   .handle.body::after {
     content: none;
   }
@@ -58,9 +51,7 @@ const own = css`
   }
 
   .key {
-    display: grid;
-    grid-template-columns: repeat(auto-fill, minmax(min(100%, 20rem), 1fr));
-    gap: 0.15rem 2.5rem;
+    row-gap: 0.15rem;
     margin: 0.5rem 0 0.7rem;
     padding: 0;
     list-style: none;
@@ -78,12 +69,6 @@ const own = css`
     height: 1.2rem;
     fill: none;
     stroke-width: 1.5;
-  }
-
-  @media (forced-colors: active) {
-    .key svg {
-      forced-color-adjust: none;
-    }
   }
 
   .key .rejected {
@@ -121,12 +106,6 @@ const own = css`
   .judge legend .toggle {
     font-style: normal;
     font-size: 1rem;
-  }
-
-  .samplers {
-    display: flex;
-    flex-wrap: wrap;
-    column-gap: 1rem;
   }
 
   .judge > .effect {
@@ -176,18 +155,9 @@ const own = css`
     width: 100%;
     margin: 0.3rem 0 0.6rem;
     padding: 0.4rem 0.5rem;
-    background: none;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
-    color: var(--ink);
     font-size: 0.85rem;
     line-height: 1.35;
     resize: vertical;
-  }
-
-  textarea:focus-visible {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
   }
 
   @media print {

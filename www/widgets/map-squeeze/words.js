@@ -10,10 +10,8 @@ import { commandText } from '../shared/command.js';
 import { en } from './en.js';
 
 /**
- * @import { Plan } from '../../types.d.ts'
- *
- * @typedef {import('../../types.d.ts').SqueezeSettings} Settings
- * @typedef {import('../../types.d.ts').SqueezeStats} Stats
+ * @import { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
  */
 
 addEnglish({ squeeze: en });
@@ -54,15 +52,8 @@ export function shareOf({ throughWallRate, throughWallInterval: [low, high], gav
   return { text: `${percent(throughWallRate)} (${fixed(100 * low, 1)}–${percent(high)})`, interval: true };
 }
 
-/**
- * What is announced after a change has come to rest.
- *
- * @param {Settings} config
- * @param {Stats} stats
- * @param {string} note
- */
-export function announcementOf(config, stats, note) {
-  const { drawn, accepted, throughWall, throughWallRate } = stats;
+/** What is announced after a change has come to rest. @param {Reading} reading */
+export function announcementOf({ config, stats: { drawn, accepted, throughWall, throughWallRate }, note }) {
   if (note && accepted === 0) return note;
   const { kept, ofThem } = keptWords(config);
   const say = words.squeeze;
@@ -85,12 +76,10 @@ export function mapText(name, { bounds, walls }) {
 /**
  * The text equivalent of the picture.
  *
- * @param {Settings} config
- * @param {Stats} stats
+ * @param {Reading} reading
  * @param {string} map as `mapText` has it
- * @param {string} note
  */
-export function pictureText(config, stats, map, note) {
+export function pictureText({ config, stats, note }, map) {
   const { x, y, theta } = config.start;
   const { accepted, drawn, throughWall } = stats;
   const { kept, ofThem } = keptWords(config);

@@ -9,10 +9,6 @@ import { limits } from '../../../settings.js';
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'];
 
-/** Shades of a PGM image, and fields that say how they are to be read. */
-const [OCCUPIED, FREE] = [0, 254];
-const READING = { negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 };
-
 /**
  * The map that a machine has.
  *
@@ -34,15 +30,11 @@ export function mapData(machine, name) {
  * Puts a map into a machine.
  *
  * @param {MapSqueeze} machine
- * @param {unknown} data MapData, or null for the apartment
+ * @param {unknown} data to be MapData
  * @throws {TypeError | RangeError} with the machine's present map left as it is
  */
 export function applyMap(machine, data) {
-  if (data === null) {
-    machine.setPlan(undefined);
-    return;
-  }
-  const isGrid = typeof data === 'object' && 'occupied' in data;
+  const isGrid = typeof data === 'object' && data !== null && 'occupied' in data;
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
@@ -52,15 +44,14 @@ export function applyMap(machine, data) {
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
   const cells = unpackBits(map.occupied, columns * rows);
-  const header = new TextEncoder().encode(`P5 ${columns} ${rows} 255\n`);
+  const header = new TextEncoder().encode(`P5 ${columns} ${rows} 1\n`);
   const image = new Uint8Array(header.length + cells.length);
   image.set(header);
-  // Cells are counted from the bottom, and rows of an image from the top.
-  for (let row = 0; row < rows; row++) {
-    const at = header.length + (rows - 1 - row) * columns;
-    for (let column = 0; column < columns; column++) image[at + column] = cells[row * columns + column] ? OCCUPIED : FREE;
+  // Cells are counted from the bottom, and rows of an image from the top; negated, white is what is occupied.
+  for (let at = 0; at < cells.length; at += columns) {
+    image.set(cells.subarray(at, at + columns), image.length - columns - at);
   }
-  machine.setGrid({ ...READING, image: 'map.pgm', resolution: map.resolution, origin: map.origin }, image);
+  machine.setGrid({ resolution: map.resolution, origin: map.origin, negate: 1 }, image);
 }
 
 /**
@@ -76,7 +67,6 @@ function packBits(cells) {
 /**
  * @param {unknown} text
  * @param {number} count
- * @returns {Uint8Array}
  */
 function unpackBits(text, count) {
   const length = Math.ceil(count / 8);

@@ -55,7 +55,6 @@ export async function readMapFiles(files) {
  *
  * @param {Blob} part of the file or all of it
  * @param {string} name
- * @returns {Promise<ArrayBuffer>}
  */
 async function bytesOf(part, name) {
   try {
@@ -96,7 +95,6 @@ export async function readPlan(name, text) {
  * @param {string} name of the file
  * @param {string} text
  * @param {'JSON' | 'YAML'} language
- * @returns {Promise<unknown>}
  */
 async function parsed(name, text, language) {
   const { YAMLException, load: parseYaml } = await import('./yaml.js');
@@ -147,7 +145,6 @@ const WORDS = new Map([['yes', true], ['on', true], ['no', false], ['off', false
 /**
  * @param {string} name of the file
  * @param {string} text
- * @returns {Promise<Record<string, unknown>>}
  */
 async function readDescription(name, text) {
   const description = await parsed(name, text, 'YAML');
@@ -159,10 +156,7 @@ async function readDescription(name, text) {
   return typeof negate === 'string' ? { ...fields, negate: WORDS.get(negate.toLowerCase()) ?? negate } : fields;
 }
 
-/**
- * @param {File} file
- * @returns {Promise<ImageData>}
- */
+/** @param {File} file */
 async function readPng(file) {
   const header = new DataView(await bytesOf(file.slice(0, 24), file.name));
   const isPng = header.byteLength === 24 && header.getUint32(0) === 0x89504e47;
@@ -185,7 +179,6 @@ async function readPng(file) {
  * @param {File} file
  * @param {number} width
  * @param {number} height
- * @returns {Promise<ImageData>}
  */
 async function decoded(file, width, height) {
   const asTheyAre = /** @type {const} */ ({ colorSpaceConversion: 'none', premultiplyAlpha: 'none' });

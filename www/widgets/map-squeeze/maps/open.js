@@ -1,5 +1,6 @@
 /** How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused. */
 
+import { Part } from '../../../figure/part.js';
 import { words } from '../../../messages/registry.js';
 
 /** @import { OwnMap } from './files.js' */
@@ -7,22 +8,12 @@ import { words } from '../../../messages/registry.js';
 /** What the names of files may end in. */
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
-export class MapOpener {
+/** @extends {Part<import('../map-squeeze.js').MapSqueezeElement>} */
+export class MapOpener extends Part {
   /** Why the latest map was refused. @type {(() => string) | undefined} */
   #complaint;
   /** The latest attempt to read files: an earlier one that ends later is void. */
   #reading = 0;
-  #enter;
-  #told;
-
-  /**
-   * @param {(map: OwnMap) => void} enter puts the robot into a map; throws where that is refused
-   * @param {() => void} told called when there is something else to say
-   */
-  constructor(enter, told) {
-    this.#enter = enter;
-    this.#told = told;
-  }
 
   /** Empty where there is nothing to complain of. */
   get complaint() {
@@ -48,7 +39,7 @@ export class MapOpener {
     const reading = ++this.#reading;
     try {
       const map = await find(await import('./files.js'));
-      if (reading === this.#reading) this.#enter(map);
+      if (reading === this.#reading) this.host.open(map);
     } catch (error) {
       if (reading !== this.#reading) return;
       const { message, sentence } = /** @type {Error & Partial<import('./files.js').MapFileError>} */ (error);
@@ -56,7 +47,7 @@ export class MapOpener {
         const { refused } = words.squeeze;
         return sentence ? sentence(refused) : refused.cannot(message);
       };
-      this.#told();
+      this.host.requestUpdate();
     }
   }
 

@@ -96,21 +96,25 @@ export function check(figure, key, label) {
   return toggle({ label, checked: figure.reading.config[key], change: (on) => figure.decide({ [key]: on }) });
 }
 
+/** What may be taken along of a figure, in folds. @param {Figure} figure */
+export function takeAlong(figure) {
+  return html`${exportMenu(figure, figure.reading.config.seed)} ${figure.copies.render()}`;
+}
+
 /**
- * Growth, seed and size of the cloud, and what may be taken along of it.
+ * Growth, seed and size of the cloud.
  *
  * @param {Figure} figure
  * @param {readonly number[]} counts the sizes that the slider offers
  */
 export function cloudControls(figure, counts) {
-  const { samples, seed } = figure.reading.config;
+  const { samples } = figure.reading.config;
   const { cloud: say } = wordsOf(figure);
   const { name, effect } = wordsFor(figure, 'samples');
   const above = counts.findIndex((count) => count >= samples);
   const nearest = above < 0 ? counts.length - 1 : above;
   return html`<fieldset class="cloud">
     <legend class="visually-hidden">${say.legend}</legend>
-    ${figure.cloud?.buttons(say)}
     ${sliderRow({
       id: 'samples',
       symbol: html`<i>N</i>`,
@@ -125,7 +129,7 @@ export function cloudControls(figure, counts) {
       input: (index) => want(figure, 'samples', counts[index]),
       commit: () => figure.commit(),
     })}
-    ${exportMenu(figure, seed)} ${figure.copies.render()}
+    ${figure.cloud?.buttons(say)}
   </fieldset>`;
 }
 

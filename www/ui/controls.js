@@ -14,9 +14,15 @@ export const controlStyles = css`
     grid-template-columns: auto minmax(4rem, 1fr) auto;
     column-gap: 0.6rem;
     min-width: 0;
-    margin: 0 0 1.4rem;
+    margin: 0;
     padding: 0;
     border: 0;
+    position: relative;
+  }
+
+  /* Room for the line of help of the row that has the focus or the pointer. */
+  fieldset:has(.slider) {
+    padding-bottom: 1.35rem;
   }
 
   fieldset:has(.picking) {
@@ -31,12 +37,12 @@ export const controlStyles = css`
     display: grid;
     grid-template-columns: subgrid;
     align-items: center;
-    margin-bottom: 0.45rem;
   }
 
   .slider label {
     min-width: 1.6rem;
     font-size: 1.1rem;
+    line-height: 1;
   }
 
   .slider .value {
@@ -51,12 +57,17 @@ export const controlStyles = css`
   }
 
   .slider .effect {
-    grid-column: 2 / -1;
-    margin: -0.15rem 0 0;
+    position: absolute;
+    right: 0;
+    bottom: 0;
+    left: 0;
+    margin: 0;
+    visibility: hidden;
   }
 
-  .slider.picking .effect {
-    grid-column: 3 / -1;
+  .slider:focus-within .effect,
+  fieldset:not(:focus-within) > .slider:hover .effect {
+    visibility: visible;
   }
 
   .slider.off :is(label, .value) {
@@ -285,6 +296,19 @@ export function sliderRow(row) {
       <p class="effect" id="${row.id}-effect">${row.effect}</p>
     </div>
   `;
+}
+
+/**
+ * What is folded away until it is asked for.
+ *
+ * @param {string} name
+ * @param {unknown} content
+ */
+export function fold(name, content) {
+  return html`<details part="fold">
+    <summary>${name}</summary>
+    <div class="folded">${content}</div>
+  </details>`;
 }
 
 /** A message with its italics and subscripts. @param {string} message as messages/en.js has it */

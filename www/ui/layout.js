@@ -1,6 +1,6 @@
 /**
- * The page of a widget: its picture large at the left with the controls beside it, everything in one column
- * where there is little room.
+ * The page of a widget, from above: its pictures side by side, the sentence that they say, the figures that matter, the
+ * controls in compact rows, and folds with everything else. So much is seen without scrolling in a column of 700 pixels.
  */
 
 import { css } from 'lit';
@@ -9,30 +9,54 @@ import { markedStyles } from './marked.js';
 import { readoutStyles } from './readouts.js';
 
 const layout = css`
+  .views,
+  .controls {
+    display: grid;
+    gap: 0.25rem 2rem;
+    align-items: start;
+  }
+
+  .controls {
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr));
+    gap: 0 2.5rem;
+  }
+
+  @container (min-width: 56rem) {
+    .controls {
+      column-gap: 5rem;
+    }
+  }
+
+  /* What is needed less often, one beside the other; an open one has the whole width. */
+  .folds {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: start;
+    gap: 0.1rem 1.6rem;
+    margin-top: 0.4rem;
+    padding-top: 0.3rem;
+    border-top: 1px solid var(--rule);
+  }
+
+  .folds > details[open] {
+    flex: 1 0 100%;
+    padding-bottom: 0.8rem;
+  }
+
+  .folded {
+    padding-top: 0.4rem;
+  }
+
   .figures {
     display: grid;
-    gap: 1.5rem 2.75rem;
+    gap: 1rem 2.75rem;
     align-items: start;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
-    margin-top: 1.5rem;
   }
 
   figure,
   dl {
     margin: 0;
-  }
-
-  @container (min-width: 56rem) {
-    .machine {
-      display: grid;
-      column-gap: 2.75rem;
-      grid-template-columns: minmax(0, 1fr) 22rem;
-    }
-
-    .figures {
-      grid-column: 1 / -1;
-      grid-template-columns: minmax(0, 1fr) minmax(0, 1fr) 22rem;
-    }
   }
 
   .stage {
@@ -130,10 +154,6 @@ const layout = css`
     margin-bottom: 0.7rem;
   }
 
-  .cloud {
-    margin: 1rem 0 0;
-  }
-
   .seed {
     margin-left: auto;
     color: var(--muted);
@@ -145,18 +165,10 @@ const layout = css`
     font-size: 0.92rem;
   }
 
-  /* In one column the floor stays in sight while the controls below it are used. */
-  @container (width < 56rem) {
-    .floor {
-      display: contents;
-    }
-
-    .controls {
-      margin-top: 1.5rem;
-    }
-
+  /* On a phone the floor stays in sight while the controls below it are used. */
+  @container (width < 30rem) {
     @media (min-height: 37.5rem) {
-      .stage {
+      .stage[part='picture'] {
         position: sticky;
         top: 0;
         z-index: 1;
@@ -167,13 +179,17 @@ const layout = css`
           0 0.5rem 0.5rem var(--paper);
       }
 
+      .views {
+        display: contents;
+      }
+
       .stage canvas {
         max-height: 38svh;
       }
 
       /* What has the focus stays clear of the floor above it. */
       :is(button, input, summary, textarea, .chart-marker) {
-        scroll-margin-top: calc(38svh + 6.5rem);
+        scroll-margin-top: calc(38svh + 2rem);
       }
     }
   }

@@ -4,37 +4,24 @@ import { css, html, nothing } from 'lit';
 import { rich } from './controls.js';
 
 export const readoutStyles = css`
+  /* A name above its figure, side by side. */
   .readouts {
-    display: grid;
-    column-gap: 2.5rem;
-    margin: 0.7rem 0 0.5rem;
-    border-bottom: 1px solid var(--rule);
-  }
-
-  @container (min-width: 43rem) {
-    .readouts {
-      grid: repeat(4, auto) / auto-flow minmax(0, 1fr);
-    }
-  }
-
-  .readouts div {
     display: flex;
     flex-wrap: wrap;
-    justify-content: space-between;
-    align-items: baseline;
-    column-gap: 0.75rem;
-    padding: 0.28rem 0;
-    border-top: 1px solid var(--rule);
+    gap: 0.2rem 2rem;
+    margin: 0.1rem 0 0.5rem;
   }
 
   .readouts dt {
-    flex: 1;
-    min-width: min-content;
+    color: var(--muted);
+    font-size: 0.84rem;
+    line-height: 1.25;
   }
 
   .readouts dd {
-    margin: 0 0 0 auto;
-    text-align: right;
+    margin: 0;
+    font-size: 1.1rem;
+    line-height: 1.25;
     white-space: nowrap;
   }
 

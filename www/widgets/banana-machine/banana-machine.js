@@ -6,7 +6,7 @@
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
 import { Cloud, showOnly } from '../../figure/cloud.js';
-import { canvas, cloudControls } from '../../figure/controls.js';
+import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
@@ -15,9 +15,9 @@ import { words } from '../../messages/registry.js';
 import { alphaCounts } from '../../settings.js';
 import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
-import { rich } from '../../ui/controls.js';
+import { fold, rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
-import { commandControls, noiseControls, overlayToggles } from './controls.js';
+import { alphaControls, commandControls, modelControls, overlayToggles, presetButtons } from './controls.js';
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
@@ -167,26 +167,31 @@ export class BananaMachineElement extends FigureElement {
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
       <section class="machine" aria-label=${say.title}>
-        <div class="floor">
+        <div class="views">
           <div class="stage" part="picture">
             ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}
-            <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
-              <span>${captionOf(reading)}</span>
-            </p>
           </div>
-          ${overlayToggles(this)} ${readouts(reading)}
-          ${markedRobot(this, this.#inspection)}
-          ${cloudControls(this, SAMPLE_COUNTS)}
+          <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>
-        <div class="controls" part="controls">${commandControls(this)} ${noiseControls(this)}</div>
-        <div class="figures" part="figures">
-          <figure>
-            ${canvas(this, this.#twist, twistText(reading))}
-            <figcaption>${twistCaption(reading)}</figcaption>
-            ${twistTable(reading)}
-          </figure>
-          <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
-          ${workedExample(reading)}
+        <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
+          <span>${captionOf(reading)}</span>
+        </p>
+        ${readouts(reading)} ${presetButtons(this)}
+        <div class="controls" part="controls">
+          <div>${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
+          ${alphaControls(this)}
+        </div>
+        <div class="folds">
+          ${fold(say.modelAndNoise, html`${modelControls(this)} ${overlayToggles(this)} ${markedRobot(this, this.#inspection)}`)}
+          ${fold(
+            say.figures,
+            html`<div class="figures" part="figures">
+              <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
+              <figure>${workedExample(reading)}</figure>
+              <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
+            </div>`,
+          )}
+          ${takeAlong(this)}
         </div>
       </section>
     `;

@@ -12,46 +12,52 @@ import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 /** @typedef {import('./banana-machine.js').BananaMachineElement} Figure */
 
 /** @param {Figure} figure */
-export function commandControls(figure) {
+export function presetButtons(figure) {
   const { command } = figure.reading.config;
-  return html`
-    <fieldset>
-      <legend>${words.command}</legend>
-      <div class="buttons">
-        ${presets['banana-machine'].map(({ name, v, omega, dt }) =>
-          button(
-            words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
-            () => figure.decide({ command: { v, omega, dt } }),
-            { pressed: command.v === v && command.omega === omega && command.dt === dt },
-          ),
-        )}
-      </div>
-      ${sliders(figure, COMMAND)}
-    </fieldset>
-  `;
+  return html`<div class="buttons">
+    ${presets['banana-machine'].map(({ name, v, omega, dt }) =>
+      button(
+        words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
+        () => figure.decide({ command: { v, omega, dt } }),
+        { pressed: command.v === v && command.omega === omega && command.dt === dt },
+      ),
+    )}
+  </div>`;
 }
 
 /** @param {Figure} figure */
-export function noiseControls(figure) {
-  const { model, alphas, isolate } = figure.reading.config;
+export function commandControls(figure) {
+  return html`<fieldset>
+    <legend class="visually-hidden">${words.command}</legend>
+    ${sliders(figure, COMMAND)}
+  </fieldset>`;
+}
+
+/** @param {Figure} figure */
+export function modelControls(figure) {
+  const { alphas, isolate } = figure.reading.config;
   const say = words.banana;
   // From 1; the other model may have fewer.
   const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
-  return html`
-    <fieldset>
-      <legend>${say.modelAndNoise}</legend>
-      ${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
-    </fieldset>
-    <fieldset class="alphas">
-      <legend>${say.settings.alphas.name}</legend>
-      ${toggle({
-        label: say.isolate,
-        checked: isolate !== null,
-        change: (on) => figure.decide({ isolate: on ? chosen : null }),
-      })}
-      ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, say.settings.alphas.effects[model][index]))}
-    </fieldset>
-  `;
+  return html`<fieldset>
+    <legend class="visually-hidden">${say.modelAndNoise}</legend>
+    ${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
+    ${toggle({
+      label: say.isolate,
+      checked: isolate !== null,
+      change: (on) => figure.decide({ isolate: on ? chosen : null }),
+    })}
+  </fieldset>`;
+}
+
+/** @param {Figure} figure */
+export function alphaControls(figure) {
+  const { model, alphas } = figure.reading.config;
+  const { name, effects } = words.banana.settings.alphas;
+  return html`<fieldset class="alphas">
+    <legend class="visually-hidden">${name}</legend>
+    ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, effects[model][index]))}
+  </fieldset>`;
 }
 
 /**

@@ -5,19 +5,21 @@ import { chartStyles } from '../../ui/chart.js';
 import { layoutStyles } from '../../ui/layout.js';
 
 const own = css`
-  canvas.plane {
-    aspect-ratio: 5 / 3;
+  canvas {
+    aspect-ratio: 5 / 4;
   }
 
-  @container (max-width: 34rem) {
-    canvas.plane {
-      aspect-ratio: 5 / 4;
+  @container (min-width: 30rem) {
+    .views {
+      grid-template-columns: 1fr 1fr;
+      gap: 1rem;
     }
   }
 
-  canvas.twist {
-    aspect-ratio: 380 / 250;
-    max-width: 34rem;
+  @container (min-width: 56rem) {
+    canvas {
+      aspect-ratio: 5 / 3;
+    }
   }
 
   .swatch {
@@ -43,9 +45,6 @@ const own = css`
     --role: var(--posterior);
   }
 
-  .alphas > .toggle {
-    margin-bottom: 0.4rem;
-  }
 `;
 
 export const bananaStyles = [...layoutStyles, chartStyles, own];

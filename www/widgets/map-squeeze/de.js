@@ -3,6 +3,8 @@
 /** @type {typeof import('./en.js').en} */
 export const de = {
   title: 'Map Squeeze: mit Karte durch die Wand',
+  keyAndSample: 'Was gezeichnet ist',
+  costsLabel: 'Was ein Verfahren kostet',
   presets: { doorway: 'Vor einer Tür', wall: 'Vor einer Wand', corridor: 'Im freien Flur' },
   samplers: { endpoint: 'Endpunkt', 'whole-arc': 'ganzer Bogen', 'sub-stepped': 'Teilschritte' },
   samplerEffects: {

@@ -4,6 +4,8 @@ import { plural } from '../../messages/en.js';
 
 export const en = /** @satisfies {import('../../messages/registry.js').Message} */ ({
   title: 'Map Squeeze',
+  keyAndSample: 'What is drawn',
+  costsLabel: 'What a sampler costs',
   presets: { doorway: 'Facing a doorway', wall: 'Facing a wall', corridor: 'Open corridor' },
   samplers: { endpoint: 'endpoint', 'whole-arc': 'whole arc', 'sub-stepped': 'sub-stepped' },
   samplerEffects: {

@@ -2,13 +2,14 @@
 
 import { html } from 'lit';
 import { Cloud, showOnly } from '../../figure/cloud.js';
-import { canvas, cloudControls } from '../../figure/controls.js';
+import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
+import { fold } from '../../ui/controls.js';
 import { judgeControls, motionControls, ownMap, placeControls } from './controls.js';
 import { CostMeter } from './cost.js';
 import { RobotHandles } from './handles.js';
@@ -223,19 +224,20 @@ export class MapSqueezeElement extends FigureElement {
         @dragleave=${this.#opener.leave}
         @drop=${this.#opener.drop}
       >
-        <div class="floor">
+        <div class="views">
           <div class="stage" part="picture">
             ${canvas(this, this.picture, pictureText(reading, map))}
             ${this.#handles.render()}
           </div>
-          <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
-          ${legend(config)} ${tally(reading)} ${markedDraw(this)}
-          ${cloudControls(this, SAMPLE_COUNTS)}
         </div>
-        <div class="controls" part="controls">
-          ${placeControls(this)} ${judgeControls(this)} ${motionControls(this)} ${costTable(this.#meter, config.steps)}
+        <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
+        ${tally(reading)} ${placeControls(this)} ${judgeControls(this)}
+        <div class="controls" part="controls">${motionControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
+        <div class="folds">
+          ${fold(words.squeeze.keyAndSample, html`${legend(config)} ${markedDraw(this)}`)}
+          ${fold(words.squeeze.costsLabel, costTable(this.#meter, config.steps))}
+          ${fold(words.squeeze.own.legend, ownMap(this, this.#opener, map))} ${takeAlong(this)}
         </div>
-        ${ownMap(this, this.#opener, map)}
       </section>
     `;
   }

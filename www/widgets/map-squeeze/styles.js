@@ -4,13 +4,13 @@ import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 
 const own = css`
-  canvas.plane {
-    aspect-ratio: 4 / 3;
+  canvas {
+    aspect-ratio: 9 / 4;
   }
 
   @container (max-width: 34rem) {
-    canvas.plane {
-      aspect-ratio: 1 / 1;
+    canvas {
+      aspect-ratio: 5 / 4;
     }
   }
 
@@ -18,17 +18,11 @@ const own = css`
     display: grid;
     gap: 0.5rem 2.75rem;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
-    margin: 1.5rem 0 0;
+    margin: 0;
   }
 
   .own-map > * {
     grid-column: auto;
-  }
-
-  @container (min-width: 56rem) {
-    .own-map {
-      grid-column: 1 / -1;
-    }
   }
 
   .dropping .stage {

@@ -162,7 +162,7 @@ async function chunks() {
 
 /** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */
 function ofDeclarations() {
-  const left = ['sentence', 'min', 'max', 'default', 'nullable'];
+  const left = ['sentence', 'default', 'nullable'];
   const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (left.includes(key) ? undefined : each));
   return Object.entries(declared)
     .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)

@@ -19,6 +19,7 @@ import { Stage } from './stage.js';
 import { State } from './state.js';
 import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
+import { Typing } from './typing.js';
 
 /**
  * @import { FigureState, Motion } from '../types.d.ts'
@@ -98,6 +99,7 @@ export class FigureElement extends LitElement {
   link = new Link(this);
   announcer = new Announcer();
   copies = new CopyMenu(this);
+  typing = new Typing(this);
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
   cloud;
   /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */

@@ -16,6 +16,9 @@ export const de = {
     omega: { name: 'ω, befohlene Drehrate' },
     dt: { name: 'Δt, Dauer' },
   },
+  sliderEnds: (end) => `Der Regler endet bei ${end}; Werte darüber hinaus kann man eintippen.`,
+  refused: (name, given, least, most, whole) =>
+    `${name} ist ${given}; erlaubt ist ${whole ? 'eine ganze Zahl von ' : ''}${least} bis ${most}.`,
   exports: {
     label: 'Abbildung sichern',
     png: 'PNG',

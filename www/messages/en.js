@@ -25,6 +25,9 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     omega: { name: 'ω, commanded turn rate' },
     dt: { name: 'Δt, duration' },
   },
+  sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
+  refused: (name, given, least, most, whole) =>
+    `${name} is ${given}; allowed is ${whole ? 'a whole number from ' : ''}${least} to ${most}.`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',

@@ -113,6 +113,10 @@ export const theme = css`
       margin: 0 1.5rem 0 0 !important;
     }
 
+    .printed {
+      visibility: visible !important;
+    }
+
     .roomy::after,
     .reserved {
       display: none !important;

@@ -5,7 +5,7 @@ import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { presets } from '../../settings.js';
 import { button, choice, toggle } from '../../ui/controls.js';
-import { fixed } from '../../ui/format.js';
+import { typed } from '../../ui/format.js';
 import { alphaName } from './reading.js';
 import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 
@@ -73,7 +73,7 @@ function alphaSlider(figure, key, number, [path, picture]) {
   return slider(figure, key, {
     off,
     pick: isolate === null ? undefined : choice({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose }),
-    show: (value) => (off ? words.banana.off(fixed(value, 3)) : fixed(value, 3)),
+    show: (value) => (off ? words.banana.off(typed(value, 3)) : typed(value, 3)),
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
       if (off) choose();

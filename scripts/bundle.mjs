@@ -30,6 +30,14 @@ const MODULE = {
   external: () => "export default () => new URL('../motion.wasm', import.meta.url);",
 };
 
+/** What takes the place of www/address.js, where a bundle is not the very script that the page names. */
+const ADDRESS = {
+  /** Only while it is evaluated; in the middle of a page it has none. */
+  classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const classic = true;",
+  /** Of the script that a chunk belongs to. */
+  chunk: "export const address = import.meta.url.replace(/chunks\\/[^/]*$/, 'external.js'); export const classic = false;",
+};
+
 /** Their tags. */
 const WIDGETS = Object.keys(declared.settings);
 
@@ -69,6 +77,10 @@ export async function bundle() {
           setup({ onLoad }) {
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]www[/\\]address\.js$/ }, ({ path }) => ({
+              contents: options.format === 'iife' ? ADDRESS.classic : options.splitting ? ADDRESS.chunk : readFileSync(path, 'utf8'),
+              loader: 'js',
+            }));
             onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
               contents: withoutEffects(readFileSync(path, 'utf8')),
               loader: 'js',

@@ -62,10 +62,15 @@ export const WORDS = { parse: (text) => text.split(/\s+/).filter(Boolean), print
 /** Of the types that fit into an attribute. @type {Record<string, Kind>} */
 const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
 
+/** Of headings in HTML. */
+export const HEADING_LEVELS = /** @type {const} */ (['1', '2', '3', '4', '5', '6']);
+
 /** What every figure heeds besides. */
 export const COMMON = {
   theme: { words: THEMES, opening: 'auto' },
   share: {},
+  presentation: {},
+  'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
 };
 
 /**

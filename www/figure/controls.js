@@ -132,9 +132,9 @@ export function check(figure, key, label) {
   return toggle({ label, checked: figure.reading.config[key], change: (on) => figure.decide({ [key]: on }) });
 }
 
-/** What may be taken along of a figure, in folds. @param {Figure} figure */
+/** What may be taken along of a figure, in folds, and the way to a full screen. @param {Figure} figure */
 export function takeAlong(figure) {
-  return html`${exportMenu(figure, figure.reading.config.seed)} ${figure.copies.render()}`;
+  return html`${exportMenu(figure, figure.reading.config.seed)} ${figure.copies.render()} ${figure.presenting.button()}`;
 }
 
 /**

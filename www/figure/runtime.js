@@ -20,17 +20,21 @@ export class Runtime extends Part {
   /** Whether what is shown is that of a machine which is being made again. */
   mending = false;
   #near = false;
-  #starting = false;
+  /** @type {Promise<void> | undefined} */
+  #starting;
   #crashes = 0;
 
   hostConnected() {
     watch(this.host, {
-      approach: () => {
-        this.#near = true;
-        this.#start();
-      },
+      approach: () => void this.hasten(),
       sight: (inSight) => this.host.stage.sight(inSight),
     });
+  }
+
+  /** The reader is near, or there: starts what has not started. */
+  async hasten() {
+    this.#near = true;
+    await this.#start();
   }
 
   hostDisconnected() {
@@ -126,9 +130,13 @@ export class Runtime extends Part {
     this.machine = this.motion = undefined;
   }
 
-  async #start() {
-    if (this.#starting || this.machine || !this.#near) return;
-    this.#starting = true;
+  /** @returns {Promise<void>} that ends when it has started, or cannot */
+  #start() {
+    if (!this.machine && this.#near) this.#starting ??= this.#make();
+    return this.#starting ?? Promise.resolve();
+  }
+
+  async #make() {
     try {
       const [motion] = await Promise.all([instantiate(), this.host.link.prepare()]);
       if (!this.#near) return;
@@ -140,7 +148,7 @@ export class Runtime extends Part {
     } catch (error) {
       this.fail(error);
     } finally {
-      this.#starting = false;
+      this.#starting = undefined;
     }
     // It went and came back meanwhile, or trapped again.
     if (this.#near && !this.machine && this.failure === undefined) this.#start();

@@ -28,6 +28,7 @@ export const de = {
     svgTitle: 'Das Bild als Vektorgrafik',
     csvTitle: 'Jede Stichprobe, mit den Parametern und dem Startwert',
   },
+  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', end: 'Verlassen' },
   copies: {
     label: 'Abbildung weitergeben',
     link: 'Link kopieren',

@@ -37,6 +37,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     svgTitle: 'The picture as vector graphics',
     csvTitle: 'Every sample, with the parameters and the seed',
   },
+  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', end: 'Leave' },
   copies: {
     label: 'Share the figure',
     link: 'Copy link',

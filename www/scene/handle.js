@@ -1,6 +1,7 @@
 /** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
 
 import { html } from 'lit';
+import { pointOn } from './canvas.js';
 
 /**
  * @typedef {object} Hooks what a handle acts on; lengths in metres
@@ -75,14 +76,14 @@ export class Handle {
 
   /**
    * @param {Element} handle
-   * @param {number} x CSS pixels of the window
-   * @param {number} y
+   * @param {number} clientX CSS pixels of the window
+   * @param {number} clientY
    * @returns {number[]} the same in metres
    */
-  #world(handle, x, y) {
-    const { left, top } = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
+  #world(handle, clientX, clientY) {
+    const [x, y] = pointOn(/** @type {Element} */ (handle.parentElement), { clientX, clientY });
     const view = this.#hooks.view();
-    return [view.toWorldX(x - left), view.toWorldY(y - top)];
+    return [view.toWorldX(x), view.toWorldY(y)];
   }
 
   #hold = (/** @type {PointerEvent} */ event) => {

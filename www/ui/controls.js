@@ -512,13 +512,14 @@ export function toggle({ label, checked, change }) {
 }
 
 /**
- * @param {string} label
+ * @param {unknown} label
  * @param {() => void} press
- * @param {{ pressed?: boolean, disabled?: boolean, title?: string }} [state]
+ * @param {{ pressed?: boolean, disabled?: boolean, title?: string, name?: string }} [state] with a class
  */
-export function button(label, press, { pressed, disabled = false, title } = {}) {
+export function button(label, press, { pressed, disabled = false, title, name } = {}) {
   return html`<button
     type="button"
+    class=${name ?? nothing}
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}

@@ -73,6 +73,16 @@ export const theme = css`
     color: var(--ink);
   }
 
+  .title-slot {
+    margin: 0 0 0.3rem;
+    font-size: 1.1rem;
+  }
+
+  .caption-slot {
+    margin: 0.5rem 0 0;
+    font-size: 0.95rem;
+  }
+
   .failure {
     margin: 0;
     padding: 1rem 0;

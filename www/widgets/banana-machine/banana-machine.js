@@ -91,7 +91,7 @@ export class BananaMachineElement extends FigureElement {
     const { config, shown: count } = this.fresh;
     const { poses } = /** @type {Machine} */ (this.machine);
     return {
-      title: words.banana.title,
+      title: this.label,
       settings: { element: this.localName, ...config },
       columns: ['x_m', 'y_m', 'theta_rad'],
       row: (/** @type {number} */ i) => [...poses.subarray(3 * i, 3 * i + 3)],
@@ -166,7 +166,7 @@ export class BananaMachineElement extends FigureElement {
     const say = words.banana;
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
-      <section class="machine" aria-label=${say.title}>
+      <section class="machine" aria-label=${this.label}>
         <div class="views">
           <div class="stage" part="picture">
             ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}

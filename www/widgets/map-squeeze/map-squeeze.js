@@ -91,7 +91,7 @@ export class MapSqueezeElement extends FigureElement {
   get takeaway() {
     const { config, poses, verdicts } = this.fresh;
     return {
-      title: words.squeeze.title,
+      title: this.label,
       settings: { element: this.localName, map: this.map?.name ?? null, ...config },
       columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
       row: (/** @type {number} */ i) => [
@@ -219,7 +219,7 @@ export class MapSqueezeElement extends FigureElement {
     return html`
       <section
         class="machine"
-        aria-label=${words.squeeze.title}
+        aria-label=${this.label}
         @dragover=${this.#opener.over}
         @dragleave=${this.#opener.leave}
         @drop=${this.#opener.drop}

@@ -25,7 +25,9 @@ const MODULE = {
    */
   inlined: (bytes) =>
     `const text = ${JSON.stringify(Buffer.from(bytes).toString('latin1'))};` +
-    'export default () => Uint8Array.from(text, (character) => character.charCodeAt(0));',
+    // Not Uint8Array.from: going through the characters one by one, as its iterator does, takes ten times as long.
+    'export default () => { const bytes = new Uint8Array(text.length);' +
+    'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; };',
   /** Bundlers know this form, and carry the file along. It stands in a chunk: external.js and the widgets share it. */
   external: () => "export default () => new URL('../motion.wasm', import.meta.url);",
 };

@@ -161,6 +161,15 @@ export class FigureElement extends LitElement {
     return nothing;
   }
 
+  /**
+   * What of the content is not the pictures: it comes with the frame after the first, so that the figure is seen at once.
+   *
+   * @param {() => unknown} content
+   */
+  later(content) {
+    return this.stage.opening ? nothing : content();
+  }
+
   /** What there is to take along, with every change so far in effect. @returns {import('./takeaway/export.js').Takeaway} */
   get takeaway() {
     throw new Error('A widget says what is taken along.');
@@ -468,7 +477,7 @@ export class FigureElement extends LitElement {
     speak(this);
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
-      <div class="surface ${this.stage.scheme} ${this.presenting.className}" @input=${stop} @change=${stop}>
+      <div class="surface ${this.stage.scheme} ${this.stage.opening ? 'opening' : ''} ${this.presenting.className}" @input=${stop} @change=${stop}>
         ${this.#slot('title')} ${this.#content()} ${this.#slot('caption')} ${this.presenting.render()}
       </div>
     `;

@@ -3,7 +3,8 @@
  * does to the picture.
  */
 
-import { css, html, nothing } from 'lit';
+import { css, html, noChange, nothing } from 'lit';
+import { Directive, directive } from 'lit/directive.js';
 import { live } from 'lit/directives/live.js';
 import { finger } from './finger.js';
 
@@ -456,17 +457,40 @@ function sliderBeside(input) {
 }
 
 /**
- * What is folded away until it is asked for.
+ * What is folded away until it is asked for: nothing of it is made before, nor while it is closed again.
  *
  * @param {string} name
- * @param {unknown} content
+ * @param {() => unknown} content
  */
 export function fold(name, content) {
-  return html`<details part="fold">
+  return html`<details part="fold" @toggle=${renderHost}>
     <summary>${name}</summary>
-    <div class="folded">${content}</div>
+    <div class="folded">${whileOpen(content)}</div>
   </details>`;
 }
+
+/** Lit calls listeners with the element that has rendered them. @this {import('lit').LitElement} */
+function renderHost() {
+  this.requestUpdate();
+}
+
+const whileOpen = directive(
+  class extends Directive {
+    /** @param {() => unknown} content */
+    render(content) {
+      return content();
+    }
+
+    /**
+     * @param {import('lit').ChildPart} part
+     * @param {[() => unknown]} content
+     */
+    update({ parentNode }, [content]) {
+      const details = /** @type {Element} */ (parentNode).closest('details');
+      return details?.open ? this.render(content) : noChange;
+    }
+  },
+);
 
 /** A message with its italics and subscripts. @param {string} message as messages/en.js has it */
 export function rich(message) {

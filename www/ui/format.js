@@ -34,7 +34,10 @@ function print(value, options) {
  */
 export function fixed(value, decimals) {
   // Rounded here, as the number is in binary: ties of its shortest decimals are none.
-  const rounded = Number(value.toFixed(decimals));
+  const digits = value.toFixed(decimals);
+  const rounded = Number(digits);
+  // English needs no formatter, whose making costs more than the rest of a first frame.
+  if (language === 'en' && Math.abs(rounded) < 1e21) return rounded < 0 ? MINUS + digits.slice(1) : digits.replace('-', '');
   return print(rounded, { minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false });
 }
 

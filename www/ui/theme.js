@@ -147,17 +147,18 @@ export const theme = css`
  * @param {HTMLElement} surface
  */
 export function resolvePalette(surface) {
-  const swatch = document.createElement('span');
-  swatch.hidden = true;
-  // In forced colours too, the roles keep their hues.
-  swatch.style.forcedColorAdjust = 'none';
-  surface.append(swatch);
-  const style = getComputedStyle(swatch);
-  const colours = ROLES.map((role) => {
+  // One for each role: all are there before the first is asked, so that the browser styles them once.
+  const swatches = ROLES.map((role) => {
+    const swatch = document.createElement('span');
+    swatch.hidden = true;
     swatch.style.color = `var(--${role})`;
-    return [role, style.color];
+    // In forced colours too, the roles keep their hues.
+    swatch.style.forcedColorAdjust = 'none';
+    return swatch;
   });
-  swatch.remove();
+  surface.append(...swatches);
+  const colours = swatches.map((swatch, i) => [ROLES[i], getComputedStyle(swatch).color]);
+  for (const swatch of swatches) swatch.remove();
   return /** @type {Palette} */ (Object.fromEntries(colours));
 }
 

@@ -173,6 +173,7 @@ export class BananaMachineElement extends FigureElement {
           </div>
           <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>
+        ${this.later(() => html`
         <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
           <span>${captionOf(reading)}</span>
         </p>
@@ -182,17 +183,17 @@ export class BananaMachineElement extends FigureElement {
           ${alphaControls(this)}
         </div>
         <div class="folds">
-          ${fold(say.modelAndNoise, html`${modelControls(this)} ${overlayToggles(this)} ${markedRobot(this, this.#inspection)}`)}
+          ${fold(say.modelAndNoise, () => html`${modelControls(this)} ${overlayToggles(this)} ${markedRobot(this, this.#inspection)}`)}
           ${fold(
             say.figures,
-            html`<div class="figures" part="figures">
+            () => html`<div class="figures" part="figures">
               <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
               <figure>${workedExample(reading)}</figure>
               <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
             </div>`,
           )}
           ${takeAlong(this)}
-        </div>
+        </div>`)}
       </section>
     `;
   }

@@ -230,14 +230,15 @@ export class MapSqueezeElement extends FigureElement {
             ${this.#handles.render()}
           </div>
         </div>
+        ${this.later(() => html`
         <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
         ${tally(reading)} ${placeControls(this)} ${judgeControls(this)}
         <div class="controls" part="controls">${motionControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
         <div class="folds">
-          ${fold(words.squeeze.keyAndSample, html`${legend(config)} ${markedDraw(this)}`)}
-          ${fold(words.squeeze.costsLabel, costTable(this.#meter, config.steps))}
-          ${fold(words.squeeze.own.legend, ownMap(this, this.#opener, map))} ${takeAlong(this)}
-        </div>
+          ${fold(words.squeeze.keyAndSample, () => html`${legend(config)} ${markedDraw(this)}`)}
+          ${fold(words.squeeze.costsLabel, () => costTable(this.#meter, config.steps))}
+          ${fold(words.squeeze.own.legend, () => ownMap(this, this.#opener, map))} ${takeAlong(this)}
+        </div>`)}
       </section>
     `;
   }

@@ -46,6 +46,7 @@ export class Link extends Part {
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
   async #look() {
+    if (location.hash === '') return undefined;
     const key = `${keyOf(this.host)}=`;
     const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
     if (text === undefined) return undefined;

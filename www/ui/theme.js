@@ -170,6 +170,9 @@ let pixel;
  * @returns {[number, number, number]} red, green, blue, 0 to 255
  */
 export function channels(colour) {
+  // As browsers hand most colours out.
+  const plain = colour.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
+  if (plain) return [Number(plain[1]), Number(plain[2]), Number(plain[3])];
   const context = (pixel ??= /** @type {OffscreenCanvasRenderingContext2D} */ (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })
   ));

@@ -3,7 +3,7 @@
 use super::fields::{in_range, no_memory, number, read_settings, type_error, whole, word};
 use super::values::{doubles, float64_array, object, settings_to_js, to_js};
 use crate::models::VelocityCmd;
-use crate::sim::banana::{BananaMachine, Contours, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Sample, Settings};
+use crate::sim::banana::{BananaMachine, Contours, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings};
 use crate::sim::picture::{RAMP, Ramp};
 use crate::sim::settings::{MAX_SEED, QUANTITY};
 use crate::sim::views::{EXTENT, Grid, MAX_CELLS};
@@ -102,9 +102,14 @@ impl JsBananaMachine {
     pub fn new(
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        let settings = Settings::default();
-        let settings = if options.is_undefined() { settings } else { read_settings(&settings, options)? };
-        Ok(Self(BananaMachine::new(settings)?))
+        Ok(Self(BananaMachine::new(opening(options)?)?))
+    }
+
+    /// A machine as the constructor makes it, of whose samples none is shown yet.
+    pub fn empty(
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
+    ) -> Result<Self, JsValue> {
+        Ok(Self(BananaMachine::empty(opening(options)?)?))
     }
 
     /// Largest `samples`.
@@ -115,8 +120,15 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
     pub fn presets() -> Result<Array, JsValue> {
-        let preset = |(name, VelocityCmd { v, omega, dt }): (&str, _)| {
-            object(&[("name", name.into()), ("v", v.into()), ("omega", omega.into()), ("dt", dt.into())])
+        let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| {
+            let alphas = alphas.map_or(Ok(JsValue::NULL), |alphas| to_js(alphas.as_slice()))?;
+            object(&[
+                ("name", name.into()),
+                ("v", v.into()),
+                ("omega", omega.into()),
+                ("dt", dt.into()),
+                ("alphas", alphas),
+            ])
         };
         PRESETS.into_iter().map(preset).collect()
     }
@@ -334,6 +346,12 @@ impl JsBananaMachine {
         let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
         Ok(view_of(pixels.as_flattened()))
     }
+}
+
+/// The settings that a machine opens with.
+fn opening(options: &JsValue) -> Result<Settings, JsValue> {
+    let settings = Settings::default();
+    if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
 }
 
 /// A view of bytes in the core's memory.

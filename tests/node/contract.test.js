@@ -61,20 +61,22 @@ test('a machine opens in the state of the widget', async () => {
     command: { v: 1, omega: 0.5, dt: 1 },
     alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01],
     isolate: null,
-    samples: 2000,
-    seed: 7,
+    samples: 100_000,
+    seed: 3,
   };
   for (const machine of [new BananaMachine(), new BananaMachine({}), new BananaMachine(undefined)]) {
     assert.deepEqual(machine.config, opening);
-    assert.equal(machine.shown, 2000);
+    assert.equal(machine.shown, 100_000);
     near(machine.table.exact.crossTrackSkew, -0.43093, 5e-6);
   }
   assert.ok(BananaMachine.maxSamples >= 100_000);
   assert.deepEqual(BananaMachine.presets, [
-    { name: 'straight', v: 1, omega: 0, dt: 2 },
-    { name: 'gentle', v: 1, omega: 0.5, dt: 1 },
-    { name: 'hard', v: 1, omega: 1.2, dt: 1.4 },
-    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1 },
+    { name: 'straight', v: 1, omega: 0, dt: 2, alphas: null },
+    { name: 'gentle', v: 1, omega: 0.5, dt: 1, alphas: null },
+    { name: 'hard', v: 1, omega: 1.2, dt: 1.4, alphas: null },
+    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1, alphas: null },
+    { name: 'banana', v: 1, omega: 0, dt: 2, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002] },
+    { name: 'worked', v: 1, omega: 0.5, dt: 1, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] },
   ]);
 });
 

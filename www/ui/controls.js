@@ -303,9 +303,13 @@ export function sliderRow(row) {
  *
  * @param {string} name
  * @param {unknown} content
+ * @param {(open: boolean) => void} [toggled]
  */
-export function fold(name, content) {
-  return html`<details part="fold">
+export function fold(name, content, toggled) {
+  return html`<details
+    part="fold"
+    @toggle=${(/** @type {Event} */ event) => toggled?.(/** @type {HTMLDetailsElement} */ (event.target).open)}
+  >
     <summary>${name}</summary>
     <div class="folded">${content}</div>
   </details>`;

@@ -112,14 +112,21 @@ impl BananaMachine {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        let mut machine = Self::empty(settings)?;
+        machine.grow(settings.samples);
+        Ok(machine)
+    }
+
+    /// A machine that shows nothing yet: whoever lets the cloud grow need not wait for all of it first.
+    ///
+    /// # Errors
+    /// As [`BananaMachine::new`].
+    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
         let drive = settings.motion(settings.command).drive(&settings.command);
         let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
-        let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() };
-        machine.show(settings.samples);
-        machine.finish();
-        Ok(machine)
+        Ok(Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() })
     }
 
     pub fn settings(&self) -> &Settings {

@@ -23,6 +23,17 @@ export interface Moments {
   cov: number[][];
 }
 
+/**
+ * Mean log-likelihood of a robot under a Gaussian in coordinates that bend with the cloud, less that under one in plain
+ * ones, each with the moments of the cloud; in nats a robot. Infinity where the cloud fills no volume in the bent ones.
+ */
+export interface LikelihoodGain {
+  /** Of exponential coordinates over (x, y, θ). */
+  pose: number;
+  /** Of length and turn of the arc that ends there over (x, y). */
+  floor: number;
+}
+
 /** All over the samples shown; NaN where undefined. */
 export interface Stats {
   /** Samples shown. */
@@ -41,6 +52,11 @@ export interface Stats {
   rhoCrossHeading: number;
   /** Shares, 0 to 1, inside the 2σ outlines in (x, y) and in (ξ along, ξ heading). */
   coverage: { ellipse: number; exponential: number };
+  likelihoodGain: LikelihoodGain;
+  /** Its standard errors. */
+  likelihoodGainError: LikelihoodGain;
+  /** Area of the 2σ ellipse in (x, y) over that of the 2σ outline of exponential coordinates on the floor, as drawn. */
+  areaRatio: number;
 }
 
 /** Outlines on the floor as x, y pairs in m, the first point repeated at the end; empty where undefined. */
@@ -59,6 +75,10 @@ export interface Contours {
 
 export interface TableColumn extends Moments {
   crossTrackSkew: number;
+  /** Of the linearization 0. */
+  likelihoodGain: LikelihoodGain;
+  /** Of the linearization 1. */
+  areaRatio: number;
 }
 
 /** Moments of the pose three ways, and of its exponential coordinates. */

@@ -121,6 +121,39 @@ test('the canonical example has the figures that were computed by quadrature', a
   machine.free();
 });
 
+test('the likelihood gain is that of the published figures, with its error, and stands beside the exact one', async () => {
+  const { BananaMachine } = await (await freshModule()).load();
+  const command = { v: 1, omega: 0.5, dt: 1 };
+  const opening = new BananaMachine({ command, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], samples: 200_000 });
+  const { likelihoodGain, likelihoodGainError, areaRatio } = opening.stats;
+  const { exact, measured, linearized } = opening.table;
+  for (const key of /** @type {const} */ (['pose', 'floor'])) {
+    near(likelihoodGain[key], exact.likelihoodGain[key], 4.5 * likelihoodGainError[key]);
+    assert.equal(measured.likelihoodGain[key], likelihoodGain[key]);
+    assert.equal(linearized.likelihoodGain[key], 0);
+  }
+  near(exact.likelihoodGain.pose, 0.124, 5e-4);
+  near(exact.areaRatio, 1.007, 5e-4);
+  near(areaRatio, exact.areaRatio, 0.02);
+  assert.deepEqual([measured.areaRatio, linearized.areaRatio], [areaRatio, 1]);
+});
+
+test('the gain is infinite on a surface, and NaN at a point with all that is said of one', async () => {
+  const { BananaMachine } = await (await freshModule()).load();
+  const surface = new BananaMachine(CANONICAL).stats;
+  assert.deepEqual([surface.likelihoodGain.pose, surface.likelihoodGainError.pose], [Infinity, NaN]);
+  near(surface.likelihoodGain.floor, 0.0178, 4.5 * surface.likelihoodGainError.floor);
+  const point = new BananaMachine({ alphas: [0, 0, 0, 0, 0.1, 0], samples: 5000 });
+  const { likelihoodGain, likelihoodGainError, coverage, ...rest } = point.stats;
+  const figures = [likelihoodGain, likelihoodGainError, coverage].flatMap((pair) => Object.values(pair));
+  figures.push(rest.crossTrackSkew, rest.crossTrackSkewError, rest.gaussianSkew, rest.rhoCrossHeading, rest.areaRatio);
+  assert.deepEqual(figures, Array(11).fill(NaN));
+  // A dust of noise is noise.
+  const dust = new BananaMachine({ alphas: Array(6).fill(1e-12), samples: 5000 }).stats;
+  assert.ok([dust.crossTrackSkew, dust.gaussianSkew, dust.coverage.ellipse, dust.areaRatio].every(Number.isFinite));
+  near(dust.likelihoodGain.pose, 0, 1e-6);
+});
+
 test('stats are those of the poses', async () => {
   const { BananaMachine } = await (await freshModule()).load();
   for (const model of ['velocity', 'odometry']) {

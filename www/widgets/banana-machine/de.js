@@ -123,9 +123,9 @@ export const de = {
   chartRemark: 'symmetrisch, doch krumm',
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
-    skewDetail: (exactly) => `genau ${exactly}; ein Gauß hat 0`,
-    gain: 'Gewinn von *ξ*, Nat je Roboter',
-    gainOnFloor: 'Gewinn am Boden, Nat je Roboter',
+    skewDetail: (exactly) => `genau ${exactly}; ein Gauß: 0`,
+    gain: 'Gewinn von *ξ*, Nat/Roboter',
+    gainOnFloor: 'Gewinn am Boden, Nat/Roboter',
     gainDetail: (robots, power) => `alle ${robots}: ${power}-mal so glaubhaft`,
     unbounded: 'über *(x, y, θ)* unbegrenzt: kein *γ̂*',
     area: 'Fläche Ellipse durch *ξ*-Umriss',

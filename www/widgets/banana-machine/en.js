@@ -126,9 +126,9 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   chartRemark: 'symmetric, still bent',
   readouts: {
     skew: 'cross-track skew',
-    skewDetail: (exactly) => `exactly ${exactly}; a Gaussian’s is 0`,
-    gain: 'gain of *ξ*, nats a robot',
-    gainOnFloor: 'gain on the floor, nats a robot',
+    skewDetail: (exactly) => `exactly ${exactly}; a Gaussian: 0`,
+    gain: 'gain of *ξ*, nats/robot',
+    gainOnFloor: 'gain on the floor, nats/robot',
     gainDetail: (robots, power) => `all ${robots}: ${power} times likelier`,
     unbounded: 'over *(x, y, θ)* unbounded: no *γ̂*',
     area: 'area of ellipse over *ξ* outline',

@@ -24,11 +24,20 @@ const own = css`
 
   /* In the column of a book the rows of buttons are one line each. */
   @container (max-width: 48rem) {
+    .controls {
+      column-gap: 1.5rem;
+    }
+
+    .cloud .buttons button {
+      padding-inline: 0.3rem;
+      font-size: 0.88rem;
+    }
+
     .buttons {
       gap: 0.35rem;
     }
 
-    .buttons button {
+    .presets button {
       padding-inline: 0.4rem;
       font-size: 0.92rem;
     }

@@ -162,7 +162,7 @@ function openingPreset(tag) {
   const opening = Object.fromEntries(settings[tag].map(({ key, default: value }) => [key, value]));
   /** @returns {boolean} */
   const same = (/** @type {object} */ fields) =>
-    Object.entries(fields).every(([key, value]) => key === 'name' || (typeof value === 'object' ? same(value) : value === opening[key]));
+    Object.entries(fields).every(([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? same(value) : value === opening[key]));
   return presetsOf(tag).find(same)?.name;
 }
 

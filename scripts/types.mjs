@@ -43,10 +43,20 @@ function settingTypes(tag) {
   if (!presets.length) return asInterface(`${machine}Settings`, whole);
   const fields = Object.entries(presets[0]).map(([name, value]) => ({
     name,
-    type: name === 'name' ? union(presets.map((preset) => preset.name)) : typeof value === 'object' ? pascal(name) : typeof value,
+    type: name === 'name' ? union(presets.map((preset) => preset.name)) : presetType(name, value, presets),
     description: '',
   }));
   return `${asInterface(`${machine}Settings`, whole)}\n${asInterface(`${machine}Preset`, fields)}`;
+}
+
+/**
+ * @param {string} name of something that presets set
+ * @param {unknown} value
+ * @param {Record<string, unknown>[]} presets
+ */
+function presetType(name, value, presets) {
+  if (presets.some((preset) => Array.isArray(preset[name]))) return 'number[] | null';
+  return typeof value === 'object' ? pascal(name) : typeof value;
 }
 
 /** @param {import('../www/settings.js').Declaration} declaration */

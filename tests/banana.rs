@@ -10,7 +10,7 @@ use common::{KINDS, SIGMAS, golden, pose_distance, seeded};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
-use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, PRESETS, Settings, command_reaching};
+use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, PRESETS, Preset, Settings, command_reaching};
 use motion::sim::settings::MAX_SEED;
 use motion::sim::views::Grid;
 use motion::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
@@ -44,15 +44,17 @@ fn the_opening_state_is_the_gentle_arc() {
     assert_eq!(settings.command, VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 });
     assert_eq!(settings.velocity_alphas, [0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
     assert_eq!((settings.model, settings.noise), (ModelKind::Velocity, NoiseKind::Normal));
-    assert_eq!((settings.samples, settings.seed, settings.isolate), (2000, 7, None));
-    assert_eq!(opening.poses().len(), 2000, "the cloud is complete");
+    assert_eq!((settings.samples, settings.seed, settings.isolate), (100_000, 3, None));
+    assert_eq!(opening.poses().len(), 100_000, "the cloud is complete");
     assert!((opening.exact().cross_track_skew - -0.43093).abs() < 5e-6);
-    let presets = PRESETS.map(|(name, VelocityCmd { v, omega, dt })| (name, [v, omega, dt]));
+    let presets = PRESETS.map(|Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| (name, [v, omega, dt], alphas));
     let expected = [
-        ("straight", [1.0, 0.0, 2.0]),
-        ("gentle", [1.0, 0.5, 1.0]),
-        ("hard", [1.0, 1.2, 1.4]),
-        ("pivot", [0.06, 1.5, 1.0]),
+        ("straight", [1.0, 0.0, 2.0], None),
+        ("gentle", [1.0, 0.5, 1.0], None),
+        ("hard", [1.0, 1.2, 1.4], None),
+        ("pivot", [0.06, 1.5, 1.0], None),
+        ("banana", [1.0, 0.0, 2.0], Some([0.002, 0.002, 0.1, 0.1, 0.002, 0.002])),
+        ("worked", [1.0, 0.5, 1.0], Some([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
     ];
     assert_eq!(presets, expected);
     const { assert!(MAX_SAMPLES >= 100_000) };
@@ -162,8 +164,8 @@ fn the_cloud_grows_in_batches() {
         assert_eq!(growing.poses().len(), 701);
         growing.configure(settings).unwrap();
         assert_eq!(poses(&growing), poses(&whole)[..701]);
-        assert_eq!(growing.grow(usize::MAX), 2000);
-        assert_eq!(growing.grow(5), 2000);
+        assert_eq!(growing.grow(usize::MAX), 100_000);
+        assert_eq!(growing.grow(5), 100_000);
         assert_eq!(picture(&growing), picture(&whole));
         growing.configure(Settings { samples: 2500, ..settings }).unwrap();
         assert_eq!(growing.poses().len(), 2500);
@@ -302,7 +304,7 @@ fn long_turns_stay_on_the_branch_of_the_command() {
 /// The students' exercise: straight ahead, one α at a time.
 #[test]
 fn isolating_an_alpha_silences_the_others() {
-    let straight = Settings { command: PRESETS[0].1, isolate: Some(4), ..Settings::default() };
+    let straight = Settings { command: PRESETS[0].command, isolate: Some(4), ..Settings::default() };
     let mut machine = machine(straight);
     let end = SE2::new(2.0, 0.0, 0.0);
     assert!(machine.poses().all(|pose| pose == end), "α₄ is silent where nothing is turned");
@@ -412,7 +414,7 @@ fn without_a_chart_exponential_figures_are_undefined() {
 /// without γ̂ and to about 1 % with it.
 #[test]
 fn the_drawn_contour_holds_the_printed_share() {
-    for (name, command) in PRESETS {
+    for Preset { name, command, .. } in PRESETS {
         for (gamma, most) in [(0.0, 5e-4), (0.01, 0.015)] {
             let velocity_alphas = [0.05, 0.05, 0.05, 0.09, gamma, gamma];
             let machine =

@@ -3,7 +3,7 @@
 use super::fields::{in_range, no_memory, number, read_settings, type_error, whole, word};
 use super::values::{doubles, float64_array, object, settings_to_js, to_js};
 use crate::models::VelocityCmd;
-use crate::sim::banana::{BananaMachine, Contours, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Sample, Settings};
+use crate::sim::banana::{BananaMachine, Contours, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings};
 use crate::sim::picture::{RAMP, Ramp};
 use crate::sim::settings::{MAX_SEED, QUANTITY};
 use crate::sim::views::{EXTENT, Grid, MAX_CELLS};
@@ -21,6 +21,17 @@ export interface Moments {
   mean: number[];
   /** Three rows of three. */
   cov: number[][];
+}
+
+/**
+ * Mean log-likelihood of a robot under a Gaussian in coordinates that bend with the cloud, less that under one in plain
+ * ones, each with the moments of the cloud; in nats a robot. Infinity where the cloud fills no volume in the bent ones.
+ */
+export interface LikelihoodGain {
+  /** Of exponential coordinates over (x, y, θ). */
+  pose: number;
+  /** Of length and turn of the arc that ends there over (x, y). */
+  floor: number;
 }
 
 /** All over the samples shown; NaN where undefined. */
@@ -41,6 +52,11 @@ export interface Stats {
   rhoCrossHeading: number;
   /** Shares, 0 to 1, inside the 2σ outlines in (x, y) and in (ξ along, ξ heading). */
   coverage: { ellipse: number; exponential: number };
+  likelihoodGain: LikelihoodGain;
+  /** Its standard errors. */
+  likelihoodGainError: LikelihoodGain;
+  /** Area of the 2σ ellipse in (x, y) over that of the 2σ outline of exponential coordinates on the floor, as drawn. */
+  areaRatio: number;
 }
 
 /** Outlines on the floor as x, y pairs in m, the first point repeated at the end; empty where undefined. */
@@ -59,6 +75,10 @@ export interface Contours {
 
 export interface TableColumn extends Moments {
   crossTrackSkew: number;
+  /** Of the linearization 0. */
+  likelihoodGain: LikelihoodGain;
+  /** Of the linearization 1. */
+  areaRatio: number;
 }
 
 /** Moments of the pose three ways, and of its exponential coordinates. */
@@ -102,9 +122,14 @@ impl JsBananaMachine {
     pub fn new(
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        let settings = Settings::default();
-        let settings = if options.is_undefined() { settings } else { read_settings(&settings, options)? };
-        Ok(Self(BananaMachine::new(settings)?))
+        Ok(Self(BananaMachine::new(opening(options)?)?))
+    }
+
+    /// A machine as the constructor makes it, of whose samples none is shown yet.
+    pub fn empty(
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
+    ) -> Result<Self, JsValue> {
+        Ok(Self(BananaMachine::empty(opening(options)?)?))
     }
 
     /// Largest `samples`.
@@ -115,8 +140,15 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
     pub fn presets() -> Result<Array, JsValue> {
-        let preset = |(name, VelocityCmd { v, omega, dt }): (&str, _)| {
-            object(&[("name", name.into()), ("v", v.into()), ("omega", omega.into()), ("dt", dt.into())])
+        let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| {
+            let alphas = alphas.map_or(Ok(JsValue::NULL), |alphas| to_js(alphas.as_slice()))?;
+            object(&[
+                ("name", name.into()),
+                ("v", v.into()),
+                ("omega", omega.into()),
+                ("dt", dt.into()),
+                ("alphas", alphas),
+            ])
         };
         PRESETS.into_iter().map(preset).collect()
     }
@@ -334,6 +366,12 @@ impl JsBananaMachine {
         let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
         Ok(view_of(pixels.as_flattened()))
     }
+}
+
+/// The settings that a machine opens with.
+fn opening(options: &JsValue) -> Result<Settings, JsValue> {
+    let settings = Settings::default();
+    if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
 }
 
 /// A view of bytes in the core's memory.

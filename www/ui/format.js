@@ -99,6 +99,15 @@ export function significant(value, digits) {
 }
 
 /**
+ * @param {number} exponent
+ * @returns {string} "e²⁴⁹", the exponent rounded to a whole number
+ */
+export function powerOfE(exponent) {
+  const digits = String(Math.abs(Math.round(exponent))).replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
+  return `e${Math.round(exponent) < 0 ? '⁻' : ''}${digits}`;
+}
+
+/**
  * @param {number} value above 0
  * @param {number} digits significant ones
  * @returns {string} "0.47", "12", "1 200"

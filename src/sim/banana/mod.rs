@@ -3,6 +3,7 @@
 mod figures;
 mod settings;
 
+use figures::Charted;
 pub use figures::{Column, Contours, Figures, Sample, Stats, Table};
 pub use settings::*;
 
@@ -11,14 +12,17 @@ use super::cloud::picture::Ramp;
 use super::cloud::views::{Grid, Nearest, View};
 use super::cloud::{Cloud, START, picture::Picture};
 use super::settings::{Rules, SettingsError};
-use crate::geom::arc::{Arc, ArcInversion, invert_arc};
+use crate::geom::arc::{Arc, arc_near, invert_arc};
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
 use crate::models::{
     MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd,
     VelocityModel,
 };
-use crate::stats::{CartesianMoments, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments};
+use crate::stats::{
+    CartesianMoments, Ellipse, ExactGain, ExactMoments, ExponentialContour, ExponentialMoments,
+    LikelihoodGain,
+};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::TryReserveError;
 use std::f64::consts::TAU;
@@ -54,6 +58,15 @@ impl Motion {
         }
     }
 
+    fn exact_gain(&self, command: &VelocityCmd) -> ExactGain {
+        match self {
+            Self::Velocity(model, command) => ExactGain::of_velocity(model, command),
+            Self::Odometry(model, reading) => {
+                ExactGain::of_odometry(model, reading, command.omega * command.dt)
+            }
+        }
+    }
+
     fn linearized_cov(&self) -> Matrix3<f64> {
         match self {
             Self::Velocity(model, command) => model.cartesian_cov(command, &START),
@@ -73,14 +86,8 @@ impl Motion {
 /// reverse, round the circle or not), the one whose turn is nearest to that of `near`.
 pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     let dt = near.dt;
-    let ArcInversion { v_hat, omega_hat, .. } = invert_arc(&START, &SE2::new(x, y, 0.0), dt);
-    let windings = ((near.omega - omega_hat) * dt / TAU).round();
-    if windings == 0.0 || omega_hat == 0.0 {
-        return VelocityCmd { v: v_hat, omega: omega_hat, dt };
-    }
-    // On one circle the length driven is proportional to the turn.
-    let omega = omega_hat + windings * TAU / dt;
-    VelocityCmd { v: v_hat * (omega / omega_hat), omega, dt }
+    let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), near.omega * dt);
+    VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
 fn command_end(command: &VelocityCmd) -> SE2 {
@@ -112,14 +119,21 @@ impl BananaMachine {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        let mut machine = Self::empty(settings)?;
+        machine.grow(settings.samples);
+        Ok(machine)
+    }
+
+    /// A machine that shows nothing yet: whoever lets the cloud grow need not wait for all of it first.
+    ///
+    /// # Errors
+    /// As [`BananaMachine::new`].
+    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
         let drive = settings.motion(settings.command).drive(&settings.command);
         let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
-        let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() };
-        machine.show(settings.samples);
-        machine.finish();
-        Ok(machine)
+        Ok(Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() })
     }
 
     pub fn settings(&self) -> &Settings {
@@ -156,7 +170,7 @@ impl BananaMachine {
     /// Goes on with what was begun for about as many poses, of twice as many as are shown; whether all is done.
     pub fn advance(&mut self, poses: usize) -> bool {
         if let Some(figures) = self.cloud.advance(poses) {
-            self.figures = Figures::of(&figures, self.chart_holds());
+            self.figures = Figures::of(&figures, self.charted());
         }
         self.cloud.is_fresh()
     }
@@ -225,8 +239,13 @@ impl BananaMachine {
     /// Whether the robots keep short of turning a whole circle, where exponential coordinates end. Where not, every
     /// figure and contour in them is undefined.
     pub fn chart_holds(&self) -> bool {
+        self.charted().pose
+    }
+
+    fn charted(&self) -> Charted {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
-        (omega * dt).abs() + CHART_SIGMAS * self.cloud.turn_deviation() < TAU
+        let holds = |deviation: f64| (omega * dt).abs() + CHART_SIGMAS * deviation < TAU;
+        Charted { pose: holds(self.cloud.turn_deviation()), arc: holds(self.cloud.arc_deviation()) }
     }
 
     /// R_u and τ: mean and covariance in exponential coordinates as the model has them, the variance of the turn after
@@ -257,15 +276,41 @@ impl BananaMachine {
         self.settings.motion(self.settings.command).exact()
     }
 
+    /// What the model says of its exponential coordinates, by quadrature.
+    pub fn exact_gain(&self) -> ExactGain {
+        let Settings { command, .. } = self.settings;
+        self.settings.motion(command).exact_gain(&command)
+    }
+
     /// The moments of the pose in three ways, and those of its exponential coordinates as the model has them.
     pub fn table(&self) -> Table {
-        let (linearized, exact, Figures { cartesian, cross_track, .. }) =
-            (self.linearized(), self.exact(), self.figures);
+        let (linearized, exact, gain) = (self.linearized(), self.exact(), self.exact_gain());
+        let Figures { cartesian, cross_track, gain: measured_gain, area_ratio, .. } = self.figures;
+        let ellipse = Ellipse::from_moments(&CartesianMoments { mean: exact.mean, cov: exact.cov });
+        let contour = ExponentialContour::new(&gain.exponential, &START);
         Table {
-            // A Gaussian in (x, y), whatever its moments, has no skew.
-            linearized: Column { mean: linearized.mean, cov: linearized.cov, cross_track_skew: 0.0 },
-            exact: Column { mean: exact.mean, cov: exact.cov, cross_track_skew: exact.cross_track_skew },
-            measured: Column { mean: cartesian.mean, cov: cartesian.cov, cross_track_skew: cross_track.skew },
+            // A Gaussian in (x, y), whatever its moments, has no skew, and to first order none in other coordinates differs.
+            linearized: Column {
+                mean: linearized.mean,
+                cov: linearized.cov,
+                cross_track_skew: 0.0,
+                likelihood_gain: LikelihoodGain { pose: 0.0, floor: 0.0 },
+                area_ratio: 1.0,
+            },
+            exact: Column {
+                mean: exact.mean,
+                cov: exact.cov,
+                cross_track_skew: exact.cross_track_skew,
+                likelihood_gain: gain.value,
+                area_ratio: contour.area_ratio(&ellipse, OUTLINE_SEGMENTS),
+            },
+            measured: Column {
+                mean: cartesian.mean,
+                cov: cartesian.cov,
+                cross_track_skew: cross_track.skew,
+                likelihood_gain: measured_gain.value,
+                area_ratio,
+            },
             tangent: self.tangent(),
         }
     }

@@ -5,14 +5,14 @@
 
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
-import { Cloud, showOnly } from '../../figure/cloud.js';
+import { Cloud } from '../../figure/cloud.js';
 import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
-import { alphaCounts } from '../../settings.js';
+import { openingAlphas } from '../../settings.js';
 import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
 import { fold, rich } from '../../ui/controls.js';
@@ -21,7 +21,7 @@ import { alphaControls, commandControls, modelControls, overlayToggles, presetBu
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
-import { markedRobot, readouts, twistTable, workedExample } from './readouts.js';
+import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
 import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
@@ -62,7 +62,8 @@ export class BananaMachineElement extends FigureElement {
 
   /** @type {FigureElement<Machine, Reading>['createMachine']} */
   createMachine = (motion, state) => {
-    const machine = new motion.BananaMachine();
+    // Empty: the cloud grows before the reader's eyes, and nobody waits for what is not shown yet.
+    const machine = motion.BananaMachine.empty();
     if (!state) return machine;
     const { model, alphas, shown } = state;
     return orFree(machine, () => {
@@ -70,14 +71,14 @@ export class BananaMachineElement extends FigureElement {
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configure({ model: other, alphas: alphas[other] });
       machine.configure({ ...this.settingsOf(state), alphas: alphas[model] });
-      showOnly(machine, shown);
+      machine.grow(shown);
     });
   };
 
   /** @param {Machine} machine */
   read(machine) {
     if (this.cloud.index >= machine.shown) this.cloud.mark(-1);
-    return readingOf(machine, this.#curve);
+    return readingOf(machine);
   }
 
   get scene() {
@@ -110,7 +111,7 @@ export class BananaMachineElement extends FigureElement {
    * @param {Values} given
    */
   completed(present, given) {
-    const alphas = object('state.alphas', given.alphas ?? {}, Object.keys(alphaCounts));
+    const alphas = object('state.alphas', given.alphas ?? {}, Object.keys(openingAlphas));
     return { ...super.completed(present, given), alphas: { ...present.alphas, ...alphas } };
   }
 
@@ -184,14 +185,7 @@ export class BananaMachineElement extends FigureElement {
         </div>
         <div class="folds">
           ${fold(say.modelAndNoise, () => html`${modelControls(this)} ${overlayToggles(this)} ${markedRobot(this, this.#inspection)}`)}
-          ${fold(
-            say.figures,
-            () => html`<div class="figures" part="figures">
-              <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
-              <figure>${workedExample(reading)}</figure>
-              <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
-            </div>`,
-          )}
+          ${fold(say.figures, () => this.#figures(reading))}
           ${takeAlong(this)}
         </div>`)}
       </section>
@@ -199,8 +193,19 @@ export class BananaMachineElement extends FigureElement {
   }
 
   /** @param {Reading} reading */
-  #chart({ config: { command }, stats, exactSkew, curve }) {
-    const { chart: label, chartAxis, chartMarker, chartText } = words.banana;
+  #figures(reading) {
+    const say = words.banana;
+    return html`${otherReadouts(reading)}
+      <div class="figures" part="figures">
+        <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
+        <figure>${workedExample(reading)}</figure>
+        <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
+      </div>`;
+  }
+
+  /** @param {Reading} reading */
+  #chart({ config: { command }, stats, exactSkew }) {
+    const { chart: label, chartAxis, chartMarker, chartText, chartRemark } = words.banana;
     return chart({
       ...looks.omega,
       label,
@@ -211,7 +216,8 @@ export class BananaMachineElement extends FigureElement {
         x: command.omega,
         y: exactSkew,
       },
-      curve,
+      curve: this.#curve.of(/** @type {Machine} */ (this.machine)),
+      remark: { x: 0, text: chartRemark },
       measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
       move: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
       commit: () => this.commit(),

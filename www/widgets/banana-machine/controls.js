@@ -3,9 +3,9 @@
 import { html } from 'lit';
 import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { presets } from '../../settings.js';
 import { button, choice, toggle } from '../../ui/controls.js';
 import { typed } from '../../ui/format.js';
+import { PRESETS, presetIn, presetNamed } from './presets.js';
 import { alphaName } from './reading.js';
 import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 
@@ -13,13 +13,13 @@ import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 
 /** @param {Figure} figure */
 export function presetButtons(figure) {
-  const { command } = figure.reading.config;
-  return html`<div class="buttons">
-    ${presets['banana-machine'].map(({ name, v, omega, dt }) =>
+  const present = presetIn(figure.reading.config);
+  return html`<div class="buttons presets">
+    ${PRESETS.map(({ name }) =>
       button(
         words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
-        () => figure.decide({ command: { v, omega, dt } }),
-        { pressed: command.v === v && command.omega === omega && command.dt === dt },
+        () => figure.decide((config) => presetNamed(name, /** @type {any} */ (config))),
+        { pressed: name === present },
       ),
     )}
   </div>`;

@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';
 import { rich } from '../../ui/controls.js';
-import { NOTHING, counted, fixed, percent, significant, withError } from '../../ui/format.js';
+import { NOTHING, counted, fixed, percent, powerOfE, significant, withError } from '../../ui/format.js';
 import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 
@@ -15,20 +15,61 @@ import { figureTable, readoutList } from '../../ui/readouts.js';
 /** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const NOMINAL = 1 - Math.exp(-2);
 
-/** @param {Reading} reading */
-export function readouts({ config, stats }) {
+/** A cloud's skew, and at most its error, as wide as they print. */
+const longestSkew = () => withError(-1, 1, 4);
+
+/**
+ * The three that matter: whether the cloud leans, how much likelier the other coordinates make it, and how much floor the
+ * ellipse wastes.
+ *
+ * @param {Reading} reading
+ */
+export function readouts({ config, stats, exactSkew, gain }) {
+  const say = words.banana.readouts;
+  const { coverage, areaRatio } = stats;
+  const all = counted(config.samples);
+  return readoutList([
+    [
+      say.skew,
+      withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
+      longestSkew(),
+      [say.skewDetail(fixed(exactSkew, 3)), say.skewDetail(fixed(-1, 3))],
+    ],
+    [
+      gain.unbounded ? say.gainOnFloor : say.gain,
+      withError(gain.value, gain.error, 3),
+      withError(-1, 1, 4),
+      [gainText(gain), say.gainDetail(all, powerOfE(10 * config.samples))],
+    ],
+    [
+      say.area,
+      fixed(areaRatio, 2),
+      fixed(-1, 2),
+      [say.areaDetail(percent(coverage.ellipse), percent(coverage.exponential)), say.areaDetail(percent(1), percent(1))],
+    ],
+  ]);
+}
+
+/** What the gain means for the whole cloud. @param {Reading['gain']} gain */
+function gainText({ n, unbounded, value }) {
+  const { unbounded: without, gainDetail } = words.banana.readouts;
+  if (unbounded) return without;
+  return Number.isNaN(value) ? NOTHING : gainDetail(counted(n), powerOfE(n * value));
+}
+
+/** The others. @param {Reading} reading */
+export function otherReadouts({ config, stats, gain, table }) {
   const all = counted(config.samples);
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
+  const shares = say.sharesOf(percent(1), percent(1), percent(NOMINAL));
   return readoutList([
-    [say.skew, withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3), withError(-1, 1, 3)],
-    [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
-    [say.plane, '0'],
-    [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
     [say.robots, nOfAll(counted(stats.n), all), nOfAll(all, all)],
-    [say.exponential, percent(stats.coverage.exponential), percent(1)],
-    [say.ellipse, percent(stats.coverage.ellipse), percent(1)],
-    [say.nominal, percent(NOMINAL)],
+    [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
+    [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
+    [say.exactGain, fixed(gain.exact, 4), fixed(-1, 4)],
+    [say.exactArea, fixed(table.exact.areaRatio, 3), fixed(-1, 3)],
+    [say.shares, say.sharesOf(percent(stats.coverage.ellipse), percent(stats.coverage.exponential), percent(NOMINAL)), shares],
   ]);
 }
 

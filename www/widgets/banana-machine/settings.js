@@ -1,10 +1,11 @@
 /** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORDS, attributesOf, presetOf } from '../../figure/attributes.js';
+import { WORDS, attributesOf } from '../../figure/attributes.js';
 import { subset, wholeNumber } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
-import { alphaCounts, presets, settings } from '../../settings.js';
+import { openingAlphas, settings } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.js';
+import { presetAttribute } from './presets.js';
 
 export const declared = settings['banana-machine'];
 
@@ -18,7 +19,7 @@ const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
-  preset: presetOf('command', presets['banana-machine']),
+  preset: presetAttribute,
   ...attributesOf(declared),
   overlays: { kind: WORDS, own: true, words: OVERLAYS },
 };
@@ -27,7 +28,7 @@ export const attributes = {
 export const own = {
   ...cloudState,
   /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
-  isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, alphaCounts.velocity) },
+  isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
   overlays: { opening: OPENING_OVERLAYS, check: (field, overlays) => subset(field, overlays, OVERLAYS) },
 };
 

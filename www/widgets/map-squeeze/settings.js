@@ -22,7 +22,7 @@ export const attributes = {
   preset: {
     kind: WORD,
     own: true,
-    covers: ['x', 'y', 'theta'],
+    covers: () => ['x', 'y', 'theta'],
     words: PRESET_NAMES,
     opening: PRESET_NAMES[0],
   },

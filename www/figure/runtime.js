@@ -4,7 +4,7 @@
  */
 
 import { abandon, instantiate } from '../core.js';
-import { unwatch, watch } from './page/sight.js';
+import { look, unwatch, watch } from './page/sight.js';
 import { Part } from './part.js';
 
 /** Cores that may trap one after the other, without a picture between, until the figure gives up. */
@@ -29,6 +29,13 @@ export class Runtime extends Part {
       approach: () => void this.hasten(),
       sight: (inSight) => this.host.stage.sight(inSight),
     });
+    this.#look();
+  }
+
+  /** The room for the figure is there, so that it has its place on the page. */
+  async #look() {
+    await this.host.updateComplete;
+    if (this.host.isConnected) look(this.host);
   }
 
   /** The reader is near, or there: starts what has not started. */

@@ -123,6 +123,7 @@ export function rounded(value, digits) {
  * @returns {string} "100 000"
  */
 export function counted(count) {
+  if (language === 'en' && Math.abs(count) < 1e21) return fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
   return print(count, { maximumFractionDigits: 0, useGrouping: true });
 }
 

@@ -32,7 +32,7 @@ const layout = css`
     display: flex;
     flex-wrap: wrap;
     align-items: start;
-    gap: 0.1rem 1.6rem;
+    gap: 0.1rem 1.2rem;
     margin-top: 0.4rem;
     padding-top: 0.3rem;
     border-top: 1px solid var(--rule);
@@ -41,6 +41,11 @@ const layout = css`
   .folds > details[open] {
     flex: 1 0 100%;
     padding-bottom: 0.8rem;
+  }
+
+  .begin button {
+    min-height: 1.75rem;
+    padding: 0 0.5rem 0.1rem;
   }
 
   .folded {

@@ -399,7 +399,8 @@ export class FigureElement extends LitElement {
   // The element's life.
 
   static get observedAttributes() {
-    return [...super.observedAttributes, ...Object.keys(this.attributes), 'theme', 'share'];
+    // HTML has attributes in lower case, whatever their properties are called.
+    return [...super.observedAttributes, ...Object.keys(this.attributes).map((name) => name.toLowerCase()), 'theme', 'share'];
   }
 
   /**

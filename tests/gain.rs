@@ -10,7 +10,7 @@ mod common;
 use common::{KINDS, SIGMAS, Table, mean, seeded, uniform, variance};
 use motion::geom::arc::{arc_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::banana::{BananaMachine, Figures, ModelKind, PRESETS, Settings};
+use motion::sim::banana::{BananaMachine, Figures, ModelKind, PRESETS, Preset, Settings};
 use motion::stats::{CartesianMoments, ExactGain, ExponentialMoments, MeasuredGain};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -304,7 +304,7 @@ fn the_published_figures_are_met() {
 /// γ̂ only turns the robot where it stands.
 #[test]
 fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
-    for (_, command) in PRESETS {
+    for Preset { command, .. } in PRESETS {
         let of = |last: f64| {
             let machine = machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
             [machine.figures().gain.value.floor, machine.exact_gain().value.floor]
@@ -353,7 +353,7 @@ fn the_ratio_is_that_of_the_areas_drawn() {
 /// where s = 0, and the ellipse an edge, which cost 1e-5; 128 chords of a curve that is no circle cost 1e-3.
 #[test]
 fn the_outline_has_the_area_of_what_it_is_the_image_of() {
-    for (_, command) in PRESETS {
+    for Preset { command, .. } in PRESETS {
         let alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.0, 0.0]);
         let model = VelocityModel { alphas, noise: NoiseKind::Normal };
         let machine = machine(command, alphas.0, 10);
@@ -381,7 +381,7 @@ fn the_outline_has_the_area_of_what_it_is_the_image_of() {
 #[test]
 fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
     for noise in KINDS {
-        for (_, command) in PRESETS {
+        for Preset { command, .. } in PRESETS {
             for samples in [5, 2000, 100_000] {
                 let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
                 let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };

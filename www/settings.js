@@ -35,8 +35,9 @@ export const settings = {
     { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.09, sentence: 'Noise parameter of the present model.' },
     { key: 'alpha5', in: 'alphas', index: 4, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
     { key: 'alpha6', in: 'alphas', index: 5, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'reverseAware', type: 'boolean', default: false, sentence: 'Whether the odometry model charges a robot that backs up for the turns it made instead of two half turns more.' },
     { key: 'isolate', type: 'whole', nullable: true, min: 1, max: 6, default: null, sentence: 'Number of the only noise parameter in effect; null for all of them.' },
-    { key: 'samples', type: 'whole', min: 1, max: 10000000, default: 100000, sentence: 'Robots in the whole cloud.' },
+    { key: 'samples', type: 'whole', min: 1, max: 10000000, default: 50000, sentence: 'Robots in the whole cloud.' },
     { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 3, sentence: 'The same seed is the same robots.' },
   ],
   'map-squeeze': [

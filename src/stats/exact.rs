@@ -4,7 +4,7 @@ use super::cross_track::NO_SPREAD;
 use super::quadrature::nodes;
 use crate::geom::se2::wrap_angle;
 use crate::geom::sinc::chord_factors;
-use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
+use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 
@@ -69,9 +69,9 @@ impl ExactMoments {
     }
 
     /// The moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
-    pub fn of_odometry(model: &OdometryModel, u: &OdomDelta) -> Self {
+    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
-        let rays = nodes(model.noise).iter().map(|node| {
+        let rays = nodes(model.noise()).iter().map(|node| {
             let excess_turn = rot1_variance.sqrt() * node.value;
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
             Ray { weight: node.weight, unit: [cos, sin], excess_turn }

@@ -6,7 +6,7 @@ use super::moments::ExponentialMoments;
 use super::quadrature::{Node, broken_nodes};
 use crate::geom::angle::wrap_angle;
 use crate::geom::sinc::sinc;
-use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
+use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -61,13 +61,13 @@ impl ExactGain {
     }
 
     /// Of the odometry model whose reading `u` came from a command that turns by `turn` (rad).
-    pub fn of_odometry(model: &OdometryModel, u: &OdomDelta, turn: f64) -> Self {
+    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         // In reverse the reading faces away first.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
         let ahead = if half_circles % 2.0 == 0.0 { 1.0 } else { -1.0 };
         let legs = Legs {
-            noise: model.noise,
+            noise: model.noise(),
             is_arc: false,
             length: [ahead * u.trans, trans],
             bearing: [u.rot1 - half_circles * PI, rot1],

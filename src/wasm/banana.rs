@@ -2,8 +2,11 @@
 
 use super::fields::{in_range, no_memory, number, read_settings, type_error, whole, word};
 use super::values::{doubles, float64_array, object, settings_to_js, to_js};
-use crate::models::VelocityCmd;
-use crate::sim::banana::{BananaMachine, Contours, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings};
+use crate::geom::arc::ArcInversion;
+use crate::models::{OdomDelta, VelocityCmd};
+use crate::sim::banana::{
+    BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings,
+};
 use crate::sim::picture::{RAMP, Ramp};
 use crate::sim::settings::{MAX_SEED, QUANTITY};
 use crate::sim::views::{EXTENT, Grid, MAX_CELLS};
@@ -71,6 +74,8 @@ export interface Contours {
   exponential: Float64Array;
   /** The same in (ξ along, ξ heading), m and rad. */
   twistEllipse: Float64Array;
+  /** 2σ of noise added to the pose: a circle of 0.4 m around the noise-free end, whatever the command and the noise. */
+  additive: Float64Array;
 }
 
 export interface TableColumn extends Moments {
@@ -93,19 +98,28 @@ export interface Table {
   tangent: Moments | null;
 }
 
-/** One sample, and the arc that reaches its place. */
+/** The legs of the odometry model: turn (rad), drive (m), turn (rad). */
+export interface Legs {
+  rot1: number;
+  trans: number;
+  rot2: number;
+}
+
+/** One sample, and what it did to get there. */
 export interface Inspection {
   /** x, y in m, θ in rad, in (−π, π]. */
   pose: Float64Array;
   /** ξ along and lateral in m, heading in rad. */
   twist: Float64Array;
-  /** Speed of the arc, m/s. */
+  /** Speed of its arc, m/s; like the next two NaN under the odometry model, which knows no arc. */
   vHat: number;
   /** Turn rate of the arc, rad/s. */
   omegaHat: number;
   /** Turn rate after it, rad/s over the same duration. */
   gammaHat: number;
-  /** The arc as x, y pairs in m from the start. */
+  /** Its legs under the odometry model; null under the velocity model. */
+  legs: Legs | null;
+  /** Its way as x, y pairs in m from the start. */
   path: Float64Array;
 }
 "#;
@@ -248,6 +262,19 @@ impl JsBananaMachine {
         doubles("samples", self.0.twists().map(<[f64; 3]>::from))
     }
 
+    /// What each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
+    /// δ̂_rot2 (rad). A copy.
+    #[wasm_bindgen(getter)]
+    pub fn executed(&self) -> Result<Float64Array, JsValue> {
+        doubles("samples", self.0.executed())
+    }
+
+    /// The command as odometry without noise reads it.
+    #[wasm_bindgen(getter, unchecked_return_type = "Legs")]
+    pub fn reading(&self) -> Result<JsValue, JsValue> {
+        legs_to_js(self.0.reading())
+    }
+
     #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
         to_js(&self.0.stats())
@@ -260,13 +287,15 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
     pub fn contours(&self) -> Result<JsValue, JsValue> {
-        let Contours { command, ellipse, linearized, exponential, twist_ellipse } = self.0.contours();
+        let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } =
+            self.0.contours();
         object(&[
             ("command", float64_array(command.as_flattened())?.into()),
             ("ellipse", float64_array(ellipse.as_flattened())?.into()),
             ("linearized", float64_array(linearized.as_flattened())?.into()),
             ("exponential", float64_array(exponential.as_flattened())?.into()),
             ("twistEllipse", float64_array(twist_ellipse.as_flattened())?.into()),
+            ("additive", float64_array(additive.as_flattened())?.into()),
         ])
     }
 
@@ -293,12 +322,20 @@ impl JsBananaMachine {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let Sample { pose, twist, executed, path } =
             self.0.inspect(index).ok_or_else(|| self.not_shown(index))?;
+        let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs) = match executed {
+            Executed::Arc { arc, .. } => (arc, JsValue::NULL),
+            Executed::Legs(legs) => {
+                let none = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
+                (none, legs_to_js(legs)?)
+            }
+        };
         object(&[
             ("pose", float64_array(&[pose.x(), pose.y(), pose.theta()])?.into()),
             ("twist", float64_array(twist.as_slice())?.into()),
-            ("vHat", executed.v_hat.into()),
-            ("omegaHat", executed.omega_hat.into()),
-            ("gammaHat", executed.gamma_hat.into()),
+            ("vHat", v_hat.into()),
+            ("omegaHat", omega_hat.into()),
+            ("gammaHat", gamma_hat.into()),
+            ("legs", legs),
             ("path", float64_array(path.as_flattened())?.into()),
         ])
     }
@@ -366,6 +403,10 @@ impl JsBananaMachine {
         let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
         Ok(view_of(pixels.as_flattened()))
     }
+}
+
+fn legs_to_js(OdomDelta { rot1, trans, rot2 }: OdomDelta) -> Result<JsValue, JsValue> {
+    object(&[("rot1", rot1.into()), ("trans", trans.into()), ("rot2", rot2.into())])
 }
 
 /// The settings that a machine opens with.

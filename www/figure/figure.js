@@ -444,7 +444,8 @@ export class FigureElement extends LitElement {
   // The element's life.
 
   static get observedAttributes() {
-    return [...super.observedAttributes, ...Object.keys(this.attributes), ...Object.keys(COMMON)];
+    // HTML has attributes in lower case, whatever their properties are called.
+    return [...super.observedAttributes, ...Object.keys({ ...this.attributes, ...COMMON }).map((name) => name.toLowerCase())];
   }
 
   /**

@@ -86,11 +86,12 @@ export class Reflection extends Part {
   /**
    * An attribute says something else.
    *
-   * @param {string} name
+   * @param {string} attribute in lower case
    * @param {string | null} text
    */
-  hear(name, text) {
-    if (this.#writing || !(name in this.#attributes)) return;
+  hear(attribute, text) {
+    const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
+    if (this.#writing || name === undefined) return;
     if (this.host.machine) this.#take(name, text);
     else this.#early.set(name, text);
   }

@@ -99,12 +99,11 @@ export function significant(value, digits) {
 }
 
 /**
- * @param {number} exponent
+ * @param {number} exponent not below 0
  * @returns {string} "e²⁴⁹", the exponent rounded to a whole number
  */
 export function powerOfE(exponent) {
-  const digits = String(Math.abs(Math.round(exponent))).replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
-  return `e${Math.round(exponent) < 0 ? '⁻' : ''}${digits}`;
+  return `e${String(Math.round(exponent)).replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)])}`;
 }
 
 /**

@@ -3,6 +3,7 @@
 use super::OUTLINE_SEGMENTS;
 use crate::geom::arc::ArcInversion;
 use crate::geom::se2::SE2;
+use crate::models::OdomDelta;
 use crate::sim::cloud::START;
 use crate::stats::fused::CloudFigures;
 use crate::stats::{
@@ -154,6 +155,8 @@ pub struct Contours {
     pub exponential: Vec<[f64; 2]>,
     /// The 2σ ellipse of the exponential moments in (along, heading).
     pub twist_ellipse: Vec<[f64; 2]>,
+    /// The 2σ circle of noise that is added to the pose: see [`super::BananaMachine::additive`].
+    pub additive: Vec<[f64; 2]>,
 }
 
 /// One sample, explained.
@@ -161,8 +164,16 @@ pub struct Contours {
 pub struct Sample {
     pub pose: SE2,
     pub twist: Vector3<f64>,
-    /// The arc and last turn that led to it; under the odometry model, which knows no arc, that would lead to it.
-    pub executed: ArcInversion,
-    /// The arc of `executed`, as (x, y) in m.
+    pub executed: Executed,
+    /// Where it drove, as (x, y) in m.
     pub path: Vec<[f64; 2]>,
+}
+
+/// What a robot did instead of what it was told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Executed {
+    /// An arc and a last turn, both of duration `dt` (s).
+    Arc { arc: ArcInversion, dt: f64 },
+    /// The three legs of the odometry model, which knows no arc.
+    Legs(OdomDelta),
 }

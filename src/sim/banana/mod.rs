@@ -4,7 +4,7 @@ mod figures;
 mod settings;
 
 use figures::Charted;
-pub use figures::{Column, Contours, Figures, Sample, Stats, Table};
+pub use figures::{Column, Contours, Executed, Figures, Sample, Stats, Table};
 pub use settings::*;
 
 use super::cloud::drive::Drive;
@@ -12,13 +12,14 @@ use super::cloud::picture::Ramp;
 use super::cloud::views::{Grid, Nearest, View};
 use super::cloud::{Cloud, START, picture::Picture};
 use super::settings::{Rules, SettingsError};
-use crate::geom::arc::{Arc, arc_near, invert_arc};
+use crate::geom::arc::{Arc, arc_near};
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
 use crate::models::{
-    MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd,
-    VelocityModel,
+    Hinges, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseModel,
+    VelocityAlphas, VelocityCmd, VelocityModel,
 };
+use crate::noise::{NoiseKind, Variance};
 use crate::stats::{
     CartesianMoments, Ellipse, ExactGain, ExactMoments, ExponentialContour, ExponentialMoments,
     LikelihoodGain,
@@ -38,8 +39,29 @@ impl Settings {
             ModelKind::Odometry => {
                 let alphas = OdomAlphas(self.effective(self.odometry_alphas));
                 let reading = OdomDelta::from_poses(&START, &command_end(&command));
-                Motion::Odometry(OdometryModel { alphas, noise: self.noise }, reading)
+                let model = OdometryModel { alphas, noise: self.noise };
+                Motion::Odometry(Wheels { model, reverse_aware: self.reverse_aware }, reading)
             }
+        }
+    }
+}
+
+/// The odometry model as it is set.
+struct Wheels {
+    model: OdometryModel,
+    reverse_aware: bool,
+}
+
+impl Hinges for Wheels {
+    fn noise(&self) -> NoiseKind {
+        self.model.noise
+    }
+
+    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+        if self.reverse_aware {
+            ReverseAware(self.model).variances(delta)
+        } else {
+            self.model.variances(delta)
         }
     }
 }
@@ -47,7 +69,7 @@ impl Settings {
 /// A model with its control.
 enum Motion {
     Velocity(VelocityModel, VelocityCmd),
-    Odometry(OdometryModel, OdomDelta),
+    Odometry(Wheels, OdomDelta),
 }
 
 impl Motion {
@@ -64,6 +86,15 @@ impl Motion {
             Self::Odometry(model, reading) => {
                 ExactGain::of_odometry(model, reading, command.omega * command.dt)
             }
+        }
+    }
+
+    fn executed(&self, unit_noise: [f64; 3]) -> Executed {
+        match self {
+            Self::Velocity(model, command) => {
+                Executed::Arc { arc: model.executed(command, unit_noise), dt: command.dt }
+            }
+            Self::Odometry(model, reading) => Executed::Legs(model.executed(reading, unit_noise)),
         }
     }
 
@@ -100,6 +131,10 @@ const CHART_SIGMAS: f64 = 4.0;
 
 /// Points of a skew curve at most; each costs some ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
+
+/// Standard deviation of noise that is added to the pose, m: that of a robot of the opening command, √(½ tr Σ) of x and y,
+/// rounded. Tuned there, it suits no other distance.
+pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 const OUTLINE_SEGMENTS: usize = 128;
@@ -271,6 +306,14 @@ impl BananaMachine {
         }
     }
 
+    /// What the chapter argues against: the noise-free end x̄ with noise added to the pose, x_t = x̄ + ε with
+    /// ε ~ N(0, [`ADDITIVE_DEVIATION`]²·I) over x and y, whatever was commanded and whatever the α's are.
+    pub fn additive(&self) -> CartesianMoments {
+        let variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
+        let cov = Matrix3::from_diagonal(&Vector3::new(variance, variance, 0.0));
+        CartesianMoments { cov, ..self.linearized() }
+    }
+
     /// The model's own moments, by quadrature.
     pub fn exact(&self) -> ExactMoments {
         self.settings.motion(self.settings.command).exact()
@@ -341,19 +384,34 @@ impl BananaMachine {
             linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
             exponential: if_any(charted, contour.boundary(OUTLINE_SEGMENTS)),
             twist_ellipse: if_any(charted, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            additive: Ellipse::from_moments(&self.additive()).boundary(OUTLINE_SEGMENTS),
         }
     }
 
     /// Sample `index` of those shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
-        let dt = self.settings.command.dt;
-        let executed = match self.settings.motion(self.settings.command) {
-            Motion::Velocity(model, command) => model.executed(&command, self.cloud.unit_noise(index)),
-            Motion::Odometry(..) => invert_arc(&START, &pose, dt),
+        let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
+        let path = match executed {
+            Executed::Arc { arc, dt } => arc_points(arc.v_hat * dt, arc.omega_hat * dt),
+            Executed::Legs(_) => vec![[START.x(), START.y()], [pose.x(), pose.y()]],
         };
-        let path = arc_points(executed.v_hat * dt, executed.omega_hat * dt);
         Some(Sample { pose, twist: self.twist(&pose), executed, path })
+    }
+
+    /// What each of the samples shown executed: v̂ (m/s), ω̂ and γ̂ (rad/s), or under the odometry model δ̂_rot1 (rad),
+    /// δ̂_trans (m) and δ̂_rot2 (rad).
+    pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        let motion = self.settings.motion(self.settings.command);
+        (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {
+            Executed::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
+            Executed::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
+        })
+    }
+
+    /// What odometry without noise reads when the command is carried out.
+    pub fn reading(&self) -> OdomDelta {
+        OdomDelta::from_poses(&START, &command_end(&self.settings.command))
     }
 
     /// How many of the shown samples lie in each cell of a grid over a view: see [`Picture::density`].

@@ -26,8 +26,8 @@ impl Words for NoiseKind {
 pub const MAX_SAMPLES: usize = 10_000_000;
 
 /// As many as a device four times slower than a laptop still moves within a frame. At the opening command they tell the
-/// skew to ±0.009; the 2000 of slower programs, to ±0.06, may well read −0.50 for −0.43.
-const OPENING_SAMPLES: usize = 100_000;
+/// skew to ±0.013; the 2000 of slower programs, to ±0.06, may well read −0.50 for −0.43.
+const OPENING_SAMPLES: usize = 50_000;
 
 /// Of the seeds 0 to 9, the one whose cloud has a skew nearest to the exact one at the opening command: what everybody
 /// sees first should not be a stroke of luck.
@@ -44,6 +44,8 @@ settings! {
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
         alphas, by alphas_mut, in ALPHA;
+        /// Whether the odometry model charges a robot that backs up for the turns it made instead of two half turns more.
+        reverseAware, by reverse_aware_mut;
         /// Number of the only noise parameter in effect; null for all of them.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;
         /// Robots in the whole cloud.
@@ -54,6 +56,8 @@ settings! {
             /// Each model keeps its own α's, so that switching back and forth loses nothing.
             velocity_alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];
+            /// The setting `reverseAware`.
+            reverse_aware: bool = false;
         }
     }
 }
@@ -80,6 +84,10 @@ impl Settings {
             ModelKind::Velocity => &mut self.velocity_alphas,
             ModelKind::Odometry => &mut self.odometry_alphas,
         }
+    }
+
+    fn reverse_aware_mut(&mut self) -> &mut bool {
+        &mut self.reverse_aware
     }
 
     fn alpha_count(&self) -> u64 {

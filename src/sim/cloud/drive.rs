@@ -1,7 +1,7 @@
 //! Either model as one formula, from the start pose at the origin: a length driven on a bearing, and a heading.
 
 use crate::geom::lanes::{HalfTurn, Trigonometry, any};
-use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
+use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
 use crate::stats::fused::{FourArcs, FourPoses, Reference, Scale};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
@@ -57,7 +57,7 @@ impl Drive {
     }
 
     /// `turn` is that of the command which the reading came from, rad.
-    pub fn of_odometry(model: &OdometryModel, u: &OdomDelta, turn: f64) -> Self {
+    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         Self {
             is_arc: false,

@@ -32,6 +32,14 @@ import { announcementOf, captionOf, longestNote, planeText, skewText, twistCapti
  * @import { Reading } from './reading.js'
  */
 
+/** Of each robot in a table: where it ended, its exponential coordinates, and what it executed to get there. */
+const POSE_COLUMNS = ['x_m', 'y_m', 'theta_rad'];
+const TWIST_COLUMNS = ['xi_along_m', 'xi_lateral_m', 'xi_heading_rad'];
+const EXECUTED_COLUMNS = {
+  velocity: ['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
+  odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
+};
+
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
  *
@@ -90,12 +98,12 @@ export class BananaMachineElement extends FigureElement {
 
   get takeaway() {
     const { config, shown: count } = this.fresh;
-    const { poses } = /** @type {Machine} */ (this.machine);
+    const { poses, twists, executed } = /** @type {Machine} */ (this.machine);
     return {
       title: this.label,
       settings: { element: this.localName, ...config },
-      columns: ['x_m', 'y_m', 'theta_rad'],
-      row: (/** @type {number} */ i) => [...poses.subarray(3 * i, 3 * i + 3)],
+      columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
+      row: (/** @type {number} */ i) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
       count,
     };
   }
@@ -133,6 +141,17 @@ export class BananaMachineElement extends FigureElement {
    */
   get twists() {
     return this.ask((machine) => machine.twists);
+  }
+
+  /**
+   * What each robot shown executed: v̂ (m/s), ω̂, γ̂ (rad/s), or under the odometry model its legs δ̂_rot1 (rad), δ̂_trans (m),
+   * δ̂_rot2 (rad); a copy.
+   *
+   * @public
+   * @returns {Float64Array | null}
+   */
+  get executed() {
+    return this.ask((machine) => machine.executed);
   }
 
   /** The marked robot, if it is among those shown. */

@@ -1,7 +1,7 @@
 /** The Banana Machine's controls: the command, the noise and the overlays. */
 
-import { html } from 'lit';
-import { choices, slider, sliders } from '../../figure/controls.js';
+import { html, nothing } from 'lit';
+import { check, choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, choice, toggle } from '../../ui/controls.js';
 import { typed } from '../../ui/format.js';
@@ -35,13 +35,14 @@ export function commandControls(figure) {
 
 /** @param {Figure} figure */
 export function modelControls(figure) {
-  const { alphas, isolate } = figure.reading.config;
+  const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
   // From 1; the other model may have fewer.
   const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
   return html`<fieldset>
     <legend class="visually-hidden">${say.modelAndNoise}</legend>
     ${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
+    ${model === 'odometry' ? check(figure, 'reverseAware', say.reverseAware) : nothing}
     ${toggle({
       label: say.isolate,
       checked: isolate !== null,

@@ -43,12 +43,14 @@ export const de = {
     command: 'befohlener Bogen',
     ellipse: '2σ-Gauß-Ellipse in (x, y)',
     linearized: 'linearisierte Ellipse (EKF)',
+    additive: '2σ von Rauschen auf der Pose, überall 0,2 m',
     exponential: '2σ-Gauß in Exponentialkoordinaten',
   },
   modelAndNoise: 'Modell und Umrisse',
   figures: 'Zahlen',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
+  reverseAware: 'Rückwärts ist keine halbe Drehung',
   isolate: 'Nur einen gelten lassen',
   only: (alpha) => `Nur ${alpha}`,
   off: (value) => `${value} aus`,
@@ -81,6 +83,8 @@ export const de = {
     unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, die des Modells ist ${exactly}.`,
     hardly: (skew) => `Die Wolke neigt kaum zu einer Seite: Schiefe ${skew}.`,
     neither: (skew) => `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, und der Symmetrie wegen genau 0.`,
+    stillBent: (skew, gain) =>
+      `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, der Symmetrie wegen genau 0. Doch sie ist krumm, und der Gauß in ξ gewinnt ${gain} Nat je Roboter.`,
     bothWays: (skew, ratio) =>
       `Die Wolke biegt sich nach beiden Seiten gleich, also ist ihre Schiefe 0 (${skew}); doch die Ellipse bedeckt ${ratio}-mal so viel Boden wie nötig.`,
     bowTie: {
@@ -126,7 +130,8 @@ export const de = {
     skewDetail: (exactly) => `genau ${exactly}; ein Gauß: 0`,
     gain: 'Gewinn von *ξ*, Nat/Roboter',
     gainOnFloor: 'Gewinn am Boden, Nat/Roboter',
-    gainDetail: (robots, power) => `alle ${robots}: ${power}-mal so glaubhaft`,
+    likelier: (robots, power) => `alle ${robots}: ${power}-mal so glaubhaft`,
+    unlikelier: (robots, power) => `alle ${robots}: ${power}-mal weniger glaubhaft`,
     unbounded: 'über *(x, y, θ)* unbegrenzt: kein *γ̂*',
     area: 'Fläche Ellipse durch *ξ*-Umriss',
     areaDetail: (ellipse, exponential) => `darin ${ellipse} und ${exponential}`,

@@ -45,12 +45,14 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     command: 'commanded arc',
     ellipse: '2σ Gaussian in (x, y)',
     linearized: 'linearized (EKF) ellipse',
+    additive: '2σ of noise added to the pose, 0.2 m everywhere',
     exponential: '2σ Gaussian in exponential coordinates',
   },
   modelAndNoise: 'Model and outlines',
   figures: 'Figures',
   models: { velocity: 'velocity', odometry: 'odometry' },
   noises: { normal: 'normal', triangular: 'triangular' },
+  reverseAware: 'Backing up is no half turn',
   isolate: 'Isolate one',
   only: (alpha) => `Only ${alpha}`,
   off: (value) => `${value} off`,
@@ -84,6 +86,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, where the model’s own is ${exactly}.`,
     hardly: (skew) => `The cloud hardly leans to either side: skew ${skew}.`,
     neither: (skew) => `The cloud leans to neither side: skew ${skew}, and exactly 0 by symmetry.`,
+    stillBent: (skew, gain) =>
+      `The cloud leans to neither side: skew ${skew}, and exactly 0 by symmetry. Yet it is bent, and the Gaussian in ξ gains ${gain} nats a robot.`,
     bothWays: (skew, ratio) =>
       `The cloud curls to both sides alike, so its skew is 0 (${skew}); yet the ellipse covers ${ratio} times the floor that it needs.`,
     bowTie: {
@@ -129,7 +133,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     skewDetail: (exactly) => `exactly ${exactly}; a Gaussian: 0`,
     gain: 'gain of *ξ*, nats/robot',
     gainOnFloor: 'gain on the floor, nats/robot',
-    gainDetail: (robots, power) => `all ${robots}: ${power} times likelier`,
+    likelier: (robots, power) => `all ${robots}: ${power} times likelier`,
+    unlikelier: (robots, power) => `all ${robots}: ${power} times less likely`,
     unbounded: 'over *(x, y, θ)* unbounded: no *γ̂*',
     area: 'area of ellipse over *ξ* outline',
     areaDetail: (ellipse, exponential) => `inside: ${ellipse} and ${exponential}`,

@@ -53,6 +53,8 @@ export function readingOf(machine) {
     exactSkew: table.exact.crossTrackSkew,
     gain: gainOf(stats, table),
     bowTie: bowTieOf(config),
+    /** The command as odometry reads it; null under the velocity model. */
+    reading: config.model === 'odometry' ? machine.reading : null,
     /** The end of the commanded arc, metres. */
     end: /** @type {[number, number]} */ ([...contours.command.slice(-2)]),
   };
@@ -77,7 +79,7 @@ function gainOf({ n, likelihoodGain, likelihoodGainError }, { exact }) {
  *
  * @param {Settings} config
  */
-function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate }) {
+function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAware }) {
   const [a1, a2, a3, a4] = alphas.map((alpha, i) => (isolate === null || isolate === i + 1 ? alpha : 0));
   if (model === 'velocity') {
     const [straight, turning] = [a1 * v * v, a2 * omega * omega];
@@ -86,8 +88,9 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate }) {
   }
   const turn = omega * dt;
   const length = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
-  // Driving there, the robot turns by half of it before and half of it after; in reverse, by that much less than half a turn.
-  const rotation = v < 0 ? Math.PI - Math.abs(turn) / 2 : turn / 2;
+  // It turns by half of it before the drive and by half of it after; in reverse, as the table has it, by that much less
+  // than half a turn.
+  const rotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
   const [straight, turning] = [a3 * length * length, 2 * a4 * rotation * rotation];
   const deviation = Math.sqrt(straight + turning);
   return turning > straight && deviation > length ? { model, length, deviation } : null;
@@ -138,7 +141,7 @@ function spreadOf({ exact: { cov } }) {
  * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
  * @returns {string} empty for an ordinary cloud
  */
-function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
+function noteOn({ model, command, alphas, isolate, reverseAware }, table, stats, chartHolds) {
   const { notes, alphaIsZero } = words.banana;
   const spread = spreadOf(table);
   const { v, omega } = command;
@@ -149,6 +152,6 @@ function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
   }
   if (spread === 'headings') return notes.headings;
   if (!chartHolds) return notes.circle;
-  if (model === 'odometry' && v < 0) return notes.backwards;
+  if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;
   return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
 }

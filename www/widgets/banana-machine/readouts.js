@@ -39,7 +39,7 @@ export function readouts({ config, stats, exactSkew, gain }) {
       gain.unbounded ? say.gainOnFloor : say.gain,
       withError(gain.value, gain.error, 3),
       withError(-1, 1, 4),
-      [gainText(gain), say.gainDetail(all, powerOfE(10 * config.samples))],
+      [gainText(gain), say.likelier(all, powerOfE(10 * config.samples))],
     ],
     [
       say.area,
@@ -52,9 +52,10 @@ export function readouts({ config, stats, exactSkew, gain }) {
 
 /** What the gain means for the whole cloud. @param {Reading['gain']} gain */
 function gainText({ n, unbounded, value }) {
-  const { unbounded: without, gainDetail } = words.banana.readouts;
+  const { unbounded: without, likelier, unlikelier } = words.banana.readouts;
   if (unbounded) return without;
-  return Number.isNaN(value) ? NOTHING : gainDetail(counted(n), powerOfE(n * value));
+  if (Number.isNaN(value)) return NOTHING;
+  return (value < 0 ? unlikelier : likelier)(counted(n), powerOfE(Math.abs(n * value)));
 }
 
 /** The others. @param {Reading} reading */
@@ -84,12 +85,27 @@ export function markedRobot(figure, inspection) {
   const { shown } = figure.reading;
   const quantity = (/** @type {string} */ symbol, /** @type {number} */ value, /** @type {string} */ unit) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
-  const arc = inspection && [
-    quantity('v̂', inspection.vHat, 'm/s'),
-    quantity('ω̂', inspection.omegaHat, 'rad/s'),
-    quantity('γ̂', inspection.gammaHat, 'rad/s'),
-  ];
-  return markedSample(figure.cloud, { id: 'robot', label: robot, hint: markHint, shown, beyond: shown - 1, told: arc });
+  const told = inspection && (inspection.legs
+    ? legsOf(inspection.legs, /** @type {import('../../types.d.ts').Legs} */ (figure.reading.reading))
+    : [
+        quantity('v̂', inspection.vHat, 'm/s'),
+        quantity('ω̂', inspection.omegaHat, 'rad/s'),
+        quantity('γ̂', inspection.gammaHat, 'rad/s'),
+      ]);
+  return markedSample(figure.cloud, { id: 'robot', label: robot, hint: markHint, shown, beyond: shown - 1, told });
+}
+
+/**
+ * The noise of each hinge: what was read less what was driven, as Table 5.6 subtracts it.
+ *
+ * @param {import('../../types.d.ts').Legs} driven
+ * @param {import('../../types.d.ts').Legs} read
+ */
+function legsOf(driven, read) {
+  return /** @type {const} */ ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']]).map(([leg, unit]) => {
+    const noise = read[leg] - driven[leg];
+    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;
+  });
 }
 
 /** Digits of what is computed, as many as the book prints; and of what chance leaves uncertain. */

@@ -13,7 +13,7 @@ export const declared = settings['banana-machine'];
 export const vocabulary = 'banana';
 
 /** Dashes of the outlines on the floor, CSS pixels. @satisfies {Record<string, number[]>} */
-export const DASHES = { command: COMMAND_DASH, ellipse: [7, 4], linearized: [9, 3, 2, 3], exponential: [] };
+export const DASHES = { command: COMMAND_DASH, ellipse: [7, 4], linearized: [9, 3, 2, 3], additive: [1.5, 5], exponential: [] };
 export const OVERLAYS = /** @type {(keyof typeof DASHES)[]} */ (Object.keys(DASHES));
 const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 

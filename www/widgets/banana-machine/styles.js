@@ -82,7 +82,7 @@ const own = css`
     --role: var(--prior);
   }
 
-  .legend :is(.ellipse, .linearized) {
+  .legend :is(.ellipse, .linearized, .additive) {
     --role: var(--prediction);
   }
 

@@ -22,7 +22,7 @@ export function longestNote() {
   const skew = withError(-1, 1, 4);
   const { velocity, odometry } = settings.alphas.effects;
   const silences = [...velocity.map((_, i) => silenceOf('velocity', i)), ...odometry.map((_, i) => silenceOf('odometry', i))];
-  return longest([...Object.values(notes), ...silences, ...Object.values(bend.bowTie).map((say) => say('−1.00', '1.00', skew)), bend.bothWays(skew, '1.00')]);
+  return longest([...Object.values(notes), ...silences, ...Object.values(bend.bowTie).map((say) => say('−1.00', '1.00', skew)), bend.bothWays(skew, '1.00'), bend.stillBent(skew, '0.00')]);
 }
 
 /** What is announced after a change has come to rest. @param {Reading} reading */
@@ -66,6 +66,9 @@ const NO_SKEW = 1e-9;
 /** Below this a cloud leans so little that nobody sees it. */
 const HARDLY = 0.05;
 
+/** From this gain on, nats a robot, a hundred robots tell the two Gaussians apart: by a factor of e² and more. */
+const BENT = 0.02;
+
 /** From this area ratio on, the ellipse is seen to be too large. */
 const TOO_LARGE = 1.1;
 
@@ -80,8 +83,10 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error },
   const [measured, exactly] = [withError(skew, error, 2), fixed(exactSkew, 3)];
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
   if (Math.abs(exactSkew) < NO_SKEW) {
-    const { areaRatio } = table.exact;
-    return areaRatio > TOO_LARGE ? say.bothWays(measured, fixed(areaRatio, 2)) : say.neither(measured);
+    const { areaRatio, likelihoodGain } = table.exact;
+    if (areaRatio > TOO_LARGE) return say.bothWays(measured, fixed(areaRatio, 2));
+    const gain = likelihoodGain.pose;
+    return gain > BENT && gain < Infinity ? say.stillBent(measured, fixed(gain, 2)) : say.neither(measured);
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
   if (Math.abs(exactSkew) < HARDLY) return say.hardly(measured);

@@ -17,7 +17,8 @@ use motion::map::{
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-const TRINARY: Interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
+const TRINARY: Interpretation =
+    Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
 const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
 const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
@@ -410,7 +411,8 @@ fn no_bytes_break_the_reader() {
 /// `map_server` averages opacity in with the colours in mode trinary, if the image has transparency at all.
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
-    let interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
+    let interpretation =
+        Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
     let occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
         let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
         let image = Image { width: pixels.len(), height: 1, pixels };
@@ -469,7 +471,8 @@ fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
         '?' => 0.5,
         _ => 1.0,
     };
-    let pixels = rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade(cell), opacity: 1.0 });
+    let pixels =
+        rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade(cell), opacity: 1.0 });
     let image = Image { width: rows[0].len(), height: rows.len(), pixels: pixels.collect() };
     OccupancyGrid::new(&image, &TRINARY, 0.1, SE2::identity()).with_unknown(unknown)
 }
@@ -481,7 +484,8 @@ fn unknown_cells_are_what_one_decides() {
     let random: Vec<String> = (0..30)
         .map(|_| (0..30).map(|_| ['#', '?', '.', '.', '.', '.'][(rng.next_u32() % 6) as usize]).collect())
         .collect();
-    let with = |from: &str, to: &str| -> Vec<String> { random.iter().map(|row| row.replace(from, to)).collect() };
+    let with =
+        |from: &str, to: &str| -> Vec<String> { random.iter().map(|row| row.replace(from, to)).collect() };
     let plan = |rows: &[String], unknown| {
         let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
         FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid")
@@ -490,7 +494,11 @@ fn unknown_cells_are_what_one_decides() {
         let (one, other) = (plan(&random, unknown), plan(&alike, Unknown::Free));
         assert_eq!(one.walls(), other.walls(), "{unknown:?}");
         for _ in 0..20_000 {
-            let start = SE2::new(uniform(&mut rng, 0.0, 3.0), uniform(&mut rng, 0.0, 3.0), uniform(&mut rng, -PI, PI));
+            let start = SE2::new(
+                uniform(&mut rng, 0.0, 3.0),
+                uniform(&mut rng, 0.0, 3.0),
+                uniform(&mut rng, -PI, PI),
+            );
             let arc = Arc { start, length: uniform(&mut rng, 0.0, 0.5), turn: uniform(&mut rng, -2.0, 2.0) };
             let clearance = uniform(&mut rng, 0.0, 0.1);
             let point = [start.x(), start.y()];

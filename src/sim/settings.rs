@@ -19,7 +19,10 @@ pub enum Allowed {
     /// A number for which there is memory.
     LessMemory,
     /// Another word than this one.
-    Word { is: &'static str, allowed: &'static str },
+    Word {
+        is: &'static str,
+        allowed: &'static str,
+    },
 }
 
 impl SettingsError {

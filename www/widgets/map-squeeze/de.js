@@ -79,6 +79,7 @@ export const de = {
   robotKeys: 'Die Pfeiltasten bewegen ihn; [ und ] oder Umschalt mit einer Pfeiltaste drehen ihn',
   robotTitle: 'Zieh den Roboter',
   robotText: (x, y) => `x = ${x} m, y = ${y} m`,
+  mapEnds: 'Hier endet die Karte',
   heading: 'Richtung des Roboters',
   headingKeys: 'Die Pfeiltasten drehen ihn',
   headingTitle: 'Dreh den Roboter',

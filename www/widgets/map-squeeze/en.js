@@ -81,6 +81,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   robotKeys: 'Arrow keys move it; [ and ], or Shift with an arrow key, turn it',
   robotTitle: 'Drag the robot',
   robotText: (x, y) => `x = ${x} m, y = ${y} m`,
+  mapEnds: 'The map ends here',
   heading: 'Heading of the robot',
   headingKeys: 'Arrow keys turn it',
   headingTitle: 'Turn the robot',

@@ -47,6 +47,9 @@ const PATHS_ON_DENSITY = 25;
 /** The overview in a corner of a close-up: its sides at most, as shares of the picture's, and what is around it. */
 const OVERVIEW = { width: 0.34, height: 0.4, margin: 8, padding: 0.05, wall: 1.25 };
 
+/** How much further the overview keeps from the end of the commanded way than from its start. */
+const END_WEIGHT = 1.5;
+
 /** @extends {Picture<Scene>} */
 export class FloorPicture extends Picture {
   plan;
@@ -188,11 +191,7 @@ export class FloorPicture extends Picture {
     const [spanX, spanY] = [xMax - xMin, yMax - yMin].map((span) => (1 + 2 * OVERVIEW.padding) * span);
     const scale = Math.min((OVERVIEW.width * (right - left)) / spanX, (OVERVIEW.height * (bottom - top)) / spanY);
     const [width, height] = [scale * spanX, scale * spanY];
-    // In the corner that is furthest from where the robots go.
-    const [endX, endY] = commanded.slice(-2);
-    const { margin } = OVERVIEW;
-    const x = view.toPixelX(endX) > (left + right) / 2 + 1 ? left + margin : right - margin - width;
-    const y = view.toPixelY(endY) < (top + bottom) / 2 + 1 ? bottom - margin - height : top + margin;
+    const [x, y] = freeCorner(view, width, height, commanded);
     const small = new View({ left: x, right: view.width - x - width, top: y, bottom: view.height - y - height });
     small.resize(view.width, view.height);
     const [padX, padY] = [OVERVIEW.padding * (xMax - xMin), OVERVIEW.padding * (yMax - yMin)];
@@ -215,6 +214,32 @@ export class FloorPicture extends Picture {
     context.lineWidth = 1;
     context.strokeRect(x, y, width, height);
   }
+}
+
+/**
+ * The corner of a picture that is furthest from the commanded way, above all from its end, where the samples are.
+ *
+ * @param {View} view
+ * @param {number} width of what is put there, CSS pixels
+ * @param {number} height
+ * @param {Float64Array} commanded
+ * @returns {[x: number, y: number]} its left and its top, CSS pixels
+ */
+function freeCorner(view, width, height, commanded) {
+  const { left, right, top, bottom } = view.frame;
+  const { margin } = OVERVIEW;
+  const [start, end] = [commanded.slice(0, 2), commanded.slice(-2)];
+  let [most, corner] = [-1, /** @type {[number, number]} */ ([left, top])];
+  for (const y of [bottom - margin - height, top + margin]) {
+    for (const x of [right - margin - width, left + margin]) {
+      const distance = (/** @type {Float64Array} */ [atX, atY]) =>
+        Math.hypot(x + width / 2 - view.toPixelX(atX), y + height / 2 - view.toPixelY(atY));
+      const least = Math.min(distance(start), distance(end) / END_WEIGHT);
+      // Rounding does not decide between corners that are alike.
+      if (least > most + 1) [most, corner] = [least, [x, y]];
+    }
+  }
+  return corner;
 }
 
 /** The corners of the box of cells of which a grid says something, as x, y pairs. @param {Grid} grid */

@@ -41,6 +41,10 @@ const own = css`
     display: block;
   }
 
+  .aside .choices > span {
+    flex: 1 0 100%;
+  }
+
   .about {
     color: var(--muted);
     margin: 0 0 0.7rem;

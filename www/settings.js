@@ -53,6 +53,7 @@ export const settings = {
     { key: 'noise', of: 'alphas', type: 'number', nullable: true, min: 0, max: 1000000, default: 0.12, sentence: 'Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.' },
     { key: 'clearance', type: 'number', unit: 'm', min: 0, max: 10, default: 0.13, sentence: 'Radius of the robot.' },
     { key: 'conditioned', type: 'boolean', default: true, sentence: 'Whether draws are judged by the map at all; where not, all of them are accepted.' },
+    { key: 'unknown', type: 'word', words: ['free', 'blocked'], default: 'free', sentence: 'What cells of which the map says nothing are for the robot.' },
     { key: 'sampler', type: 'word', words: ['endpoint', 'whole-arc', 'sub-stepped'], default: 'endpoint', sentence: 'How draws are judged.' },
     { key: 'steps', type: 'whole', min: 1, max: 1000, default: 4, sentence: 'Parts of the command, for the sub-stepped sampler.' },
     { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 600, sentence: 'Motions tried.' },

@@ -1,16 +1,15 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{in_range, no_memory, number, read_settings, type_error, whole, word};
+use super::fields::{in_range, no_memory, number, read_settings, whole, word};
+use super::pictures::{read_grid, read_ramps, view_of};
 use super::values::{doubles, float64_array, object, settings_to_js, to_js};
 use crate::geom::arc::ArcInversion;
 use crate::models::{OdomDelta, VelocityCmd};
 use crate::sim::banana::{
     BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings,
 };
-use crate::sim::picture::{RAMP, Ramp};
 use crate::sim::settings::{MAX_SEED, QUANTITY};
-use crate::sim::views::{EXTENT, Grid, MAX_CELLS};
-use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray, Uint32Array, WebAssembly};
+use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -399,7 +398,7 @@ impl JsBananaMachine {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
-        let ramp = read_ramp(ramp)?;
+        let [ramp] = read_ramps("ramp", ramp)?;
         let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
         Ok(view_of(pixels.as_flattened()))
     }
@@ -415,21 +414,6 @@ fn opening(options: &JsValue) -> Result<Settings, JsValue> {
     if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
 }
 
-/// A view of bytes in the core's memory.
-fn view_of(bytes: &[u8]) -> Uint8ClampedArray {
-    let view = || {
-        let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
-        Uint8ClampedArray::new_with_byte_offset_and_length(
-            &memory.buffer(),
-            bytes.as_ptr() as u32,
-            bytes.len() as u32,
-        )
-    };
-    let first = view();
-    // The handle of the view itself may have made the memory grow, which empties all views of it; it does so once.
-    if first.length() as usize == bytes.len() { first } else { view() }
-}
-
 impl JsBananaMachine {
     fn not_shown(&self, index: usize) -> RangeError {
         let shown = self.0.shown();
@@ -437,25 +421,4 @@ impl JsBananaMachine {
             "index is {index}; allowed is one of the {shown} samples shown, counted from 0"
         ))
     }
-}
-
-fn read_grid(bounds: [&JsValue; 4], columns: &JsValue, rows: &JsValue) -> Result<Grid, JsValue> {
-    let [x_min, y_min, x_max, y_max] = bounds;
-    let min = [in_range("xMin", x_min, &EXTENT)?, in_range("yMin", y_min, &EXTENT)?];
-    let max = [
-        in_range("xMax", x_max, &(min[0]..=*EXTENT.end()))?,
-        in_range("yMax", y_max, &(min[1]..=*EXTENT.end()))?,
-    ];
-    let columns = whole("columns", columns, 1..=MAX_CELLS)?;
-    let rows = whole("rows", rows, 1..=MAX_CELLS / columns)?;
-    Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
-}
-
-fn read_ramp(value: &JsValue) -> Result<Ramp, JsValue> {
-    let mut ramp = [[0; 4]; RAMP];
-    match value.dyn_ref::<Uint8Array>() {
-        Some(bytes) if bytes.length() as usize == 4 * RAMP => bytes.copy_to(ramp.as_flattened_mut()),
-        _ => return Err(type_error("ramp", value, "a Uint8Array of 256 colours of four bytes")),
-    }
-    Ok(ramp)
 }

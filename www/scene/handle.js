@@ -8,7 +8,8 @@ import { pointOn } from './canvas.js';
  * @property {() => import('./view.js').View} view
  * @property {(pointer: number[]) => number[]} [at] x and y of what is held by a pointer that is there; the middle of
  *   the handle where it is left out
- * @property {(x: number, y: number) => void} drag what is held is wanted there
+ * @property {(x: number, y: number) => string | void} drag what is held is wanted there; a few words on what stops it, if
+ *   something does
  * @property {(event: KeyboardEvent) => boolean} key whether the key is one that moved it
  * @property {() => void} commit it has come to rest
  *
@@ -100,12 +101,13 @@ export class Handle {
   #drag = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
     const [x, y] = this.#world(/** @type {Element} */ (event.currentTarget), event.clientX, event.clientY);
-    this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]);
+    stopped(/** @type {HTMLElement} */ (event.currentTarget), this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]));
   };
 
-  #release = () => {
+  #release = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
     this.held = false;
+    stopped(/** @type {HTMLElement} */ (event.currentTarget));
     this.#hooks.commit();
   };
 
@@ -114,4 +116,21 @@ export class Handle {
     event.preventDefault();
     this.#hooks.commit();
   };
+}
+
+/**
+ * Says beside a handle what stops it, towards the middle of its picture.
+ *
+ * @param {HTMLElement} handle
+ * @param {string | void} words nothing where nothing stops it
+ */
+function stopped(handle, words) {
+  if (!words) {
+    delete handle.dataset.stop;
+    return;
+  }
+  const picture = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
+  const { left, right } = handle.getBoundingClientRect();
+  handle.dataset.stop = words;
+  handle.classList.toggle('right', left + right > picture.left + picture.right);
 }

@@ -102,6 +102,27 @@ const layout = css`
     border-radius: 50%;
   }
 
+  /* What stops a handle that is dragged on. */
+  .handle[data-stop]::before {
+    content: attr(data-stop);
+    position: absolute;
+    top: 50%;
+    left: calc(100% + 0.3rem);
+    translate: 0 -50%;
+    padding: 0.1rem 0.5rem;
+    background: var(--ink);
+    border-radius: 3px;
+    color: var(--paper);
+    font-size: 0.85rem;
+    white-space: nowrap;
+    pointer-events: none;
+  }
+
+  .handle.right[data-stop]::before {
+    right: calc(100% + 0.3rem);
+    left: auto;
+  }
+
   .handle:hover::after {
     background: var(--prior);
   }

@@ -40,7 +40,7 @@ export const presentationStyles = css`
   :host([presentation]) .views {
     flex: 1;
     display: grid;
-    grid-auto-rows: minmax(0, 1fr);
+    grid-template-rows: minmax(0, 1fr);
     min-height: 0;
   }
 
@@ -58,6 +58,7 @@ export const presentationStyles = css`
   }
 
   :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, [part~='caption'], [part~='readouts']),
+  :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts']),
   :host([presentation]) .surface > .caption-slot,
   :host([presentation]) .begin {
     display: none !important;

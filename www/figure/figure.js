@@ -65,6 +65,7 @@ addEnglish(en);
  * @csspart button - A button.
  * @csspart readouts - The figures about the cloud.
  * @csspart table - A table of figures.
+ * @csspart fold - What is folded away, with its name.
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.
  *

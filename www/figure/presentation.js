@@ -68,12 +68,20 @@ export class Presentation extends Part {
     this.#listening = undefined;
     this.#controls = false;
     host.style.removeProperty('--zoom');
-    if (host.matches(':fullscreen')) document.exitFullscreen();
-    // The page was shorter meanwhile.
-    host.updateComplete.then(() => {
-      scrollTo({ top: this.#scrolled, behavior: 'instant' });
-      /** @type {HTMLElement | null} */ (host.renderRoot.querySelector('.to-present'))?.focus({ preventScroll: true });
-    });
+    this.#restore(host.matches(':fullscreen') ? document.exitFullscreen() : undefined);
+  }
+
+  /**
+   * Brings the reader back to where they were: the page was shorter meanwhile.
+   *
+   * @param {Promise<void>} [left] that the screen is left
+   */
+  async #restore(left) {
+    await Promise.allSettled([left, this.host.updateComplete]);
+    await new Promise(requestAnimationFrame);
+    if (this.#listening) return;
+    scrollTo({ top: this.#scrolled, behavior: 'instant' });
+    /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector('.to-present'))?.focus({ preventScroll: true });
   }
 
   #focus() {

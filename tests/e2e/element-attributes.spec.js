@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, assign, heard, property, ready, show } from './element-support.js';
-import { STILL, frames, test } from './support.js';
+import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 
@@ -48,6 +48,7 @@ test.describe('attributes', () => {
     await show(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
     const [banana, squeeze] = NAMES.map((name) => page.locator(name));
     await ready(banana);
+    await unfold(banana);
     const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
       widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
     expect(await attributes(banana)).toEqual({ preset: 'hard', seed: '3' });
@@ -67,6 +68,7 @@ test.describe('attributes', () => {
 
     await squeeze.scrollIntoViewIfNeeded();
     await ready(squeeze);
+    await unfold(squeeze);
     await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
     await squeeze.getByLabel('Condition on it').uncheck();
     await frames(page);
@@ -81,7 +83,7 @@ test.describe('attributes', () => {
     await widget.locator('#alpha2').fill('0.111');
     await frames(page);
     const code = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
-    expect(code).toContain('<script type="module" src="motion-widgets.js"></script>');
+    expect(code).toContain(`<script type="module" src="${new URL(page.url()).origin}/motion-widgets.js"></script>`);
     expect(code).toContain('<banana-machine preset="hard" alpha2="0.111"></banana-machine>');
     const same = await widget.evaluate(async (element, html) => {
       const copies = [html, element.outerHTML].map((text) => {
@@ -107,7 +109,7 @@ test.describe('attributes', () => {
       'model is "walking"; allowed is "velocity" or "odometry"',
       'command.v is "fast"; allowed is a number',
       'samples is 0; allowed is a whole number from 1 to 10000000',
-      'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "exponential"',
+      'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "additive" or "exponential"',
     ]);
     const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
     expect(await values()).toEqual([1, 0.7, 'velocity', 2000]);
@@ -161,7 +163,7 @@ test.describe('properties', () => {
     expect(await assign(banana, 'omega', 1.1)).toBe('');
     expect(await banana.getAttribute('omega')).toBe('1.1');
     const { stats } = await banana.evaluate((element) => ({ stats: /** @type {AnyElement} */ (element).stats }));
-    expect(stats?.n).toBe(2000);
+    expect(stats?.n).toBe(await property(banana, 'samples'));
     await squeeze.scrollIntoViewIfNeeded();
     await ready(squeeze);
     for (const [widget, name, value, message] of /** @type {const} */ ([

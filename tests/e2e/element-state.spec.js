@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, heard, ready, show, stateOf } from './element-support.js';
-import { STILL, frames, test } from './support.js';
+import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 /** @typedef {() => number} Random from 0 to 1 */
@@ -141,6 +141,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await show(page, '<banana-machine></banana-machine>');
   const widget = page.locator('banana-machine');
   await ready(widget);
+  await unfold(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
   await widget.locator('#alpha2').fill('0.07');

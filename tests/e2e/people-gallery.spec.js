@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, open, test } from './support.js';
+import { STILL, frames, open, test, unfold } from './support.js';
 import { openSqueeze } from './squeeze-support.js';
 
 test.use(STILL);
@@ -17,8 +17,8 @@ async function documented(page, kind, of = 'both') {
 }
 
 test('the page documents every attribute, method, part and custom property, and no other', async ({ page }) => {
-  await open(page);
-  await openSqueeze(page);
+  await unfold(await open(page));
+  await unfold(await openSqueeze(page));
   for (const name of ['banana-machine', 'map-squeeze']) {
     const observed = await page.evaluate((tag) => Reflect.get(customElements.get(tag) ?? {}, 'observedAttributes'), name);
     expect(await documented(page, 'attribute', name)).toEqual([...observed].sort());

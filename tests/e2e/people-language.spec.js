@@ -6,7 +6,7 @@ import { en as bananaEnglish } from '../../www/widgets/banana-machine/en.js';
 import { de as squeezeGerman } from '../../www/widgets/map-squeeze/de.js';
 import { en as squeezeEnglish } from '../../www/widgets/map-squeeze/en.js';
 import { openSqueeze } from './squeeze-support.js';
-import { STILL, frames, numberIn, open, readout, state, test } from './support.js';
+import { STILL, frames, numberIn, open, readout, state, test, unfold } from './support.js';
 
 const de = { ...sharedGerman, banana: bananaGerman, squeeze: squeezeGerman };
 const en = { ...sharedEnglish, banana: bananaEnglish, squeeze: squeezeEnglish };
@@ -75,6 +75,8 @@ test('both catalogues have the same messages, with the same values in them', () 
 test('no English is left in a German widget, in any of its states', async ({ page }) => {
   const banana = await open(page);
   const squeeze = await openSqueeze(page);
+  await unfold(banana);
+  await unfold(squeeze);
   await german(page);
   const own = new Set(messagesOf(de).map(([, message]) => message));
   const english = messagesOf(en)

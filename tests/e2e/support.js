@@ -50,6 +50,28 @@ export async function open(page) {
 }
 
 /**
+ * Opens every fold of a widget, as a reader does.
+ *
+ * @param {Locator} widget
+ */
+export async function unfold(widget) {
+  const closed = widget.locator('details[part=fold]:not([open]) > summary');
+  for (let left = await closed.count(); left > 0; left--) await closed.first().click();
+  await expect(widget.locator('details[part=fold]:not([open])')).toHaveCount(0);
+  await frames(widget.page());
+}
+
+/**
+ * The field of a slider's value.
+ *
+ * @param {Locator} widget
+ * @param {string} key of the setting
+ */
+export function valueField(widget, key) {
+  return widget.locator(`.slider:has(#${key}) .typed`);
+}
+
+/**
  * Waits until what was asked for has been drawn.
  *
  * @param {Page} page

@@ -2,6 +2,7 @@
 
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
+import { pointOn } from '../scene/canvas.js';
 import { button } from '../ui/controls.js';
 import { counted } from '../ui/format.js';
 import { truth, wholeNumber } from './checks.js';
@@ -123,7 +124,8 @@ export class Cloud extends Part {
       const { machine, held } = this.host;
       // A finger that moves scrolls the page; one that taps comes as a click.
       if (!machine || held || (event.pointerType === 'touch' && event.type !== 'click')) return;
-      const index = picture.nearest(machine, event.offsetX, event.offsetY);
+      const [x, y] = pointOn(/** @type {Element} */ (event.currentTarget ?? event.target), event);
+      const index = picture.nearest(machine, x, y);
       if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }

@@ -1,6 +1,6 @@
 /**
  * What pictures are made of: axes, robots, densities, outlines and marks. Every function takes the
- * brush, which knows the view's transform and the colours, and none keeps anything.
+ * brush, which knows the view's transform and the colours, and none keeps anything but the latest dot.
  */
 
 import { ticks } from 'd3-array';
@@ -166,11 +166,24 @@ function headingTick({ context, view }, x, y, heading, length) {
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
 }
 
+/** The dots of the latest kind: to make a canvas costs as much as to draw hundreds of them. @type {{ kind: string, dot: OffscreenCanvas } | undefined} */
+let latest;
+
 /**
  * @param {string} colour
  * @param {number} radius device pixels
  */
 function sprite(colour, radius) {
+  const kind = `${colour} ${radius}`;
+  if (latest?.kind !== kind) latest = { kind, dot: makeSprite(colour, radius) };
+  return latest.dot;
+}
+
+/**
+ * @param {string} colour
+ * @param {number} radius device pixels
+ */
+function makeSprite(colour, radius) {
   const half = Math.ceil(radius) + 1;
   const canvas = new OffscreenCanvas(2 * half, 2 * half);
   const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));

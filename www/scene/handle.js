@@ -1,13 +1,15 @@
 /** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
 
 import { html } from 'lit';
+import { pointOn } from './canvas.js';
 
 /**
  * @typedef {object} Hooks what a handle acts on; lengths in metres
  * @property {() => import('./view.js').View} view
  * @property {(pointer: number[]) => number[]} [at] x and y of what is held by a pointer that is there; the middle of
  *   the handle where it is left out
- * @property {(x: number, y: number) => void} drag what is held is wanted there
+ * @property {(x: number, y: number) => string | void} drag what is held is wanted there; a few words on what stops it, if
+ *   something does
  * @property {(event: KeyboardEvent) => boolean} key whether the key is one that moved it
  * @property {() => void} commit it has come to rest
  *
@@ -75,14 +77,14 @@ export class Handle {
 
   /**
    * @param {Element} handle
-   * @param {number} x CSS pixels of the window
-   * @param {number} y
+   * @param {number} clientX CSS pixels of the window
+   * @param {number} clientY
    * @returns {number[]} the same in metres
    */
-  #world(handle, x, y) {
-    const { left, top } = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
+  #world(handle, clientX, clientY) {
+    const [x, y] = pointOn(/** @type {Element} */ (handle.parentElement), { clientX, clientY });
     const view = this.#hooks.view();
-    return [view.toWorldX(x - left), view.toWorldY(y - top)];
+    return [view.toWorldX(x), view.toWorldY(y)];
   }
 
   #hold = (/** @type {PointerEvent} */ event) => {
@@ -99,12 +101,13 @@ export class Handle {
   #drag = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
     const [x, y] = this.#world(/** @type {Element} */ (event.currentTarget), event.clientX, event.clientY);
-    this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]);
+    stopped(/** @type {HTMLElement} */ (event.currentTarget), this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]));
   };
 
-  #release = () => {
+  #release = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
     this.held = false;
+    stopped(/** @type {HTMLElement} */ (event.currentTarget));
     this.#hooks.commit();
   };
 
@@ -113,4 +116,21 @@ export class Handle {
     event.preventDefault();
     this.#hooks.commit();
   };
+}
+
+/**
+ * Says beside a handle what stops it, towards the middle of its picture.
+ *
+ * @param {HTMLElement} handle
+ * @param {string | void} words nothing where nothing stops it
+ */
+function stopped(handle, words) {
+  if (!words) {
+    delete handle.dataset.stop;
+    return;
+  }
+  const picture = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
+  const { left, right } = handle.getBoundingClientRect();
+  handle.dataset.stop = words;
+  handle.classList.toggle('right', left + right > picture.left + picture.right);
 }

@@ -3,7 +3,8 @@
  * does to the picture.
  */
 
-import { css, html, nothing } from 'lit';
+import { css, html, noChange, nothing } from 'lit';
+import { Directive, directive } from 'lit/directive.js';
 import { live } from 'lit/directives/live.js';
 import { finger } from './finger.js';
 
@@ -46,8 +47,34 @@ export const controlStyles = css`
   }
 
   .slider .value {
+    position: relative;
     text-align: right;
     white-space: nowrap;
+  }
+
+  /* The value lies over its print, which keeps the room for it and is what paper has. */
+  .printed {
+    visibility: hidden;
+  }
+
+  .typed {
+    position: absolute;
+    inset: -0.2rem -0.3rem auto;
+    box-sizing: border-box;
+    width: calc(100% + 0.6rem);
+    padding: 0.1rem 0.2rem;
+    background: none;
+    border: 1px solid transparent;
+    border-radius: 3px;
+    color: inherit;
+    font: inherit;
+    font-variant-numeric: inherit;
+    text-align: right;
+    cursor: text;
+  }
+
+  .typed:hover {
+    border-color: var(--muted);
   }
 
   .effect {
@@ -68,6 +95,20 @@ export const controlStyles = css`
   .slider:focus-within .effect,
   fieldset:not(:focus-within) > .slider:hover .effect {
     visibility: visible;
+  }
+
+  /* What was refused is said until something else is of interest, also over what stands below. */
+  .slider.refused .effect {
+    top: calc(100% - 1.3rem);
+    bottom: auto;
+    z-index: 1;
+    visibility: visible;
+    background: var(--paper);
+    color: var(--accent);
+  }
+
+  fieldset:has(.refused) > .slider:not(.refused) .effect {
+    visibility: hidden !important;
   }
 
   .slider.off :is(label, .value) {
@@ -109,7 +150,8 @@ export const controlStyles = css`
     margin-top: calc(1px - 0.525rem);
     background: var(--thumb);
     border: 2px solid var(--thumb-edge);
-    border-radius: 50%;
+    border-radius: var(--thumb-round, 50%);
+    clip-path: var(--thumb-shape);
     box-shadow: 0 0 0 3px var(--paper);
   }
 
@@ -119,13 +161,47 @@ export const controlStyles = css`
     height: 1.05rem;
     background: var(--thumb);
     border: 2px solid var(--thumb-edge);
-    border-radius: 50%;
+    border-radius: var(--thumb-round, 50%);
+    clip-path: var(--thumb-shape);
     box-shadow: 0 0 0 3px var(--paper);
   }
 
-  :is(button, input, textarea, summary, .handle, .chart-marker):focus-visible {
+  /* A thumb at its end points to where the value is. */
+  .slider.above {
+    --thumb-shape: polygon(0 0, 55% 0, 100% 50%, 55% 100%, 0 100%);
+  }
+
+  .slider.below {
+    --thumb-shape: polygon(100% 0, 45% 0, 0 50%, 45% 100%, 100% 100%);
+  }
+
+  .slider:is(.above, .below) input[type='range'] {
+    --thumb-round: 0;
+  }
+
+  :is(button, input, textarea, summary, .handle, .chart-marker, .reserved):focus-visible {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
+  }
+
+  /* Around the thumb alone: around all of the slider it would cut into the rows above and below. */
+  input[type='range']:focus-visible {
+    outline: none;
+  }
+
+  input[type='range']:focus-visible::-webkit-slider-thumb {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  input[type='range']:focus-visible::-moz-range-thumb {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  .typed:focus-visible {
+    outline-offset: 0;
+    background: var(--paper);
   }
 
   summary {
@@ -239,8 +315,12 @@ export const controlStyles = css`
   }
 `;
 
+/** What begins a number, typed where a slider has the focus. */
+const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
+
 /**
- * A slider row.
+ * A slider row. Its value is a field as well: what is typed there may lie beyond the slider. Tab passes the field by;
+ * Enter or the first digit leads from the slider into it, Enter and Escape lead back.
  *
  * @param {object} row
  * @param {string} row.id unique in the widget
@@ -255,11 +335,23 @@ export const controlStyles = css`
  * @param {'prior' | 'prediction' | 'truth'} row.role
  * @param {boolean} [row.off] its value has no effect at present
  * @param {unknown} [row.pick] a control in front of the label
+ * @param {'decimal' | 'numeric' | 'text'} row.keys of a phone, to type the value with
+ * @param {(text: string) => string | undefined} row.type takes what was typed and returns it as it is shown from now on;
+ *   undefined where it is refused
+ * @param {string} [row.refusal] what is said of what was refused
+ * @param {() => void} row.forget there is something else of interest than what was refused
  * @param {(value: number) => void} row.input while it moves
  * @param {() => void} row.commit when it comes to rest
  */
 export function sliderRow(row) {
-  const classes = `slider${row.pick ? ' picking' : ''}${row.off ? ' off' : ''}`;
+  const states = {
+    picking: row.pick,
+    off: row.off,
+    below: row.value < row.min,
+    above: row.value > row.max,
+    refused: row.refusal,
+  };
+  const classes = ['slider', ...Object.keys(states).filter((key) => states[/** @type {keyof typeof states} */ (key)])].join(' ');
   const shown = row.show(row.value);
   const set = (/** @type {Event} */ event) => {
     // A browser sets a slider as soon as a finger comes down on it.
@@ -269,7 +361,7 @@ export function sliderRow(row) {
   return html`
     <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}
-      <label for=${row.id}>${row.symbol}</label>
+      <label for=${row.id} id="${row.id}-name">${row.symbol}</label>
       <input
         id=${row.id}
         type="range"
@@ -280,6 +372,7 @@ export function sliderRow(row) {
         aria-label=${row.name ?? nothing}
         aria-valuetext=${shown}
         aria-describedby="${row.id}-effect"
+        @keydown=${leadIntoField}
         @pointerdown=${finger.comes}
         @pointermove=${(/** @type {PointerEvent} */ event) => {
           finger.moves(event);
@@ -292,24 +385,112 @@ export function sliderRow(row) {
         @input=${set}
         @change=${row.commit}
       />
-      <span class="value roomy" data-room=${room}>${shown}</span>
-      <p class="effect" id="${row.id}-effect">${row.effect}</p>
+      <span class="value roomy" data-room=${room}>
+        <span class="printed">${shown}</span>
+        ${field(row, shown)}
+      </span>
+      <p class="effect" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
     </div>
   `;
 }
 
 /**
- * What is folded away until it is asked for.
+ * The value of a slider as a field to type into.
+ *
+ * @param {Pick<Parameters<typeof sliderRow>[0], 'id' | 'name' | 'keys' | 'type' | 'forget'>} row
+ * @param {string} shown
+ */
+function field({ id, name, keys, type, forget }, shown) {
+  /** @returns {boolean} whether what stands there is the value now */
+  const take = (/** @type {HTMLInputElement} */ input) => {
+    // By default it has what stood there when the reader came.
+    if (input.value === input.defaultValue) return true;
+    const now = type(input.value);
+    input.value = input.defaultValue = now ?? input.defaultValue;
+    return now !== undefined;
+  };
+  const key = (/** @type {KeyboardEvent} */ event) => {
+    const input = inputOf(event);
+    if (event.key === 'Escape') input.value = input.defaultValue;
+    else if (event.key !== 'Enter') return;
+    // Escape does nothing else here.
+    event.preventDefault();
+    if (take(input)) sliderBeside(input).focus();
+    else input.select();
+  };
+  return html`<input
+    class="typed"
+    type="text"
+    tabindex="-1"
+    inputmode=${keys}
+    enterkeyhint="done"
+    autocomplete="off"
+    spellcheck="false"
+    aria-label=${name ?? nothing}
+    aria-labelledby=${name ? nothing : `${id}-name`}
+    aria-describedby="${id}-effect"
+    .value=${shown}
+    @focus=${(/** @type {Event} */ event) => {
+      const input = inputOf(event);
+      input.defaultValue = input.value;
+      input.select();
+    }}
+    @input=${forget}
+    @keydown=${key}
+    @blur=${(/** @type {Event} */ event) => take(inputOf(event))}
+  />`;
+}
+
+/** Goes on in the field beside a slider: it takes the key that was pressed, and all of its text is selected. @param {KeyboardEvent} event */
+function leadIntoField(event) {
+  const { key, ctrlKey, altKey, metaKey } = event;
+  if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !BEGINS_A_NUMBER.test(key))) return;
+  if (key === 'Enter') event.preventDefault();
+  const row = /** @type {Element} */ (inputOf(event).closest('.slider'));
+  /** @type {HTMLInputElement} */ (row.querySelector('.typed')).focus();
+}
+
+/** @param {Element} input the field of its value */
+function sliderBeside(input) {
+  const row = /** @type {Element} */ (input.closest('.slider'));
+  return /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
+}
+
+/**
+ * What is folded away until it is asked for: nothing of it is made before, nor while it is closed again.
  *
  * @param {string} name
- * @param {unknown} content
+ * @param {() => unknown} content
  */
 export function fold(name, content) {
-  return html`<details part="fold">
+  return html`<details part="fold" @toggle=${renderHost}>
     <summary>${name}</summary>
-    <div class="folded">${content}</div>
+    <div class="folded">${whileOpen(content)}</div>
   </details>`;
 }
+
+/** Lit calls listeners with the element that has rendered them. @this {import('lit').LitElement} */
+function renderHost() {
+  this.requestUpdate();
+}
+
+const whileOpen = directive(
+  class extends Directive {
+    /** @param {() => unknown} content */
+    render(content) {
+      return content();
+    }
+
+    /**
+     * @param {import('lit').ChildPart} part
+     * @param {[() => unknown]} content
+     */
+    update({ parentNode }, [content]) {
+      const details = /** @type {Element} */ (parentNode).closest('details');
+      return details?.open ? this.render(content) : noChange;
+    }
+  },
+);
 
 /** A message with its italics and subscripts. @param {string} message as messages/en.js has it */
 export function rich(message) {
@@ -355,13 +536,14 @@ export function toggle({ label, checked, change }) {
 }
 
 /**
- * @param {string} label
+ * @param {unknown} label
  * @param {() => void} press
- * @param {{ pressed?: boolean, disabled?: boolean, title?: string }} [state]
+ * @param {{ pressed?: boolean, disabled?: boolean, title?: string, name?: string }} [state] with a class
  */
-export function button(label, press, { pressed, disabled = false, title } = {}) {
+export function button(label, press, { pressed, disabled = false, title, name } = {}) {
   return html`<button
     type="button"
+    class=${name ?? nothing}
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}

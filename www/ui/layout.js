@@ -32,7 +32,7 @@ const layout = css`
     display: flex;
     flex-wrap: wrap;
     align-items: start;
-    gap: 0.1rem 1.6rem;
+    gap: 0.1rem 1.2rem;
     margin-top: 0.4rem;
     padding-top: 0.3rem;
     border-top: 1px solid var(--rule);
@@ -41,6 +41,11 @@ const layout = css`
   .folds > details[open] {
     flex: 1 0 100%;
     padding-bottom: 0.8rem;
+  }
+
+  .begin button {
+    min-height: 1.75rem;
+    padding: 0 0.5rem 0.1rem;
   }
 
   .folded {
@@ -95,6 +100,27 @@ const layout = css`
     background: var(--paper);
     border: 3px solid var(--prior);
     border-radius: 50%;
+  }
+
+  /* What stops a handle that is dragged on. */
+  .handle[data-stop]::before {
+    content: attr(data-stop);
+    position: absolute;
+    top: 50%;
+    left: calc(100% + 0.3rem);
+    translate: 0 -50%;
+    padding: 0.1rem 0.5rem;
+    background: var(--ink);
+    border-radius: 3px;
+    color: var(--paper);
+    font-size: 0.85rem;
+    white-space: nowrap;
+    pointer-events: none;
+  }
+
+  .handle.right[data-stop]::before {
+    right: calc(100% + 0.3rem);
+    left: auto;
   }
 
   .handle:hover::after {

@@ -25,6 +25,12 @@ export const readoutStyles = css`
     white-space: nowrap;
   }
 
+  .readouts .detail {
+    color: var(--muted);
+    font-size: 0.84rem;
+    white-space: normal;
+  }
+
   sub {
     line-height: 0;
   }
@@ -96,12 +102,20 @@ export const readoutStyles = css`
   }
 `;
 
-/** @param {[name: string, value: string, longest?: string][]} rows each with room for the longest value there is */
+/**
+ * @typedef {[text: string, longest?: string]} Roomy a text that changes, with room for the longest that it may be
+ *
+ * @param {[name: string, value: string, longest?: string, detail?: Roomy][]} rows each with what it may need to be
+ *   understood, in smaller print
+ */
 export function readoutList(rows) {
   return html`<dl class="readouts" part="readouts">
     ${rows.map(
-      ([name, value, longest = value]) =>
-        html`<div><dt>${rich(name)}</dt><dd class="roomy" data-room=${longest}>${value}</dd></div>`,
+      ([name, value, longest = value, detail]) => html`<div>
+        <dt>${rich(name)}</dt>
+        <dd class="roomy" data-room=${longest}>${value}</dd>
+        ${detail ? html`<dd class="detail roomy" data-room=${detail[1] ?? detail[0]}>${rich(detail[0])}</dd>` : nothing}
+      </div>`,
     )}
   </dl>`;
 }

@@ -7,7 +7,7 @@ import { css, unsafeCSS } from 'lit';
  *   widths ascending from 0; tests hold them to the truth within a few lines of text
  */
 export function reserve(steps) {
-  const rules = steps.map(([width, height]) => `@container (width >= ${width}rem) { .reserved { height: ${height}rem } }`);
+  const rules = steps.map(([width, height]) => `@container (width >= ${width}rem) { .reserved, .opening { min-height: ${height}rem } }`);
   return css`
     ${unsafeCSS(rules.join('\n'))}
   `;

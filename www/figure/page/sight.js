@@ -40,6 +40,18 @@ export function watch(element, watcher) {
   presence.observe(element);
 }
 
+/**
+ * Looks at once where an element is: what a page opens with need not wait for the observers, which look once a frame.
+ *
+ * @param {Element} element that is watched
+ */
+export function look(element) {
+  const { top, bottom, width } = element.getBoundingClientRect();
+  if (width === 0 || top >= innerHeight || bottom <= 0) return;
+  watchers.get(element)?.sight(true);
+  watchers.get(element)?.approach();
+}
+
 /** @param {Element} element */
 export function unwatch(element) {
   nearness?.unobserve(element);

@@ -3,7 +3,7 @@
 /** @type {typeof import('./en.js').en} */
 export const de = {
   title: 'Die Bananenmaschine',
-  presets: { straight: 'Geradeaus', gentle: 'Sanfter Bogen', hard: 'Enger Bogen', pivot: 'Auf der Stelle' },
+  presets: { straight: 'Geradeaus', gentle: 'Sanfter Bogen', hard: 'Enger Bogen', pivot: 'Auf der Stelle', banana: 'Banane', worked: 'Rechenbeispiel' },
   settings: {
     v: { effect: 'Wie weit den Bogen entlang; unter null fährt der Roboter rückwärts.' },
     omega: { effect: 'Wie eng der Bogen ist; positiv heißt nach links.' },
@@ -43,12 +43,14 @@ export const de = {
     command: 'befohlener Bogen',
     ellipse: '2σ-Gauß-Ellipse in (x, y)',
     linearized: 'linearisierte Ellipse (EKF)',
+    additive: '2σ von Rauschen auf der Pose, überall 0,2 m',
     exponential: '2σ-Gauß in Exponentialkoordinaten',
   },
   modelAndNoise: 'Modell und Umrisse',
   figures: 'Zahlen',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
+  reverseAware: 'Rückwärts ist keine halbe Drehung',
   isolate: 'Nur einen gelten lassen',
   only: (alpha) => `Nur ${alpha}`,
   off: (value) => `${value} aus`,
@@ -78,10 +80,21 @@ export const de = {
   mean: (robots, x, y) => `${robots} Roboter halten um x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standardabweichungen ${x} m in x und ${y} m in y.`,
   bend: {
-    unsure: (skew) => `Zu wenige Roboter, um zu sagen, wohin die Wolke neigt: Schiefe ${skew}.`,
+    unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, die des Modells ist ${exactly}.`,
     hardly: (skew) => `Die Wolke neigt kaum zu einer Seite: Schiefe ${skew}.`,
-    right: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif rechts der mittleren Richtung: Schiefe ${skew}.`,
-    left: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif links der mittleren Richtung: Schiefe ${skew}.`,
+    neither: (skew) => `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, und der Symmetrie wegen genau 0.`,
+    stillBent: (skew, gain) =>
+      `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, der Symmetrie wegen genau 0. Doch sie ist krumm, und der Gauß in ξ gewinnt ${gain} Nat je Roboter.`,
+    bothWays: (skew, ratio) =>
+      `Die Wolke biegt sich nach beiden Seiten gleich, also ist ihre Schiefe 0 (${skew}); doch die Ellipse bedeckt ${ratio}-mal so viel Boden wie nötig.`,
+    bowTie: {
+      velocity: (speed, deviation, skew) =>
+        `Eine Fliege: Das Rauschen der Drehung, α₂ω², streut v̂ um ${deviation} m/s um ${speed}, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
+      odometry: (length, deviation, skew) =>
+        `Eine Fliege: Das Rauschen der Drehungen, α₄, streut einen Weg von ${length} m um ${deviation} m, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
+    },
+    right: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif rechts der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
+    left: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif links der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
   },
   fewRobots: 'Zu wenige Roboter für eine Schiefe.',
   robotsHere: (_count, printed) => `hier ${printed} Roboter`,
@@ -109,16 +122,26 @@ export const de = {
   chartMarker: 'Befohlenes ω im Diagramm',
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
-    'Exakte Schiefe über dem befohlenen *ω*, und die der Roboter mit ihrem Standardfehler. Die gestrichelte Linie ist jede Gauß-Verteilung in *(x, y)*.',
+    'Exakte Schiefe über dem befohlenen *ω*, und die der Roboter mit ihrem Standardfehler. Die gestrichelte Linie ist jede Gauß-Verteilung in *(x, y)*. ' +
+    'Bei *ω* = 0 biegt sich die Wolke nach beiden Seiten gleich: Die Schiefe ist der Symmetrie wegen 0, der Gewinn nicht.',
+  chartRemark: 'symmetrisch, doch krumm',
   readouts: {
-    skew: 'Schiefe quer zur Fahrt ± Standardfehler',
-    gaussian: 'Schiefe, Gauß in Exponentialkoordinaten',
-    plane: 'Schiefe, jeder Gauß in *(x, y)*',
-    rho: '*ρ*(Querlage, Richtung)',
+    skew: 'Schiefe quer zur Fahrt',
+    skewDetail: (exactly) => `genau ${exactly}; ein Gauß: 0`,
+    gain: 'Gewinn von *ξ*, Nat/Roboter',
+    gainOnFloor: 'Gewinn am Boden, Nat/Roboter',
+    likelier: (robots, power) => `alle ${robots}: ${power}-mal so glaubhaft`,
+    unlikelier: (robots, power) => `alle ${robots}: ${power}-mal weniger glaubhaft`,
+    unbounded: 'über *(x, y, θ)* unbegrenzt: kein *γ̂*',
+    area: 'Fläche Ellipse durch *ξ*-Umriss',
+    areaDetail: (ellipse, exponential) => `darin ${ellipse} und ${exponential}`,
+    gaussian: 'Schiefe, die der Gauß in *ξ* vorhersagt',
+    rho: 'Korrelation *ρ* von Querlage und Richtung',
     robots: 'Roboter gezeigt, *n* von *N*',
-    exponential: 'innerhalb 2σ, Exponentialkoordinaten',
-    ellipse: 'innerhalb 2σ, Gauß in *(x, y)*',
-    nominal: 'innerhalb 2σ, Sollwert',
+    exactGain: 'Gewinn des Modells selbst, Nat je Roboter',
+    exactArea: 'Fläche Ellipse durch *ξ*-Umriss, des Modells selbst',
+    shares: 'Roboter innerhalb zweier Abweichungen: Ellipse, *ξ*, jeder Gauß',
+    sharesOf: (ellipse, exponential, gaussian) => `${ellipse}, ${exponential}, ${gaussian}`,
   },
   nOfAll: (n, all) => `${n} von ${all}`,
   robot: 'Roboter',

@@ -4,7 +4,7 @@ import { plural } from '../../messages/en.js';
 
 export const en = /** @satisfies {import('../../messages/registry.js').Message} */ ({
   title: 'The Banana Machine',
-  presets: { straight: 'Straight', gentle: 'Gentle arc', hard: 'Hard arc', pivot: 'Pivot' },
+  presets: { straight: 'Straight', gentle: 'Gentle arc', hard: 'Hard arc', pivot: 'Pivot', banana: 'Banana', worked: 'Worked example' },
   settings: {
     v: { effect: 'How far along the arc; below zero the robot backs up.' },
     omega: { effect: 'How sharply the arc bends; positive turns left.' },
@@ -45,12 +45,14 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     command: 'commanded arc',
     ellipse: '2σ Gaussian in (x, y)',
     linearized: 'linearized (EKF) ellipse',
+    additive: '2σ of noise added to the pose, 0.2 m everywhere',
     exponential: '2σ Gaussian in exponential coordinates',
   },
   modelAndNoise: 'Model and outlines',
   figures: 'Figures',
   models: { velocity: 'velocity', odometry: 'odometry' },
   noises: { normal: 'normal', triangular: 'triangular' },
+  reverseAware: 'Backing up is no half turn',
   isolate: 'Isolate one',
   only: (alpha) => `Only ${alpha}`,
   off: (value) => `${value} off`,
@@ -81,10 +83,21 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   mean: (robots, x, y) => `${robots} robots end around x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standard deviations ${x} m in x and ${y} m in y.`,
   bend: {
-    unsure: (skew) => `Too few robots to tell to which side the cloud leans: skew ${skew}.`,
+    unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, where the model’s own is ${exactly}.`,
     hardly: (skew) => `The cloud hardly leans to either side: skew ${skew}.`,
-    right: (skew) => `The cloud is bent, with its tail to the right of the mean heading: skew ${skew}.`,
-    left: (skew) => `The cloud is bent, with its tail to the left of the mean heading: skew ${skew}.`,
+    neither: (skew) => `The cloud leans to neither side: skew ${skew}, and exactly 0 by symmetry.`,
+    stillBent: (skew, gain) =>
+      `The cloud leans to neither side: skew ${skew}, and exactly 0 by symmetry. Yet it is bent, and the Gaussian in ξ gains ${gain} nats a robot.`,
+    bothWays: (skew, ratio) =>
+      `The cloud curls to both sides alike, so its skew is 0 (${skew}); yet the ellipse covers ${ratio} times the floor that it needs.`,
+    bowTie: {
+      velocity: (speed, deviation, skew) =>
+        `A bow-tie: the turn’s noise α₂ω² spreads v̂ by ${deviation} m/s about ${speed}, so robots end ahead of the start and behind it. Skew ${skew}.`,
+      odometry: (length, deviation, skew) =>
+        `A bow-tie: the rotations’ noise α₄ spreads a drive of ${length} m by ${deviation} m, so robots end ahead of the start and behind it. Skew ${skew}.`,
+    },
+    right: (skew) => `The cloud is bent, with its tail to the right of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
+    left: (skew) => `The cloud is bent, with its tail to the left of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
   },
   fewRobots: 'Too few robots for a skew.',
   robotsHere: (count, printed) => `${printed} ${plural(count, 'robot')} here`,
@@ -112,16 +125,26 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   chartMarker: 'Commanded ω on the chart',
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
-    'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*.',
+    'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*. ' +
+    'At *ω* = 0 the cloud bends to both sides alike: the skew is 0 by symmetry, and the gain is not.',
+  chartRemark: 'symmetric, still bent',
   readouts: {
-    skew: 'cross-track skew ± standard error',
-    gaussian: 'skew, exponential-coordinate Gaussian',
-    plane: 'skew, any Gaussian in *(x, y)*',
-    rho: '*ρ*(cross-track, heading)',
+    skew: 'cross-track skew',
+    skewDetail: (exactly) => `exactly ${exactly}; a Gaussian: 0`,
+    gain: 'gain of *ξ*, nats/robot',
+    gainOnFloor: 'gain on the floor, nats/robot',
+    likelier: (robots, power) => `all ${robots}: ${power} times likelier`,
+    unlikelier: (robots, power) => `all ${robots}: ${power} times less likely`,
+    unbounded: 'over *(x, y, θ)* unbounded: no *γ̂*',
+    area: 'area of ellipse over *ξ* outline',
+    areaDetail: (ellipse, exponential) => `inside: ${ellipse} and ${exponential}`,
+    gaussian: 'skew that the Gaussian in *ξ* predicts',
+    rho: 'correlation *ρ* of lateral place and heading',
     robots: 'robots shown, *n* of *N*',
-    exponential: 'inside 2σ, exponential coordinates',
-    ellipse: 'inside 2σ, Gaussian in *(x, y)*',
-    nominal: 'inside 2σ, nominal',
+    exactGain: 'gain of the model itself, nats a robot',
+    exactArea: 'area of ellipse over *ξ* outline, of the model itself',
+    shares: 'robots within two deviations: ellipse, *ξ*, any Gaussian',
+    sharesOf: (ellipse, exponential, gaussian) => `${ellipse}, ${exponential}, ${gaussian}`,
   },
   nOfAll: (n, all) => `${n} of ${all}`,
   robot: 'Robot',

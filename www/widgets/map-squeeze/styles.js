@@ -5,13 +5,49 @@ import { layoutStyles } from '../../ui/layout.js';
 
 const own = css`
   canvas {
-    aspect-ratio: 9 / 4;
+    aspect-ratio: 5 / 4;
   }
 
-  @container (max-width: 34rem) {
-    canvas {
-      aspect-ratio: 5 / 4;
+  /* The picture with the sentence below it, and beside it the figures and what is chosen. */
+  @container (min-width: 38rem) {
+    .views {
+      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 14.5rem;
     }
+
+    .stage {
+      grid-area: stage;
+    }
+
+    .verdict {
+      grid-area: verdict;
+    }
+
+    .aside {
+      grid-area: aside;
+    }
+  }
+
+  @container (min-width: 60rem) {
+    canvas {
+      aspect-ratio: 12 / 5;
+    }
+  }
+
+  .aside .buttons {
+    gap: 0.4rem;
+  }
+
+  .aside .readouts {
+    display: block;
+  }
+
+  .aside .choices > span {
+    flex: 1 0 100%;
+  }
+
+  .about {
+    color: var(--muted);
+    margin: 0 0 0.7rem;
   }
 
   .own-map {
@@ -79,7 +115,12 @@ const own = css`
   }
 
   .key .through .dot {
-    fill: var(--cloud);
+    fill: var(--accent);
+  }
+
+  .key .unknown {
+    stroke: var(--muted);
+    opacity: 0.6;
   }
 
   .key .commanded {
@@ -91,20 +132,6 @@ const own = css`
     color: var(--ink);
   }
 
-  .judge legend {
-    display: flex;
-    align-items: center;
-    justify-content: space-between;
-  }
-
-  .judge legend .toggle {
-    font-style: normal;
-    font-size: 1rem;
-  }
-
-  .judge > .effect {
-    margin: 0 0 0.6rem;
-  }
 
   .choices {
     --name: 3rem;

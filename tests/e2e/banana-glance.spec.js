@@ -62,7 +62,7 @@ const sentence = (widget) => widget.locator('.caption > span');
 test('the sentence says what the model decides and the robots show', async ({ page }) => {
   const widget = await openWhole(page);
   const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
-  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.431 ± 0\.013/);
+  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.43 ± 0\.01, where any Gaussian in \(x, y\) has 0\.$/);
   await widget.locator('#omega').fill('-0.5');
   await expect(sentence(widget)).toHaveText(/tail to the left/);
 
@@ -75,7 +75,7 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   await expect(sentence(widget)).toHaveText(/^The cloud curls to both sides alike, so its skew is 0 \(−?0\.\d+ ± 0\.\d+\); yet the ellipse covers 1\.97 times/);
   await press('Straight');
   const gain = (await state(widget)).table.exact.likelihoodGain.pose.toFixed(2);
-  await expect(sentence(widget)).toHaveText(new RegExp(`^The cloud leans to neither side: skew .*exactly 0 by symmetry\\. Yet it is bent.* gains ${gain} nats`));
+  await expect(sentence(widget)).toHaveText(new RegExp(`^The cloud leans to neither side: skew .*, exactly 0\\. Yet it is bent: .* gains ${gain} nats`));
   // Hardly any noise in the turn: nothing is bent.
   for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
   await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+ ± [\d.]+, and exactly 0 by symmetry\.$/);

@@ -217,7 +217,7 @@ test.describe('figures', () => {
       const before = await pixelsOf(plane, role);
       await box.setChecked(!shown);
       const change = (await pixelsOf(plane, role)) - before;
-      expect(shown ? -change : change, label).toBeGreaterThan(100);
+      expect(shown ? -change : change, label).toBeGreaterThan(60);
       await box.setChecked(shown);
       expect(await pictureOf(plane)).toBe(first);
     }

@@ -192,7 +192,7 @@ test('the marked robot and Step follow the size of the cloud', async ({ page }) 
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
   const step = widget.getByRole('button', { name: 'Step' });
   await expect(step).toBeDisabled();
-  await expect(field).toHaveAttribute('placeholder', '1–2\u202f000');
+  await expect(field).toHaveAttribute('placeholder', '1–50\u202f000');
   await field.fill('1500');
   await frames(page);
   await expect(widget.locator('.marked output')).toContainText('m/s');

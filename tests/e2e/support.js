@@ -197,7 +197,31 @@ export async function pixelsOf(canvas, role) {
  * @param {string | RegExp} name
  */
 export function readout(widget, name) {
-  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd');
+  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd').first();
+}
+
+/**
+ * What stands below a readout, in smaller print.
+ *
+ * @param {Locator} widget
+ * @param {string | RegExp} name
+ */
+export function detail(widget, name) {
+  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
+}
+
+/**
+ * The page, with its widget running and everything open that is folded away.
+ *
+ * @param {Page} page
+ * @returns {Promise<Locator>} the widget
+ */
+export async function openWhole(page) {
+  const widget = await open(page);
+  await unfold(widget);
+  await page.evaluate(() => scrollTo(0, 0));
+  await frames(page);
+  return widget;
 }
 
 /**

@@ -84,14 +84,14 @@ export const de = {
     hardly: (skew) => `Die Wolke neigt kaum zu einer Seite: Schiefe ${skew}.`,
     neither: (skew) => `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, und der Symmetrie wegen genau 0.`,
     stillBent: (skew, gain) =>
-      `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, der Symmetrie wegen genau 0. Doch sie ist krumm, und der Gauß in ξ gewinnt ${gain} Nat je Roboter.`,
+      `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, genau 0. Doch sie ist krumm: Der Gauß in ξ gewinnt ${gain} Nat je Roboter.`,
     bothWays: (skew, ratio) =>
-      `Die Wolke biegt sich nach beiden Seiten gleich, also ist ihre Schiefe 0 (${skew}); doch die Ellipse bedeckt ${ratio}-mal so viel Boden wie nötig.`,
+      `Die Wolke biegt sich nach beiden Seiten gleich: Schiefe 0 (${skew}). Doch die Ellipse bedeckt ${ratio}-mal so viel Boden wie nötig.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
-        `Eine Fliege: Das Rauschen der Drehung, α₂ω², streut v̂ um ${deviation} m/s um ${speed}, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
+        `Eine Fliege: Das Rauschen α₂ω² streut v̂ um ${deviation} m/s um ${speed}, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
       odometry: (length, deviation, skew) =>
-        `Eine Fliege: Das Rauschen der Drehungen, α₄, streut einen Weg von ${length} m um ${deviation} m, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
+        `Eine Fliege: Das Rauschen der Drehungen, α₄, streut ${length} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
     },
     right: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif rechts der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
     left: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif links der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,

@@ -87,14 +87,14 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     hardly: (skew) => `The cloud hardly leans to either side: skew ${skew}.`,
     neither: (skew) => `The cloud leans to neither side: skew ${skew}, and exactly 0 by symmetry.`,
     stillBent: (skew, gain) =>
-      `The cloud leans to neither side: skew ${skew}, and exactly 0 by symmetry. Yet it is bent, and the Gaussian in ξ gains ${gain} nats a robot.`,
+      `The cloud leans to neither side: skew ${skew}, exactly 0. Yet it is bent: the Gaussian in ξ gains ${gain} nats a robot.`,
     bothWays: (skew, ratio) =>
       `The cloud curls to both sides alike, so its skew is 0 (${skew}); yet the ellipse covers ${ratio} times the floor that it needs.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `A bow-tie: the turn’s noise α₂ω² spreads v̂ by ${deviation} m/s about ${speed}, so robots end ahead of the start and behind it. Skew ${skew}.`,
       odometry: (length, deviation, skew) =>
-        `A bow-tie: the rotations’ noise α₄ spreads a drive of ${length} m by ${deviation} m, so robots end ahead of the start and behind it. Skew ${skew}.`,
+        `A bow-tie: the rotations’ noise α₄ spreads a drive of ${length} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
     },
     right: (skew) => `The cloud is bent, with its tail to the right of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
     left: (skew) => `The cloud is bent, with its tail to the left of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,

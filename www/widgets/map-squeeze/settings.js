@@ -15,7 +15,7 @@ export const vocabulary = 'squeeze';
 export const PRESETS = presets['map-squeeze'];
 const PRESET_NAMES = PRESETS.map(({ name }) => name);
 
-const VIEWS = ['close', 'whole'];
+const VIEWS = ['whole', 'close'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {

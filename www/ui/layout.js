@@ -209,6 +209,11 @@ const layout = css`
         display: contents;
       }
 
+      /* Clear of the shadow. */
+      .stage + .stage {
+        margin-top: 0.7rem;
+      }
+
       .stage canvas {
         max-height: 38svh;
       }

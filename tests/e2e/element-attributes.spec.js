@@ -70,7 +70,7 @@ test.describe('attributes', () => {
     await ready(squeeze);
     await unfold(squeeze);
     await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
-    await squeeze.getByLabel('Condition on it').uncheck();
+    await squeeze.getByLabel('Condition on the map').uncheck();
     await frames(page);
     expect(await attributes(squeeze)).toEqual({ preset: 'wall', x: '3.3', conditioned: 'false' });
   });
@@ -112,7 +112,7 @@ test.describe('attributes', () => {
       'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "additive" or "exponential"',
     ]);
     const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
-    expect(await values()).toEqual([1, 0.7, 'velocity', 2000]);
+    expect(await values()).toEqual([1, 0.7, 'velocity', 50000]);
     await widget.evaluate((element) => element.setAttribute('dt', '-1'));
     expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual([
       'command.dt is -1; allowed is a number from 0.000001 to 1000000',
@@ -121,7 +121,7 @@ test.describe('attributes', () => {
     await widget.evaluate((element) => element.setAttribute('dt', '2'));
     expect(await property(widget, 'dt')).toBe(2);
     await widget.getByRole('button', { name: 'Pivot' }).click();
-    expect(await values()).toEqual([0.06, 1.5, 'velocity', 2000]);
+    expect(await values()).toEqual([0.06, 1.5, 'velocity', 50000]);
   });
 
   test('that are removed leave what the figure opens with', async ({ page }) => {
@@ -169,9 +169,9 @@ test.describe('properties', () => {
     for (const [widget, name, value, message] of /** @type {const} */ ([
       [banana, 'v', 'fast', 'TypeError: command.v is "fast"; allowed is a number'],
       [banana, 'v', 1e7, 'RangeError: command.v is 10000000; allowed is a number from -1000000 to 1000000'],
-      [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot"'],
+      [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot" or "banana" or "worked"'],
       [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
-      [banana, 'marked', 2000, 'RangeError: marked is 2000; allowed is a whole number from 0 to 1999'],
+      [banana, 'marked', 50000, 'RangeError: marked is 50000; allowed is a whole number from 0 to 49999'],
       [banana, 'alphas', [1, 2], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
       [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],

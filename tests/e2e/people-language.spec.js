@@ -116,7 +116,7 @@ test('no English is left in a German widget, in any of its states', async ({ pag
 
 test('numbers are the language’s: a decimal comma, a true minus, as much as before', async ({ page }) => {
   const widget = await open(page);
-  const skew = (await readout(widget, 'standard error').textContent()) ?? '';
+  const skew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
   await german(page);
   const schiefe = (await readout(widget, 'Standardfehler').textContent()) ?? '';
   expect(schiefe).toBe(skew.replaceAll('.', ','));
@@ -138,7 +138,7 @@ test('the nearest lang decides, whenever it changes; a language without words is
   await expect(other.getByRole('button', { name: 'Play' })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await play('Play');
-  await expect(readout(widget, 'standard error')).toHaveText(/^−0\.\d{3}/);
+  await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
   await widget.evaluate((element) => {
     element.removeAttribute('lang');
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';

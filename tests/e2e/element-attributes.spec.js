@@ -52,12 +52,14 @@ test.describe('attributes', () => {
     const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
       widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
     expect(await attributes(banana)).toEqual({ preset: 'hard', seed: '3' });
+    // The preset was for them too.
+    const alphas = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
     await banana.locator('#v').fill('0.5');
     await frames(page);
-    expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3' });
+    expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphas });
     await banana.getByRole('button', { name: 'Pivot' }).click();
     await frames(page);
-    expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3' });
+    expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphas });
     await banana.getByLabel('Isolate one').check();
     await banana.getByRole('checkbox', { name: 'linearized' }).check();
     await frames(page);
@@ -176,7 +178,7 @@ test.describe('properties', () => {
       [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'conditioned', 'maybe', 'TypeError: conditioned is "maybe"; allowed is true or false'],
-      [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "whole" or "close"'],
+      [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "close" or "whole"'],
       [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: bounds has length 3; allowed is an array of 4 numbers'],
     ])) {
       const before = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));

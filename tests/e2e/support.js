@@ -191,13 +191,13 @@ export async function pixelsOf(canvas, role) {
 }
 
 /**
- * The text of a readout.
+ * The figure of a readout, without what is said beside it.
  *
  * @param {Locator} widget
  * @param {string | RegExp} name
  */
 export function readout(widget, name) {
-  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd');
+  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd').first();
 }
 
 /**

@@ -52,12 +52,14 @@ test.describe('attributes', () => {
     const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
       widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
     expect(await attributes(banana)).toEqual({ preset: 'hard', seed: '3' });
+    // The preset was for them too.
+    const alphas = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
     await banana.locator('#v').fill('0.5');
     await frames(page);
-    expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3' });
+    expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphas });
     await banana.getByRole('button', { name: 'Pivot' }).click();
     await frames(page);
-    expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3' });
+    expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphas });
     await banana.getByLabel('Isolate one').check();
     await banana.getByRole('checkbox', { name: 'linearized' }).check();
     await frames(page);
@@ -70,7 +72,7 @@ test.describe('attributes', () => {
     await ready(squeeze);
     await unfold(squeeze);
     await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
-    await squeeze.getByLabel('Condition on it').uncheck();
+    await squeeze.getByLabel('Condition on the map').uncheck();
     await frames(page);
     expect(await attributes(squeeze)).toEqual({ preset: 'wall', x: '3.3', conditioned: 'false' });
   });
@@ -112,7 +114,7 @@ test.describe('attributes', () => {
       'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "additive" or "exponential"',
     ]);
     const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
-    expect(await values()).toEqual([1, 0.7, 'velocity', 2000]);
+    expect(await values()).toEqual([1, 0.7, 'velocity', 50000]);
     await widget.evaluate((element) => element.setAttribute('dt', '-1'));
     expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual([
       'command.dt is -1; allowed is a number from 0.000001 to 1000000',
@@ -121,7 +123,7 @@ test.describe('attributes', () => {
     await widget.evaluate((element) => element.setAttribute('dt', '2'));
     expect(await property(widget, 'dt')).toBe(2);
     await widget.getByRole('button', { name: 'Pivot' }).click();
-    expect(await values()).toEqual([0.06, 1.5, 'velocity', 2000]);
+    expect(await values()).toEqual([0.06, 1.5, 'velocity', 50000]);
   });
 
   test('that are removed leave what the figure opens with', async ({ page }) => {
@@ -169,14 +171,14 @@ test.describe('properties', () => {
     for (const [widget, name, value, message] of /** @type {const} */ ([
       [banana, 'v', 'fast', 'TypeError: command.v is "fast"; allowed is a number'],
       [banana, 'v', 1e7, 'RangeError: command.v is 10000000; allowed is a number from -1000000 to 1000000'],
-      [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot"'],
+      [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot" or "banana" or "worked"'],
       [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
-      [banana, 'marked', 2000, 'RangeError: marked is 2000; allowed is a whole number from 0 to 1999'],
+      [banana, 'marked', 50000, 'RangeError: marked is 50000; allowed is a whole number from 0 to 49999'],
       [banana, 'alphas', [1, 2], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
       [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'conditioned', 'maybe', 'TypeError: conditioned is "maybe"; allowed is true or false'],
-      [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "whole" or "close"'],
+      [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "close" or "whole"'],
       [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: bounds has length 3; allowed is an array of 4 numbers'],
     ])) {
       const before = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));

@@ -250,6 +250,6 @@ test('two copies of the bundle on one page are one', async ({ page }) => {
   });
   const widget = page.locator('banana-machine');
   await ready(widget);
-  expect((await state(widget)).config.samples).toBe(2000);
+  expect((await state(widget)).config.samples).toBe(50000);
   expect((await heard(page, ['error'])).length).toBe(0);
 });

@@ -317,8 +317,9 @@ test.describe('theming', () => {
   });
 
   test('parts can be styled from outside', async ({ page }) => {
-    await unfold(await open(page));
-    await unfold(await openSqueeze(page));
+    const squeeze = await openSqueeze(page);
+    await unfold(page.locator('banana-machine').first());
+    await unfold(squeeze);
     const parts = { 'banana-machine': ['picture', 'caption', 'legend', 'readouts', 'controls', 'figures', 'chart', 'table', 'slider', 'button', 'exports'], 'map-squeeze': ['picture', 'caption', 'legend', 'readouts', 'controls', 'table', 'slider', 'button', 'exports'] };
     for (const [name, all] of Object.entries(parts)) {
       await page.addStyleTag({ content: all.map((part) => `${name}::part(${part}) { outline-color: rgb(1, 2, 3) }`).join('\n') });

@@ -191,7 +191,7 @@ export async function pixelsOf(canvas, role) {
 }
 
 /**
- * The text of a readout.
+ * The figure of a readout, without what is said beside it.
  *
  * @param {Locator} widget
  * @param {string | RegExp} name

@@ -38,6 +38,10 @@ const layout = css`
     border-top: 1px solid var(--rule);
   }
 
+  .folds > details {
+    min-width: 0;
+  }
+
   .folds > details[open] {
     flex: 1 0 100%;
     padding-bottom: 0.8rem;

@@ -40,6 +40,11 @@ const EXECUTED_COLUMNS = {
   odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
 };
 
+/** What the figure takes. @type {Parameters<typeof reserve>[0]} */
+const ROOM = [
+  [0, 51.7, 160], [25, 45.2, 160], [30, 44.6, 40], [35, 42.9, 40], [37, 31, 40], [39, 27, 40], [42.5, 24.1, 40], [56, 24.2, 25], [76, 22.8, 25],
+];
+
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
  *
@@ -52,7 +57,7 @@ const EXECUTED_COLUMNS = {
  * @extends {FigureElement<Machine, Reading>}
  */
 export class BananaMachineElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve([[0, 240], [31, 214], [47, 172], [57, 105]]), ...bananaStyles];
+  static styles = [...FigureElement.styles, reserve(ROOM), ...bananaStyles];
 
   static declared = declared;
   static attributes = attributes;

@@ -28,6 +28,12 @@ import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
  * @import { Reading } from './reading.js'
  */
 
+/** What the figure takes. @type {Parameters<typeof reserve>[0]} */
+const ROOM = [
+  [0, 52.7, 80], [22, 49.7, 80], [23, 46.6, 80], [25, 43.1, 80], [33, 40.1, 80], [37, 39, 80], [38, 10.7, 80], [42.5, 7.7, 80], [46, 6.6, 80],
+  [60, 12.7, 41.7], [68, 9.7, 41.7],
+];
+
 /**
  * Motion conditioned on a map, and what the condition cannot see.
  *
@@ -37,7 +43,7 @@ import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
  * @extends {FigureElement<Machine, Reading>}
  */
 export class MapSqueezeElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...squeezeStyles];
+  static styles = [...FigureElement.styles, reserve(ROOM), ...squeezeStyles];
 
   static declared = declared;
   static attributes = attributes;

@@ -25,7 +25,7 @@ impl Words for NoiseKind {
 /// Ten million poses take 400 MB; a browser's page may have 4 GB.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
-/// As many as a device four times slower than a laptop still moves within a frame. At the opening command they tell the
+/// As many as a device four times slower than a laptop still moves within a frame or two. At the opening command they tell the
 /// skew to ±0.013; the 2000 of slower programs, to ±0.06, may well read −0.50 for −0.43.
 const OPENING_SAMPLES: usize = 50_000;
 

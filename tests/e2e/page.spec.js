@@ -203,7 +203,7 @@ test.describe('the element', () => {
     await frames(page);
     await hide(false);
     await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
-    await expect.poll(() => pixelsOf(canvas, 'prior')).toBeGreaterThan(100);
+    await expect.poll(() => pixelsOf(canvas, 'prior')).toBeGreaterThan(60);
     expect(await pictureOf(canvas)).not.toBe(before);
     expect((await state(widget)).config.alphas[3]).toBe(0.15);
   });

@@ -20,34 +20,50 @@ pub struct ExactMoments {
     pub cross_track_skew: f64,
 }
 
-/// One node of the quadrature: given the noises that turn the robot, a place is L·`unit` with a random length L.
-pub(super) struct Ray {
-    pub weight: f64,
-    pub unit: [f64; 2],
-    /// How much further than expected the robot turned by these noises.
-    pub excess_turn: f64,
+/// One node of the quadrature: given the noise that turns the robot, the position is L·`unit` with a random length L.
+struct Ray {
+    weight: f64,
+    unit: [f64; 2],
+    /// How much further than expected the robot turned by this noise.
+    excess_turn: f64,
 }
 
-/// Mean and covariance of the place and the excess turn, for lengths of this mean and variance. Weights may sum to less
-/// than 1.
-#[inline(never)]
-pub(super) fn moments_of_rays(
-    rays: &[Ray],
-    length: f64,
-    length_variance: f64,
-) -> (Vector3<f64>, Matrix3<f64>) {
-    let (mut total, mut mean, mut cov) = (0.0, Vector3::zeros(), Matrix3::zeros());
-    let point = |ray: &Ray| Vector3::new(length * ray.unit[0], length * ray.unit[1], ray.excess_turn);
-    for ray in rays {
-        total += ray.weight;
-        mean += point(ray) * ray.weight;
+/// Weighted moments of a vector u and an excess turn; weights may sum to less than 1.
+#[derive(Default)]
+pub(super) struct RayMoments {
+    /// What u is counted from: its first value, so that little is lost where it varies little.
+    reference: Option<[f64; 2]>,
+    total: f64,
+    mean: Vector3<f64>,
+    square: Matrix3<f64>,
+}
+
+impl RayMoments {
+    #[inline(never)]
+    pub fn add(&mut self, weight: f64, unit: [f64; 2], excess_turn: f64) {
+        let [x, y] = *self.reference.get_or_insert(unit);
+        let point = Vector3::new(unit[0] - x, unit[1] - y, excess_turn);
+        let weighted = point * weight;
+        self.total += weight;
+        self.mean += weighted;
+        self.square += point * weighted.transpose();
     }
-    mean /= total;
-    for ray in rays {
-        let (spread, along) = (point(ray) - mean, Vector3::new(ray.unit[0], ray.unit[1], 0.0));
-        cov += (spread * spread.transpose() + along * along.transpose() * length_variance) * ray.weight;
+
+    /// Mean and covariance of L·u and the turn, for an independent length L of this mean and standard deviation.
+    #[inline(never)]
+    pub fn finish(&self, [length, deviation]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
+        let mean = self.mean / self.total;
+        let spread = self.square / self.total - mean * mean.transpose();
+        let [x, y] = self.reference.unwrap_or_default();
+        let unit = [mean.x + x, mean.y + y, 0.0];
+        let scale = [length, length, 1.0];
+        let cov = Matrix3::from_fn(|i, j| {
+            // The length's own spread moves the place along u.
+            let along = if i < 2 && j < 2 { spread[(i, j)] + unit[i] * unit[j] } else { 0.0 };
+            spread[(i, j)] * scale[i] * scale[j] + along * deviation * deviation
+        });
+        (Vector3::new(length * unit[0], length * unit[1], mean.z), cov)
     }
-    (mean, cov / total)
 }
 
 impl ExactMoments {
@@ -82,7 +98,9 @@ impl ExactMoments {
     /// `length`: mean and variance of L; `turn`: mean of the heading, and the variance it has beside the rays'.
     #[inline(never)]
     fn of_rays(rays: &[Ray], length: f64, length_variance: f64, turn: f64, last_turn_variance: f64) -> Self {
-        let (mean, mut cov) = moments_of_rays(rays, length, length_variance);
+        let mut moments = RayMoments::default();
+        rays.iter().for_each(|ray| moments.add(ray.weight, ray.unit, ray.excess_turn));
+        let (mean, mut cov) = moments.finish([length, length_variance.sqrt()]);
         cov[(2, 2)] += last_turn_variance;
         let (sin, cos) = libm::sincos(turn);
         let across = rays.iter().map(|Ray { weight, unit, .. }| {

@@ -1,6 +1,6 @@
 //! The likelihood gain of a model itself: quadrature over the two noises that turn the robot; the rest is closed.
 
-use super::exact::{ExactMoments, Ray, moments_of_rays};
+use super::exact::{ExactMoments, RayMoments};
 use super::gain::{Charts, LikelihoodGain, Moments};
 use super::moments::ExponentialMoments;
 use super::quadrature::{Node, broken_nodes};
@@ -117,7 +117,7 @@ impl Legs {
     fn twist(&self) -> (Moments, f64) {
         let ([bearing, deviation], [turn, by_bearing, after]) = (self.bearing, self.turn);
         let reach = self.reach(by_bearing, after);
-        let (mut rays, mut logs) = (Vec::new(), MeanLog::default());
+        let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         let last_nodes = self.nodes(after, SMOOTH);
         for first in self.nodes(deviation, SMOOTH) {
             let bearing = bearing + deviation * first.value;
@@ -133,24 +133,18 @@ impl Legs {
                 let (sin, cos) = libm::sincos(bearing - half);
                 let unit = [cos, sin].map(|part| part * (chord / chart));
                 logs.add(weight, chart * chart);
-                rays.push(Ray { weight, unit, excess_turn });
+                moments.add(weight, unit, excess_turn);
             }
         }
-        (self.moments(&rays, turn), logs.finish())
-    }
-
-    fn moments(&self, rays: &[Ray], turn: f64) -> Moments {
-        let [length, deviation] = self.length;
-        let (mut mean, cov) = moments_of_rays(rays, length, deviation * deviation);
-        mean.z += turn;
-        (mean, cov)
+        let (mean, cov) = moments.finish(self.length);
+        ((mean + Vector3::z() * turn, cov), logs.finish())
     }
 
     /// Moments of length and turn φ, in this order, of the arc that ends where the robot does; and the mean of ln|c·sinc²(φ/2)|, where that
     /// arc is c times as long as the length driven.
     fn arc(&self) -> (Moments, f64) {
         let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
-        let (mut rays, mut logs) = (Vec::new(), MeanLog::default());
+        let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         // A cloud has the arc of the nearest turn, which may lead there the other way round.
         let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
         for node in self.nodes(deviation, breaks) {
@@ -161,11 +155,11 @@ impl Legs {
             let half_sinc = sinc(half);
             let stretch = ahead * if self.is_arc { sinc(driven) } else { 1.0 } / half_sinc;
             logs.add(node.weight, (stretch * half_sinc * half_sinc).abs());
-            rays.push(Ray { weight: node.weight, unit: [stretch, 0.0], excess_turn: 2.0 * (half - bearing) });
+            moments.add(node.weight, [stretch, 0.0], 2.0 * (half - bearing));
         }
-        let (mean, cov) = self.moments(&rays, 2.0 * bearing);
+        let (mean, cov) = moments.finish(self.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
-        ((Vector3::new(mean.x, mean.z, 0.0), cov), logs.finish())
+        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), logs.finish())
     }
 
     /// The mean of ln|length|.
@@ -189,6 +183,7 @@ struct MeanLog {
 }
 
 impl MeanLog {
+    #[inline(never)]
     fn add(&mut self, weight: f64, of: f64) {
         self.total += weight;
         self.sum += weight * libm::log(of);
@@ -199,29 +194,24 @@ impl MeanLog {
     }
 }
 
-/// E ln|m + Z| for a standard normal Z, to 1e-14.
+/// E ln|m + Z| for a standard normal Z, to 1e-10.
 ///
 /// (m + Z)² is noncentral χ² of one degree of freedom: a Poisson mixture, of mean m²/2, of χ² with 1 + 2j degrees, whose
 /// logarithms have the means ln 2 + ψ(½ + j).
 fn normal_mean_log(m: f64) -> f64 {
-    /// From here on the asymptotic series in 1/m² is more accurate than rounding: its least term is near exp(−m²/2).
-    const FAR: f64 = 10.0;
+    /// From here on the fourth term of the asymptotic series is below 1e-10; far beyond, exp(−m²/2) is no double.
+    const FAR: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
     if m > FAR {
         // E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
-        let (mut moment, mut sum) = (1.0, libm::log(m));
-        for k in 1..=14 {
-            let even = f64::from(2 * k);
-            moment *= (even - 1.0) / (m * m);
-            sum -= moment / even;
-        }
-        return sum;
+        let square = 1.0 / (m * m);
+        return libm::log(m) - square * (0.5 + square * (0.75 + square * 2.5));
     }
     let rate = 0.5 * m * m;
     let (mut chance, mut digamma, mut sum) = (libm::exp(-rate), DIGAMMA_HALF, LN_2);
     // Twelve standard deviations beyond the mean and more.
-    for j in 0..160 {
+    for j in 0..720 {
         let j = f64::from(j);
         sum += chance * digamma;
         chance *= rate / (j + 1.0);

@@ -133,35 +133,38 @@ pub(super) struct Differences {
     charts: Charts,
     count: f64,
     /// Of the difference at a robot from the gain, for pose and floor: sum, and sum of squares.
-    sums: [[f64; 2]; 2],
+    sums: [[f64x4; 2]; 2],
 }
 
 impl Differences {
     pub fn new(charts: Charts) -> Self {
-        Self { charts, count: 0.0, sums: [[0.0; 2]; 2] }
+        Self { charts, count: 0.0, sums: [[f64x4::splat(0.0); 2]; 2] }
     }
 
     /// Adds the first `count` of four.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, count: usize) {
         let Charts { plain, twist, arc, gain } = &self.charts;
+        let mask = lanes(|lane| if lane < count { f64::from_bits(u64::MAX) } else { 0.0 });
         let of_plain = plain.squared_distances(&robots.plain);
-        let pairs = [(twist, &robots.twist, 2, gain.pose), (arc, &robots.arc, 1, gain.floor)];
-        for (i, (bent, points, last, gain)) in pairs.into_iter().enumerate() {
-            let squares = of_plain[last] - bent.squared_distances(points)[last];
-            let volumes = plain.log_volumes[last] - bent.log_volumes[last];
-            let differences = squares * 0.5 - log(robots.jacobians[i]) + (volumes - gain);
-            for difference in differences.to_array().into_iter().take(count) {
-                self.sums[i][0] += difference;
-                self.sums[i][1] += difference * difference;
-            }
+        let of_twist = twist.squared_distances(&robots.twist)[2];
+        let of_arc = arc.squared_distances(&robots.arc)[1];
+        let constants = [2, 1].map(|last| plain.log_volumes[last]);
+        let (bent, gains) = ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
+        let squares = [of_plain[2] - of_twist, of_plain[1] - of_arc];
+        for i in 0..2 {
+            let volumes = constants[i] - bent[i] - gains[i];
+            let differences = (squares[i] * 0.5 - log(robots.jacobians[i]) + volumes) & mask;
+            self.sums[i][0] += differences;
+            self.sums[i][1] += differences * differences;
         }
         self.count += count as f64;
     }
 
     /// The gain of a cloud of `count` poses, of which those added are a fair sample.
     pub fn finish(&self, count: usize) -> MeasuredGain {
-        let error = |[sum, squares]: [f64; 2]| {
+        let error = |sums: [f64x4; 2]| {
+            let [sum, squares] = sums.map(f64x4::reduce_add);
             let variance = (squares - sum * (sum / self.count)) / (self.count - 1.0);
             (variance / count as f64).sqrt()
         };

@@ -1,6 +1,6 @@
 //! Expectations over one noise variable, to the accuracy of doubles.
 
-use crate::noise::{NoiseKind, Variance};
+use crate::noise::NoiseKind;
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
@@ -69,7 +69,11 @@ pub(super) fn broken_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<
             let half = 0.5 * (to - from);
             nodes.extend(legendre.iter().map(|node| {
                 let value = from + half * (1.0 + node.value);
-                Node { value, weight: node.weight * half * noise.prob(value, Variance(1.0)) }
+                let density = match noise {
+                    NoiseKind::Normal => libm::exp(-0.5 * value * value) / TAU.sqrt(),
+                    NoiseKind::Triangular => (6f64.sqrt() - value.abs()) / 6.0,
+                };
+                Node { value, weight: node.weight * half * density }
             }));
             from = to;
         }

@@ -34,12 +34,12 @@ pub fn settings() -> [Settings; 6] {
 /// [`fingerprint`] of each of [`settings`]: of the cloud and of what is said about it. A change of the first means that a
 /// reader's seed no longer shows the reader's cloud.
 pub const FINGERPRINTS: [[u64; 2]; 6] = [
-    [0x5c96_4259_28e2_6f98, 0x3f93_d38b_ea4b_0126],
-    [0xf78e_5070_9e91_7a3f, 0xf468_f3b2_6a87_746b],
-    [0x118a_5b5b_9c1a_a8b8, 0xf671_26e3_f5c1_5fc9],
-    [0x25f9_dcd8_0cd0_242a, 0x5527_7893_d730_1f41],
+    [0x5c96_4259_28e2_6f98, 0x6bee_c22b_1355_c484],
+    [0xf78e_5070_9e91_7a3f, 0x1265_b1db_c182_e35c],
+    [0x118a_5b5b_9c1a_a8b8, 0x5ecc_e7f7_fda6_5901],
+    [0x25f9_dcd8_0cd0_242a, 0x8a30_d900_9346_dbe3],
     [0x7f76_dd4f_9317_ca7d, 0x690e_dc45_a06e_4be3],
-    [0xac8a_c528_3d92_d92a, 0x2332_e0bf_076e_3c34],
+    [0xac8a_c528_3d92_d92a, 0x5e80_2b34_b0b7_16aa],
 ];
 
 fn command(v: f64, omega: f64, dt: f64) -> VelocityCmd {

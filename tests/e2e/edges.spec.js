@@ -173,7 +173,7 @@ test('the view in exponential coordinates has room for its cloud', async ({ page
 
 test('what is said depends on the model and its noise', async ({ page }) => {
   const widget = await openWhole(page);
-  const caption = widget.locator('figcaption').first();
+  const caption = widget.locator('.figures figure p');
   await expect(caption).toContainText('nearly a Gaussian');
   await set(widget, { alpha5: 0, alpha6: 0 });
   await expect(caption).toContainText('exactly a Gaussian');

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { STILL, boxOf, frames, numberIn, open, readout, state, test } from './support.js';
+import { STILL, boxOf, frames, numberIn, open, openWhole, readout, state, test } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -165,7 +165,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
 });
 
 test('the picture on screen stays as it is when it is exported', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openWhole(page);
   const canvas = widget.locator('canvas.plane');
   const pixels = () => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
   const before = await pixels();

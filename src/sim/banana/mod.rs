@@ -327,10 +327,8 @@ impl BananaMachine {
 
     /// The moments of the pose in three ways, and those of its exponential coordinates as the model has them.
     pub fn table(&self) -> Table {
-        let (linearized, exact, gain) = (self.linearized(), self.exact(), self.exact_gain());
-        let Figures { cartesian, cross_track, gain: measured_gain, area_ratio, .. } = self.figures;
-        let ellipse = Ellipse::from_moments(&CartesianMoments { mean: exact.mean, cov: exact.cov });
-        let contour = ExponentialContour::new(&gain.exponential, &START);
+        let linearized = self.linearized();
+        let Figures { cartesian, cross_track, gain, area_ratio, .. } = self.figures;
         Table {
             // A Gaussian in (x, y), whatever its moments, has no skew, and to first order none in other coordinates differs.
             linearized: Column {
@@ -340,22 +338,25 @@ impl BananaMachine {
                 likelihood_gain: LikelihoodGain { pose: 0.0, floor: 0.0 },
                 area_ratio: 1.0,
             },
-            exact: Column {
-                mean: exact.mean,
-                cov: exact.cov,
-                cross_track_skew: exact.cross_track_skew,
-                likelihood_gain: gain.value,
-                area_ratio: contour.area_ratio(&ellipse, OUTLINE_SEGMENTS),
-            },
+            exact: self.exact_column(),
             measured: Column {
                 mean: cartesian.mean,
                 cov: cartesian.cov,
                 cross_track_skew: cross_track.skew,
-                likelihood_gain: measured_gain.value,
+                likelihood_gain: gain.value,
                 area_ratio,
             },
             tangent: self.tangent(),
         }
+    }
+
+    #[inline(never)]
+    fn exact_column(&self) -> Column {
+        let (ExactMoments { mean, cov, cross_track_skew }, gain) = (self.exact(), self.exact_gain());
+        let ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
+        let contour = ExponentialContour::new(&gain.exponential, &START);
+        let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
+        Column { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
     /// The exact cross-track skew at `points` rotational velocities spread evenly from `first` to `last` (rad/s), all

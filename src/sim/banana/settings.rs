@@ -25,8 +25,8 @@ impl Words for NoiseKind {
 /// Ten million poses take 400 MB; a browser's page may have 4 GB.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
-/// As many as a device four times slower than a laptop still moves within a frame. At the opening command they tell the
-/// skew to ±0.013; the 2000 of slower programs, to ±0.06, may well read −0.50 for −0.43.
+/// As many as are still moved in slices of a single frame on a device four times slower than a laptop, with room for the
+/// pictures. At the opening command they tell the skew to ±0.013; 2000, to ±0.06, may well read −0.50 for −0.43.
 const OPENING_SAMPLES: usize = 50_000;
 
 /// Of the seeds 0 to 9, the one whose cloud has a skew nearest to the exact one at the opening command: what everybody

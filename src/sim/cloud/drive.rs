@@ -1,6 +1,6 @@
 //! Either model as one formula, from the start pose at the origin: a length driven on a bearing, and a heading.
 
-use crate::geom::lanes::{HalfTurn, Trigonometry, any};
+use crate::geom::lanes::{Circle, HalfTurn, Trigonometry, any};
 use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
 use crate::stats::fused::{FourArcs, FourPoses, Reference, Scale};
 use std::f64::consts::FRAC_PI_2;
@@ -96,12 +96,17 @@ impl Drive {
         let is_far = self.is_far(motions);
         let circle =
             if is_far { self.trigonometry.any_circle(bearing) } else { self.trigonometry.circle(bearing) };
-        let distance = if self.is_arc { length * circle.sinc } else { length };
-        let ends = [distance * circle.cos, distance * circle.sin];
+        let ends = self.ends_on(motions, &circle);
         if is_far || !self.is_arc {
             return (ends, self.other_arcs(bearing, ends), false);
         }
         (ends, FourArcs { length, half: bearing, sinc: circle.sinc }, true)
+    }
+
+    #[inline(always)]
+    fn ends_on(&self, motions: &Motions, circle: &Circle) -> [f64x4; 2] {
+        let distance = if self.is_arc { motions.length * circle.sinc } else { motions.length };
+        [distance * circle.cos, distance * circle.sin]
     }
 
     /// What noise adds to the length and half the turn of regular arcs.
@@ -135,9 +140,7 @@ impl Drive {
         } else {
             self.trigonometry.half_turn(motions.half)
         };
-        let ([x, y], HalfTurn { half, cotangent, sinc, sin, cos }) = (*ends, turn);
-        let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
-        FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos, sinc }
+        logarithms(ends, turn)
     }
 
     /// Whether an angle leaves the range of the short formulas.
@@ -148,12 +151,14 @@ impl Drive {
         any(beyond(motions.bearing) | beyond(motions.half))
     }
 
-    /// Four robots in all coordinates. The passes over a cloud have these parts inlined.
+    /// Four robots in all coordinates, by the long formulas: the passes over a cloud have the short ones inlined.
     #[inline(never)]
     pub fn robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
-        let (ends, arcs, _) = self.ends(&motions);
-        (self.poses(&motions, &ends), arcs)
+        let circle = self.trigonometry.any_circle(motions.bearing);
+        let ends = self.ends_on(&motions, &circle);
+        let turn = self.trigonometry.any_half_turn(motions.half, self.near);
+        (logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
     }
 
     /// Where a motion without noise ends, in the parts that a cloud's sums are counted from, and the scale of its factors.
@@ -175,6 +180,14 @@ impl Drive {
     pub fn arc_deviation(&self) -> f64 {
         2.0 * self.bearing[1].abs()
     }
+}
+
+/// The poses at `ends` whose half headings are of `turn`, with their logarithms.
+#[inline(always)]
+fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
+    let ([x, y], HalfTurn { half, cotangent, sinc, sin, cos }) = (*ends, turn);
+    let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
+    FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos, sinc }
 }
 
 /// A quarter turn, less a margin for rounding.

@@ -28,9 +28,13 @@ const own = css`
       column-gap: 1.5rem;
     }
 
+    .cloud .buttons {
+      gap: 0.25rem;
+    }
+
     .cloud .buttons button {
-      padding-inline: 0.3rem;
-      font-size: 0.88rem;
+      padding-inline: 0.25rem;
+      font-size: 0.84rem;
     }
 
     .buttons {

@@ -68,7 +68,7 @@ test.describe('attributes', () => {
     await squeeze.scrollIntoViewIfNeeded();
     await ready(squeeze);
     await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
-    await squeeze.getByLabel('Condition on it').uncheck();
+    await squeeze.getByLabel('Condition on the map').uncheck();
     await frames(page);
     expect(await attributes(squeeze)).toEqual({ preset: 'wall', x: '3.3', conditioned: 'false' });
   });

@@ -60,7 +60,7 @@ test('every other act of the reader is one input and one change', async ({ page 
     ['step', () => banana.getByRole('button', { name: 'Step' }).click()],
     ['place', () => squeeze.getByRole('button', { name: 'Facing a wall' }).click()],
     ['view', () => squeeze.getByLabel('close-up').check()],
-    ['condition', () => squeeze.getByLabel('Condition on it').uncheck()],
+    ['condition', () => squeeze.getByLabel('Condition on the map').uncheck()],
     ['robot by key', () => squeeze.locator('.handle.body').press('ArrowUp')],
     ['map', () => squeeze.getByRole('button', { name: 'Use this plan' }).click()],
   ]);

@@ -37,7 +37,7 @@ import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
  * @extends {FigureElement<Machine, Reading>}
  */
 export class MapSqueezeElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...squeezeStyles];
+  static styles = [...FigureElement.styles, reserve([[0, 67], [26, 63], [30, 67], [38, 45], [60, 41]]), ...squeezeStyles];
 
   static declared = declared;
   static attributes = attributes;

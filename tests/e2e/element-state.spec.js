@@ -63,6 +63,7 @@ function anyOf(seed) {
       alphas: alphas(6),
       clearance: real(0, 0.2),
       conditioned: one([true, false]),
+      unknown: one(['free', 'blocked']),
       // One after the other, and none of them gives up.
       sampler: 'whole-arc',
       steps: whole(1, 64),
@@ -71,6 +72,7 @@ function anyOf(seed) {
       map: one([
         null,
         { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },
+        { name: 'part.yaml', columns: 8, rows: 2, resolution: 0.5, origin: [0, 0, 0], occupied: 'gQA=', unknown: 'GA8=' },
         { name: 'grid.yaml', columns: 13, rows: 9, resolution: 0.5, origin: [-0.5, 0.25, 0.1], occupied: btoa(Array.from({ length: 15 }, (_, i) => String.fromCharCode(i < 14 ? whole(0, 255) : whole(0, 31) << 3)).join('')) },
       ]),
     },
@@ -119,6 +121,8 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['map-squeeze', { view: 1 }, 'TypeError: state.view is 1; allowed is "close" or "whole"'],
     ['map-squeeze', { map: 'apartment' }, 'TypeError: map is "apartment"; allowed is an object'],
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
+    ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: 'gA==', unknown: 3 } }, 'TypeError: map.unknown is 3; allowed is base64 of 1 bytes'],
+    ['map-squeeze', { unknown: 'maybe' }, 'RangeError: unknown is "maybe"; allowed is "free" or "blocked"'],
     ['map-squeeze', { map: { columns: 1e9, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '' } }, 'RangeError: map.columns is 1000000000; allowed is a whole number'],
   ]);
   for (const [name, change, message] of cases) {

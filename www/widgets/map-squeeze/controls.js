@@ -99,7 +99,7 @@ export function ownMap(figure, opener, map) {
   };
   const { complaint } = opener;
   return html`<fieldset class="own-map">
-    <legend>${say.legend}</legend>
+    <legend class="visually-hidden">${say.legend}</legend>
     <div>
       <p>${say.text}</p>
       <label for="map-files">${say.files}</label>

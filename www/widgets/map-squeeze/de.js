@@ -123,7 +123,7 @@ export const de = {
     legend: 'Eine eigene Karte',
     text: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
     files: 'Kartendateien',
-    open: 'Im Freien',
+    open: 'An freier Stelle',
     leave: 'Zurück in die Wohnung',
     back: (name) => `Zurück zu ${name}`,
     plan: 'Oder hier ein Grundriss, in Metern',

@@ -27,6 +27,13 @@ const own = css`
     }
   }
 
+  /* Wider, and not higher: all of it is to fit on a screen. */
+  @container (min-width: 50rem) {
+    canvas {
+      aspect-ratio: 8 / 5;
+    }
+  }
+
   @container (min-width: 60rem) {
     canvas {
       aspect-ratio: 12 / 5;

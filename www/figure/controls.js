@@ -2,8 +2,9 @@
 
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
-import { radioGroup, rich, sliderRow, toggle } from '../ui/controls.js';
+import { radioGroup, rich, toggle } from '../ui/controls.js';
 import { counted, limit, numberIn, typed } from '../ui/format.js';
+import { sliderRow } from '../ui/slider.js';
 import { exportMenu } from './takeaway/export.js';
 
 /**

@@ -7,6 +7,7 @@ import { css } from 'lit';
 import { controlStyles } from './controls.js';
 import { markedStyles } from './marked.js';
 import { readoutStyles } from './readouts.js';
+import { sliderStyles } from './slider.js';
 
 const layout = css`
   .views,
@@ -230,4 +231,4 @@ const layout = css`
   }
 `;
 
-export const layoutStyles = [readoutStyles, markedStyles, controlStyles, layout];
+export const layoutStyles = [readoutStyles, markedStyles, controlStyles, sliderStyles, layout];

@@ -15,7 +15,8 @@ import { words } from '../../messages/registry.js';
 import { openingAlphas } from '../../settings.js';
 import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
-import { fold, rich } from '../../ui/controls.js';
+import { rich } from '../../ui/controls.js';
+import { fold } from '../../ui/fold.js';
 import { fixed } from '../../ui/format.js';
 import { alphaControls, commandControls, modelControls, overlayToggles, presetButtons } from './controls.js';
 import { ArcHandle } from './handle.js';
@@ -90,7 +91,7 @@ export class BananaMachineElement extends FigureElement {
 
   /** @param {Machine} machine */
   read(machine) {
-    if (this.cloud.index >= machine.shown) this.cloud.mark(-1);
+    this.cloud.unmark();
     return readingOf(machine);
   }
 

@@ -9,7 +9,7 @@ import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { fold } from '../../ui/controls.js';
+import { fold } from '../../ui/fold.js';
 import { judgeControls, motionControls, ownMap, placeControls, unknownChoice, viewChoice } from './controls.js';
 import { CostMeter } from './cost.js';
 import { RobotHandles } from './handles.js';

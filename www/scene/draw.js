@@ -281,27 +281,51 @@ export function trace({ context, view }, points) {
 }
 
 /**
- * A polyline through x, y pairs with a halo of paper, so that it reads on top of the cloud.
+ * @typedef {object} Outline
+ * @property {Float64Array} points x, y pairs
+ * @property {string} colour
+ * @property {number} width CSS pixels
+ * @property {number[]} dash
+ */
+
+/**
+ * Polylines with halos of paper, so that they read on top of the cloud. The halos are below all of them: where two nearly
+ * coincide, both are seen.
+ *
+ * @param {Brush} brush
+ * @param {Outline[]} outlines the last one on top
+ */
+export function drawOutlines(brush, outlines) {
+  const { context, palette } = brush;
+  const drawn = outlines.filter(({ points }) => points.length >= 4);
+  context.lineJoin = 'round';
+  context.globalAlpha = 0.7;
+  context.strokeStyle = palette.paper;
+  for (const { points, width } of drawn) {
+    trace(brush, points);
+    context.lineWidth = width + 2.5;
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+  for (const { points, colour, width, dash } of drawn) {
+    trace(brush, points);
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.setLineDash(dash);
+    context.stroke();
+  }
+  context.setLineDash([]);
+}
+
+/**
+ * A single one of them.
  *
  * @param {Brush} brush
  * @param {Float64Array} points
- * @param {{ colour: string, width: number, dash: number[] }} style
+ * @param {Omit<Outline, 'points'>} style
  */
-export function drawOutline(brush, points, { colour, width, dash }) {
-  if (points.length < 4) return;
-  const { context, palette } = brush;
-  trace(brush, points);
-  context.lineJoin = 'round';
-  context.strokeStyle = palette.paper;
-  context.lineWidth = width + 2.5;
-  context.globalAlpha = 0.7;
-  context.stroke();
-  context.globalAlpha = 1;
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.setLineDash(dash);
-  context.stroke();
-  context.setLineDash([]);
+export function drawOutline(brush, points, style) {
+  drawOutlines(brush, [{ points, ...style }]);
 }
 
 /**

@@ -31,6 +31,8 @@ export class Handle {
   #hooks;
   /** From the pointer to what is held, metres: taken by its edge it does not jump. */
   #grip = [0, 0];
+  /** Where its middle was placed, CSS pixels: on the screen it is rounded. */
+  #middle = [0, 0];
 
   /**
    * @param {string} part class of its element
@@ -71,20 +73,27 @@ export class Handle {
   place(root, x, y, size) {
     const handle = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${this.#part}`));
     if (!handle) return;
+    this.#middle = [x, y];
     if (size !== undefined) handle.style.width = handle.style.height = `${size}px`;
     handle.style.translate = `${x}px ${y}px`;
   }
 
   /**
-   * @param {Element} handle
-   * @param {number} clientX CSS pixels of the window
-   * @param {number} clientY
+   * @param {number[]} point CSS pixels of the picture
    * @returns {number[]} the same in metres
    */
-  #world(handle, clientX, clientY) {
-    const [x, y] = pointOn(/** @type {Element} */ (handle.parentElement), { clientX, clientY });
+  #world([x, y]) {
     const view = this.#hooks.view();
     return [view.toWorldX(x), view.toWorldY(y)];
+  }
+
+  /**
+   * @param {PointerEvent} event on the handle
+   * @returns {number[]} where the pointer is, metres
+   */
+  #pointer(event) {
+    const { parentElement } = /** @type {Element} */ (event.currentTarget);
+    return this.#world(pointOn(/** @type {Element} */ (parentElement), event));
   }
 
   #hold = (/** @type {PointerEvent} */ event) => {
@@ -92,15 +101,14 @@ export class Handle {
     const handle = /** @type {Element} */ (event.currentTarget);
     handle.setPointerCapture(event.pointerId);
     this.held = true;
-    const pointer = this.#world(handle, event.clientX, event.clientY);
-    const { left, top, width, height } = handle.getBoundingClientRect();
-    const held = this.#hooks.at?.(pointer) ?? this.#world(handle, left + width / 2, top + height / 2);
+    const pointer = this.#pointer(event);
+    const held = this.#hooks.at?.(pointer) ?? this.#world(this.#middle);
     this.#grip = [held[0] - pointer[0], held[1] - pointer[1]];
   };
 
   #drag = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
-    const [x, y] = this.#world(/** @type {Element} */ (event.currentTarget), event.clientX, event.clientY);
+    const [x, y] = this.#pointer(event);
     stopped(/** @type {HTMLElement} */ (event.currentTarget), this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]));
   };
 

@@ -9,6 +9,7 @@ import {
   drawHeap,
   drawMark,
   drawOutline,
+  drawOutlines,
   drawPixels,
   drawRobot,
 } from '../../scene/draw.js';
@@ -144,10 +145,8 @@ export class PlanePicture extends CloudPicture {
         ['exponential', palette.posterior, 2.25],
         ['command', palette.prior, 2.5],
       ]);
-      for (const [name, colour, width] of styles) {
-        if (!overlays[name]) continue;
-        drawOutline(brush, contours[name], { colour, width, dash: DASHES[name] });
-      }
+      const drawn = styles.filter(([name]) => overlays[name]);
+      drawOutlines(brush, drawn.map(([name, colour, width]) => ({ points: contours[name], colour, width, dash: DASHES[name] })));
       if (overlays.command && scene.reading) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
       if (marked) {

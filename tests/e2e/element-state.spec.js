@@ -63,7 +63,6 @@ function anyOf(seed) {
       alphas: alphas(6),
       clearance: real(0, 0.2),
       conditioned: one([true, false]),
-      unknown: one(['free', 'blocked']),
       // One after the other, and none of them gives up.
       sampler: 'whole-arc',
       steps: whole(1, 64),

@@ -158,10 +158,10 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(map.title).toBe('Map Squeeze');
   expect(map.images).toBe(0);
   expect(map.paths).toBeGreaterThan(600);
-  // Both may stand on one page.
+  // Both may stand on one page: of each a title, a description and a clip, and that of the inset with the whole map.
   const ids = [await svgOf(widget), await svgOf(squeeze)].flatMap((svg) => [...svg.matchAll(/ id="([^"]+)"/g)].map(([, id]) => id));
-  expect(ids).toHaveLength(6);
-  expect(new Set(ids).size).toBe(6);
+  expect(ids).toHaveLength(7);
+  expect(new Set(ids).size).toBe(7);
 });
 
 test('the picture on screen stays as it is when it is exported', async ({ page }) => {

@@ -148,6 +148,7 @@ test('the nearest lang decides, whenever it changes; a language without words is
 
 test('a page may replace words and add languages, and is told of a message that is none', async ({ page }) => {
   const widget = await open(page);
+  await unfold(widget);
   const complaint = await page.evaluate(async () => {
     const url = new URL('/motion-widgets.js', location.href).href;
     const { setMessages } = await import(url);

@@ -15,7 +15,7 @@ export const vocabulary = 'squeeze';
 export const PRESETS = presets['map-squeeze'];
 const PRESET_NAMES = PRESETS.map(({ name }) => name);
 
-const VIEWS = ['whole', 'close'];
+const VIEWS = ['close', 'whole'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {

@@ -158,6 +158,45 @@ test.describe('properties', () => {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
+  test('mark a robot that is still to come', async ({ page }) => {
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    await show(page, '<banana-machine samples="2000"></banana-machine>', { script: '' });
+    await page.evaluate(async () => {
+      Object.assign(document.querySelector('banana-machine') ?? {}, { marked: 1999 });
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+    });
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const wanted = await widget.evaluate((element) => {
+      const { playing, marked, machine, getState } = /** @type {any} */ (element);
+      return { playing, marked, there: machine.shown > marked, kept: getState.call(element).marked };
+    });
+    expect(wanted).toEqual({ playing: true, marked: 1999, there: false, kept: 1999 });
+    await expect.poll(() => property(widget, 'playing'), { timeout: 20_000 }).toBe(false);
+    expect(await property(widget, 'marked')).toBe(1999);
+    expect(await assign(widget, 'marked', 2000)).toBe('RangeError: marked is 2000; allowed is a whole number from 0 to 1999');
+    // Where nothing grows, what is not shown is not marked.
+    await widget.getByRole('button', { name: 'Reset' }).click();
+    await frames(page);
+    expect(await property(widget, 'marked')).toBe(null);
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  test('and a part of a state, before the figure is there, leave all else as it opens', async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>', { script: '' });
+    const states = await page.evaluate(async () => {
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+      const element = /** @type {any} */ (document.querySelector('banana-machine'));
+      element.marked = 7;
+      element.setState({ widget: 'banana-machine', version: 1, samples: 3000 });
+      await new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
+      const { samples, shown, marked } = element.getState();
+      return { samples, shown, marked };
+    });
+    expect(states).toEqual({ samples: 3000, shown: 3000, marked: 7 });
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
   test('take effect at once and reflect; those out of range throw and change nothing', async ({ page }) => {
     await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
     const [banana, squeeze] = NAMES.map((name) => page.locator(name));

@@ -53,12 +53,12 @@ export class WallLayer {
   /** @param {Brush} brush */
   draw(brush) {
     const { context, view, palette, ratio } = brush;
-    const { extent, width, height } = view;
+    const { extent, frame, width, height } = view;
     if ('vector' in context && !this.#grid) {
       this.#outline(brush);
       return;
     }
-    const wanted = JSON.stringify([extent, width, height, palette.truth, palette.rule, palette.muted, ratio]);
+    const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
     if (wanted !== this.#shown) {
       this.#shown = wanted;
       this.#paint(brush);

@@ -1,6 +1,6 @@
 /** What is folded away. */
 
-import { html, noChange } from 'lit';
+import { html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
 
 /**
@@ -8,9 +8,10 @@ import { Directive, directive } from 'lit/directive.js';
  *
  * @param {string} name
  * @param {() => unknown} content
+ * @param {string} [id] where something else than the reader opens it too
  */
-export function fold(name, content) {
-  return html`<details part="fold" @toggle=${renderHost}>
+export function fold(name, content, id) {
+  return html`<details part="fold" id=${id ?? nothing} @toggle=${renderHost}>
     <summary>${name}</summary>
     <div class="folded">${whileOpen(content)}</div>
   </details>`;

@@ -14,7 +14,7 @@ import { judgeControls, motionControls, ownMap, placeControls, unknownChoice, vi
 import { CostMeter } from './cost.js';
 import { RobotHandles } from './handles.js';
 import { applyMap, mapData } from './maps/data.js';
-import { MapOpener } from './maps/open.js';
+import { FOLD, MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
 import { costTable, legend, markedDraw, rates, tally } from './readouts.js';
@@ -82,7 +82,7 @@ export class MapSqueezeElement extends FigureElement {
     this.#opener.forgive();
     this.#meter.outdate();
     this.#unknown = machine.config.unknown;
-    this.picture = new FloorPicture(machine.plan, machine.grid);
+    this.picture = new FloorPicture(machine.plan, machine.grid, this.picture);
     this.pictures = [this.picture];
   }
 
@@ -309,7 +309,7 @@ export class MapSqueezeElement extends FigureElement {
         <div class="folds">
           ${fold(say.keyAndSample, () => html`${viewChoice(this)} ${legend(reading, hasUnknown)} ${markedDraw(this)}`)}
           ${fold(say.countsLabel, () => html`${tally(reading)} ${costTable(this.#meter, config.steps)}`)}
-          ${fold(say.own.legend, () => ownMap(this, this.#opener, map))} ${takeAlong(this)}
+          ${fold(say.own.legend, () => ownMap(this, this.#opener, map), FOLD)} ${takeAlong(this)}
         </div>`)}
       </section>
     `;

@@ -70,14 +70,20 @@ export class FloorPicture extends Picture {
   /**
    * @param {Plan} plan
    * @param {Grid | null} grid
+   * @param {FloorPicture} [former] the picture whose place it takes: where the map is as large, the views stay where they are
    */
-  constructor(plan, grid) {
+  constructor(plan, grid, former) {
     super('plane', new View());
     this.plan = plan;
     this.hasUnknown = grid?.unknown.includes(1) ?? false;
     this.#walls = new WallLayer(plan, grid);
     this.#overview = new WallLayer(plan, grid, OVERVIEW.wall);
     this.#known = grid && this.hasUnknown ? knownCorners(grid) : plan.walls;
+    if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
+      this.#near = former.#near;
+      this.#whole = former.#whole;
+      this.view = former.view;
+    }
   }
 
   /** Whether the view is of the robot's surroundings only. */

@@ -154,6 +154,8 @@ const own = css`
 
   .own-map .note {
     margin: 0.7rem 0;
+    /* Scrolled to, it brings along which map is there. */
+    scroll-margin: 4rem;
     overflow-wrap: anywhere;
   }
 

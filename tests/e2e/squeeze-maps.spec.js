@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { file, openSqueeze, pgm, png, squeezed, unfold, yaml } from './squeeze-support.js';
-import { STILL, boxOf, frames, pictureOf, pixelsOf, test } from './support.js';
+import { STILL, boxOf, frames, pictureOf, pixelsOf, test, unfold as unfoldAll } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapFile} MapFile
@@ -28,11 +28,37 @@ const complaint = (/** @type {Locator} */ widget) => widget.locator('.own-map .n
 const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
 /**
+ * Chooses files, as a reader does.
+ *
  * @param {Locator} widget
  * @param {MapFile[]} files
  */
-function choose(widget, files) {
-  return widget.getByLabel('Map files').setInputFiles(files);
+async function choose(widget, files) {
+  await unfold(widget, 'A map of your own');
+  await widget.getByLabel('Map files').setInputFiles(files);
+}
+
+/**
+ * Drops files on a part of the widget.
+ *
+ * @param {Locator} part
+ * @param {MapFile[]} files
+ */
+function drop(part, files) {
+  return part.evaluate(
+    (target, given) => {
+      const dataTransfer = new DataTransfer();
+      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
+      const [over, drop] = [event('dragover'), event('drop')];
+      target.dispatchEvent(over);
+      if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
+      target.dispatchEvent(drop);
+      if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
+      if (target.closest('.dropping')) throw new Error('It is still marked.');
+    },
+    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+  );
 }
 
 test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
@@ -159,22 +185,10 @@ test('a floor plan can be written on the page', async ({ page }) => {
 for (const place of ['.stage', '.verdict', '.readouts']) {
   test(`a map_server pair can be dropped on the widget, as on its ${place}`, async ({ page }) => {
     const widget = await openSqueeze(page);
-    const files = [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)];
-    await widget.locator(place).first().evaluate(
-      (target, given) => {
-        const dataTransfer = new DataTransfer();
-        for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
-        const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
-        const [over, drop] = [event('dragover'), event('drop')];
-        target.dispatchEvent(over);
-        if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
-        target.dispatchEvent(drop);
-        if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
-        if (target.closest('.dropping')) throw new Error('It is still marked.');
-      },
-      files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
-    );
+    await expect(present(widget)).toHaveCount(0);
+    await drop(widget.locator(place).first(), [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)]);
     await expect(present(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
+    await expect(present(widget)).toBeVisible();
     const { bounds, walls, startFree, config, openPlace } = await squeezed(widget);
     expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
     // The outside of the border and its inside.
@@ -184,6 +198,20 @@ for (const place of ['.stage', '.verdict', '.readouts']) {
     expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
   });
 }
+
+test('why a dropped map is refused is seen at once, however far below it is said', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 812 });
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
+  await drop(widget.locator('.stage'), [file('room.txt', 'a room')]);
+  await expect(complaint(widget)).toHaveText(/^room\.txt: this kind of file is not read/);
+  // Edges within a pixel of the screen's count for less than all of it.
+  await expect(complaint(widget)).toBeInViewport({ ratio: 0.99 });
+  await expect(present(widget)).toContainText('The apartment');
+  await expect(present(widget)).toBeInViewport({ ratio: 0.99 });
+  expect(await squeezed(widget)).toEqual(before);
+});
 
 test.describe('occupancy grids', () => {
   /** @type {Record<string, { files: MapFile[], bounds: number[], walls: number }>} */
@@ -389,6 +417,7 @@ test('the map survives the element’s removal', async ({ page }) => {
   });
   await page.evaluate(() => document.querySelector('main')?.prepend(Reflect.get(window, 'kept')));
   await widget.scrollIntoViewIfNeeded();
+  await unfold(widget, 'A map of your own');
   await expect(present(widget)).toContainText('room.json');
   expect(await squeezed(widget)).toEqual(before);
 });
@@ -427,6 +456,7 @@ test.describe('the page', () => {
   test('fits a phone: nothing to scroll sideways, and targets for a finger', async ({ page }) => {
     await page.setViewportSize({ width: 375, height: 812 });
     const widget = await openSqueeze(page);
+    await unfoldAll(widget);
     await widget.getByLabel('sub-stepped').check();
     // At the right edge the handle ahead of the robot has no room to the right.
     await widget.getByRole('button', { name: 'Open corridor' }).click();
@@ -455,6 +485,21 @@ test.describe('the page', () => {
     await widget.getByLabel('close-up').check();
     const again = await pictureOf(canvas);
     expect(again === close, 'the same as before').toBe(true);
+  });
+
+  test('the map in the corner takes its walls along to another corner', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const canvas = widget.locator('canvas.plane');
+    const light = await pictureOf(canvas);
+    // Near enough to the opening for the view to stay, and another corner is the freest.
+    await widget.evaluate((element) => Object.assign(element, { v: 0.7 }));
+    const moved = await pictureOf(canvas);
+    expect(moved === light, 'another picture').toBe(false);
+    // Other colours, and these again, paint all of it anew.
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await expect.poll(async () => (await pictureOf(canvas)) === moved).toBe(false);
+    await page.emulateMedia({ colorScheme: 'light' });
+    await expect.poll(async () => (await pictureOf(canvas)) === moved).toBe(true);
   });
 
   test('the close-up has the whole map in a corner, in exports too', async ({ page }) => {
@@ -519,6 +564,7 @@ test.describe('at first glance', () => {
     for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
       await page.emulateMedia({ colorScheme });
       const widget = await openSqueeze(page);
+      await unfold(widget, 'What is drawn');
       const about = widget.locator('.about');
       await expect(about).not.toContainText('density');
       await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));

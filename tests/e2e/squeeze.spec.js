@@ -182,10 +182,10 @@ test.describe('judging', () => {
         else expect(through).toBeGreaterThan(50);
 
         const shown = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
-        expect(await shown(/^drawn\d/)).toBe(stats.drawn);
-        expect(await shown(/^\s*accepted[\d\u202f]+$/)).toBe(stats.accepted);
+        expect(await shown(/^\s*drawn\s*\d/)).toBe(stats.drawn);
+        expect(await shown(/^\s*accepted\s*[\d\u202f]+\s*$/)).toBe(stats.accepted);
         expect(await shown('accepted through a wall')).toBe(stats.throughWall);
-        const rate = sampler === 'sub-stepped' ? 'accepted, of all parts drawn' : /^\s*accepted[\d.]+\u202f%/;
+        const rate = sampler === 'sub-stepped' ? 'accepted, of all parts drawn' : /^\s*accepted\s*[\d.]+\u202f%/;
         expect(await shown(rate)).toBeCloseTo(100 * stats.acceptanceRate, 1);
         expect(await shown('draws needed for one accepted')).toBeCloseTo(stats.drawsPerAccepted, 2);
         expect(await shown('walls measured for one accepted')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
@@ -242,6 +242,7 @@ test.describe('judging', () => {
   test('every cost is that of the sampler, and a core’s share follows from it', async ({ page }) => {
     const widget = await openSqueeze(page);
     await widget.getByRole('button', { name: 'Facing a wall' }).click();
+    await unfold(widget, 'Counts and costs');
     // From then on the figures before are out of date.
     await frames(page);
     const table = widget.locator('.table');
@@ -325,6 +326,7 @@ test.describe('judging', () => {
       window.setTimeout = /** @type {typeof setTimeout} */ (/** @type {unknown} */ (() => 0));
     });
     const widget = await openSqueeze(page);
+    await unfold(widget, 'Counts and costs');
     await expect(widget.locator('.table td')).toHaveText(Array(3).fill('not yet measured'));
   });
 

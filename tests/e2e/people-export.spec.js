@@ -164,6 +164,22 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(new Set(ids).size).toBe(7);
 });
 
+test('SVG has the turns of the odometry model as arcs of their angles', async ({ page }) => {
+  const widget = await open(page);
+  await widget.evaluate((element) => Object.assign(element, { model: 'odometry', omega: 1.2 }));
+  await frames(page);
+  const { rot1, rot2 } = await widget.evaluate((element) => /** @type {any} */ (element).machine.reading);
+  const svg = await svgOf(widget);
+  const number = '(-?[\\d.]+)';
+  const arcs = [...svg.matchAll(new RegExp(`d="M${number},${number}A${number},\\3 0 (0|1) (0|1) ${number},${number}"`, 'g'))];
+  // A chord of the circle says the angle; both turns are to the left, against the sense of SVG, where y runs down.
+  const angles = arcs.map(([, x, y, radius, , , toX, toY]) => 2 * Math.asin(Math.hypot(Number(toX) - Number(x), Number(toY) - Number(y)) / 2 / Number(radius)));
+  expect(angles).toHaveLength(2);
+  expect(arcs.map(([, , , , large, sweep]) => [large, sweep])).toEqual([['0', '0'], ['0', '0']]);
+  // Coordinates are printed to a tenth or a hundredth of a pixel, of some 26.
+  for (const [i, turn] of [rot1, rot2].entries()) expect(Math.abs(angles[i] - turn)).toBeLessThan(0.01);
+});
+
 test('the picture on screen stays as it is when it is exported', async ({ page }) => {
   const widget = await openWhole(page);
   const canvas = widget.locator('canvas.plane');

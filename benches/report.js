@@ -4,6 +4,7 @@
  * @module
  */
 
+import { THROTTLE } from './drag.js';
 import { SMALLEST_OBJECT } from './memory.js';
 
 /**
@@ -23,6 +24,7 @@ import { SMALLEST_OBJECT } from './memory.js';
  * @property {Measured} node
  * @property {Measured} chromium
  * @property {import('./start.js').Start} start
+ * @property {import('./drag.js').Drag[]} drags
  */
 
 /**
@@ -43,6 +45,8 @@ const raced = (/** @type {Measured} */ { refresh }) => refresh.findLast((row) =>
 const wallGrowth = (/** @type {import('./squeeze.js').Walls[]} */ rows) => rows[rows.length - 1].time.median / rows[0].time.median;
 /** log 10 000 / log 10: what a cost that is logarithmic in the walls, from nothing, grows by. */
 const LOGARITHMIC = 4;
+/** Of a screen with 60 frames a second, ms. */
+const FRAME = 16.7;
 
 /** @type {Target[]} */
 const TARGETS = [
@@ -73,12 +77,16 @@ const TARGETS = [
  * @returns {string}
  */
 export function report(results) {
-  const { node, chromium, start } = results;
+  const { node, chromium, start, drags } = results;
+  const slowest = drags.reduce((most, drag) => (drag.time.median > most.time.median ? drag : most));
   const rows = TARGETS.map(({ what, bound, reached, unit, of }) => {
     const values = [node, chromium].map((measured) => of(measured));
     return [what, bound, ...values.map((value) => cell(value, unit)), verdict(values, reached)];
   });
   rows.splice(8, 0, ['From script start to first cloud', '≤ 100 ms', '', cell(start.total, 'ms'), verdict([start.total], atMost(100))]);
+  rows.splice(9, 0, [
+    `A step of the slowest drag (${slowest.what}), processor ${THROTTLE} times slower`, `≤ ${FRAME} ms (a frame)`, '', cell(slowest.time, 'ms'), verdict([slowest.time], atMost(FRAME)),
+  ]);
   return [
     ranOn(results),
     table(['', 'target', 'Node', 'Chromium', 'reached'], rows),
@@ -86,6 +94,7 @@ export function report(results) {
     curve('Chromium', chromium),
     walls(node, chromium),
     stages(start),
+    dragged(drags),
   ].join('\n\n');
 }
 
@@ -137,6 +146,12 @@ function walls(node, chromium) {
 function stages({ loads, stages: parts }) {
   const rows = parts.map(({ stage, time }) => [stage, cell(time)]);
   return `To the first cloud, ${loads} loads in Chromium:\n\n${table(['until', 'ms'], rows)}`;
+}
+
+/** @param {import('./drag.js').Drag[]} drags */
+function dragged(drags) {
+  const rows = drags.map(({ widget, what, time }) => [widget, what, cell(time)]);
+  return `The frame of a step, processor ${THROTTLE} times slower, opening sizes:\n\n${table(['widget', 'dragged', 'ms'], rows)}`;
 }
 
 /**

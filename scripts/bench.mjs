@@ -25,9 +25,9 @@ async function bench(quick) {
   const node = await inNode(quick);
   const browser = await ensureBrowser();
   progress('Chromium');
-  const { chromium, start } = await inChromium(browser.chrome, quick);
+  const { chromium, start, drags } = await inChromium(browser.chrome, quick);
   const seconds = (Date.now() - began) / 1000;
-  const results = { ...machine, chromiumVersion: browser.version, quick, seconds, node, chromium, start };
+  const results = { ...machine, chromiumVersion: browser.version, quick, seconds, node, chromium, start, drags };
   mkdirSync(join(ROOT, 'build'), { recursive: true });
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
   console.log(`\n${report(results)}\nIn ${seconds.toFixed(0)} s; all of it is in build/bench.json.`);
@@ -65,16 +65,19 @@ async function inNode(quick) {
 /**
  * @param {string} executablePath
  * @param {boolean} quick
- * @returns {Promise<{ chromium: import('../benches/suite.js').Measured, start: import('../benches/start.js').Start }>}
+ * @returns {Promise<{ chromium: import('../benches/suite.js').Measured, start: import('../benches/start.js').Start, drags: import('../benches/drag.js').Drag[] }>}
  */
 async function inChromium(executablePath, quick) {
   const { chromium: launcher } = await import('@playwright/test');
+  const { timeDrags } = await import('../benches/drag.js');
   const { timeStart } = await import('../benches/start.js');
   const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATED });
   const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
   try {
     console.log('first cloud');
     const start = await timeStart(browser, `${address}benches/start.html`, quick ? 5 : 11);
+    console.log('drags');
+    const drags = await timeDrags(browser, `${address}benches/drag.html`, quick ? 10 : 40);
     const page = await browser.newPage();
     page.on('console', (message) => console.log(message.text()));
     const session = await page.context().newCDPSession(page);
@@ -86,7 +89,7 @@ async function inChromium(executablePath, quick) {
     await page.waitForFunction(() => 'measurePage' in globalThis);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
     const chromium = await page.evaluate((fast) => /** @type {any} */ (globalThis).measurePage(fast), quick);
-    return { chromium, start };
+    return { chromium, start, drags };
   } finally {
     await browser.close();
     close();

@@ -13,8 +13,8 @@ import { ROOT } from './process.mjs';
  * @property {string} description
  * @property {true} [readonly]
  *
- * @typedef {Named & { opening?: string, allowed?: string, told: string }} Attribute with its text when the widget opens,
- *   the range of a number, and the description without that
+ * @typedef {Named & { property?: string, opening?: string, allowed?: string, told: string }} Attribute with its property,
+ *   where that has another name, its text when the widget opens, the range of a number, and the description without that
  *
  * @typedef {object} Widget
  * @property {string} tag
@@ -121,12 +121,13 @@ async function widget(tag) {
       const told = describe({ ...declaration, min: undefined }, shown);
       return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), told };
     }
-    const { words, covers, kind } = entry;
+    const { words, covers, kind, property } = entry;
     const opening = entry.opening ?? own[name]?.opening ?? (covers && openingPreset(tag));
     const type = words === undefined ? 'boolean' : kind === WORDS ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
     const description = describe({ ...entry, sentence: sentences[name] }, text);
-    return { name, type: covers ? `${type} | null` : type, description, opening: text, told: description };
+    const nullable = covers || entry.nullable;
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, told: description };
   };
   const told = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
@@ -161,7 +162,7 @@ function openingPreset(tag) {
   const opening = Object.fromEntries(settings[tag].map(({ key, default: value }) => [key, value]));
   /** @returns {boolean} */
   const same = (/** @type {object} */ fields) =>
-    Object.entries(fields).every(([key, value]) => key === 'name' || (typeof value === 'object' ? same(value) : value === opening[key]));
+    Object.entries(fields).every(([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? same(value) : value === opening[key]));
   return presetsOf(tag).find(same)?.name;
 }
 

@@ -15,6 +15,7 @@ import { comments, oneLine, widgets } from './declarations.mjs';
  * @property {Attribute[]} attributes
  * @property {Member[]} members
  * @property {Item[]} events
+ * @property {Item[]} slots
  * @property {Item[]} cssParts
  * @property {Item[]} cssProperties
  */
@@ -55,21 +56,22 @@ function elementOf({ tag, machine, attributes, properties }, name, said) {
     tagName: tag,
     customElement: true,
     description: said.description,
-    attributes: attributes.map(({ name, type, description, opening }) => ({
+    attributes: attributes.map(({ name, property = name, type, description, opening }) => ({
       name,
       type: { text: type.replace(' | null', '') },
       description,
-      fieldName: name,
+      fieldName: property,
       ...(opening !== undefined && { default: opening }),
     })),
     members: [
-      ...attributes.map(({ name, type, description }) => ({ kind: 'field', name, type: { text: type }, description, attribute: name, reflects: true })),
+      ...attributes.map(({ name, property = name, type, description }) => ({ kind: 'field', name: property, type: { text: type }, description, attribute: name, reflects: true })),
       ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
       ...said.members
         .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
         .map(member),
     ],
     events: documented(said.events),
+    slots: documented(said.slots),
     cssParts: documented(said.cssParts),
     cssProperties: documented(said.cssProperties),
   };

@@ -23,6 +23,7 @@ const TABLES = {
         .filter(({ kind }) => kind === 'method')
         .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((each) => each.name).join(', ')})`, description })),
     ),
+  slots: (elements) => shared(elements, 'slot', 'Slots', ['slot', 'what it holds'], ({ slots }) => slots),
   properties: (elements) => shared(elements, 'property', 'Custom properties', ['property', 'of what'], ({ cssProperties }) => cssProperties),
   parts: (elements) => shared(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'what it is'], ({ cssParts }) => cssParts),
 };

@@ -16,7 +16,7 @@ export async function writeTypes() {
   const all = await widgets();
   const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
   writeFileSync(join(ROOT, 'build/machines.d.ts'), [HEAD, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), await figureType(all), ...all.map(elementTypes), tagNames(all)].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), await figureType(all), ...(await Promise.all(all.map(elementTypes))), tagNames(all)].join('\n'));
 }
 
 /** Groups of the same name are the same in all widgets. */
@@ -43,10 +43,20 @@ function settingTypes(tag) {
   if (!presets.length) return asInterface(`${machine}Settings`, whole);
   const fields = Object.entries(presets[0]).map(([name, value]) => ({
     name,
-    type: name === 'name' ? union(presets.map((preset) => preset.name)) : typeof value === 'object' ? pascal(name) : typeof value,
+    type: name === 'name' ? union(presets.map((preset) => preset.name)) : presetType(name, value, presets),
     description: '',
   }));
   return `${asInterface(`${machine}Settings`, whole)}\n${asInterface(`${machine}Preset`, fields)}`;
+}
+
+/**
+ * @param {string} name of something that presets set
+ * @param {unknown} value
+ * @param {Record<string, unknown>[]} presets
+ */
+function presetType(name, value, presets) {
+  if (presets.some((preset) => Array.isArray(preset[name]))) return 'number[] | null';
+  return typeof value === 'object' ? pascal(name) : typeof value;
 }
 
 /** @param {import('../www/settings.js').Declaration} declaration */
@@ -54,11 +64,10 @@ function named(declaration) {
   return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
-/** Attributes that every figure has. */
-const COMMON = ['theme', 'share'];
 
 /** What every figure has, by what the comments of its class say is public. @param {import('./declarations.mjs').Widget[]} all */
 async function figureType([{ attributes }]) {
+  const { COMMON } = await import('../www/figure/attributes.js');
   const { classes } = await comments();
   /** @type {any[]} */
   const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
@@ -68,7 +77,7 @@ async function figureType([{ attributes }]) {
     const given = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
     return { name: kind === 'method' ? `${name}(${given.join(', ')})` : name, type: typeIn(result), description: oneLine(description), readonly };
   });
-  const common = attributes.filter(({ name }) => COMMON.includes(name));
+  const common = attributes.filter(({ name }) => name in COMMON).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
   return (
     '/** What every element has; `Stats` are those of its machine. */\n' +
     asInterface('FigureElement<State extends FigureState, Stats>', [...common, ...fields], 'HTMLElement')
@@ -76,11 +85,12 @@ async function figureType([{ attributes }]) {
 }
 
 /** @param {import('./declarations.mjs').Widget} widget */
-function elementTypes({ tag, machine, attributes, properties, state }) {
+async function elementTypes({ tag, machine, attributes, properties, state }) {
+  const { COMMON } = await import('../www/figure/attributes.js');
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
   const widget = { name: 'widget', type: `'${tag}'`, description: '' };
   // What every figure has is there already.
-  const own = attributes.filter(({ name }) => !COMMON.includes(name));
+  const own = attributes.filter(({ name }) => !(name in COMMON));
   return (
     `${asInterface(`${machine}State`, [widget, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +

@@ -166,7 +166,7 @@ fn no_plan_is_too_strange_for_the_index() {
         assert!(!plan.point_free(point, 0.6).free, "{bounds:?} {point:?}");
         let on_the_spot = Arc { start: SE2::new(point[0], point[1], 0.0), length: 1e-9, turn: 1.0 };
         assert!(!plan.arc_free(&on_the_spot, 0.6).free, "{bounds:?} {point:?}");
-        plan.free_point(0.1);
+        plan.open_place(0.1);
     }
 }
 
@@ -238,7 +238,8 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
     };
     let pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
     let pixels = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
-    let interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 };
+    let interpretation =
+        Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &interpretation, 0.25, SE2::new(3.0, -2.0, 0.4));
     let room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
@@ -371,22 +372,70 @@ fn wall_tests_grow_slower_than_the_number_of_walls() {
 }
 
 #[test]
-fn a_free_point_is_free_and_near_the_origin() {
+fn a_robot_is_put_in_the_open() {
     let apartment = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
-        let point = apartment.free_point(clearance).expect("there is room");
-        assert!(apartment.point_free(point, clearance).free);
-        // The shell's corner stands at the origin; a robot of radius c fits at (c, c) and one step of the search on.
-        assert!(point[0].hypot(point[1]) <= (clearance + 0.12).hypot(clearance + 0.09) + 1e-9, "{point:?}");
+        let place = apartment.open_place(clearance).expect("there is room");
+        assert!(apartment.point_free([place.x(), place.y()], clearance).free);
+        // The largest room has a square of 4 m between the closet's side and the wall opposite.
+        assert!((place.x() - 4.0).abs() < 0.1 && (place.y() - 7.0).abs() < 0.1, "{place:?}");
+        let ahead = Arc { start: place, length: 2.0, turn: 0.0 };
+        assert!(apartment.arc_free(&ahead, 0.13).free, "{place:?}");
     }
-    assert_eq!(apartment.free_point(2.5), None, "no room is that large");
-    let open = FloorPlan::new(vec![], [-3.0, -2.0, 7.0, 5.0]).expect("a valid plan");
-    assert_eq!(open.free_point(0.3), Some([0.0, 0.0]));
-    let elsewhere = FloorPlan::new(vec![], [3.0, 2.0, 7.0, 5.0]).expect("a valid plan");
-    assert_eq!(elsewhere.free_point(0.3), Some([3.0, 2.0]));
-    assert!(plan_with_a_slit().free_point(0.3).is_none());
+    assert_eq!(apartment.open_place(2.5), None, "no room is that large");
+    for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {
+        let open = FloorPlan::new(vec![], bounds).expect("a valid plan");
+        let place = open.open_place(0.3).expect("there is room");
+        let [left, bottom, right, top] = bounds;
+        let room = [place.x() - left, right - place.x(), place.y() - bottom, top - place.y()];
+        assert!(room.into_iter().all(|room| room > 1.4), "not at the edge: {place:?}");
+    }
+    assert!(plan_with_a_slit().open_place(0.3).is_none());
     let turned = Arc { start: SE2::new(1.0, 1.0, FRAC_PI_2), length: 2.0, turn: 0.0 };
     assert!(apartment.arc_free(&turned, 0.3).free);
+}
+
+/// The edge of a map belongs to it: who stands there, in a corner, or drives along it has not left.
+#[test]
+fn a_robot_on_the_edge_has_not_left() {
+    let open = FloorPlan::new(vec![], [3.0, 2.0, 7.0, 5.0]).expect("a valid plan");
+    let corners = [(3.0, 2.0), (7.0, 2.0), (7.0, 5.0), (3.0, 5.0)];
+    for (quarter, (x, y)) in corners.into_iter().enumerate() {
+        let along = FRAC_PI_2 * quarter as f64;
+        for (heading, turn, free) in [
+            (0.0, 0.0, true),
+            (0.4, 0.0, true),
+            (0.4, 1.0, true),
+            (1.2, -1.0, true),
+            (FRAC_PI_2 - 0.01, -1.0, true),
+            (0.3, -2.0, false),
+            (1.3, 2.0, false),
+            (-0.3, 0.0, false),
+            (-0.3, 1.2, false),
+            (2.0, 0.0, false),
+        ] {
+            let arc = Arc { start: SE2::new(x, y, along + heading), length: 1.5, turn };
+            let outside = path(&arc, 2000).into_iter().any(|[x, y]| {
+                !(3.0 - 1e-9..=7.0 + 1e-9).contains(&x) || !(2.0 - 1e-9..=5.0 + 1e-9).contains(&y)
+            });
+            assert_eq!(outside, !free, "what this expects is so: {arc:?}");
+            // Along the edge, rounding decides where the end is.
+            let end = arc.end();
+            let exact = open.point_free([end.x(), end.y()], 0.0).free;
+            assert_eq!(open.arc_free(&arc, 0.1).free, free && (exact || heading != 0.0), "{arc:?}");
+        }
+    }
+}
+
+/// The x, y of an arc at 1 + `count` even steps.
+fn path(arc: &Arc, count: u32) -> Vec<[f64; 2]> {
+    (0..=count)
+        .map(|i| {
+            let share = f64::from(i) / f64::from(count);
+            let end = Arc { length: share * arc.length, turn: share * arc.turn, ..*arc }.end();
+            [end.x(), end.y()]
+        })
+        .collect()
 }
 
 /// Walls half a metre apart throughout.

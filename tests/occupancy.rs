@@ -11,13 +11,14 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    FloorPlan, FloorPlanError, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, PgmError, Pixel,
-    read_pgm,
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, PgmError, Pixel,
+    Unknown, read_pgm,
 };
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-const TRINARY: Interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 };
+const TRINARY: Interpretation =
+    Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
 const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
 const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
@@ -172,7 +173,7 @@ fn a_block_is_solid() {
     assert!(!plan.point_free([0.0, 0.0], 0.1).free);
     let inside = Arc { start: SE2::new(0.0, 0.0, 0.5), length: 3.0, turn: 1.0 };
     assert!(!plan.arc_free(&inside, 0.1).free);
-    assert_eq!(plan.free_point(0.1), None);
+    assert_eq!(plan.open_place(0.1), None);
 }
 
 /// Neighbouring sides are one wall, sides between two occupied cells are none, and corners touch.
@@ -228,39 +229,47 @@ fn pixels_are_read_as_map_server_reads_them() {
     let clear = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
     let scale = Interpretation { mode: Mode::Scale, ..TRINARY };
     let raw = Interpretation { mode: Mode::Raw, ..TRINARY };
-    let negated = |occupied_thresh| Interpretation { negate: true, occupied_thresh, ..TRINARY };
     let at = |occupied_thresh| Interpretation { occupied_thresh, ..TRINARY };
+    let negated = |occupied_thresh| Interpretation { negate: true, ..at(occupied_thresh) };
+    let free_below = |free_thresh| Interpretation { free_thresh, ..TRINARY };
     let cases = [
-        ("black", TRINARY, pixel(0), true),
-        ("white", TRINARY, pixel(255), false),
-        ("unknown grey", TRINARY, pixel(205), false),
-        ("occupancy 0.651", TRINARY, pixel(89), true),
-        ("occupancy 0.647", TRINARY, pixel(90), false),
-        ("transparent black", TRINARY, clear(0), true),
-        ("black, negated", negated(0.65), pixel(0), false),
-        ("white, negated", negated(0.65), pixel(255), true),
-        ("occupancy 0.651, negated", negated(0.65), pixel(166), true),
-        ("occupancy 0.647, negated", negated(0.65), pixel(165), false),
-        ("at the threshold", at(0.6), pixel(102), false),
-        ("past it", at(0.6), pixel(101), true),
-        ("at the threshold of 0.2", at(0.2), pixel(204), false),
-        ("at the threshold, negated", negated(0.6), pixel(153), false),
-        ("past it, negated", negated(0.6), pixel(154), true),
-        ("at the threshold of 0.2, negated", negated(0.2), pixel(51), false),
-        ("nothing is above 1", at(1.0), pixel(0), false),
-        ("scale, black", scale, pixel(0), true),
-        ("scale, transparent black is unknown", scale, clear(0), false),
-        ("scale, white", scale, pixel(255), false),
-        ("raw, 100", raw, pixel(100), true),
-        ("raw, 99", raw, pixel(99), false),
-        ("raw, 101 is unknown", raw, pixel(101), false),
-        ("raw, 0 is free", raw, pixel(0), false),
-        ("raw, 255 is unknown", raw, pixel(255), false),
-        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(100), true),
-        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(155), false),
+        ("black", TRINARY, pixel(0), Cell::Occupied),
+        ("white", TRINARY, pixel(255), Cell::Free),
+        ("the grey that maps are saved with where nothing is known", TRINARY, pixel(205), Cell::Unknown),
+        ("which is free by another threshold", free_below(0.25), pixel(205), Cell::Free),
+        ("occupancy 0.192", TRINARY, pixel(206), Cell::Free),
+        ("occupancy 0.651", TRINARY, pixel(89), Cell::Occupied),
+        ("occupancy 0.647", TRINARY, pixel(90), Cell::Unknown),
+        ("transparent black", TRINARY, clear(0), Cell::Occupied),
+        ("black, negated", negated(0.65), pixel(0), Cell::Free),
+        ("white, negated", negated(0.65), pixel(255), Cell::Occupied),
+        ("occupancy 0.651, negated", negated(0.65), pixel(166), Cell::Occupied),
+        ("occupancy 0.647, negated", negated(0.65), pixel(165), Cell::Unknown),
+        ("at the threshold", at(0.6), pixel(102), Cell::Unknown),
+        ("past it", at(0.6), pixel(101), Cell::Occupied),
+        ("at the threshold of 0.2", at(0.2), pixel(204), Cell::Unknown),
+        ("at the threshold, negated", negated(0.6), pixel(153), Cell::Unknown),
+        ("past it, negated", negated(0.6), pixel(154), Cell::Occupied),
+        ("at the threshold of 0.2, negated", negated(0.2), pixel(51), Cell::Unknown),
+        ("nothing is above 1", at(1.0), pixel(0), Cell::Unknown),
+        ("at the threshold for free", free_below(0.2), pixel(204), Cell::Unknown),
+        ("below the threshold for free", free_below(0.2), pixel(205), Cell::Free),
+        ("nothing is below 0", free_below(0.0), pixel(255), Cell::Unknown),
+        ("scale, black", scale, pixel(0), Cell::Occupied),
+        ("scale, transparent black is unknown", scale, clear(0), Cell::Unknown),
+        ("scale, transparent white is unknown", scale, clear(255), Cell::Unknown),
+        ("scale, white", scale, pixel(255), Cell::Free),
+        ("scale, what is between the thresholds is known in degrees", scale, pixel(150), Cell::Free),
+        ("raw, 100", raw, pixel(100), Cell::Occupied),
+        ("raw, 99", raw, pixel(99), Cell::Free),
+        ("raw, 101 is unknown", raw, pixel(101), Cell::Unknown),
+        ("raw, 0 is free", raw, pixel(0), Cell::Free),
+        ("raw, 255 is unknown", raw, pixel(255), Cell::Unknown),
+        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(100), Cell::Occupied),
+        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(155), Cell::Unknown),
     ];
-    for (name, interpretation, pixel, occupied) in cases {
-        assert_eq!(interpretation.occupied(pixel), occupied, "{name}: {interpretation:?} {pixel:?}");
+    for (name, interpretation, pixel, cell) in cases {
+        assert_eq!(interpretation.cell(pixel), cell, "{name}: {interpretation:?} {pixel:?}");
     }
 }
 
@@ -402,11 +411,13 @@ fn no_bytes_break_the_reader() {
 /// `map_server` averages opacity in with the colours in mode trinary, if the image has transparency at all.
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
-    let interpretation = Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 };
+    let interpretation =
+        Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
     let occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
         let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
         let image = Image { width: pixels.len(), height: 1, pixels };
-        OccupancyGrid::new(&image, &interpretation, 0.05, SE2::identity()).occupied().to_vec()
+        let grid = OccupancyGrid::new(&image, &interpretation, 0.05, SE2::identity());
+        grid.cells().iter().map(|cell| *cell == Cell::Occupied).collect()
     };
     // Opaque black is (0 + 0 + 0 + 1)/4 = 0.25 of white then, dark grey 60/255 is 0.43 of it, clear white 0.75.
     assert_eq!(
@@ -449,4 +460,108 @@ fn the_edge_of_a_turned_map_turns_with_it() {
     let across = Arc { start: SE2::new(x, y, 0.6), length: 2.0, turn: 2.0 * PI };
     assert!(!plan.arc_free(&across, 0.05).free, "a circle that leaves and comes back");
     assert!(plan.arc_free(&Arc { turn: -2.0 * PI, ..across }, 0.05).free);
+}
+
+// -------------------------------------------------------------------------------------------------- what is unknown
+
+/// A grid of ones of `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, cells of 10 cm.
+fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
+    let shade = |cell| match cell {
+        '#' => 0.0,
+        '?' => 0.5,
+        _ => 1.0,
+    };
+    let pixels =
+        rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade(cell), opacity: 1.0 });
+    let image = Image { width: rows[0].len(), height: rows.len(), pixels: pixels.collect() };
+    OccupancyGrid::new(&image, &TRINARY, 0.1, SE2::identity()).with_unknown(unknown)
+}
+
+/// Blocked, an unknown cell is to a robot what an occupied one is; free, it is what a free one is.
+#[test]
+fn unknown_cells_are_what_one_decides() {
+    let mut rng = seeded(31_415);
+    let random: Vec<String> = (0..30)
+        .map(|_| (0..30).map(|_| ['#', '?', '.', '.', '.', '.'][(rng.next_u32() % 6) as usize]).collect())
+        .collect();
+    let with =
+        |from: &str, to: &str| -> Vec<String> { random.iter().map(|row| row.replace(from, to)).collect() };
+    let plan = |rows: &[String], unknown| {
+        let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+        FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid")
+    };
+    for (unknown, alike) in [(Unknown::Blocked, with("?", "#")), (Unknown::Free, with("?", "."))] {
+        let (one, other) = (plan(&random, unknown), plan(&alike, Unknown::Free));
+        assert_eq!(one.walls(), other.walls(), "{unknown:?}");
+        for _ in 0..20_000 {
+            let start = SE2::new(
+                uniform(&mut rng, 0.0, 3.0),
+                uniform(&mut rng, 0.0, 3.0),
+                uniform(&mut rng, -PI, PI),
+            );
+            let arc = Arc { start, length: uniform(&mut rng, 0.0, 0.5), turn: uniform(&mut rng, -2.0, 2.0) };
+            let clearance = uniform(&mut rng, 0.0, 0.1);
+            let point = [start.x(), start.y()];
+            assert_eq!(one.point_free(point, clearance), other.point_free(point, clearance), "{point:?}");
+            assert_eq!(one.arc_free(&arc, clearance), other.arc_free(&arc, clearance), "{arc:?}");
+        }
+    }
+    let grid = drawn(&["#?."], Unknown::Blocked);
+    assert_eq!(grid.cells(), [Cell::Occupied, Cell::Unknown, Cell::Free], "it stays known which is which");
+}
+
+// ------------------------------------------------------------------------------------------------ a place to start
+
+/// In the middle of the largest square that is known to be free, heading along the longest way known to be free.
+#[test]
+fn a_robot_is_put_in_the_open() {
+    let rows = [
+        "????????????????",
+        "????????????????",
+        "##########??????",
+        "#........#??????",
+        "#........#??????",
+        "#...............",
+        "#........#??????",
+        "##########??????",
+    ];
+    for unknown in [Unknown::Free, Unknown::Blocked] {
+        let plan = FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid");
+        let place = plan.open_place(0.1).expect("there is room");
+        // The first of the squares of four cells, and the way through the door.
+        assert!((place.x() - 0.3).abs() + (place.y() - 0.3).abs() < 1e-12, "{place:?}");
+        assert!(plan.point_free([place.x(), place.y()], 0.1).free);
+        let way = Arc { start: place, length: 0.5, turn: 0.0 };
+        assert!(plan.arc_free(&way, 0.0).free && place.theta().abs() < 0.5, "{place:?}");
+    }
+    // Nothing is known, but something is free; or nothing is.
+    let unknown = drawn(&["???", "???", "???"], Unknown::Free);
+    let place = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");
+    assert!((place.x() - 0.05).abs() + (place.y() - 0.05).abs() < 1e-12, "the first: {place:?}");
+    let blocked = drawn(&["???", "???", "???"], Unknown::Blocked);
+    assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").open_place(0.1), None);
+}
+
+/// The place that is found has room on every random grid where any of its cells has, whatever the grid's turn.
+#[test]
+fn a_place_is_found_where_there_is_one() {
+    let mut rng = seeded(27_182);
+    let (mut found, mut none) = (0, 0);
+    for _ in 0..2000 {
+        let cells = Cells::random(&mut rng);
+        let clearance = cells.resolution * uniform(&mut rng, 0.0, 2.0);
+        let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
+        let middles = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (column, row)));
+        let room = middles
+            .map(|(column, row)| cells.in_map(column as f64 + 0.5, row as f64 + 0.5))
+            .any(|middle| plan.point_free(middle, clearance).free);
+        if let Some(place) = plan.open_place(clearance) {
+            assert!(plan.point_free([place.x(), place.y()], clearance).free, "{place:?}");
+            found += 1;
+        } else {
+            assert!(!room);
+            none += 1;
+        }
+    }
+    assert!(found > 300 && none > 100, "{found} {none}");
 }

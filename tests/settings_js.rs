@@ -48,8 +48,8 @@ export const presets = {{
 {}  ],
 }};
 
-/** How many noise parameters each model has. */
-export const alphaCounts = {{ velocity: {}, odometry: {} }};
+/** The noise parameters that each model opens with. */
+export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odometry_alphas:?} }};
 
 /**
  * What the core takes at most: `cells` of a grid or pixels of an image, `trial` samples times parts in `trial`, and the
@@ -62,10 +62,11 @@ export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: 
 ",
         declarations(banana::Settings::default(), &banana::ALPHA_SENTENCES),
         declarations(squeeze::Settings::default(), &[]),
-        lines(banana::PRESETS.map(|(name, command)| format!("name: '{name}', {}", group(command)))),
+        lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
+            let alphas = alphas.map_or("null".to_owned(), |alphas| format!("{alphas:?}"));
+            format!("name: '{name}', {}, alphas: {alphas}", group(command))
+        })),
         lines(squeeze::PRESETS.map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group(start)))),
-        velocity_alphas.len(),
-        odometry_alphas.len(),
     )
 }
 

@@ -35,9 +35,10 @@ export const settings = {
     { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.09, sentence: 'Noise parameter of the present model.' },
     { key: 'alpha5', in: 'alphas', index: 4, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
     { key: 'alpha6', in: 'alphas', index: 5, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'reverseAware', type: 'boolean', default: false, sentence: 'Whether the odometry model charges a robot that backs up for the turns it made instead of two half turns more.' },
     { key: 'isolate', type: 'whole', nullable: true, min: 1, max: 6, default: null, sentence: 'Number of the only noise parameter in effect; null for all of them.' },
-    { key: 'samples', type: 'whole', min: 1, max: 10000000, default: 2000, sentence: 'Robots in the whole cloud.' },
-    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 7, sentence: 'The same seed is the same robots.' },
+    { key: 'samples', type: 'whole', min: 1, max: 10000000, default: 50000, sentence: 'Robots in the whole cloud.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 3, sentence: 'The same seed is the same robots.' },
   ],
   'map-squeeze': [
     { key: 'start', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'The pose that the robot starts from.' },
@@ -52,6 +53,7 @@ export const settings = {
     { key: 'noise', of: 'alphas', type: 'number', nullable: true, min: 0, max: 1000000, default: 0.12, sentence: 'Level n: the first four noise parameters are n, the others n/4; null where they are not those of a level.' },
     { key: 'clearance', type: 'number', unit: 'm', min: 0, max: 10, default: 0.13, sentence: 'Radius of the robot.' },
     { key: 'conditioned', type: 'boolean', default: true, sentence: 'Whether draws are judged by the map at all; where not, all of them are accepted.' },
+    { key: 'unknown', type: 'word', words: ['free', 'blocked'], default: 'free', sentence: 'What cells of which the map says nothing are for the robot.' },
     { key: 'sampler', type: 'word', words: ['endpoint', 'whole-arc', 'sub-stepped'], default: 'endpoint', sentence: 'How draws are judged.' },
     { key: 'steps', type: 'whole', min: 1, max: 1000, default: 4, sentence: 'Parts of the command, for the sub-stepped sampler.' },
     { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 600, sentence: 'Motions tried.' },
@@ -62,10 +64,12 @@ export const settings = {
 /** What the widgets may open with, by their tags. */
 export const presets = {
   'banana-machine': [
-    { name: 'straight', v: 1, omega: 0, dt: 2 },
-    { name: 'gentle', v: 1, omega: 0.5, dt: 1 },
-    { name: 'hard', v: 1, omega: 1.2, dt: 1.4 },
-    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1 },
+    { name: 'straight', v: 1, omega: 0, dt: 2, alphas: null },
+    { name: 'gentle', v: 1, omega: 0.5, dt: 1, alphas: null },
+    { name: 'hard', v: 1, omega: 1.2, dt: 1.4, alphas: null },
+    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1, alphas: null },
+    { name: 'banana', v: 1, omega: 0, dt: 2, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002] },
+    { name: 'worked', v: 1, omega: 0.5, dt: 1, alphas: [0.02, 0.02, 0.02, 0.02, 0.0, 0.0] },
   ],
   'map-squeeze': [
     { name: 'doorway', start: { x: 2.05, y: 2.6, theta: 1.5707963267948966 } },
@@ -74,8 +78,8 @@ export const presets = {
   ],
 };
 
-/** How many noise parameters each model has. */
-export const alphaCounts = { velocity: 6, odometry: 4 };
+/** The noise parameters that each model opens with. */
+export const openingAlphas = { velocity: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], odometry: [0.05, 0.05, 0.05, 0.05] };
 
 /**
  * What the core takes at most: `cells` of a grid or pixels of an image, `trial` samples times parts in `trial`, and the

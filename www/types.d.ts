@@ -23,11 +23,12 @@ export interface FigureState {
 
 /**
  * A map as plain data. A floor plan of walls from one point to another, or square cells row by row from the
- * bottom: base64 of a bit each, the first of eight highest, 1 where occupied. Lengths in m, yaw in rad.
+ * bottom: base64 of a bit each, the first of eight highest, 1 where occupied, and likewise where unknown. Lengths in m,
+ * yaw in rad.
  */
 export type MapData =
   | { name?: string; bounds: number[]; walls: number[][] }
-  | { name?: string; columns: number; rows: number; resolution: number; origin: number[]; occupied: string };
+  | { name?: string; columns: number; rows: number; resolution: number; origin: number[]; occupied: string; unknown?: string };
 
 // Shorter names.
 export type BananaMachineClass = Motion['BananaMachine'];

@@ -57,6 +57,21 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
     }
 }
 
+/// Of the arcs that leave `x` along its heading and reach the position of `x_next` (forward or in reverse, round the
+/// circle or not), the one whose turn is nearest to `near` (rad): its signed length (m) and its turn (rad).
+///
+/// All of them lie on one circle, where the length driven is proportional to the turn. Without displacement the length
+/// is 0; along a straight line, which closes no circle, the turn is 0.
+pub fn arc_near(x: &SE2, x_next: &SE2, near: f64) -> (f64, f64) {
+    let ArcInversion { v_hat: length, omega_hat: turn, .. } = invert_arc(x, x_next, 1.0);
+    let circles = ((near - turn) / TAU).round();
+    if circles == 0.0 || turn == 0.0 {
+        return (length, turn);
+    }
+    let wound = turn + circles * TAU;
+    (length * (wound / turn), wound)
+}
+
 /// The path of a point that leaves `start` along its heading, driving the signed `length` (m) while turning by `turn`
 /// (rad, any number of circles).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@
 
 use super::angle::wrap_angle;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
-use wide::{bytemuck, f64x2, f64x4};
+use wide::{bytemuck, f64x2, f64x4, u64x4};
 
 /// Numbers that are worked on at a time.
 pub const LANES: usize = 4;
@@ -27,8 +27,9 @@ pub struct Circle {
 pub struct HalfTurn {
     /// h less whole half circles, within a quarter circle of the one that was asked for.
     pub half: f64x4,
-    /// h·cot h of `half`.
+    /// h·cot h and sin h/h of `half`.
     pub cotangent: f64x4,
+    pub sinc: f64x4,
     /// sin h and cos h; both may have the other sign where half circles were taken off.
     pub sin: f64x4,
     pub cos: f64x4,
@@ -92,7 +93,7 @@ impl Trigonometry {
     #[inline(always)]
     pub fn half_turn(&self, half: f64x4) -> HalfTurn {
         let (sinc, cos) = self.sinc_cos(half * half);
-        HalfTurn { half, cotangent: cos / sinc, sin: half * sinc, cos }
+        HalfTurn { half, cotangent: cos / sinc, sinc, sin: half * sinc, cos }
     }
 
     /// What the logarithm needs of any half headings (rad), on the branch of the logarithm nearest to the half heading `near` (rad). A lane that is near
@@ -106,7 +107,7 @@ impl Trigonometry {
             wrapped = far.bitselect(lanes(|i| by_scalar(half.to_array()[i])), wrapped);
         }
         let Circle { sinc, sin, cos } = self.any_circle(wrapped);
-        HalfTurn { half: wrapped, cotangent: cos / sinc, sin, cos }
+        HalfTurn { half: wrapped, cotangent: cos / sinc, sinc, sin, cos }
     }
 
     /// (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
@@ -147,6 +148,41 @@ pub(crate) fn halves(lanes: f64x4) -> [f64x2; 2] {
 pub(crate) fn lanes(lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(lane))
 }
+
+/// ln of positive normal numbers, operation for operation that of `libm::log` (FreeBSD's e_log.c, where the algorithm is
+/// explained).
+#[inline(always)]
+pub(crate) fn log(x: f64x4) -> f64x4 {
+    /// The upper half of √2/2; a mantissa is counted from there.
+    const LEAST: u64 = 0x3fe6_a09e << 32;
+    const ONE: u64 = 0x3ff0_0000 << 32;
+    const TWO_52: f64 = 4_503_599_627_370_496.0;
+    let bits = x.to_bits() + u64x4::splat(ONE - LEAST);
+    let biased = f64x4::from_bits((bits >> 52) | u64x4::splat(TWO_52.to_bits()));
+    let power = biased - (TWO_52 + 1023.0);
+    let f = f64x4::from_bits((bits & u64x4::splat((1 << 52) - 1)) + u64x4::splat(LEAST)) - 1.0;
+    let half_square = 0.5 * f * f;
+    let s = f / (2.0 + f);
+    let z = s * s;
+    let w = z * z;
+    let even = w * (LG[1] + w * (LG[3] + w * LG[5]));
+    let odd = z * (LG[0] + w * (LG[2] + w * (LG[4] + w * LG[6])));
+    s * (half_square + (odd + even)) + power * LN2[1] - half_square + f + power * LN2[0]
+}
+
+/// ln 2 in two parts, and the polynomial.
+#[expect(clippy::excessive_precision, reason = "the digits as published")]
+const LN2: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
+#[expect(clippy::excessive_precision, reason = "the digits as published")]
+const LG: [f64; 7] = [
+    6.666_666_666_666_735_130e-1,
+    3.999_999_999_940_941_908e-1,
+    2.857_142_874_366_239_149e-1,
+    2.222_219_843_214_978_396e-1,
+    1.818_357_216_161_805_012e-1,
+    1.531_383_769_920_937_332e-1,
+    1.479_819_860_511_658_591e-1,
+];
 
 /// Angles up to here (rad) are reduced by a π of 119 bits in three parts, the first two of 33, so that the products with
 /// up to 20 bits are exact. Larger ones, at which no robot turns, are left to `libm`.

@@ -1,6 +1,7 @@
 //! Line segments, and their exact distance to points and to arcs.
 
 use super::arc::{Arc, Unrolled};
+use std::f64::consts::PI;
 
 /// A straight line between two points, m. It may have no length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +47,20 @@ impl Segment {
         if mirrored.crosses(local) { 0.0 } else { mirrored.distance_apart(local) }
     }
 
-    pub(crate) fn crosses_unrolled(&self, local: &Unrolled) -> bool {
-        self.unrolled(local).crosses(local)
+    /// How far (m) an arc whose ends are to the left of the segment's line, or on it, gets to the right of it.
+    pub(crate) fn passed_by(&self, arc: &Arc) -> f64 {
+        let along = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
+        let side = libm::hypot(along[0], along[1]);
+        // Furthest from the line it is where it runs along it, the one way or the other.
+        let bearing = libm::atan2(along[1], along[0]) - arc.start.theta();
+        let first = (bearing * arc.turn.signum()).rem_euclid(PI);
+        [first, first + PI]
+            .into_iter()
+            .map(|turned| turned / arc.turn.abs())
+            .filter(|share| *share < 1.0)
+            .map(|share| Arc { length: share * arc.length, turn: share * arc.turn, ..*arc }.end())
+            .map(|at| ((at.x() - self.from[0]) * along[1] - (at.y() - self.from[1]) * along[0]) / side)
+            .fold(0.0, f64::max)
     }
 
     /// The segment in the frame of an arc.

@@ -95,7 +95,7 @@ impl FloorPlan {
         Self::with_solid(walls, bounds, None)
     }
 
-    /// The plan of a grid: its walls are the outlines of the occupied cells, its bounds those of the grid.
+    /// The plan of a grid: its walls are the outlines of the cells in a robot's way, its bounds those of the grid.
     ///
     /// # Errors
     /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
@@ -201,29 +201,7 @@ impl FloorPlan {
         Verdict { free, wall_tests: sweep.wall_tests }
     }
 
-    /// A point where a disc of radius `clearance` fits, as near as a search in steps of a hundredth of the bounds finds
-    /// one to the origin of the map, where mapping robots start; None where it fits nowhere.
-    pub fn free_point(&self, clearance: f64) -> Option<[f64; 2]> {
-        const STEPS: u32 = 100;
-        let [left, bottom, right, top] = self.bounds;
-        let at = |from: f64, to: f64, i: u32| from + (to - from) * f64::from(i) / f64::from(STEPS);
-        if self.point_free([0.0, 0.0], clearance).free {
-            return Some([0.0, 0.0]);
-        }
-        let (mut nearest, mut least) = (None, f64::INFINITY);
-        for i in 0..=STEPS {
-            for j in 0..=STEPS {
-                let point = [at(left, right, i), at(bottom, top, j)];
-                let distance = libm::hypot(point[0], point[1]);
-                if distance < least && self.point_free(point, clearance).free {
-                    (nearest, least) = (Some(point), distance);
-                }
-            }
-        }
-        nearest
-    }
-
-    fn field(&self) -> &DistanceField {
+    pub(super) fn field(&self) -> &DistanceField {
         self.field.get_or_init(|| DistanceField::new(&self.walls, self.bounds, self.solid.as_ref()))
     }
 
@@ -261,9 +239,13 @@ impl FloorPlan {
         if !self.holds([arc.start.x(), arc.start.y()]) || !self.holds(driven.end) {
             return true;
         }
-        // Both ends are inside, so that an arc which leaves crosses an edge.
-        let (corners, unrolled) = (self.corners(), arc.unrolled());
-        (0..4).any(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }.crosses_unrolled(&unrolled))
+        // Both ends are inside. An arc that touches an edge, or leaves from one, stays inside as far as anybody can tell.
+        let corners = self.corners();
+        let slack = 1e-12 * corners.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        (0..4).any(|i| {
+            let edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };
+            edge.passed_by(arc) > slack
+        })
     }
 
     /// Whether every wall that has a piece whose box comes within `reach` (m) of the point, by both coordinates, is

@@ -5,9 +5,10 @@ mod conditioned;
 mod distance_field;
 mod floor_plan;
 mod occupancy;
+mod open_place;
 mod pgm;
 
 pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MapConditioned, Sampler, Wedged};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
-pub use occupancy::{Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION};
+pub use occupancy::{Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown};
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, read_pgm};

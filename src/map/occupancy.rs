@@ -13,23 +13,45 @@ pub struct Interpretation {
     pub negate: bool,
     /// A cell is occupied where its occupancy, 0 (white) to 1 (black), exceeds this.
     pub occupied_thresh: f64,
+    /// In mode trinary a cell is free where its occupancy is below this, and unknown between the two.
+    pub free_thresh: f64,
 }
 
-/// What `map_server` takes where its YAML file says nothing.
+/// What is taken where the YAML file says nothing: the grey that maps are saved with where nothing is known, 205 of
+/// 255, is not below the threshold.
 impl Default for Interpretation {
     fn default() -> Self {
-        Self { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65 }
+        Self { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 }
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Pixels darker than the threshold are occupied.
+    /// Dark pixels are occupied, light ones free, and those between the thresholds unknown.
     Trinary,
-    /// As [`Mode::Trinary`], and transparent pixels are unknown.
+    /// Transparent pixels are unknown; of the others the dark ones are occupied, and the rest is free: between the
+    /// thresholds `map_server` tells degrees of it.
     Scale,
-    /// Pixel values are occupancies from 0 to 100; 100 is occupied.
+    /// Pixel values are occupancies from 0 to 100; 100 is occupied, and what is above it unknown.
     Raw,
+}
+
+/// What a map says of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cell {
+    Free,
+    Occupied,
+    Unknown,
+}
+
+/// What unknown cells are for a robot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Unknown {
+    /// It may be there, as particle filters have it.
+    #[default]
+    Free,
+    /// They are in its way, as occupied ones are.
+    Blocked,
 }
 
 /// A picture of shades from 0 (black) to 1 (white), row by row from the top.
@@ -50,15 +72,20 @@ pub struct Pixel {
 }
 
 impl Interpretation {
-    pub fn occupied(&self, pixel: Pixel) -> bool {
+    pub fn cell(&self, pixel: Pixel) -> Cell {
         let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
-        // Rounded as the shade is, so that a pixel at the threshold is not above it.
-        let threshold = self.occupied_thresh as f32;
+        // Rounded as the shade is, so that a pixel at a threshold is not beyond it.
+        let (occupied, free) = (self.occupied_thresh as f32, self.free_thresh as f32);
+        let value = (shade * 255.0).round();
         match self.mode {
-            Mode::Trinary => occupancy > threshold,
-            Mode::Scale => opacity == 1.0 && occupancy > threshold,
-            Mode::Raw => (shade * 255.0).round() == 100.0,
+            Mode::Scale if opacity < 1.0 => Cell::Unknown,
+            Mode::Trinary | Mode::Scale if occupancy > occupied => Cell::Occupied,
+            // 1 less a rounded shade may be below the threshold that the shade is at.
+            Mode::Trinary if occupancy > free - f32::EPSILON => Cell::Unknown,
+            Mode::Raw if value == 100.0 => Cell::Occupied,
+            Mode::Raw if value > 100.0 => Cell::Unknown,
+            _ => Cell::Free,
         }
     }
 }
@@ -66,8 +93,7 @@ impl Interpretation {
 /// Sides of a cell, m: from a millimetre to a hundred metres.
 pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
 
-/// Square cells, occupied or not. Cells that are free and cells of which nothing is known are alike: only occupied ones
-/// are in a robot's way.
+/// Square cells. The occupied ones are in a robot's way, and the unknown ones where one decides so.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
     width: usize,
@@ -79,11 +105,13 @@ pub struct OccupancyGrid {
     /// The plane in the frame of the origin.
     to_local: Departure,
     /// Row by row from the bottom.
-    occupied: Vec<bool>,
+    cells: Vec<Cell>,
+    unknown: Unknown,
 }
 
 impl OccupancyGrid {
-    /// The grid of an image whose lower left corner is at `origin`, with cells of `resolution` (m, positive).
+    /// The grid of an image whose lower left corner is at `origin`, with cells of `resolution` (m, positive). What is
+    /// unknown is free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
     pub fn new(image: &Image, interpretation: &Interpretation, resolution: f64, origin: SE2) -> Self {
@@ -96,12 +124,19 @@ impl OccupancyGrid {
             }
             opaque => opaque,
         };
-        let occupied = pixels
+        let cells = pixels
             .chunks(width.max(1))
             .rev()
-            .flat_map(|row| row.iter().map(|pixel| interpretation.occupied(seen(pixel))))
+            .flat_map(|row| row.iter().map(|pixel| interpretation.cell(seen(pixel))))
             .collect();
-        Self { width, height, resolution, origin, to_local: Departure::new(origin.inverse()), occupied }
+        let (to_local, unknown) = (Departure::new(origin.inverse()), Unknown::default());
+        Self { width, height, resolution, origin, to_local, cells, unknown }
+    }
+
+    /// The same cells, the unknown ones being this for a robot.
+    #[must_use]
+    pub fn with_unknown(self, unknown: Unknown) -> Self {
+        Self { unknown, ..self }
     }
 
     /// Columns and rows.
@@ -119,15 +154,20 @@ impl OccupancyGrid {
         self.origin
     }
 
-    /// Whether each cell is occupied, row by row from the bottom.
-    pub fn occupied(&self) -> &[bool] {
-        &self.occupied
+    /// What is known of each cell, row by row from the bottom.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
     }
 
-    /// Whether a point of the plane lies in an occupied cell.
+    /// Whether a point of the plane lies in a cell that is in a robot's way.
     pub fn holds(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
-        column >= 0.0 && row >= 0.0 && self.cell(column as usize, row as usize)
+        column >= 0.0 && row >= 0.0 && self.blocks(column as usize, row as usize)
+    }
+
+    /// Whether a cell is known to be free; cells off the grid are not.
+    pub(super) fn known_free(&self, column: usize, row: usize) -> bool {
+        self.cell(column, row) == Some(Cell::Free)
     }
 
     /// Whether a point of the plane lies on the grid, its edge included.
@@ -143,30 +183,44 @@ impl OccupancyGrid {
     }
 
     fn corner(&self, column: usize, row: usize) -> [f64; 2] {
-        let (x, y) = (column as f64 * self.resolution, row as f64 * self.resolution);
+        self.point([column as f64, row as f64])
+    }
+
+    /// The point of the plane at these coordinates, counted in cells from the origin.
+    pub(super) fn point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
+        let (x, y) = (column * self.resolution, row * self.resolution);
         let point = self.origin * SE2::new(x, y, 0.0);
         [point.x(), point.y()]
     }
 
-    fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    /// Of a point of the plane, in cells from the origin.
+    pub(super) fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         self.to_local.transform([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
-    fn cell(&self, column: usize, row: usize) -> bool {
-        column < self.width && row < self.height && self.occupied[row * self.width + column]
+    fn cell(&self, column: usize, row: usize) -> Option<Cell> {
+        (column < self.width && row < self.height).then(|| self.cells[row * self.width + column])
     }
 
-    /// The outlines of the occupied cells, neighbouring sides joined: the distance to them is the distance to the cells
-    /// for everyone outside of one.
+    fn blocks(&self, column: usize, row: usize) -> bool {
+        match self.cell(column, row) {
+            Some(Cell::Occupied) => true,
+            Some(Cell::Unknown) => self.unknown == Unknown::Blocked,
+            Some(Cell::Free) | None => false,
+        }
+    }
+
+    /// The outlines of the cells that are in a robot's way, neighbouring sides joined: the distance to them is the
+    /// distance to the cells for everyone outside of one.
     ///
     /// # Errors
     /// How many there are so far, once there are more than `most`.
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
         let mut sides = Vec::new();
-        // Between cells on either side of a grid line there is an outline where just one is occupied.
+        // Between cells on either side of a grid line there is an outline where just one is in the way.
         let before = |i: usize| i.wrapping_sub(1);
         for row in 0..=self.height {
-            let edge = |column: usize| self.cell(column, row) != self.cell(column, before(row));
+            let edge = |column: usize| self.blocks(column, row) != self.blocks(column, before(row));
             for (from, to) in runs(self.width, edge) {
                 sides.push(Segment { from: self.corner(from, row), to: self.corner(to, row) });
             }
@@ -175,7 +229,7 @@ impl OccupancyGrid {
             }
         }
         for column in 0..=self.width {
-            let edge = |row: usize| self.cell(column, row) != self.cell(before(column), row);
+            let edge = |row: usize| self.blocks(column, row) != self.blocks(before(column), row);
             for (from, to) in runs(self.height, edge) {
                 sides.push(Segment { from: self.corner(column, from), to: self.corner(column, to) });
             }

@@ -4,7 +4,7 @@ mod odometry;
 mod tangent;
 mod velocity;
 
-pub use odometry::{OdomAlphas, OdomDelta, OdometryModel, ReverseAware};
+pub use odometry::{Hinges, OdomAlphas, OdomDelta, OdometryModel, ReverseAware};
 pub(crate) use tangent::covariance_root;
 pub use tangent::{Compounding, TangentNoiseError, TangentNoiseModel};
 pub use velocity::{VelocityAlphas, VelocityCmd, VelocityModel};

@@ -52,6 +52,39 @@ pub struct OdometryModel {
     pub noise: NoiseKind,
 }
 
+/// An odometry model by the noise of its three legs, however that is charged.
+pub trait Hinges {
+    fn noise(&self) -> NoiseKind;
+
+    /// The variances of the three legs of `delta` (rad², m², rad²).
+    fn variances(&self, delta: &OdomDelta) -> [Variance; 3];
+
+    /// The legs driven when their noises take the values `unit_noise` times their standard deviations. As in Table 5.6,
+    /// noise is subtracted.
+    fn executed(&self, u: &OdomDelta, unit_noise: [f64; 3]) -> OdomDelta {
+        executed(u, self.variances(u), unit_noise)
+    }
+
+    /// The covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the frame
+    /// of `x` (m², m·rad, rad²).
+    fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
+        let (sin, cos) = libm::sincos(x.theta() + u.rot1);
+        let jacobian = Matrix3::new(
+            -u.trans * sin,
+            cos,
+            0.0, //
+            u.trans * cos,
+            sin,
+            0.0, //
+            1.0,
+            0.0,
+            1.0,
+        );
+        let legs = self.variances(u).map(|variance| variance.0);
+        jacobian * Matrix3::from_diagonal(&Vector3::from(legs)) * jacobian.transpose()
+    }
+}
+
 /// The size of a rotation for which noise is charged.
 type Charge = fn(f64) -> f64;
 
@@ -81,20 +114,7 @@ impl OdometryModel {
     /// The covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the frame
     /// of `x` (m², m·rad, rad²).
     pub fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
-        let (sin, cos) = libm::sincos(x.theta() + u.rot1);
-        let jacobian = Matrix3::new(
-            -u.trans * sin,
-            cos,
-            0.0, //
-            u.trans * cos,
-            sin,
-            0.0, //
-            1.0,
-            0.0,
-            1.0,
-        );
-        let legs = self.variances(u).map(|variance| variance.0);
-        jacobian * Matrix3::from_diagonal(&Vector3::from(legs)) * jacobian.transpose()
+        Hinges::cartesian_cov(self, u, x)
     }
 
     /// Table 5.5, its variances taken from the hypothesis as the table has it.
@@ -129,14 +149,37 @@ impl OdometryModel {
     }
 }
 
-fn apply_noise(u: &OdomDelta, x: &SE2, variances: [Variance; 3], unit_noise: [f64; 3]) -> SE2 {
+impl Hinges for OdometryModel {
+    fn noise(&self) -> NoiseKind {
+        self.noise
+    }
+
+    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+        self.charged_variances(delta, f64::abs)
+    }
+}
+
+impl Hinges for ReverseAware {
+    fn noise(&self) -> NoiseKind {
+        self.0.noise
+    }
+
+    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+        self.0.charged_variances(delta, turn_either_way)
+    }
+}
+
+fn executed(u: &OdomDelta, variances: [Variance; 3], unit_noise: [f64; 3]) -> OdomDelta {
     let [rot1, trans, rot2] = variances.map(|variance| variance.0.sqrt());
     OdomDelta {
         rot1: u.rot1 - rot1 * unit_noise[0],
         trans: u.trans - trans * unit_noise[1],
         rot2: u.rot2 - rot2 * unit_noise[2],
     }
-    .apply(x)
+}
+
+fn apply_noise(u: &OdomDelta, x: &SE2, variances: [Variance; 3], unit_noise: [f64; 3]) -> SE2 {
+    executed(u, variances, unit_noise).apply(x)
 }
 
 fn sample<R: Rng + ?Sized>(
@@ -191,6 +234,6 @@ impl MotionModel for ReverseAware {
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
-        sample(self.0.noise, u, x, self.0.charged_variances(u, turn_either_way), rng)
+        sample(self.0.noise, u, x, Hinges::variances(self, u), rng)
     }
 }

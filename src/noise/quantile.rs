@@ -2,14 +2,15 @@
 //! precision form PPND16.
 #![expect(clippy::excessive_precision, reason = "the digits as published")]
 
-use crate::geom::lanes::{LANES, any, lanes};
+use crate::geom::lanes::{LANES, any, lanes, log};
 use std::ops::{Add, Div, Mul};
-use wide::{bytemuck, f64x4, u64x4};
+use wide::{bytemuck, f64x4};
 
 /// Where the tails begin.
 const CENTRE: f64 = 0.425;
 
 /// Φ⁻¹(½ + q) by AS 241's PPND16: a rational function of degree 7 over 7 in each of three ranges.
+#[inline(never)]
 pub(super) fn normal(q: f64) -> f64 {
     if q.abs() <= CENTRE {
         let r = 0.180_625 - q * q;
@@ -62,45 +63,12 @@ fn normals_of_chunk(fours: &mut [f64x4]) {
 /// [`normal`] of four numbers in either tail.
 #[inline(always)]
 fn tail_lanes(q: f64x4) -> f64x4 {
-    let r = (-log_lanes(f64x4::splat(0.5) - q.abs())).sqrt();
+    let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();
     if any(r.simd_gt(f64x4::splat(5.0))) {
         return q.to_array().map(normal).into();
     }
     rational(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR).copysign(q)
 }
-
-/// ln of positive normal numbers, operation for operation that of `libm::log` (FreeBSD's e_log.c, where the algorithm is
-/// explained).
-#[inline(always)]
-fn log_lanes(x: f64x4) -> f64x4 {
-    /// The upper half of √2/2; a mantissa is counted from there.
-    const LEAST: u64 = 0x3fe6_a09e << 32;
-    const ONE: u64 = 0x3ff0_0000 << 32;
-    const TWO_52: f64 = 4_503_599_627_370_496.0;
-    let bits = x.to_bits() + u64x4::splat(ONE - LEAST);
-    let biased = f64x4::from_bits((bits >> 52) | u64x4::splat(TWO_52.to_bits()));
-    let power = biased - (TWO_52 + 1023.0);
-    let f = f64x4::from_bits((bits & u64x4::splat((1 << 52) - 1)) + u64x4::splat(LEAST)) - 1.0;
-    let half_square = 0.5 * f * f;
-    let s = f / (2.0 + f);
-    let z = s * s;
-    let w = z * z;
-    let even = w * (LG[1] + w * (LG[3] + w * LG[5]));
-    let odd = z * (LG[0] + w * (LG[2] + w * (LG[4] + w * LG[6])));
-    s * (half_square + (odd + even)) + power * LN2[1] - half_square + f + power * LN2[0]
-}
-
-/// ln 2 in two parts, and the polynomial.
-const LN2: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
-const LG: [f64; 7] = [
-    6.666_666_666_666_735_130e-1,
-    3.999_999_999_940_941_908e-1,
-    2.857_142_874_366_239_149e-1,
-    2.222_219_843_214_978_396e-1,
-    1.818_357_216_161_805_012e-1,
-    1.531_383_769_920_937_332e-1,
-    1.479_819_860_511_658_591e-1,
-];
 
 /// p(r)/q(r), coefficients from the constant term up.
 #[inline(always)]

@@ -18,6 +18,11 @@ pub enum Allowed {
     Whole(RangeInclusive<u64>),
     /// A number for which there is memory.
     LessMemory,
+    /// Another word than this one.
+    Word {
+        is: &'static str,
+        allowed: &'static str,
+    },
 }
 
 impl SettingsError {
@@ -30,6 +35,7 @@ impl SettingsError {
     /// floating point takes an eighth of the module.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
         let allowed = match &self.allowed {
+            Allowed::Word { is, allowed } => return format!("{} is {is}; allowed is {allowed}", self.field),
             Allowed::Real(range) => {
                 format!("a number from {} to {}", number(*range.start()), number(*range.end()))
             }

@@ -3,9 +3,10 @@
 use super::cross_track::NO_SPREAD;
 use super::moments::{CartesianMoments, ExponentialMoments};
 use crate::geom::se2::SE2;
+use crate::geom::sinc::sinc;
 use crate::models::covariance_root;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
 /// The contours are at two standard deviations: a Gaussian of the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
@@ -55,6 +56,16 @@ impl Ellipse {
     /// False where the Gaussian has no extent in some direction: a line or a point. Nothing is then inside.
     pub fn has_area(&self) -> bool {
         self.root[(0, 0)] > 0.0 && self.root[(1, 1)] > 0.0
+    }
+
+    /// Its area, in the product of the units of the coordinates; 0 without an extent in some direction.
+    pub fn area(&self) -> f64 {
+        PI * SIGMAS * SIGMAS * self.root[(0, 0)] * self.root[(1, 1)]
+    }
+
+    /// Whether the Gaussian has no extent at all.
+    pub fn is_point(&self) -> bool {
+        self.root[(0, 0)] == 0.0 && self.root[(1, 1)] == 0.0
     }
 
     /// The closed outline as `segments` chords: `segments` + 1 points, the last equal to the first.
@@ -115,12 +126,40 @@ impl ExponentialContour {
     }
 
     /// The closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the first.
+    pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
+        self.outline(segments).map(|(_, point)| point).collect()
+    }
+
+    /// How many times the area of this outline, drawn as `segments` chords, fits into that of an `ellipse` in the plane,
+    /// drawn alike. NaN where the ellipse, or the contour in (along, heading), has no area.
+    ///
+    /// Where the outline crosses itself because some of it was driven in reverse, the area is that of both of its loops.
+    #[inline(never)]
+    pub fn area_ratio(&self, ellipse: &Ellipse, segments: usize) -> f64 {
+        if !ellipse.has_area() || !self.ellipse.has_area() {
+            return f64::NAN;
+        }
+        // Twice the triangles from the start to each chord. What is driven in reverse goes round the other way.
+        let (mut twice, mut before) = (0.0, [0.0; 2]);
+        for (i, (along, [x, y])) in self.outline(segments).enumerate() {
+            let [x, y] = [x - self.start.x(), y - self.start.y()];
+            if i > 0 {
+                let cross = before[0] * y - before[1] * x;
+                twice += if along < 0.0 { -cross } else { cross };
+            }
+            before = [x, y];
+        }
+        // A circle as so many chords has lost this share of its area.
+        ellipse.area() * sinc(TAU / segments as f64) / (0.5 * twice.abs())
+    }
+
+    /// ξ along and the place of each point of the outline.
     ///
     /// On the ellipsoid ξ = m + 2·G·u, |u| = 1, a shadow ends where u ⊥ k, with H(ξ)·G·k = 0 and H the Jacobian of
     /// position by ξ: k is the way to move without leaving the place. It hardly turns over the ellipsoid, and the
     /// outline is that of the great circle perpendicular to its principal direction.
-    pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
-        let at = |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
+    fn outline(&self, segments: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
+        let at = move |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
         // At the six ends of the axes; where a place cannot be left without turning, k is short and counts for little.
         let mut spread = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
@@ -135,11 +174,11 @@ impl ExponentialContour {
         let aside = Matrix3::identity().column(idle.iamin()).into_owned();
         let first = (aside - idle * aside.dot(&idle)).normalize();
         let second = idle.cross(&first);
-        let outline = |direction: Vector2<f64>| {
-            let pose = self.start.boxplus(at(&(first * direction.x + second * direction.y)));
-            [pose.x(), pose.y()]
-        };
-        unit_circle(segments).map(outline).collect()
+        unit_circle(segments).map(move |direction| {
+            let twist = at(&(first * direction.x + second * direction.y));
+            let pose = self.start.boxplus(twist);
+            (twist.x, [pose.x(), pose.y()])
+        })
     }
 
     /// Whether the exponential coordinates of `pose` lie inside the ellipse.

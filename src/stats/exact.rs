@@ -4,7 +4,7 @@ use super::cross_track::NO_SPREAD;
 use super::quadrature::nodes;
 use crate::geom::se2::wrap_angle;
 use crate::geom::sinc::chord_factors;
-use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
+use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 
@@ -23,9 +23,47 @@ pub struct ExactMoments {
 /// One node of the quadrature: given the noise that turns the robot, the position is L·`unit` with a random length L.
 struct Ray {
     weight: f64,
-    unit: (f64, f64),
+    unit: [f64; 2],
     /// How much further than expected the robot turned by this noise.
     excess_turn: f64,
+}
+
+/// Weighted moments of a vector u and an excess turn; weights may sum to less than 1.
+#[derive(Default)]
+pub(super) struct RayMoments {
+    /// What u is counted from: its first value, so that little is lost where it varies little.
+    reference: Option<[f64; 2]>,
+    total: f64,
+    mean: Vector3<f64>,
+    square: Matrix3<f64>,
+}
+
+impl RayMoments {
+    #[inline(never)]
+    pub fn add(&mut self, weight: f64, unit: [f64; 2], excess_turn: f64) {
+        let [x, y] = *self.reference.get_or_insert(unit);
+        let point = Vector3::new(unit[0] - x, unit[1] - y, excess_turn);
+        let weighted = point * weight;
+        self.total += weight;
+        self.mean += weighted;
+        self.square += point * weighted.transpose();
+    }
+
+    /// Mean and covariance of L·u and the turn, for an independent length L of this mean and standard deviation.
+    #[inline(never)]
+    pub fn finish(&self, [length, deviation]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
+        let mean = self.mean / self.total;
+        let spread = self.square / self.total - mean * mean.transpose();
+        let [x, y] = self.reference.unwrap_or_default();
+        let unit = [mean.x + x, mean.y + y, 0.0];
+        let scale = [length, length, 1.0];
+        let cov = Matrix3::from_fn(|i, j| {
+            // The length's own spread moves the place along u.
+            let along = if i < 2 && j < 2 { spread[(i, j)] + unit[i] * unit[j] } else { 0.0 };
+            spread[(i, j)] * scale[i] * scale[j] + along * deviation * deviation
+        });
+        (Vector3::new(length * unit[0], length * unit[1], mean.z), cov)
+    }
 }
 
 impl ExactMoments {
@@ -34,45 +72,39 @@ impl ExactMoments {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
         let rays = nodes(model.noise).iter().map(|node| {
             let excess_turn = omega_variance.sqrt() * u.dt * node.value;
-            Ray { weight: node.weight, unit: chord_factors(u.omega * u.dt + excess_turn), excess_turn }
+            Ray { weight: node.weight, unit: chord_factors(u.omega * u.dt + excess_turn).into(), excess_turn }
         });
         let dt2 = u.dt * u.dt;
-        Self::of_rays(rays, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
+        Self::of_rays(
+            &rays.collect::<Vec<_>>(),
+            u.v * u.dt,
+            dt2 * v_variance,
+            u.omega * u.dt,
+            dt2 * gamma_variance,
+        )
     }
 
     /// The moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
-    pub fn of_odometry(model: &OdometryModel, u: &OdomDelta) -> Self {
+    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
-        let rays = nodes(model.noise).iter().map(|node| {
+        let rays = nodes(model.noise()).iter().map(|node| {
             let excess_turn = rot1_variance.sqrt() * node.value;
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
-            Ray { weight: node.weight, unit: (cos, sin), excess_turn }
+            Ray { weight: node.weight, unit: [cos, sin], excess_turn }
         });
-        Self::of_rays(rays, u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
+        Self::of_rays(&rays.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
     }
 
     /// `length`: mean and variance of L; `turn`: mean of the heading, and the variance it has beside the rays'.
-    fn of_rays(
-        rays: impl Iterator<Item = Ray>,
-        length: f64,
-        length_variance: f64,
-        turn: f64,
-        last_turn_variance: f64,
-    ) -> Self {
-        let rays: Vec<Ray> = rays.collect();
-        let unit_mean = rays
-            .iter()
-            .fold((0.0, 0.0), |(x, y), Ray { weight, unit, .. }| (x + weight * unit.0, y + weight * unit.1));
-        let mut cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last_turn_variance));
-        for Ray { weight, unit, excess_turn } in &rays {
-            let spread =
-                Vector3::new(length * (unit.0 - unit_mean.0), length * (unit.1 - unit_mean.1), *excess_turn);
-            let along = Vector3::new(unit.0, unit.1, 0.0);
-            cov += (spread * spread.transpose() + along * along.transpose() * length_variance) * *weight;
-        }
+    #[inline(never)]
+    fn of_rays(rays: &[Ray], length: f64, length_variance: f64, turn: f64, last_turn_variance: f64) -> Self {
+        let mut moments = RayMoments::default();
+        rays.iter().for_each(|ray| moments.add(ray.weight, ray.unit, ray.excess_turn));
+        let (mean, mut cov) = moments.finish([length, length_variance.sqrt()]);
+        cov[(2, 2)] += last_turn_variance;
         let (sin, cos) = libm::sincos(turn);
         let across = rays.iter().map(|Ray { weight, unit, .. }| {
-            let lateral = unit.1 * cos - unit.0 * sin;
+            let lateral = unit[1] * cos - unit[0] * sin;
             Component {
                 weight: *weight,
                 mean: length * lateral,
@@ -80,7 +112,7 @@ impl ExactMoments {
             }
         });
         Self {
-            mean: Vector3::new(length * unit_mean.0, length * unit_mean.1, wrap_angle(turn)),
+            mean: Vector3::new(mean.x, mean.y, wrap_angle(turn)),
             cov,
             cross_track_skew: mixture_skew(across, length * length + length_variance),
         }

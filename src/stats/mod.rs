@@ -3,13 +3,18 @@
 mod contour;
 mod cross_track;
 mod exact;
+mod exact_gain;
 pub(crate) mod fused;
+mod gain;
 mod moments;
 #[cfg(target_arch = "wasm32")]
 pub(crate) mod plain;
 pub mod quadrature;
+pub(crate) mod sums;
 
 pub use contour::{Ellipse, ExponentialContour};
 pub use cross_track::{CrossTrack, cross_track_skew};
 pub use exact::{ExactMoments, predicted_cross_track_skew};
+pub use exact_gain::ExactGain;
+pub use gain::{LikelihoodGain, MeasuredGain};
 pub use moments::{CartesianMoments, ExponentialMoments};

@@ -78,7 +78,7 @@ pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
 }
 
 /// Mean and covariance over n − 1, in two passes.
-fn mean_and_cov(
+pub(super) fn mean_and_cov(
     vectors: impl Iterator<Item = Vector3<f64>> + Clone,
     count: usize,
 ) -> (Vector3<f64>, Matrix3<f64>) {

@@ -1,13 +1,15 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{in_range, no_memory, number, read_settings, type_error, whole, word};
+use super::fields::{in_range, no_memory, number, read_settings, whole, word};
+use super::pictures::{read_grid, read_ramps, view_of};
 use super::values::{doubles, float64_array, object, settings_to_js, to_js};
-use crate::models::VelocityCmd;
-use crate::sim::banana::{BananaMachine, Contours, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Sample, Settings};
-use crate::sim::picture::{RAMP, Ramp};
+use crate::geom::arc::ArcInversion;
+use crate::models::{OdomDelta, VelocityCmd};
+use crate::sim::banana::{
+    BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings,
+};
 use crate::sim::settings::{MAX_SEED, QUANTITY};
-use crate::sim::views::{EXTENT, Grid, MAX_CELLS};
-use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray, Uint32Array, WebAssembly};
+use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -21,6 +23,17 @@ export interface Moments {
   mean: number[];
   /** Three rows of three. */
   cov: number[][];
+}
+
+/**
+ * Mean log-likelihood of a robot under a Gaussian in coordinates that bend with the cloud, less that under one in plain
+ * ones, each with the moments of the cloud; in nats a robot. Infinity where the cloud fills no volume in the bent ones.
+ */
+export interface LikelihoodGain {
+  /** Of exponential coordinates over (x, y, θ). */
+  pose: number;
+  /** Of length and turn of the arc that ends there over (x, y). */
+  floor: number;
 }
 
 /** All over the samples shown; NaN where undefined. */
@@ -41,6 +54,11 @@ export interface Stats {
   rhoCrossHeading: number;
   /** Shares, 0 to 1, inside the 2σ outlines in (x, y) and in (ξ along, ξ heading). */
   coverage: { ellipse: number; exponential: number };
+  likelihoodGain: LikelihoodGain;
+  /** Its standard errors. */
+  likelihoodGainError: LikelihoodGain;
+  /** Area of the 2σ ellipse in (x, y) over that of the 2σ outline of exponential coordinates on the floor, as drawn. */
+  areaRatio: number;
 }
 
 /** Outlines on the floor as x, y pairs in m, the first point repeated at the end; empty where undefined. */
@@ -55,10 +73,16 @@ export interface Contours {
   exponential: Float64Array;
   /** The same in (ξ along, ξ heading), m and rad. */
   twistEllipse: Float64Array;
+  /** 2σ of noise added to the pose: a circle of 0.4 m around the noise-free end, whatever the command and the noise. */
+  additive: Float64Array;
 }
 
 export interface TableColumn extends Moments {
   crossTrackSkew: number;
+  /** Of the linearization 0. */
+  likelihoodGain: LikelihoodGain;
+  /** Of the linearization 1. */
+  areaRatio: number;
 }
 
 /** Moments of the pose three ways, and of its exponential coordinates. */
@@ -73,19 +97,28 @@ export interface Table {
   tangent: Moments | null;
 }
 
-/** One sample, and the arc that reaches its place. */
+/** The legs of the odometry model: turn (rad), drive (m), turn (rad). */
+export interface Legs {
+  rot1: number;
+  trans: number;
+  rot2: number;
+}
+
+/** One sample, and what it did to get there. */
 export interface Inspection {
   /** x, y in m, θ in rad, in (−π, π]. */
   pose: Float64Array;
   /** ξ along and lateral in m, heading in rad. */
   twist: Float64Array;
-  /** Speed of the arc, m/s. */
+  /** Speed of its arc, m/s; like the next two NaN under the odometry model, which knows no arc. */
   vHat: number;
   /** Turn rate of the arc, rad/s. */
   omegaHat: number;
   /** Turn rate after it, rad/s over the same duration. */
   gammaHat: number;
-  /** The arc as x, y pairs in m from the start. */
+  /** Its legs under the odometry model; null under the velocity model. */
+  legs: Legs | null;
+  /** Its way as x, y pairs in m from the start. */
   path: Float64Array;
 }
 "#;
@@ -102,9 +135,14 @@ impl JsBananaMachine {
     pub fn new(
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        let settings = Settings::default();
-        let settings = if options.is_undefined() { settings } else { read_settings(&settings, options)? };
-        Ok(Self(BananaMachine::new(settings)?))
+        Ok(Self(BananaMachine::new(opening(options)?)?))
+    }
+
+    /// A machine as the constructor makes it, of whose samples none is shown yet.
+    pub fn empty(
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
+    ) -> Result<Self, JsValue> {
+        Ok(Self(BananaMachine::empty(opening(options)?)?))
     }
 
     /// Largest `samples`.
@@ -115,8 +153,15 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
     pub fn presets() -> Result<Array, JsValue> {
-        let preset = |(name, VelocityCmd { v, omega, dt }): (&str, _)| {
-            object(&[("name", name.into()), ("v", v.into()), ("omega", omega.into()), ("dt", dt.into())])
+        let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| {
+            let alphas = alphas.map_or(Ok(JsValue::NULL), |alphas| to_js(alphas.as_slice()))?;
+            object(&[
+                ("name", name.into()),
+                ("v", v.into()),
+                ("omega", omega.into()),
+                ("dt", dt.into()),
+                ("alphas", alphas),
+            ])
         };
         PRESETS.into_iter().map(preset).collect()
     }
@@ -216,6 +261,19 @@ impl JsBananaMachine {
         doubles("samples", self.0.twists().map(<[f64; 3]>::from))
     }
 
+    /// What each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
+    /// δ̂_rot2 (rad). A copy.
+    #[wasm_bindgen(getter)]
+    pub fn executed(&self) -> Result<Float64Array, JsValue> {
+        doubles("samples", self.0.executed())
+    }
+
+    /// The command as odometry without noise reads it.
+    #[wasm_bindgen(getter, unchecked_return_type = "Legs")]
+    pub fn reading(&self) -> Result<JsValue, JsValue> {
+        legs_to_js(self.0.reading())
+    }
+
     #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
         to_js(&self.0.stats())
@@ -228,13 +286,15 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
     pub fn contours(&self) -> Result<JsValue, JsValue> {
-        let Contours { command, ellipse, linearized, exponential, twist_ellipse } = self.0.contours();
+        let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } =
+            self.0.contours();
         object(&[
             ("command", float64_array(command.as_flattened())?.into()),
             ("ellipse", float64_array(ellipse.as_flattened())?.into()),
             ("linearized", float64_array(linearized.as_flattened())?.into()),
             ("exponential", float64_array(exponential.as_flattened())?.into()),
             ("twistEllipse", float64_array(twist_ellipse.as_flattened())?.into()),
+            ("additive", float64_array(additive.as_flattened())?.into()),
         ])
     }
 
@@ -261,12 +321,20 @@ impl JsBananaMachine {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let Sample { pose, twist, executed, path } =
             self.0.inspect(index).ok_or_else(|| self.not_shown(index))?;
+        let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs) = match executed {
+            Executed::Arc { arc, .. } => (arc, JsValue::NULL),
+            Executed::Legs(legs) => {
+                let none = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
+                (none, legs_to_js(legs)?)
+            }
+        };
         object(&[
             ("pose", float64_array(&[pose.x(), pose.y(), pose.theta()])?.into()),
             ("twist", float64_array(twist.as_slice())?.into()),
-            ("vHat", executed.v_hat.into()),
-            ("omegaHat", executed.omega_hat.into()),
-            ("gammaHat", executed.gamma_hat.into()),
+            ("vHat", v_hat.into()),
+            ("omegaHat", omega_hat.into()),
+            ("gammaHat", gamma_hat.into()),
+            ("legs", legs),
             ("path", float64_array(path.as_flattened())?.into()),
         ])
     }
@@ -330,25 +398,20 @@ impl JsBananaMachine {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
-        let ramp = read_ramp(ramp)?;
+        let [ramp] = read_ramps("ramp", ramp)?;
         let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
         Ok(view_of(pixels.as_flattened()))
     }
 }
 
-/// A view of bytes in the core's memory.
-fn view_of(bytes: &[u8]) -> Uint8ClampedArray {
-    let view = || {
-        let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
-        Uint8ClampedArray::new_with_byte_offset_and_length(
-            &memory.buffer(),
-            bytes.as_ptr() as u32,
-            bytes.len() as u32,
-        )
-    };
-    let first = view();
-    // The handle of the view itself may have made the memory grow, which empties all views of it; it does so once.
-    if first.length() as usize == bytes.len() { first } else { view() }
+fn legs_to_js(OdomDelta { rot1, trans, rot2 }: OdomDelta) -> Result<JsValue, JsValue> {
+    object(&[("rot1", rot1.into()), ("trans", trans.into()), ("rot2", rot2.into())])
+}
+
+/// The settings that a machine opens with.
+fn opening(options: &JsValue) -> Result<Settings, JsValue> {
+    let settings = Settings::default();
+    if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
 }
 
 impl JsBananaMachine {
@@ -358,25 +421,4 @@ impl JsBananaMachine {
             "index is {index}; allowed is one of the {shown} samples shown, counted from 0"
         ))
     }
-}
-
-fn read_grid(bounds: [&JsValue; 4], columns: &JsValue, rows: &JsValue) -> Result<Grid, JsValue> {
-    let [x_min, y_min, x_max, y_max] = bounds;
-    let min = [in_range("xMin", x_min, &EXTENT)?, in_range("yMin", y_min, &EXTENT)?];
-    let max = [
-        in_range("xMax", x_max, &(min[0]..=*EXTENT.end()))?,
-        in_range("yMax", y_max, &(min[1]..=*EXTENT.end()))?,
-    ];
-    let columns = whole("columns", columns, 1..=MAX_CELLS)?;
-    let rows = whole("rows", rows, 1..=MAX_CELLS / columns)?;
-    Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
-}
-
-fn read_ramp(value: &JsValue) -> Result<Ramp, JsValue> {
-    let mut ramp = [[0; 4]; RAMP];
-    match value.dyn_ref::<Uint8Array>() {
-        Some(bytes) if bytes.length() as usize == 4 * RAMP => bytes.copy_to(ramp.as_flattened_mut()),
-        _ => return Err(type_error("ramp", value, "a Uint8Array of 256 colours of four bytes")),
-    }
-    Ok(ramp)
 }

@@ -43,7 +43,7 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 
 /// The grid that `map_server` would make of an image, a PGM file or pixels, and what its YAML file says of it, the
 /// defaults where it says nothing.
-pub fn read_grid(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
+pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
     let fields = Fields::open("description", "", description)?;
     let resolution = in_range("resolution", &fields.value("resolution")?, &RESOLUTION)?;
     let origin: [f64; 3] = numbers("origin", &fields.value("origin")?)?;
@@ -56,13 +56,16 @@ pub fn read_grid(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid
     let threshold = |key: &str| fields.optional(key, |field, value| in_range(field, value, &(0.0..=1.0)));
     let usual = Interpretation::default();
     let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(usual.occupied_thresh);
-    if threshold("free_thresh")?.is_some_and(|free| free > occupied_thresh) {
+    let free_thresh = threshold("free_thresh")?;
+    if free_thresh.is_some_and(|free| free > occupied_thresh) {
         let limit = printed(occupied_thresh);
         let message = format!("free_thresh is above occupied_thresh ({limit}); allowed is at most that");
         return Err(RangeError::new(&message).into());
     }
     let mode = fields.optional("mode", word)?.unwrap_or(usual.mode);
-    let interpretation = Interpretation { mode, negate: negate.unwrap_or(usual.negate), occupied_thresh };
+    let free_thresh = free_thresh.unwrap_or(usual.free_thresh.min(occupied_thresh));
+    let negate = negate.unwrap_or(usual.negate);
+    let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
     let [x, y, yaw] = origin;
     Ok(OccupancyGrid::new(&read_image(image)?, &interpretation, resolution, SE2::new(x, y, yaw)))
 }

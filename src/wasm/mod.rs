@@ -3,6 +3,7 @@
 mod banana;
 mod fields;
 mod maps;
+mod pictures;
 mod squeeze;
 mod values;
 

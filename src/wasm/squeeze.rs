@@ -1,16 +1,17 @@
 //! `MapSqueeze` for JavaScript.
 
-use super::fields::{number, read_settings, whole, word};
-use super::maps::{read_grid, read_plan};
+use super::fields::{no_memory, number, read_settings, whole, word};
+use super::maps::{read_map, read_plan};
+use super::pictures::{read_grid, read_ramps, view_of};
 use super::values::{
     bytes, doubles, float64_array, group_to_js, number_or_null, object, settings_to_js, to_js,
 };
 use crate::geom::segment::Segment;
-use crate::map::{FloorPlan, Sampler, Wedged};
+use crate::map::{Cell, FloorPlan, Sampler, Wedged};
 use crate::sim::squeeze::{
     Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, PRESETS, Settings, alphas_of_noise,
 };
-use js_sys::{Array, Float64Array, RangeError, Uint8Array};
+use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -39,7 +40,7 @@ export interface Plan {
   walls: Float64Array;
 }
 
-/** Square cells, row by row from the bottom, 1 where occupied. */
+/** Square cells, row by row from the bottom. */
 export interface Grid {
   columns: number;
   rows: number;
@@ -47,7 +48,10 @@ export interface Grid {
   resolution: number;
   /** x, y (m) and yaw (rad) of the lower left corner. */
   origin: Float64Array;
+  /** 1 where occupied. */
   occupied: Uint8Array;
+  /** 1 where the map says nothing. */
+  unknown: Uint8Array;
 }
 "#;
 
@@ -134,13 +138,14 @@ impl JsMapSqueeze {
         let Some(grid) = self.0.plan().grid() else { return Ok(JsValue::NULL) };
         let [columns, rows] = grid.size();
         let origin = grid.origin();
-        let occupied = grid.occupied().iter().map(|occupied| u8::from(*occupied));
+        let are = |kind: Cell| bytes("grid", grid.cells().iter().map(move |cell| u8::from(*cell == kind)));
         object(&[
             ("columns", (columns as f64).into()),
             ("rows", (rows as f64).into()),
             ("resolution", grid.resolution().into()),
             ("origin", float64_array(&[origin.x(), origin.y(), origin.theta()])?.into()),
-            ("occupied", bytes("grid", occupied)?.into()),
+            ("occupied", are(Cell::Occupied)?.into()),
+            ("unknown", are(Cell::Unknown)?.into()),
         ])
     }
 
@@ -162,15 +167,15 @@ impl JsMapSqueeze {
         #[wasm_bindgen(unchecked_param_type = "unknown")] description: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Uint8Array | ImageData")] image: &JsValue,
     ) -> Result<(), JsValue> {
-        let plan = FloorPlan::from_grid(read_grid(description, image)?)?;
-        self.0.set_plan(plan);
-        Ok(())
+        Ok(self.0.set_grid(read_map(description, image)?)?)
     }
 
-    /// Where the robot fits, near the origin of the map; null where nowhere.
-    #[wasm_bindgen(getter, js_name = freePoint, unchecked_return_type = "[number, number] | null")]
-    pub fn free_point(&self) -> Result<JsValue, JsValue> {
-        to_js(&self.0.plan().free_point(self.0.settings().clearance))
+    /// A start in the open: in the middle of the largest square that is known to be free, heading where the way is known
+    /// to be free for longest. Where the robot does not fit there, where it does; null where that is nowhere.
+    #[wasm_bindgen(getter, js_name = openPlace, unchecked_return_type = "Start | null")]
+    pub fn open_place(&self) -> Result<JsValue, JsValue> {
+        let Some(place) = self.0.open_place() else { return Ok(JsValue::NULL) };
+        group_to_js(&mut [place.x(), place.y(), place.theta()])
     }
 
     /// Whether the robot fits where it starts.
@@ -245,6 +250,28 @@ impl JsMapSqueeze {
         let sampler = word::<Sampler>("sampler", sampler)?.in_parts(steps as u32);
         let count = whole("count", count, 1..=MAX_TRIAL / steps)?;
         to_js(&self.0.trial(sampler, count as usize)?)
+    }
+
+    /// Where the attempts shown end, as RGBA pixels of a grid, row by row from the top. Each cell has the colour of what most
+    /// of those in it are, rejected, accepted or accepted through a wall, for which there are 256 colours each one after
+    /// the other: of them number 255·√(c/most) for a count c of all in the cell. Transparent where there is nobody. A view
+    /// of the core's memory: to be used before the machine is asked for anything else.
+    #[expect(clippy::too_many_arguments, reason = "a rectangle, a size and colours")]
+    #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
+    pub fn picture(
+        &mut self,
+        #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
+        #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
+        #[wasm_bindgen(js_name = xMax, unchecked_param_type = "number")] x_max: &JsValue,
+        #[wasm_bindgen(js_name = yMax, unchecked_param_type = "number")] y_max: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] columns: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] rows: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array")] ramps: &JsValue,
+    ) -> Result<Uint8ClampedArray, JsValue> {
+        let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
+        let ramps = read_ramps("ramps", ramps)?;
+        let pixels = self.0.paint(&grid, &ramps).map_err(|_| no_memory("columns"))?;
+        Ok(view_of(pixels.as_flattened()))
     }
 
     /// The index of the attempt that ends nearest to a point and within `radius` of it; −1 for none.

@@ -1,21 +1,24 @@
 import { expect } from '@playwright/test';
-import { STILL, boxOf, centreOf, frames, numberIn, open, pictureOf, pixelsOf, readout, state, test } from './support.js';
+import { STILL, boxOf, centreOf, detail, frames, numberIn, openWhole, pictureOf, pixelsOf, readout, state, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
+
+const counted = (/** @type {number} */ count) => String(count).replace(/\B(?=(\d{3})+$)/g, '\u202f');
+const printed = (/** @type {number} */ value, /** @type {number} */ decimals) => value.toFixed(decimals).replace('-', '−');
 
 /** Steps in which a cloud grows. */
 const BATCHES = 150;
 
 test.describe('growth', () => {
   test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     await widget.getByRole('button', { name: 'Pause' }).click();
     const paused = await state(widget);
     expect(paused.shown).toBeGreaterThan(0);
     expect(paused.shown).toBeLessThan(paused.config.samples);
     await frames(page);
     expect((await state(widget)).shown).toBe(paused.shown);
-    await expect(readout(widget, 'robots')).toHaveText(`${paused.shown} of 2\u202f000`);
+    await expect(readout(widget, 'robots shown')).toHaveText(`${counted(paused.shown)} of 50\u202f000`);
 
     await widget.getByRole('button', { name: 'Play' }).click();
     await expect.poll(async () => (await state(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
@@ -29,11 +32,11 @@ test.describe('growth', () => {
     test.use(STILL);
 
     test('Reset empties it, Step adds a batch of the same robots', async ({ page }) => {
-      const widget = await open(page);
+      const widget = await openWhole(page);
       const whole = await state(widget);
       await widget.getByRole('button', { name: 'Reset' }).click();
       expect((await state(widget)).shown).toBe(0);
-      await expect(readout(widget, 'standard error')).toHaveText('—');
+      await expect(readout(widget, 'cross-track skew')).toHaveText('—');
       await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
       const batch = Math.ceil(whole.config.samples / BATCHES);
@@ -46,7 +49,7 @@ test.describe('growth', () => {
     });
 
     test('Play sends a complete cloud again', async ({ page }) => {
-      const widget = await open(page);
+      const widget = await openWhole(page);
       await widget.getByRole('button', { name: 'Play' }).click();
       await expect(widget.getByRole('button', { name: 'Pause' })).toBeVisible();
       const { shown, config } = await state(widget);
@@ -54,7 +57,7 @@ test.describe('growth', () => {
     });
 
     test('New seed sends other robots, and no other control does', async ({ page }) => {
-      const widget = await open(page);
+      const widget = await openWhole(page);
       const before = await state(widget);
       await widget.getByRole('button', { name: 'New seed' }).click();
       const after = await state(widget);
@@ -66,7 +69,7 @@ test.describe('growth', () => {
     });
 
     test('100 000 robots are drawn as a density and agree with the exact figures', async ({ page }) => {
-      const widget = await open(page);
+      const widget = await openWhole(page);
       await widget.evaluate((element) => {
         const { machine } = /** @type {BananaMachineElement} */ (element);
         Object.assign(window, { densities: 0 });
@@ -78,9 +81,14 @@ test.describe('growth', () => {
         });
       });
       const densities = () => page.evaluate(() => Reflect.get(window, 'densities'));
+      // A thousand robots are dots.
+      await widget.getByRole('slider', { name: 'robots in the whole cloud' }).fill('6');
+      await frames(page);
+      expect((await state(widget)).shown).toBe(1000);
+      const before = await densities();
       await widget.getByRole('checkbox', { name: 'linearized' }).check();
       await frames(page);
-      expect(await densities()).toBe(0);
+      expect(await densities()).toBe(before);
 
       const slider = widget.getByRole('slider', { name: 'robots in the whole cloud' });
       await slider.focus();
@@ -90,8 +98,8 @@ test.describe('growth', () => {
       }).toPass();
       const { shown, stats, table } = await state(widget);
       expect(shown).toBe(100_000);
-      expect(await densities()).toBeGreaterThanOrEqual(2);
-      await expect(readout(widget, 'robots')).toHaveText('100\u202f000 of 100\u202f000');
+      expect(await densities()).toBeGreaterThanOrEqual(before + 2);
+      await expect(readout(widget, 'robots shown')).toHaveText('100\u202f000 of 100\u202f000');
       expect(Math.abs(stats.crossTrackSkew - table.exact.crossTrackSkew)).toBeLessThan(5 * stats.crossTrackSkewError);
       for (const i of [0, 1, 2]) {
         const error = Math.sqrt(table.exact.cov[i][i] / stats.n);
@@ -105,20 +113,29 @@ test.describe('figures', () => {
   test.use(STILL);
 
   test('every number shown is the machine’s', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const { config, stats, table } = await state(widget);
     const shown = async (/** @type {string | RegExp} */ name) => (await readout(widget, name).textContent()) ?? '';
 
-    const [skew, error] = (await shown('standard error')).split(' ± ').map(numberIn);
+    const [skew, error] = (await shown('cross-track skew')).split(' ± ').map(numberIn);
     expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
     expect(error).toBeCloseTo(stats.crossTrackSkewError, 3);
-    expect(numberIn(await shown('exponential-coordinate Gaussian'))).toBeCloseTo(stats.gaussianSkew, 3);
-    expect(numberIn(await shown('any Gaussian'))).toBe(0);
+    expect(numberIn(await shown('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
+    expect(await detail(widget, 'cross-track skew').textContent()).toBe(`exactly ${printed(table.exact.crossTrackSkew, 3)}; a Gaussian: 0`);
     expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
-    expect((await shown('robots')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
-    expect(numberIn(await shown('exponential coordinates'))).toBeCloseTo(100 * stats.coverage.exponential, 1);
-    expect(numberIn(await shown('2σ, Gaussian'))).toBeCloseTo(100 * stats.coverage.ellipse, 1);
-    expect(await shown('nominal')).toBe('86.5\u202f%');
+    expect((await shown('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
+    const { coverage, likelihoodGain, likelihoodGainError, areaRatio } = stats;
+    const [gain, gainError] = (await shown('gain of ξ')).split(' ± ').map(numberIn);
+    expect(gain).toBeCloseTo(likelihoodGain.pose, 3);
+    expect(gainError).toBeCloseTo(likelihoodGainError.pose, 3);
+    const power = String(Math.round(stats.n * likelihoodGain.pose)).replace(/\d/g, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(digit)]);
+    await expect(detail(widget, 'gain of ξ')).toHaveText(`all ${counted(stats.n)}: e${power} times likelier`);
+    expect(numberIn(await shown(/^\s*area of ellipse over ξ outline\s+[\d.]+/))).toBeCloseTo(areaRatio, 2);
+    const shares = [coverage.ellipse, coverage.exponential].map((share) => `${printed(100 * share, 1)}\u202f%`);
+    await expect(detail(widget, 'area of ellipse')).toHaveText(`inside: ${shares.join(' and ')}`);
+    expect(await shown('within two deviations')).toBe(`${shares.join(', ')}, 86.5\u202f%`);
+    expect(numberIn(await shown('gain of the model itself'))).toBeCloseTo(table.exact.likelihoodGain.pose, 4);
+    expect(numberIn(await shown('outline, of the model itself'))).toBeCloseTo(table.exact.areaRatio, 3);
 
     const cellsOf = async (/** @type {string} */ name) => {
       const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name, exact: true }) });
@@ -151,7 +168,7 @@ test.describe('figures', () => {
     const [linearized, exact, measured] = await cellsOf('cross-track skew');
     expect(linearized).toBe('0');
     expectPrinted(exact, table.exact.crossTrackSkew, 5);
-    expect(measured).toBe(await shown('standard error'));
+    expect(measured).toBe(await shown('cross-track skew'));
 
     const { tangent } = table;
     if (!tangent) throw new Error('The velocity model has moments of its twist.');
@@ -171,7 +188,7 @@ test.describe('figures', () => {
   });
 
   test('small noise is printed, not rounded away', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     await widget.getByLabel('Isolate one').check();
     await widget.getByRole('slider', { name: 'α4' }).fill('0.001');
     const { table } = await state(widget);
@@ -184,7 +201,7 @@ test.describe('figures', () => {
   });
 
   test('each overlay has a toggle', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const plane = widget.locator('canvas.plane');
     const twist = widget.locator('canvas.twist');
     const first = await pictureOf(plane);
@@ -192,6 +209,7 @@ test.describe('figures', () => {
       ['commanded arc', 'prior'],
       ['2σ Gaussian in (x, y)', 'prediction'],
       ['linearized (EKF) ellipse', 'prediction'],
+      ['noise added to the pose', 'prediction'],
       ['2σ Gaussian in exponential coordinates', 'posterior'],
     ]) {
       const box = widget.getByRole('checkbox', { name: label });
@@ -199,7 +217,7 @@ test.describe('figures', () => {
       const before = await pixelsOf(plane, role);
       await box.setChecked(!shown);
       const change = (await pixelsOf(plane, role)) - before;
-      expect(shown ? -change : change, label).toBeGreaterThan(100);
+      expect(shown ? -change : change, label).toBeGreaterThan(60);
       await box.setChecked(shown);
       expect(await pictureOf(plane)).toBe(first);
     }
@@ -208,7 +226,7 @@ test.describe('figures', () => {
   });
 
   test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const plane = widget.locator('canvas.plane');
     const twist = widget.locator('canvas.twist');
     const field = widget.getByRole('spinbutton', { name: 'Robot' });
@@ -247,7 +265,7 @@ test.describe('figures', () => {
   });
 
   test('the pictures have a text equivalent that follows the state', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const plane = widget.locator('canvas.plane');
     const { stats } = await state(widget);
     await expect(plane).toHaveAttribute('aria-label', new RegExp(`end around x ${stats.cartesian.mean[0].toFixed(2)} m`));

@@ -5,7 +5,7 @@ import {
   dragSlider,
   frames,
   inspectFirst,
-  open,
+  openWhole,
   pictureOf,
   pixelsOf,
   readout,
@@ -25,9 +25,16 @@ const PRESETS = {
   Pivot: { v: 0.06, omega: 1.5, dt: 1 },
 };
 
+/** Those with noise parameters of their own. */
+const WITH_ALPHAS = {
+  Banana: { command: { v: 1, omega: 0, dt: 2 }, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002] },
+  'Worked example': { command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] },
+};
+const OPENING_ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+
 test.describe('command', () => {
   test('presets set the whole command', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     for (const [name, command] of Object.entries(PRESETS)) {
       const button = widget.getByRole('button', { name });
       await button.click();
@@ -36,8 +43,35 @@ test.describe('command', () => {
     }
   });
 
+  test('presets with noise of their own set it, and others bring the opening’s back, but none that was set by hand', async ({ page }) => {
+    const widget = await openWhole(page);
+    const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
+    const preset = () => widget.evaluate((element) => Reflect.get(element, 'preset'));
+    for (const [name, { command, alphas }] of Object.entries(WITH_ALPHAS)) {
+      await press(name);
+      expect((await state(widget)).config).toMatchObject({ command, alphas });
+      expect(await preset()).toBe({ Banana: 'banana', 'Worked example': 'worked' }[name]);
+      await expect(widget.locator('.presets [aria-pressed=true]')).toHaveText([name]);
+      await press('Gentle arc');
+      expect((await state(widget)).config).toMatchObject({ command: PRESETS['Gentle arc'], alphas: OPENING_ALPHAS });
+      expect(await preset()).toBe('gentle');
+    }
+    // What was set by hand stays.
+    await press('Banana');
+    await widget.locator('#alpha1').fill('0.01');
+    await frames(page);
+    expect(await preset()).toBe('straight');
+    await press('Hard arc');
+    expect((await state(widget)).config.alphas).toEqual([0.01, 0.002, 0.1, 0.1, 0.002, 0.002]);
+    // Their noise is that of the velocity model, all of it.
+    await widget.getByLabel('Isolate one').check();
+    await widget.getByLabel('odometry').check();
+    await press('Banana');
+    expect((await state(widget)).config).toMatchObject({ model: 'velocity', isolate: null, alphas: WITH_ALPHAS.Banana.alphas });
+  });
+
   test('sliders dragged with the mouse set v, ω and Δt', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const before = await pictureOf(widget.locator('canvas.plane'));
     for (const [name, key] of [['v,', 'v'], ['ω,', 'omega'], ['Δt,', 'dt']]) {
       const slider = widget.locator('.controls').getByRole('slider', { name });
@@ -51,7 +85,7 @@ test.describe('command', () => {
   });
 
   test('the end of the arc can be dragged', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
     const from = await centreOf(handle);
     const start = await state(widget);
@@ -82,7 +116,7 @@ test.describe('command', () => {
   });
 
   test('the end of the arc can be moved from the keyboard', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
     await handle.focus();
     const ways = /** @type {const} */ ([
@@ -104,7 +138,7 @@ test.describe('command', () => {
   });
 
   test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const marker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
     await marker.focus();
     await marker.press('ArrowRight');
@@ -123,11 +157,11 @@ test.describe('command', () => {
 
 test.describe('noise', () => {
   test('a dragged α moves the same robots', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const before = await state(widget);
     const robots = await inspectFirst(widget, 200);
     const picture = await pictureOf(widget.locator('canvas.plane'));
-    const skew = await readout(widget, 'standard error').textContent();
+    const skew = await readout(widget, 'cross-track skew').textContent();
     await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
     const after = await state(widget);
 
@@ -136,7 +170,7 @@ test.describe('noise', () => {
     expect(after.config).toEqual({ ...before.config, alphas: before.config.alphas.with(3, alpha) });
     expect(after.shown).toBe(before.shown);
     expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(picture);
-    expect(await readout(widget, 'standard error').textContent()).not.toBe(skew);
+    expect(await readout(widget, 'cross-track skew').textContent()).not.toBe(skew);
 
     // α₄ scales the error of ω̂ by the ratio of standard deviations, and leaves v̂ and γ̂ alone.
     const { v, omega } = after.config.command;
@@ -151,7 +185,7 @@ test.describe('noise', () => {
   });
 
   test('the canonical parameters have the chapter’s exact skew', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     for (const [index, alpha] of [0.02, 0.02, 0.02, 0.02, 0, 0].entries()) {
       await widget.getByRole('slider', { name: `α${index + 1}` }).fill(String(alpha));
     }
@@ -163,7 +197,7 @@ test.describe('noise', () => {
   });
 
   test('many inputs between two frames cost one configuration', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const calls = await widget.evaluate(async (node) => {
       const element = /** @type {BananaMachineElement} */ (node);
       const { machine } = element;
@@ -188,7 +222,7 @@ test.describe('noise', () => {
   });
 
   test('each model keeps its own α’s', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     await widget.getByRole('slider', { name: 'α1' }).fill('0.123');
     await widget.getByLabel('odometry').check();
     let { config } = await state(widget);
@@ -201,7 +235,7 @@ test.describe('noise', () => {
   });
 
   test('triangular noise is bounded, normal noise is not', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const { config } = await state(widget);
     const { v, omega } = config.command;
     const deviation = Math.sqrt(config.alphas[0] * v * v + config.alphas[1] * omega * omega);
@@ -217,7 +251,7 @@ test.describe('noise', () => {
 
 test.describe('Isolate', () => {
   test('leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const before = await state(widget);
     await widget.getByLabel('Isolate one').check();
     expect((await state(widget)).config).toEqual({ ...before.config, isolate: 4 });
@@ -239,7 +273,7 @@ test.describe('Isolate', () => {
   });
 
   test('exercise 4: α₄ alone, then α₆ alone, on a straight and in a turn', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const note = widget.locator('.note');
     const plane = widget.locator('canvas.plane');
     await widget.getByRole('button', { name: 'Straight' }).click();
@@ -251,7 +285,7 @@ test.describe('Isolate', () => {
       await expect(note).toContainText(`${symbol} multiplies ω², and ω is 0: no noise at all.`);
       const { poses } = await state(widget);
       expect(new Set(poses.map((value) => value.toFixed(9))).size).toBe(2);
-      await expect(readout(widget, 'standard error')).toHaveText('—');
+      await expect(readout(widget, 'cross-track skew')).toHaveText('—');
       expect(await widget.evaluate((element) => element.shadowRoot?.textContent?.includes('NaN'))).toBe(false);
       // The heap around the handle: at least the ring that shows beside it.
       expect(await pixelsOf(plane, 'prediction')).toBeGreaterThan(200);
@@ -269,7 +303,7 @@ test.describe('Isolate', () => {
 
     await widget.getByRole('radio', { name: 'Only α₄' }).check();
     await expect(note).toContainText('the robots lie on a line');
-    await expect(readout(widget, '2σ, exponential')).toHaveText('—');
+    await expect(readout(widget, 'within two deviations')).toHaveText(/^[\d.]+\u202f%, —, 86\.5\u202f%$/);
     ({ stats } = await state(widget));
     expect(stats.cartesian.cov[1][1]).toBeGreaterThan(0.01);
     expect(stats.rhoCrossHeading).toBeGreaterThan(0.99);

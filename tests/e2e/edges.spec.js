@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, frames, open, readout, state, test } from './support.js';
+import { STILL, centreOf, frames, openWhole, readout, state, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -32,7 +32,7 @@ async function few(widget, count) {
 
 test.describe('the handle', () => {
   test('does not leap to another arc with the same end', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const handle = widget.locator('.handle');
     // Turns beyond half a circle, and in reverse: the shortest way there would be another.
     for (const command of [{ v: 1, omega: 1.8, dt: 2.5 }, { v: -1, omega: 0.4, dt: 1 }]) {
@@ -48,7 +48,7 @@ test.describe('the handle', () => {
   });
 
   test('is not moved by being taken at its edge, nor by another button', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const before = await state(widget);
     const { x, y } = await centreOf(widget.locator('.handle'));
     await page.mouse.move(x + 10, y + 8);
@@ -65,7 +65,7 @@ test.describe('the handle', () => {
   });
 
   test('counts every key, also two within a frame', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     const before = await state(widget);
     await widget.evaluate((element) => {
       const press = (/** @type {string} */ selector, /** @type {string} */ key) =>
@@ -85,12 +85,14 @@ test.describe('the handle', () => {
 
 test.describe('what is undefined', () => {
   test('a cloud that turns a full circle has no exponential coordinates, and says so', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     await set(widget, { omega: 2, dt: 3 });
     await expect(widget.locator('.note')).toContainText('Exponential coordinates end there');
-    await expect(readout(widget, 'exponential-coordinate Gaussian')).toHaveText('—');
-    await expect(readout(widget, '2σ, exponential')).toHaveText('—');
-    await expect(readout(widget, 'standard error')).not.toHaveText('—');
+    await expect(readout(widget, 'predicts')).toHaveText('—');
+    await expect(readout(widget, 'within two deviations')).toHaveText(/^[\d.]+\u202f%, —, 86\.5\u202f%$/);
+    await expect(readout(widget, /^\s*area of ellipse over ξ outline\s+[—\d]/)).toHaveText('—');
+    await expect(readout(widget, 'gain of ξ')).toHaveText('—');
+    await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
     const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
     await expect(measured).toHaveText('—');
     await set(widget, { omega: 0.5, dt: 1 });
@@ -99,18 +101,18 @@ test.describe('what is undefined', () => {
   });
 
   test('two robots have no skew', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     await few(widget, 2);
     expect((await state(widget)).shown).toBe(2);
-    await expect(readout(widget, 'standard error')).toHaveText('—');
+    await expect(readout(widget, 'cross-track skew')).toHaveText('—');
     await expect(widget.locator('.caption')).toHaveText('Too few robots for a skew.');
     await expect(widget.locator('.chart .measured')).toHaveCount(0);
     await widget.getByRole('button', { name: 'Step' }).click();
-    await expect(readout(widget, 'standard error')).toHaveText(/^−?\d\.\d{3} ± \d\.\d{3}$/);
+    await expect(readout(widget, 'cross-track skew')).toHaveText(/^−?\d\.\d{3} ± \d\.\d{3}$/);
   });
 
   test('where no skew is, the chart’s marker waits on the axis and still works', async ({ page }) => {
-    const widget = await open(page);
+    const widget = await openWhole(page);
     await widget.getByRole('button', { name: 'Straight' }).click();
     await widget.getByLabel('Isolate one').check();
     await frames(page);
@@ -125,7 +127,7 @@ test.describe('what is undefined', () => {
 });
 
 test('a standard error beyond the chart’s scale ends in an arrow inside it', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openWhole(page);
   await few(widget, 3);
   const { stats } = await state(widget);
   const { crossTrackSkew: skew, crossTrackSkewError: error } = stats;
@@ -141,7 +143,7 @@ test('a standard error beyond the chart’s scale ends in an arrow inside it', a
 });
 
 test('the view in exponential coordinates has room for its cloud', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openWhole(page);
   // Bent so far that the spread in the plane is much less than along the arc.
   await set(widget, { omega: 2, dt: 2, alpha3: 0.01, alpha4: 0.01, alpha6: 0, samples: 9 });
   const { stats, table } = await state(widget);
@@ -170,8 +172,8 @@ test('the view in exponential coordinates has room for its cloud', async ({ page
 });
 
 test('what is said depends on the model and its noise', async ({ page }) => {
-  const widget = await open(page);
-  const caption = widget.locator('figcaption').first();
+  const widget = await openWhole(page);
+  const caption = widget.locator('.figures figure p');
   await expect(caption).toContainText('nearly a Gaussian');
   await set(widget, { alpha5: 0, alpha6: 0 });
   await expect(caption).toContainText('exactly a Gaussian');
@@ -186,11 +188,11 @@ test('what is said depends on the model and its noise', async ({ page }) => {
 });
 
 test('the marked robot and Step follow the size of the cloud', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openWhole(page);
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
   const step = widget.getByRole('button', { name: 'Step' });
   await expect(step).toBeDisabled();
-  await expect(field).toHaveAttribute('placeholder', '1–2\u202f000');
+  await expect(field).toHaveAttribute('placeholder', '1–50\u202f000');
   await field.fill('1500');
   await frames(page);
   await expect(widget.locator('.marked output')).toContainText('m/s');

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, assign, heard, property, ready, show } from './element-support.js';
-import { STILL, frames, test } from './support.js';
+import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 
@@ -48,15 +48,18 @@ test.describe('attributes', () => {
     await show(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
     const [banana, squeeze] = NAMES.map((name) => page.locator(name));
     await ready(banana);
+    await unfold(banana);
     const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
       widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
     expect(await attributes(banana)).toEqual({ preset: 'hard', seed: '3' });
+    // The preset was for them too.
+    const alphas = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
     await banana.locator('#v').fill('0.5');
     await frames(page);
-    expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3' });
+    expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphas });
     await banana.getByRole('button', { name: 'Pivot' }).click();
     await frames(page);
-    expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3' });
+    expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphas });
     await banana.getByLabel('Isolate one').check();
     await banana.getByRole('checkbox', { name: 'linearized' }).check();
     await frames(page);
@@ -67,8 +70,9 @@ test.describe('attributes', () => {
 
     await squeeze.scrollIntoViewIfNeeded();
     await ready(squeeze);
+    await unfold(squeeze);
     await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
-    await squeeze.getByLabel('Condition on it').uncheck();
+    await squeeze.getByLabel('Condition on the map').uncheck();
     await frames(page);
     expect(await attributes(squeeze)).toEqual({ preset: 'wall', x: '3.3', conditioned: 'false' });
   });
@@ -81,7 +85,7 @@ test.describe('attributes', () => {
     await widget.locator('#alpha2').fill('0.111');
     await frames(page);
     const code = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
-    expect(code).toContain('<script type="module" src="motion-widgets.js"></script>');
+    expect(code).toContain(`<script type="module" src="${new URL(page.url()).origin}/motion-widgets.js"></script>`);
     expect(code).toContain('<banana-machine preset="hard" alpha2="0.111"></banana-machine>');
     const same = await widget.evaluate(async (element, html) => {
       const copies = [html, element.outerHTML].map((text) => {
@@ -107,10 +111,10 @@ test.describe('attributes', () => {
       'model is "walking"; allowed is "velocity" or "odometry"',
       'command.v is "fast"; allowed is a number',
       'samples is 0; allowed is a whole number from 1 to 10000000',
-      'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "exponential"',
+      'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "additive" or "exponential"',
     ]);
     const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
-    expect(await values()).toEqual([1, 0.7, 'velocity', 2000]);
+    expect(await values()).toEqual([1, 0.7, 'velocity', 50000]);
     await widget.evaluate((element) => element.setAttribute('dt', '-1'));
     expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual([
       'command.dt is -1; allowed is a number from 0.000001 to 1000000',
@@ -119,7 +123,7 @@ test.describe('attributes', () => {
     await widget.evaluate((element) => element.setAttribute('dt', '2'));
     expect(await property(widget, 'dt')).toBe(2);
     await widget.getByRole('button', { name: 'Pivot' }).click();
-    expect(await values()).toEqual([0.06, 1.5, 'velocity', 2000]);
+    expect(await values()).toEqual([0.06, 1.5, 'velocity', 50000]);
   });
 
   test('that are removed leave what the figure opens with', async ({ page }) => {
@@ -154,6 +158,45 @@ test.describe('properties', () => {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
+  test('mark a robot that is still to come', async ({ page }) => {
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    await show(page, '<banana-machine samples="2000"></banana-machine>', { script: '' });
+    await page.evaluate(async () => {
+      Object.assign(document.querySelector('banana-machine') ?? {}, { marked: 1999 });
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+    });
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const wanted = await widget.evaluate((element) => {
+      const { playing, marked, machine, getState } = /** @type {any} */ (element);
+      return { playing, marked, there: machine.shown > marked, kept: getState.call(element).marked };
+    });
+    expect(wanted).toEqual({ playing: true, marked: 1999, there: false, kept: 1999 });
+    await expect.poll(() => property(widget, 'playing'), { timeout: 20_000 }).toBe(false);
+    expect(await property(widget, 'marked')).toBe(1999);
+    expect(await assign(widget, 'marked', 2000)).toBe('RangeError: marked is 2000; allowed is a whole number from 0 to 1999');
+    // Where nothing grows, what is not shown is not marked.
+    await widget.getByRole('button', { name: 'Reset' }).click();
+    await frames(page);
+    expect(await property(widget, 'marked')).toBe(null);
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  test('and a part of a state, before the figure is there, leave all else as it opens', async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>', { script: '' });
+    const states = await page.evaluate(async () => {
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+      const element = /** @type {any} */ (document.querySelector('banana-machine'));
+      element.marked = 7;
+      element.setState({ widget: 'banana-machine', version: 1, samples: 3000 });
+      await new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
+      const { samples, shown, marked } = element.getState();
+      return { samples, shown, marked };
+    });
+    expect(states).toEqual({ samples: 3000, shown: 3000, marked: 7 });
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
   test('take effect at once and reflect; those out of range throw and change nothing', async ({ page }) => {
     await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
     const [banana, squeeze] = NAMES.map((name) => page.locator(name));
@@ -161,20 +204,20 @@ test.describe('properties', () => {
     expect(await assign(banana, 'omega', 1.1)).toBe('');
     expect(await banana.getAttribute('omega')).toBe('1.1');
     const { stats } = await banana.evaluate((element) => ({ stats: /** @type {AnyElement} */ (element).stats }));
-    expect(stats?.n).toBe(2000);
+    expect(stats?.n).toBe(await property(banana, 'samples'));
     await squeeze.scrollIntoViewIfNeeded();
     await ready(squeeze);
     for (const [widget, name, value, message] of /** @type {const} */ ([
       [banana, 'v', 'fast', 'TypeError: command.v is "fast"; allowed is a number'],
       [banana, 'v', 1e7, 'RangeError: command.v is 10000000; allowed is a number from -1000000 to 1000000'],
-      [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot"'],
+      [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot" or "banana" or "worked"'],
       [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
-      [banana, 'marked', 2000, 'RangeError: marked is 2000; allowed is a whole number from 0 to 1999'],
+      [banana, 'marked', 50000, 'RangeError: marked is 50000; allowed is a whole number from 0 to 49999'],
       [banana, 'alphas', [1, 2], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
       [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'conditioned', 'maybe', 'TypeError: conditioned is "maybe"; allowed is true or false'],
-      [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "whole" or "close"'],
+      [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "close" or "whole"'],
       [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: bounds has length 3; allowed is an array of 4 numbers'],
     ])) {
       const before = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, assign, heard, ready, show } from './element-support.js';
-import { STILL, centreOf, dragSlider, frames, test } from './support.js';
+import { STILL, centreOf, dragSlider, frames, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -45,6 +45,7 @@ test('every other act of the reader is one input and one change', async ({ page 
   await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = NAMES.map((name) => page.locator(name));
   await ready(banana);
+  await unfold(banana);
   await heard(page);
   const acts = /** @type {[string, () => Promise<void>][]} */ ([
     ['preset', () => banana.getByRole('button', { name: 'Hard arc' }).click()],
@@ -59,8 +60,8 @@ test('every other act of the reader is one input and one change', async ({ page 
     ['reset', () => banana.getByRole('button', { name: 'Reset' }).click()],
     ['step', () => banana.getByRole('button', { name: 'Step' }).click()],
     ['place', () => squeeze.getByRole('button', { name: 'Facing a wall' }).click()],
-    ['view', () => squeeze.getByLabel('close-up').check()],
-    ['condition', () => squeeze.getByLabel('Condition on it').uncheck()],
+    ['view', () => squeeze.getByLabel('whole map').check()],
+    ['condition', () => squeeze.getByLabel('Condition on the map').uncheck()],
     ['robot by key', () => squeeze.locator('.handle.body').press('ArrowUp')],
     ['map', () => squeeze.getByRole('button', { name: 'Use this plan' }).click()],
   ]);
@@ -68,6 +69,7 @@ test('every other act of the reader is one input and one change', async ({ page 
     if (act === 'place') {
       await squeeze.scrollIntoViewIfNeeded();
       await ready(squeeze);
+      await unfold(squeeze);
       await heard(page);
     }
     await go();

@@ -90,24 +90,36 @@ test('a page with a base of its own keeps its address', async ({ page }) => {
 });
 
 for (const name of NAMES) {
-  test(`${name} without share leaves the address alone and makes no links`, async ({ page }) => {
-    await show(page, `<${name}></${name}>`, { fragment: `#${name}.1=nonsense` });
+  test(`${name} without share leaves the address alone, and opens what a link has for it`, FRESH, async ({ page, context }) => {
+    await show(page, `<${name}></${name}>`, { fragment: '#elsewhere' });
     const widget = page.locator(name);
     await ready(widget);
-    expect(await heard(page, ['error'])).toEqual([]);
+    await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
     await widget.getByRole('button', { name: 'Reset' }).click();
     await frames(page);
-    expect(await page.evaluate(() => location.hash)).toBe(`#${name}.1=nonsense`);
-    const refused = await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink().catch(String));
-    expect(refused).toContain('share');
+    expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
+    const link = await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
+    const other = await context.newPage();
+    await show(other, `<${name}></${name}>`, { fragment: new URL(link).hash });
+    await ready(other.locator(name));
+    expect(await stateOf(other.locator(name))).toEqual(await stateOf(widget));
+    await other.locator(name).getByRole('button', { name: 'New seed' }).click();
+    await frames(other);
+    expect(await other.evaluate(() => location.hash)).toBe(new URL(link).hash);
+  });
+
+  test(`${name} reports a link that says nothing, and opens as ever`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`, { fragment: `#${name}.1=nonsense` });
+    await ready(page.locator(name));
+    expect(await heard(page, ['error'])).toHaveLength(1);
   });
 }
 
 test.describe('the menu', () => {
   test.use({ permissions: ['clipboard-read', 'clipboard-write'] });
 
-  test('copies a link where the address is shared, and the code to embed', async ({ page }) => {
-    await show(page, '<banana-machine share></banana-machine>');
+  test('copies a link, and the code to embed with the address of the script', async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>');
     const widget = page.locator('banana-machine');
     await ready(widget);
     await widget.getByRole('button', { name: 'Pivot' }).click();
@@ -119,9 +131,22 @@ test.describe('the menu', () => {
     expect(await clipboard()).toBe(await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink()));
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
     await expect.poll(clipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
-    await widget.evaluate((element) => element.removeAttribute('share'));
-    await expect(widget.getByRole('button', { name: 'Copy link' })).toHaveCount(0);
+    const origin = new URL(page.url()).origin;
+    expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
   });
+
+  for (const [script, tag] of [
+    ['<script type="module" src="/external.js"></script>', '<script type="module" src="ORIGIN/external.js"></script>'],
+    ['<script defer src="/motion-widgets.iife.js"></script>', '<script defer src="ORIGIN/motion-widgets.iife.js"></script>'],
+  ]) {
+    test(`names the script in full that defined the element: ${script}`, FRESH, async ({ page }) => {
+      await show(page, '<map-squeeze></map-squeeze>', { script });
+      const widget = page.locator('map-squeeze');
+      await ready(widget);
+      const code = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
+      expect(code).toContain(tag.replace('ORIGIN', new URL(page.url()).origin));
+    });
+  }
 
   test('shows what the clipboard does not take', async ({ page }) => {
     await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, heard, ready, show, stateOf } from './element-support.js';
-import { STILL, frames, test } from './support.js';
+import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 /** @typedef {() => number} Random from 0 to 1 */
@@ -53,7 +53,8 @@ function anyOf(seed) {
       alphas: { velocity: alphas(6), odometry: alphas(4) },
       isolate: one([null, whole(1, 4)]),
       isolateChoice: whole(1, 6),
-      overlays: ['command', 'ellipse', 'linearized', 'exponential'].filter(() => random() < 0.5),
+      reverseAware: one([true, false]),
+      overlays: ['command', 'ellipse', 'linearized', 'additive', 'exponential'].filter(() => random() < 0.5),
     },
     'map-squeeze': {
       ...common,
@@ -65,10 +66,12 @@ function anyOf(seed) {
       // One after the other, and none of them gives up.
       sampler: 'whole-arc',
       steps: whole(1, 64),
+      unknown: one(['free', 'blocked']),
       view: one(['whole', 'close']),
       map: one([
         null,
         { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },
+        { name: 'part.yaml', columns: 8, rows: 2, resolution: 0.5, origin: [0, 0, 0], occupied: 'gQA=', unknown: 'GA8=' },
         { name: 'grid.yaml', columns: 13, rows: 9, resolution: 0.5, origin: [-0.5, 0.25, 0.1], occupied: btoa(Array.from({ length: 15 }, (_, i) => String.fromCharCode(i < 14 ? whole(0, 255) : whole(0, 31) << 3)).join('')) },
       ]),
     },
@@ -108,15 +111,17 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['banana-machine', { command: { v: 'fast', omega: 0, dt: 1 } }, 'TypeError: command.v is "fast"; allowed is a number'],
     ['banana-machine', { alphas: { walking: [] } }, 'TypeError: state.alphas.walking is an unknown key; allowed are velocity, odometry'],
     ['banana-machine', { alphas: { odometry: [1] } }, 'RangeError: alphas has length 1; allowed is an array of 4 numbers'],
-    ['banana-machine', { shown: 3000 }, 'RangeError: state.shown is 3000; allowed is a whole number from 0 to 2000'],
+    ['banana-machine', { shown: 60000 }, 'RangeError: state.shown is 60000; allowed is a whole number from 0 to 50000'],
     ['banana-machine', { shown: 10, marked: 10 }, 'RangeError: state.marked is 10; allowed is a whole number from 0 to 9'],
     ['banana-machine', { overlays: ['stars'] }, 'RangeError: state.overlays[0] is "stars"; allowed is'],
     ['banana-machine', { playing: 'yes' }, 'TypeError: state.playing is "yes"; allowed is true or false'],
     ['banana-machine', { isolateChoice: 7 }, 'RangeError: state.isolateChoice is 7; allowed is a whole number from 1 to 6'],
     ['map-squeeze', { sampler: 'guess' }, 'RangeError: sampler is "guess"; allowed is'],
-    ['map-squeeze', { view: 1 }, 'TypeError: state.view is 1; allowed is "whole" or "close"'],
+    ['map-squeeze', { view: 1 }, 'TypeError: state.view is 1; allowed is "close" or "whole"'],
     ['map-squeeze', { map: 'apartment' }, 'TypeError: map is "apartment"; allowed is an object'],
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
+    ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: 'gA==', unknown: 3 } }, 'TypeError: map.unknown is 3; allowed is base64 of 1 bytes'],
+    ['map-squeeze', { unknown: 'maybe' }, 'RangeError: unknown is "maybe"; allowed is "free" or "blocked"'],
     ['map-squeeze', { map: { columns: 1e9, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '' } }, 'RangeError: map.columns is 1000000000; allowed is a whole number'],
   ]);
   for (const [name, change, message] of cases) {
@@ -141,6 +146,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await show(page, '<banana-machine></banana-machine>');
   const widget = page.locator('banana-machine');
   await ready(widget);
+  await unfold(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
   await widget.locator('#alpha2').fill('0.07');

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { FRESH, STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test } from './support.js';
+import { FRESH, STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -26,8 +26,12 @@ const LOOKS = {
 /** The states of both widgets that have something of their own to show; each goes on from the one before. */
 const STATES = /** @type {[string, (banana: Locator, squeeze: Locator) => Promise<unknown>][]} */ ([
   ['as it opens', async () => {}],
+  ['with all folds open', async (banana, squeeze) => {
+    await unfold(banana);
+    await unfold(squeeze);
+  }],
   ['isolated, with a note', async (banana) => {
-    await banana.locator('.alphas .toggle input').check();
+    await banana.locator('.toggle', { hasText: /Isolate one|Nur einen/ }).locator('input').check();
     await banana.locator('#omega').fill('0');
     await expect(banana.locator('.note')).toBeVisible();
   }],
@@ -41,7 +45,7 @@ const STATES = /** @type {[string, (banana: Locator, squeeze: Locator) => Promis
   ['as a density, with the menu open', async (banana) => {
     await banana.locator('#v').fill('1');
     await banana.locator('#samples').fill('9');
-    await banana.locator('summary').first().click();
+    await banana.locator('.exports summary').click();
   }],
   ['empty', async (banana) => {
     await banana.locator('.cloud button').nth(2).click();
@@ -110,6 +114,7 @@ test.describe('from the keyboard alone', () => {
   test('the Banana Machine comes to the state that a pointer brings it to', async ({ page }) => {
     const widget = await open(page);
     const opening = await stateOf(widget);
+    await unfold(widget);
     await widget.getByRole('button', { name: 'Hard arc' }).click();
     await widget.getByLabel('triangular').click();
     await widget.getByLabel('Isolate one').click();
@@ -126,10 +131,12 @@ test.describe('from the keyboard alone', () => {
       await tabTo(target);
       for (const key of keys) await page.keyboard.press(key);
     };
-    await press(widget.getByRole('checkbox', { name: 'linearized' }), 'Space');
     await press(widget.getByRole('button', { name: 'Hard arc' }), 'Enter');
+    await press(widget.locator('summary', { hasText: 'Model' }), 'Enter');
     await press(widget.getByLabel('normal'), 'ArrowRight');
     await press(widget.getByLabel('Isolate one'), 'Space');
+    await press(widget.getByRole('checkbox', { name: 'linearized' }), 'Space');
+    await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
     // The isolated one of the group has the focus; the arrows go through them.
     await press(widget.getByRole('radio', { name: 'Only α₄' }), 'ArrowUp', 'ArrowUp');
     await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
@@ -173,6 +180,7 @@ test.describe('what is said', () => {
     const widget = await open(page);
     const status = widget.locator('p[role=status]');
     const slider = widget.locator('#v');
+    await slider.scrollIntoViewIfNeeded();
     await expect(slider).toHaveAttribute('aria-valuetext', '1.00 m/s');
     const before = await status.textContent();
     const { x, y, width, height } = await boxOf(slider);
@@ -215,6 +223,7 @@ test.describe('a finger', () => {
   for (const target of ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', 'svg.chart']) {
     test(`that swipes over ${target} scrolls the page and changes nothing`, async ({ page }) => {
       const widget = await open(page);
+      await unfold(widget);
       const place = widget.locator(target);
       // Into the lower half of the screen, clear of the floor that stays in sight above.
       await place.evaluate((element) => {
@@ -234,6 +243,7 @@ test.describe('a finger', () => {
 
   test('that taps sets the chart and marks a robot', async ({ page }) => {
     const widget = await open(page);
+    await unfold(widget);
     const chart = widget.locator('svg.chart');
     await chart.scrollIntoViewIfNeeded();
     const { x, y, width, height } = await boxOf(chart);
@@ -307,8 +317,9 @@ test.describe('theming', () => {
   });
 
   test('parts can be styled from outside', async ({ page }) => {
-    await open(page);
-    await openSqueeze(page);
+    const squeeze = await openSqueeze(page);
+    await unfold(page.locator('banana-machine').first());
+    await unfold(squeeze);
     const parts = { 'banana-machine': ['picture', 'caption', 'legend', 'readouts', 'controls', 'figures', 'chart', 'table', 'slider', 'button', 'exports'], 'map-squeeze': ['picture', 'caption', 'legend', 'readouts', 'controls', 'table', 'slider', 'button', 'exports'] };
     for (const [name, all] of Object.entries(parts)) {
       await page.addStyleTag({ content: all.map((part) => `${name}::part(${part}) { outline-color: rgb(1, 2, 3) }`).join('\n') });

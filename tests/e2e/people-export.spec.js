@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { STILL, boxOf, frames, numberIn, open, readout, state, test } from './support.js';
+import { STILL, boxOf, frames, numberIn, open, openWhole, readout, state, test } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -86,13 +86,28 @@ test('the samples as CSV bring back the skew on screen, and their settings the s
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   const { config, shown, stats, poses } = await state(widget);
   const { settings, columns, rows } = parsed(await csvOf(widget));
-  expect(columns).toEqual(['x_m', 'y_m', 'theta_rad']);
+  expect(columns).toEqual([
+    ...['x_m', 'y_m', 'theta_rad', 'xi_along_m', 'xi_lateral_m', 'xi_heading_rad'],
+    ...['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
+  ]);
   expect(rows).toHaveLength(shown);
   // Every digit comes back.
-  expect(rows.flat()).toEqual(poses);
+  expect(rows.flatMap((row) => row.slice(0, 3))).toEqual(poses);
+  const { dt } = config.command;
+  for (const [x, y, theta, along, lateral, heading, vHat, omegaHat, gammaHat] of rows.slice(0, 100)) {
+    // Exponential coordinates: the chord is turned and stretched, the heading is the turn.
+    const [cotangent, half] = [(heading / 2) / Math.tan(heading / 2), heading / 2];
+    expect(along).toBeCloseTo(cotangent * x + half * y, 9);
+    expect(lateral).toBeCloseTo(cotangent * y - half * x, 9);
+    expect(Math.cos(heading - theta)).toBeCloseTo(1, 9);
+    const turn = omegaHat * dt;
+    expect((vHat * dt * Math.sin(turn)) / turn).toBeCloseTo(x, 9);
+    expect((vHat * dt * (1 - Math.cos(turn))) / turn).toBeCloseTo(y, 9);
+    expect(Math.cos(turn + gammaHat * dt - theta)).toBeCloseTo(1, 9);
+  }
   const skew = crossTrackSkew(rows);
   expect(Math.abs(skew - stats.crossTrackSkew)).toBeLessThan(1e-9);
-  const printed = ((await readout(widget, 'standard error').textContent()) ?? '').split(' ± ')[0];
+  const printed = ((await readout(widget, 'cross-track skew').textContent()) ?? '').split(' ± ')[0];
   expect(Math.abs(numberIn(printed) - skew)).toBeLessThanOrEqual(0.0005);
   expect(settings).toEqual({ element: 'banana-machine', ...config });
   const again = await widget.evaluate((element, { element: _name, ...given }) => {
@@ -119,13 +134,16 @@ test('Map Squeeze’s CSV has the verdicts, which add up to the figures', async 
 test('SVG is vectors with a title and a description: dots while they are few, else an image', async ({ page }) => {
   const widget = await open(page);
   const plane = widget.locator('canvas.plane');
+  // A thousand.
+  await widget.getByRole('slider', { name: 'robots in the whole cloud' }).fill('6');
+  await frames(page);
   const few = await elementsOf(page, await svgOf(widget));
   const { width, height } = await boxOf(plane);
   expect(few.title).toBe('The Banana Machine');
   expect(few.description).toBe(await plane.getAttribute('aria-label'));
   expect(few.size).toEqual([Math.round(width), Math.round(height)]);
   expect(few.images).toBe(0);
-  expect(few.paths).toBeGreaterThan(2000);
+  expect(few.paths).toBeGreaterThan(1000);
   expect(few.texts).toBeGreaterThan(8);
   // The commanded arc and the ellipse.
   expect(few.dashed).toBe(2);
@@ -140,14 +158,30 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(map.title).toBe('Map Squeeze');
   expect(map.images).toBe(0);
   expect(map.paths).toBeGreaterThan(600);
-  // Both may stand on one page.
+  // Both may stand on one page: of each a title, a description and a clip, and that of the inset with the whole map.
   const ids = [await svgOf(widget), await svgOf(squeeze)].flatMap((svg) => [...svg.matchAll(/ id="([^"]+)"/g)].map(([, id]) => id));
-  expect(ids).toHaveLength(6);
-  expect(new Set(ids).size).toBe(6);
+  expect(ids).toHaveLength(7);
+  expect(new Set(ids).size).toBe(7);
+});
+
+test('SVG has the turns of the odometry model as arcs of their angles', async ({ page }) => {
+  const widget = await open(page);
+  await widget.evaluate((element) => Object.assign(element, { model: 'odometry', omega: 1.2 }));
+  await frames(page);
+  const { rot1, rot2 } = await widget.evaluate((element) => /** @type {any} */ (element).machine.reading);
+  const svg = await svgOf(widget);
+  const number = '(-?[\\d.]+)';
+  const arcs = [...svg.matchAll(new RegExp(`d="M${number},${number}A${number},\\3 0 (0|1) (0|1) ${number},${number}"`, 'g'))];
+  // A chord of the circle says the angle; both turns are to the left, against the sense of SVG, where y runs down.
+  const angles = arcs.map(([, x, y, radius, , , toX, toY]) => 2 * Math.asin(Math.hypot(Number(toX) - Number(x), Number(toY) - Number(y)) / 2 / Number(radius)));
+  expect(angles).toHaveLength(2);
+  expect(arcs.map(([, , , , large, sweep]) => [large, sweep])).toEqual([['0', '0'], ['0', '0']]);
+  // Coordinates are printed to a tenth or a hundredth of a pixel, of some 26.
+  for (const [i, turn] of [rot1, rot2].entries()) expect(Math.abs(angles[i] - turn)).toBeLessThan(0.01);
 });
 
 test('the picture on screen stays as it is when it is exported', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openWhole(page);
   const canvas = widget.locator('canvas.plane');
   const pixels = () => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
   const before = await pixels();
@@ -179,7 +213,7 @@ test('the menu saves files with names that say what they are, from the keyboard 
   for (const ending of ['png', 'svg', 'csv']) {
     await page.keyboard.press('Tab');
     const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
-    expect(download.suggestedFilename()).toBe(`banana-machine-7.${ending}`);
+    expect(download.suggestedFilename()).toBe(`banana-machine-3.${ending}`);
     const contents = readFileSync(await download.path());
     expect(contents.length).toBeGreaterThan(1000);
     if (ending === 'csv') expect(contents.toString()).toBe(await csvOf(widget));

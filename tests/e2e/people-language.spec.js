@@ -6,7 +6,7 @@ import { en as bananaEnglish } from '../../www/widgets/banana-machine/en.js';
 import { de as squeezeGerman } from '../../www/widgets/map-squeeze/de.js';
 import { en as squeezeEnglish } from '../../www/widgets/map-squeeze/en.js';
 import { openSqueeze } from './squeeze-support.js';
-import { STILL, frames, numberIn, open, readout, state, test } from './support.js';
+import { STILL, frames, numberIn, open, readout, state, test, unfold } from './support.js';
 
 const de = { ...sharedGerman, banana: bananaGerman, squeeze: squeezeGerman };
 const en = { ...sharedEnglish, banana: bananaEnglish, squeeze: squeezeEnglish };
@@ -75,6 +75,8 @@ test('both catalogues have the same messages, with the same values in them', () 
 test('no English is left in a German widget, in any of its states', async ({ page }) => {
   const banana = await open(page);
   const squeeze = await openSqueeze(page);
+  await unfold(banana);
+  await unfold(squeeze);
   await german(page);
   const own = new Set(messagesOf(de).map(([, message]) => message));
   const english = messagesOf(en)
@@ -114,11 +116,11 @@ test('no English is left in a German widget, in any of its states', async ({ pag
 
 test('numbers are the language’s: a decimal comma, a true minus, as much as before', async ({ page }) => {
   const widget = await open(page);
-  const skew = (await readout(widget, 'standard error').textContent()) ?? '';
+  const skew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
   await german(page);
-  const schiefe = (await readout(widget, 'Standardfehler').textContent()) ?? '';
+  const schiefe = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
   expect(schiefe).toBe(skew.replaceAll('.', ','));
-  expect(schiefe).toMatch(/^−0,\d{3} ± 0,\d{3}$/);
+  expect(schiefe).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
   const { stats, config } = await state(widget);
   expect(numberIn(schiefe.split(' ± ')[0].replace(',', '.'))).toBeCloseTo(stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
@@ -136,7 +138,7 @@ test('the nearest lang decides, whenever it changes; a language without words is
   await expect(other.getByRole('button', { name: 'Play' })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await play('Play');
-  await expect(readout(widget, 'standard error')).toHaveText(/^−0\.\d{3}/);
+  await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
   await widget.evaluate((element) => {
     element.removeAttribute('lang');
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';
@@ -146,6 +148,7 @@ test('the nearest lang decides, whenever it changes; a language without words is
 
 test('a page may replace words and add languages, and is told of a message that is none', async ({ page }) => {
   const widget = await open(page);
+  await unfold(widget);
   const complaint = await page.evaluate(async () => {
     const url = new URL('/motion-widgets.js', location.href).href;
     const { setMessages } = await import(url);

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { file, openSqueeze, pgm, png, squeezed, yaml } from './squeeze-support.js';
-import { STILL, boxOf, frames, pictureOf, pixelsOf, test } from './support.js';
+import { file, openSqueeze, pgm, png, squeezed, unfold, yaml } from './squeeze-support.js';
+import { STILL, boxOf, frames, pictureOf, pixelsOf, test, unfold as unfoldAll } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapFile} MapFile
@@ -28,11 +28,37 @@ const complaint = (/** @type {Locator} */ widget) => widget.locator('.own-map .n
 const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
 /**
+ * Chooses files, as a reader does.
+ *
  * @param {Locator} widget
  * @param {MapFile[]} files
  */
-function choose(widget, files) {
-  return widget.getByLabel('Map files').setInputFiles(files);
+async function choose(widget, files) {
+  await unfold(widget, 'A map of your own');
+  await widget.getByLabel('Map files').setInputFiles(files);
+}
+
+/**
+ * Drops files on a part of the widget.
+ *
+ * @param {Locator} part
+ * @param {MapFile[]} files
+ */
+function drop(part, files) {
+  return part.evaluate(
+    (target, given) => {
+      const dataTransfer = new DataTransfer();
+      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
+      const [over, drop] = [event('dragover'), event('drop')];
+      target.dispatchEvent(over);
+      if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
+      target.dispatchEvent(drop);
+      if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
+      if (target.closest('.dropping')) throw new Error('It is still marked.');
+    },
+    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+  );
 }
 
 test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
@@ -41,12 +67,12 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   await widget.getByRole('button', { name: 'Open corridor' }).click();
   await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
   await expect(present(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
-  const { bounds, walls, startFree, freePoint, config, shown } = await squeezed(widget);
+  const { bounds, walls, startFree, openPlace, config, shown } = await squeezed(widget);
   expect(bounds).toEqual(ROOM.bounds);
   expect(walls).toEqual(ROOM.walls.flat());
   // (1.4, 4.4) is outside of it.
   expect(startFree).toBe(true);
-  expect([config.start.x, config.start.y]).toEqual(freePoint);
+  expect(config.start).toEqual(openPlace);
   expect(shown).toBe(config.samples);
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /room\.json/);
@@ -54,6 +80,81 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   expect((await squeezed(widget)).bounds).toEqual([0, 0, 12, 9]);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(before);
+});
+
+test('no place takes the reader’s map away, and the way back is open', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toContainText('room.json');
+  // The places of the apartment are the apartment's.
+  for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
+    await expect(widget.getByRole('button', { name })).toHaveCount(0);
+  }
+  const open = widget.getByRole('button', { name: 'In the open' });
+  await open.click();
+  await expect(open).toHaveAttribute('aria-pressed', 'true');
+  const { config, openPlace, bounds } = await squeezed(widget);
+  expect(config.start).toEqual(openPlace);
+  expect(bounds).toEqual(ROOM.bounds);
+  await widget.getByRole('slider', { name: 'Robot', exact: true }).press('ArrowRight');
+  await expect(open).toHaveAttribute('aria-pressed', 'false');
+  const moved = await squeezed(widget);
+
+  await widget.getByRole('button', { name: 'Back to the apartment' }).click();
+  await widget.getByRole('button', { name: 'Facing a wall' }).click();
+  expect((await squeezed(widget)).bounds).toEqual([0, 0, 12, 9]);
+  await widget.getByRole('button', { name: 'Back to room.json' }).click();
+  expect(await squeezed(widget)).toEqual(moved);
+  await expect(present(widget)).toContainText('room.json');
+  await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
+});
+
+test('without its map, a robot that stood in what is a wall of the apartment has room', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const start = await widget.evaluate((element) => {
+    const squeeze = /** @type {import('../../www/types.d.ts').MapSqueezeElement} */ (element);
+    squeeze.map = { bounds: [0, 0, 12, 9], walls: [] };
+    squeeze.x = 4;
+    squeeze.y = 2;
+    squeeze.map = null;
+    return [squeeze.x, squeeze.y];
+  });
+  expect(start).toEqual([2.05, 2.6]);
+  expect((await squeezed(widget)).startFree).toBe(true);
+});
+
+test('unknown cells are hatched, and free or blocked as the reader chooses', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
+  // A corridor of 4 m × 1 m, of which the right half is unknown.
+  const image = png('map.png', 80, 20, () => false, (column) => column >= 40);
+  await choose(widget, [yaml('map.yaml', { ...FIELDS, image: 'map.png', mode: 'scale' }), image]);
+  await expect(present(widget)).toContainText('map.yaml');
+  // In the left half, of which something is known.
+  expect((await squeezed(widget)).config.start.x).toBeLessThan(2);
+  await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
+  const canvas = widget.locator('canvas.plane');
+  const choice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
+  await expect(choice.getByLabel('free')).toBeChecked();
+  const along = await squeezed(widget);
+  const free = await pictureOf(canvas);
+  await choice.getByLabel('blocked').check();
+  const blocked = await squeezed(widget);
+  expect(blocked.config.unknown).toBe('blocked');
+  expect(blocked.poses).toEqual(along.poses);
+  expect(blocked.stats.accepted).toBeLessThan(along.stats.accepted);
+  expect(blocked.walls.length).toBeGreaterThan(along.walls.length);
+  expect(await pictureOf(canvas)).not.toBe(free);
+  await unfold(widget, 'What is drawn');
+  await expect(widget.locator('.key')).toContainText('unknown: the map says nothing');
+
+  // A state has both, and brings both back.
+  const state = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
+  await widget.getByRole('button', { name: 'Back to the apartment' }).click();
+  await expect(choice).toHaveCount(0);
+  await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), state);
+  await expect(choice.getByLabel('blocked')).toBeChecked();
+  expect(await squeezed(widget)).toEqual(blocked);
 });
 
 test('a robot that has room in a floor plan stays where it is', async ({ page }) => {
@@ -65,6 +166,7 @@ test('a robot that has room in a floor plan stays where it is', async ({ page })
 
 test('a floor plan can be written on the page', async ({ page }) => {
   const widget = await openSqueeze(page);
+  await unfold(widget, 'A map of your own');
   const field = widget.getByLabel('Or a floor plan here');
   const use = widget.getByRole('button', { name: 'Use this plan' });
   // The example in the field is one.
@@ -80,34 +182,36 @@ test('a floor plan can be written on the page', async ({ page }) => {
   expect((await squeezed(widget)).walls).toEqual([0, 0, 3, 3]);
 });
 
-for (const place of ['.stage', 'legend', '.readouts']) {
+for (const place of ['.stage', '.verdict', '.readouts']) {
   test(`a map_server pair can be dropped on the widget, as on its ${place}`, async ({ page }) => {
     const widget = await openSqueeze(page);
-    const files = [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)];
-    await widget.locator(place).first().evaluate(
-      (target, given) => {
-        const dataTransfer = new DataTransfer();
-        for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
-        const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
-        const [over, drop] = [event('dragover'), event('drop')];
-        target.dispatchEvent(over);
-        if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
-        target.dispatchEvent(drop);
-        if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
-        if (target.closest('.dropping')) throw new Error('It is still marked.');
-      },
-      files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
-    );
+    await expect(present(widget)).toHaveCount(0);
+    await drop(widget.locator(place).first(), [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)]);
     await expect(present(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
-    const { bounds, walls, startFree, config, freePoint } = await squeezed(widget);
+    await expect(present(widget)).toBeVisible();
+    const { bounds, walls, startFree, config, openPlace } = await squeezed(widget);
     expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
     // The outside of the border and its inside.
     expect(walls).toHaveLength(8 * 4);
     expect(startFree).toBe(true);
-    expect([config.start.x, config.start.y]).toEqual(freePoint);
+    expect(config.start).toEqual(openPlace);
     expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
   });
 }
+
+test('why a dropped map is refused is seen at once, however far below it is said', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 812 });
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
+  await drop(widget.locator('.stage'), [file('room.txt', 'a room')]);
+  await expect(complaint(widget)).toHaveText(/^room\.txt: this kind of file is not read/);
+  // Edges within a pixel of the screen's count for less than all of it.
+  await expect(complaint(widget)).toBeInViewport({ ratio: 0.99 });
+  await expect(present(widget)).toContainText('The apartment');
+  await expect(present(widget)).toBeInViewport({ ratio: 0.99 });
+  expect(await squeezed(widget)).toEqual(before);
+});
 
 test.describe('occupancy grids', () => {
   /** @type {Record<string, { files: MapFile[], bounds: number[], walls: number }>} */
@@ -222,6 +326,7 @@ test.describe('malformed maps', () => {
 
   test('each is refused in a sentence, and the present map stays', async ({ page }) => {
     const widget = await openSqueeze(page);
+    await unfold(widget, 'A map of your own');
     const before = await squeezed(widget);
     const picture = await pictureOf(widget.locator('canvas.plane'));
     for (const [name, files, sentence] of cases) {
@@ -257,9 +362,11 @@ test('what is transparent in a PNG image keeps its shade', async ({ page }) => {
 
 test('the whole map includes a cloud that has left it', async ({ page }) => {
   const widget = await openSqueeze(page);
+  await unfold(widget, 'What is drawn');
+  await widget.getByLabel('whole map').check();
   await choose(widget, [file('small.json', '{"bounds": [0, 0, 2, 2], "walls": [[1, 0, 1, 2]]}')]);
   await expect(present(widget)).toHaveText('small.json: 2.0 m × 2.0 m, 1 wall.');
-  await widget.getByLabel('Condition on it').uncheck();
+  await widget.getByLabel('Condition on the map').uncheck();
   await widget.getByRole('slider', { name: 'r, clearance' }).fill('0.4');
   const { poses, bounds, config } = await squeezed(widget);
   const furthest = Math.max(...poses.filter((_, i) => i % 3 === 1));
@@ -288,14 +395,14 @@ test('what goes wrong beyond the file is said too, and the present map stays', a
   const before = await squeezed(widget);
   await widget.evaluate((element) => {
     const { prototype } = /** @type {MapSqueezeElement} */ (element).motion.MapSqueeze;
-    Object.defineProperty(prototype, 'freePoint', { get: () => [NaN, 0] });
+    Object.defineProperty(prototype, 'openPlace', { get: () => ({ x: NaN, y: 0, theta: 0 }) });
   });
   await widget.getByRole('button', { name: 'Open corridor' }).click();
   await widget.getByRole('button', { name: 'Facing a doorway' }).click();
   await choose(widget, [file('far.json', '{"bounds": [100, 100, 103, 103], "walls": []}')]);
   await expect(complaint(widget)).toHaveText(/^The map cannot be opened: start\.x is NaN; .+\.$/);
   await expect(present(widget)).toContainText('The apartment');
-  expect({ ...(await squeezed(widget)), freePoint: before.freePoint }).toEqual(before);
+  expect({ ...(await squeezed(widget)), openPlace: before.openPlace }).toEqual(before);
 });
 
 test('the map survives the element’s removal', async ({ page }) => {
@@ -310,6 +417,7 @@ test('the map survives the element’s removal', async ({ page }) => {
   });
   await page.evaluate(() => document.querySelector('main')?.prepend(Reflect.get(window, 'kept')));
   await widget.scrollIntoViewIfNeeded();
+  await unfold(widget, 'A map of your own');
   await expect(present(widget)).toContainText('room.json');
   expect(await squeezed(widget)).toEqual(before);
 });
@@ -321,6 +429,7 @@ test.describe('the page', () => {
     for (const role of ['prior', 'truth']) {
       expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
     }
+    await unfold(widget, 'What is drawn');
     const [ring, cross] = await Promise.all(
       ['.through circle:last-child', '.rejected path'].map((mark) =>
         widget.locator(`.key ${mark}`).evaluate((shape) => getComputedStyle(shape).stroke),
@@ -347,6 +456,7 @@ test.describe('the page', () => {
   test('fits a phone: nothing to scroll sideways, and targets for a finger', async ({ page }) => {
     await page.setViewportSize({ width: 375, height: 812 });
     const widget = await openSqueeze(page);
+    await unfoldAll(widget);
     await widget.getByLabel('sub-stepped').check();
     // At the right edge the handle ahead of the robot has no room to the right.
     await widget.getByRole('button', { name: 'Open corridor' }).click();
@@ -363,14 +473,125 @@ test.describe('the page', () => {
     }
   });
 
-  test('closes in on the robot and back', async ({ page }) => {
+  test('opens close up, and shows the whole map on demand', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    await unfold(widget, 'What is drawn');
+    const canvas = widget.locator('canvas.plane');
+    await expect(widget.getByLabel('close-up')).toBeChecked();
+    const close = await pictureOf(canvas);
+    await widget.getByLabel('whole map').check();
+    const seen = await pictureOf(canvas);
+    expect(seen === close, 'another picture').toBe(false);
+    await widget.getByLabel('close-up').check();
+    const again = await pictureOf(canvas);
+    expect(again === close, 'the same as before').toBe(true);
+  });
+
+  test('the map in the corner takes its walls along to another corner', async ({ page }) => {
     const widget = await openSqueeze(page);
     const canvas = widget.locator('canvas.plane');
-    const whole = await pictureOf(canvas);
-    await widget.getByLabel('close-up').check();
-    expect(await pictureOf(canvas)).not.toBe(whole);
-    await widget.getByLabel('whole map').check();
-    expect(await pictureOf(canvas)).toBe(whole);
+    const light = await pictureOf(canvas);
+    // Near enough to the opening for the view to stay, and another corner is the freest.
+    await widget.evaluate((element) => Object.assign(element, { v: 0.7 }));
+    const moved = await pictureOf(canvas);
+    expect(moved === light, 'another picture').toBe(false);
+    // Other colours, and these again, paint all of it anew.
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await expect.poll(async () => (await pictureOf(canvas)) === moved).toBe(false);
+    await page.emulateMedia({ colorScheme: 'light' });
+    await expect.poll(async () => (await pictureOf(canvas)) === moved).toBe(true);
+  });
+
+  test('the close-up has the whole map in a corner, in exports too', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const drawn = await widget.evaluate((element) => {
+      const squeeze = /** @type {import('../../www/types.d.ts').MapSqueezeElement} */ (element);
+      // The inside of the axes is one, that of the overview another; of 18 walls each view draws all.
+      const count = () => (squeeze.toSVG().match(/<clipPath/g) ?? []).length;
+      const close = count();
+      squeeze.view = 'whole';
+      return [close, count()];
+    });
+    expect(drawn).toEqual([2, 1]);
+  });
+});
+
+test.describe('at first glance', () => {
+  /** What a reader has to see at once. @param {Locator} widget */
+  const essentials = (widget) => [
+    widget.locator('canvas.plane'),
+    widget.locator('.verdict'),
+    widget.locator('.aside .readouts > div').nth(0),
+    widget.locator('.aside .readouts > div').nth(1),
+    ...['Facing a doorway', 'Facing a wall', 'Open corridor', 'Play', 'Step', 'Reset', 'New seed'].map((name) =>
+      widget.getByRole('button', { name }),
+    ),
+    ...['v,', 'ω,', 'Δt,', 'n, noise', 'r, clearance', 'k, parts', 'N, samples'].map((name) => widget.getByRole('slider', { name })),
+    ...['endpoint', 'whole arc', 'sub-stepped'].map((name) => widget.getByRole('radio', { name })),
+    widget.getByRole('checkbox', { name: 'Condition on the map' }),
+  ];
+
+  for (const [width, height] of [[700, 720], [1280, 720]]) {
+    test(`all that matters fits into ${width} × ${height}`, async ({ page }) => {
+      await page.setViewportSize({ width, height });
+      const widget = await openSqueeze(page);
+      // A column as wide as the window.
+      await widget.evaluate((element, wide) => {
+        document.body.replaceChildren(element);
+        document.body.style.cssText = `margin: 0; padding: 0; max-width: none; width: ${wide}px`;
+        /** @type {HTMLElement} */ (element).style.cssText = `display: block; width: ${wide}px; margin: 0`;
+        scrollTo(0, 0);
+      }, width);
+      await frames(page);
+      for (const part of essentials(widget)) {
+        await expect(part).toBeVisible();
+        const box = await boxOf(part);
+        expect(Math.min(box.x, box.y), String(part)).toBeGreaterThanOrEqual(0);
+        expect(box.x + box.width, String(part)).toBeLessThanOrEqual(width);
+        expect(box.y + box.height, String(part)).toBeLessThanOrEqual(height);
+      }
+      expect((await boxOf(widget.locator('canvas.plane'))).height).toBeGreaterThan(300);
+    });
+  }
+
+  test('on a phone the whole figure has at most 2,000 pixels', async ({ page }) => {
+    await page.setViewportSize({ width: 375, height: 812 });
+    const widget = await openSqueeze(page);
+    expect((await boxOf(widget)).height).toBeLessThan(2000);
+  });
+
+  test('many samples are a density, those through a wall in a colour of their own', async ({ page }) => {
+    for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+      await page.emulateMedia({ colorScheme });
+      const widget = await openSqueeze(page);
+      await unfold(widget, 'What is drawn');
+      const about = widget.locator('.about');
+      await expect(about).not.toContainText('density');
+      await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
+      await expect(about).toContainText('density');
+      expect((await squeezed(widget)).stats.throughWall).toBeGreaterThan(4000);
+      // Behind the wall at y = 5 all came through one; between the posts of the doorway, hardly one did.
+      const [behind, between] = await widget.evaluate((element) => {
+        const { picture: { view }, renderRoot } = /** @type {any} */ (element);
+        const canvas = renderRoot.querySelector('canvas.plane');
+        const ratio = canvas.width / canvas.clientWidth;
+        const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+        const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+        context.drawImage(canvas, 0, 0);
+        return [[1.75, 5.4], [2.35, 4.2]].map(([x, y]) => {
+          const [left, top] = [ratio * view.toPixelX(x) - 8, ratio * view.toPixelY(y) - 8];
+          const { data } = context.getImageData(left, top, 16, 16);
+          let sum = 0;
+          for (let i = 0; i < data.length; i += 4) sum += data[i + 3] * (data[i + 1] - data[i + 2]);
+          return sum;
+        });
+      });
+      // Purple has more blue than green, orange more green than blue.
+      expect(behind, colorScheme).toBeLessThan(0);
+      expect(between, colorScheme).toBeGreaterThan(0);
+      await widget.evaluate((element) => Object.assign(element, { samples: 600 }));
+      await expect(about).not.toContainText('density');
+    }
   });
 });
 

@@ -35,6 +35,18 @@ export async function openSqueeze(page) {
 }
 
 /**
+ * Opens what is folded away, as a reader would.
+ *
+ * @param {Locator} widget
+ * @param {string} name
+ */
+export async function unfold(widget, name) {
+  const fold = widget.locator('details').filter({ has: widget.page().locator('summary', { hasText: name }) });
+  if ((await fold.getAttribute('open')) === null) await fold.locator('summary').click();
+  return fold;
+}
+
+/**
  * What the machine behind the widget says now.
  *
  * @param {Locator} widget
@@ -42,8 +54,8 @@ export async function openSqueeze(page) {
 export async function squeezed(widget) {
   await frames(widget.page());
   const { plan, poses, verdicts, ...said } = await widget.evaluate((element) => {
-    const { config, shown, stats, startFree, freePoint, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).machine;
-    return { config, shown, stats, startFree, freePoint, plan, poses, verdicts };
+    const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).machine;
+    return { config, shown, stats, startFree, openPlace, plan, poses, verdicts };
   });
   const { bounds, walls } = plan;
   return { ...said, bounds: [...bounds], walls: [...walls], poses: [...poses], verdicts: [...verdicts] };

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezed } from './squeeze-support.js';
+import { openSqueeze, squeezed, unfold } from './squeeze-support.js';
 import { STILL, centreOf, dragSlider, frames, numberIn, pictureOf, pixelsOf, readout, test } from './support.js';
 
 /**
@@ -60,7 +60,7 @@ test.describe('the robot', () => {
     expect(held.config.start.theta).toBe(before.config.start.theta);
     await page.mouse.up();
     expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pixels);
-    await expect(widget.locator('p[role=status]')).toContainText(`${held.stats.accepted} accepted`);
+    await expect(widget.locator('p[role=status]')).toContainText(`${held.stats.accepted} of 600 motions`);
   });
 
   test('is turned by the handle ahead of it', async ({ page }) => {
@@ -76,8 +76,10 @@ test.describe('the robot', () => {
     // The pointer's place is exact to half a pixel of eighty.
     expect(Math.abs(config.start.theta)).toBeLessThan(1 / 80);
     expect(config.start).toMatchObject({ x: 2.05, y: 2.6 });
-    const to = await centreOf(turn(widget));
-    expect(to.x - centre.x).toBeGreaterThan(20);
+    // The close-up has followed the command.
+    const [now, to] = [await centreOf(body(widget)), await centreOf(turn(widget))];
+    expect(to.x - now.x).toBeGreaterThan(20);
+    expect(Math.abs(to.y - now.y)).toBeLessThan(1);
   });
 
   test('moves and turns by keyboard', async ({ page }) => {
@@ -108,13 +110,21 @@ test.describe('the robot', () => {
     await expect(turn(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
   });
 
-  test('stays inside the map', async ({ page }) => {
+  test('stays inside the map, and says so', async ({ page }) => {
     const widget = await openSqueeze(page);
     const { x, y } = await centreOf(body(widget));
+    const stop = () => body(widget).evaluate((element) => getComputedStyle(element, '::before').content);
     await page.mouse.move(x, y);
     await page.mouse.down();
+    await page.mouse.move(x - 20, y, { steps: 3 });
+    expect(await stop()).toBe('none');
+    await page.mouse.move(1, y, { steps: 3 });
+    expect(await stop()).toBe('"The map ends here"');
+    await page.mouse.move(x - 20, y, { steps: 3 });
+    expect(await stop()).toBe('none');
     await page.mouse.move(1, y, { steps: 3 });
     await page.mouse.up();
+    expect(await stop()).toBe('none');
     expect((await squeezed(widget)).config.start.x).toBe(0);
   });
 
@@ -147,18 +157,19 @@ test.describe('judging', () => {
   test('conditioning changes verdicts and not draws', async ({ page }) => {
     const widget = await openSqueeze(page);
     const on = await squeezed(widget);
-    await widget.getByLabel('Condition on it').uncheck();
+    await widget.getByLabel('Condition on the map').uncheck();
     const off = await squeezed(widget);
     expect(off.poses).toEqual(on.poses);
     expect(off.verdicts).not.toEqual(on.verdicts);
     expect(off.stats.accepted).toBe(off.config.samples);
-    await widget.getByLabel('Condition on it').check();
+    await widget.getByLabel('Condition on the map').check();
     expect(await squeezed(widget)).toEqual(on);
   });
 
   test('each sampler judges as it says, and the figures are the machine’s', async ({ page }) => {
     const widget = await openSqueeze(page);
     const names = { endpoint: 'endpoint', 'whole arc': 'whole-arc', 'sub-stepped': 'sub-stepped' };
+    await unfold(widget, 'Counts and costs');
     for (const preset of ['Facing a wall', 'Facing a doorway']) {
       await widget.getByRole('button', { name: preset }).click();
       for (const [label, sampler] of Object.entries(names)) {
@@ -171,19 +182,20 @@ test.describe('judging', () => {
         else expect(through).toBeGreaterThan(50);
 
         const shown = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
-        expect(await shown(/^drawn\d/)).toBe(stats.drawn);
-        expect(await shown(/^accepted\d/)).toBe(stats.accepted);
+        expect(await shown(/^\s*drawn\s*\d/)).toBe(stats.drawn);
+        expect(await shown(/^\s*accepted\s*[\d\u202f]+\s*$/)).toBe(stats.accepted);
         expect(await shown('accepted through a wall')).toBe(stats.throughWall);
-        expect(await shown('acceptance rate')).toBeCloseTo(100 * stats.acceptanceRate, 1);
-        expect(await shown('draws per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
-        expect(await shown('wall tests per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
-        const share = (await readout(widget, 'share of the accepted').textContent()) ?? '';
+        const rate = sampler === 'sub-stepped' ? 'accepted, of all parts drawn' : /^\s*accepted\s*[\d.]+\u202f%/;
+        expect(await shown(rate)).toBeCloseTo(100 * stats.acceptanceRate, 1);
+        expect(await shown('draws needed for one accepted')).toBeCloseTo(stats.drawsPerAccepted, 2);
+        expect(await shown('walls measured for one accepted')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
+        const share = (await readout(widget, 'of these, through a wall').textContent()) ?? '';
         if (sampler === 'whole-arc') {
           expect(share).toBe('0, by construction');
           continue;
         }
-        const [rate, low, high] = [...share.matchAll(/[\d.]+/g)].map(Number);
-        expect(rate).toBeCloseTo(100 * stats.throughWallRate, 1);
+        const [through95, low, high] = [...share.matchAll(/[\d.]+/g)].map(Number);
+        expect(through95).toBeCloseTo(100 * stats.throughWallRate, 1);
         expect(low).toBeCloseTo(100 * stats.throughWallInterval[0], 1);
         expect(high).toBeCloseTo(100 * stats.throughWallInterval[1], 1);
       }
@@ -195,9 +207,10 @@ test.describe('judging', () => {
     await widget.getByRole('button', { name: 'Facing a wall' }).click();
     const { stats } = await squeezed(widget);
     expect(stats.throughWall).toBeGreaterThan(150);
-    await expect(readout(widget, 'drawn with their path')).toHaveText('the first 150');
+    await unfold(widget, 'Counts and costs');
+    await expect(readout(widget, 'paths shown')).toHaveText('the first 150');
     await widget.getByLabel('whole arc').check();
-    await expect(readout(widget, 'drawn with their path')).toHaveText('0');
+    await expect(readout(widget, 'paths shown')).toHaveText('0');
   });
 
   test('sliders set the command, the noise, the clearance, k and the count', async ({ page }) => {
@@ -229,6 +242,7 @@ test.describe('judging', () => {
   test('every cost is that of the sampler, and a core’s share follows from it', async ({ page }) => {
     const widget = await openSqueeze(page);
     await widget.getByRole('button', { name: 'Facing a wall' }).click();
+    await unfold(widget, 'Counts and costs');
     // From then on the figures before are out of date.
     await frames(page);
     const table = widget.locator('.table');
@@ -251,8 +265,9 @@ test.describe('judging', () => {
 
   test('a wedged robot is said to be one, with the draws that were tried', async ({ page }) => {
     const widget = await openSqueeze(page);
-    const note = widget.locator('.floor .note');
-    await expect(note).toBeHidden();
+    const note = widget.locator('.verdict.note');
+    await expect(note).toHaveCount(0);
+    await unfold(widget, 'Counts and costs');
     await widget.getByRole('button', { name: 'Facing a wall' }).click();
     await widget.getByLabel('sub-stepped').check();
     const steps = widget.getByRole('slider', { name: 'k, parts' });
@@ -279,7 +294,7 @@ test.describe('judging', () => {
     expect(blocked.stats.accepted).toBe(0);
     await expect(note).toHaveText('Nothing was accepted: of the 600 draws that were tried, none touches no wall on its way.');
     await expect(widget.locator('p[role=status]')).toContainText('Nothing was accepted');
-    await expect(readout(widget, 'share of the accepted')).toHaveText('—');
+    await expect(readout(widget, 'of these, through a wall')).toHaveText('—');
     const table = widget.locator('.table');
     await expect(table).toHaveAttribute('aria-busy', 'false');
     await expect(rows.nth(1)).toContainText('wedged: not one is accepted');
@@ -288,10 +303,11 @@ test.describe('judging', () => {
   test('a share of what too few draws gave has no interval, and a rate of parts is said to be one', async ({ page }) => {
     const widget = await openSqueeze(page);
     await widget.getByLabel('sub-stepped').check();
-    await expect(readout(widget, 'acceptance rate of a part')).toBeVisible();
-    await expect(widget.locator('.readouts')).toContainText('share of the accepted (95 %)');
+    const rates = widget.locator('.aside .readouts');
+    await expect(readout(widget, 'accepted, of all parts drawn')).toBeVisible();
+    await expect(rates).toContainText('of these, through a wall (95\u202f% interval)');
     await widget.getByLabel('whole arc').check();
-    await expect(readout(widget, 'acceptance rate of a part')).toBeHidden();
+    await expect(readout(widget, 'accepted, of all parts drawn')).toBeHidden();
 
     // Facing the wall, a few of sixteen parts each get through before the machine gives up.
     await widget.getByRole('button', { name: 'Facing a wall' }).click();
@@ -300,8 +316,8 @@ test.describe('judging', () => {
     const { stats } = await squeezed(widget);
     expect(stats.gaveUp).toBe(true);
     expect(stats.accepted).toBeGreaterThan(0);
-    await expect(readout(widget, 'share of the accepted')).toHaveText(/^[\d.]+\u202f%$/);
-    await expect(widget.locator('.readouts')).not.toContainText('95 %');
+    await expect(readout(widget, 'of these, through a wall')).toHaveText(/^[\d.]+\u202f%$/);
+    await expect(rates).not.toContainText('interval');
   });
 
   test('a sampler that has not been measured says so', async ({ page }) => {
@@ -310,6 +326,7 @@ test.describe('judging', () => {
       window.setTimeout = /** @type {typeof setTimeout} */ (/** @type {unknown} */ (() => 0));
     });
     const widget = await openSqueeze(page);
+    await unfold(widget, 'Counts and costs');
     await expect(widget.locator('.table td')).toHaveText(Array(3).fill('not yet measured'));
   });
 
@@ -321,6 +338,7 @@ test.describe('judging', () => {
     const field = widget.getByRole('spinbutton', { name: 'Sample' });
     const output = widget.locator('.marked output');
     const canvas = widget.locator('canvas.plane');
+    await unfold(widget, 'What is drawn');
     const plain = await pictureOf(canvas);
 
     await field.fill(String(through + 1));
@@ -331,9 +349,9 @@ test.describe('judging', () => {
     await field.fill(String(verdicts.indexOf(7) + 1));
     await expect(output).toHaveText('accepted: free at the end and all along the way');
     await field.fill(String(through + 1));
-    await widget.getByLabel('Condition on it').uncheck();
+    await widget.getByLabel('Condition on the map').uncheck();
     await expect(output).toHaveText('kept, way not free: free at the end, but its way touches a wall or leaves the map');
-    await widget.getByLabel('Condition on it').check();
+    await widget.getByLabel('Condition on the map').check();
     await field.fill('');
     expect(await pictureOf(canvas)).toBe(plain);
 
@@ -355,15 +373,19 @@ test.describe('judging', () => {
     await widget.getByLabel('whole arc').check();
     const after = (await squeezed(widget)).stats;
     const status = widget.locator('p[role=status]');
-    await expect(status).toHaveText(`600 drawn, ${after.accepted} accepted, 0 of them through a wall: 0.0\u202f%.`);
+    const said = `${after.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
+    await expect(status).toHaveText(said);
+    await expect(widget.locator('.verdict span')).toHaveText(said);
     // Without the condition nothing is judged.
-    await widget.getByLabel('Condition on it').uncheck();
+    await widget.getByLabel('Condition on the map').uncheck();
     const { throughWall } = (await squeezed(widget)).stats;
-    await expect(status).toContainText(`600 drawn, 600 kept, ${throughWall} of them with a way that is not free: `);
+    await expect(status).toContainText(`Without the map all 600 motions are kept; ${throughWall} of them, `);
     await expect(canvas).toHaveAttribute('aria-label', new RegExp(`600 kept, as dots; ${throughWall} of those with a way that is not free, ringed\\.$`));
+    await unfold(widget, 'Counts and costs');
+    await unfold(widget, 'What is drawn');
     await expect(readout(widget, 'kept, way not free')).toHaveText(String(throughWall));
     await expect(widget.locator('.key')).toContainText('kept, way not free');
-    await expect(widget.locator('.readouts')).not.toContainText('accepted');
+    for (const list of await widget.locator('.readouts').all()) await expect(list).not.toContainText('accepted');
   });
 });
 

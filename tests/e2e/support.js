@@ -50,6 +50,28 @@ export async function open(page) {
 }
 
 /**
+ * Opens every fold of a widget, as a reader does.
+ *
+ * @param {Locator} widget
+ */
+export async function unfold(widget) {
+  const closed = widget.locator('details[part=fold]:not([open]) > summary');
+  for (let left = await closed.count(); left > 0; left--) await closed.first().click();
+  await expect(widget.locator('details[part=fold]:not([open])')).toHaveCount(0);
+  await frames(widget.page());
+}
+
+/**
+ * The field of a slider's value.
+ *
+ * @param {Locator} widget
+ * @param {string} key of the setting
+ */
+export function valueField(widget, key) {
+  return widget.locator(`.slider:has(#${key}) .typed`);
+}
+
+/**
  * Waits until what was asked for has been drawn.
  *
  * @param {Page} page
@@ -169,13 +191,37 @@ export async function pixelsOf(canvas, role) {
 }
 
 /**
- * The text of a readout.
+ * The figure of a readout, without what is said beside it.
  *
  * @param {Locator} widget
  * @param {string | RegExp} name
  */
 export function readout(widget, name) {
-  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd');
+  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd').first();
+}
+
+/**
+ * What stands below a readout, in smaller print.
+ *
+ * @param {Locator} widget
+ * @param {string | RegExp} name
+ */
+export function detail(widget, name) {
+  return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
+}
+
+/**
+ * The page, with its widget running and everything open that is folded away.
+ *
+ * @param {Page} page
+ * @returns {Promise<Locator>} the widget
+ */
+export async function openWhole(page) {
+  const widget = await open(page);
+  await unfold(widget);
+  await page.evaluate(() => scrollTo(0, 0));
+  await frames(page);
+  return widget;
 }
 
 /**

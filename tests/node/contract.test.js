@@ -61,20 +61,22 @@ test('a machine opens in the state of the widget', async () => {
     command: { v: 1, omega: 0.5, dt: 1 },
     alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01],
     isolate: null,
-    samples: 2000,
-    seed: 7,
+    samples: 50_000,
+    seed: 3,
   };
   for (const machine of [new BananaMachine(), new BananaMachine({}), new BananaMachine(undefined)]) {
     assert.deepEqual(machine.config, opening);
-    assert.equal(machine.shown, 2000);
+    assert.equal(machine.shown, 50_000);
     near(machine.table.exact.crossTrackSkew, -0.43093, 5e-6);
   }
   assert.ok(BananaMachine.maxSamples >= 100_000);
   assert.deepEqual(BananaMachine.presets, [
-    { name: 'straight', v: 1, omega: 0, dt: 2 },
-    { name: 'gentle', v: 1, omega: 0.5, dt: 1 },
-    { name: 'hard', v: 1, omega: 1.2, dt: 1.4 },
-    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1 },
+    { name: 'straight', v: 1, omega: 0, dt: 2, alphas: null },
+    { name: 'gentle', v: 1, omega: 0.5, dt: 1, alphas: null },
+    { name: 'hard', v: 1, omega: 1.2, dt: 1.4, alphas: null },
+    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1, alphas: null },
+    { name: 'banana', v: 1, omega: 0, dt: 2, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002] },
+    { name: 'worked', v: 1, omega: 0.5, dt: 1, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] },
   ]);
 });
 
@@ -117,6 +119,39 @@ test('the canonical example has the figures that were computed by quadrature', a
   near(stats.coverage.exponential, 1 - Math.exp(-2), 4.5 * Math.sqrt(0.117 / stats.n));
   assert.ok(stats.coverage.ellipse > 0.85 && stats.coverage.ellipse < 0.89);
   machine.free();
+});
+
+test('the likelihood gain is that of the published figures, with its error, and stands beside the exact one', async () => {
+  const { BananaMachine } = await (await freshModule()).load();
+  const command = { v: 1, omega: 0.5, dt: 1 };
+  const opening = new BananaMachine({ command, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], samples: 200_000 });
+  const { likelihoodGain, likelihoodGainError, areaRatio } = opening.stats;
+  const { exact, measured, linearized } = opening.table;
+  for (const key of /** @type {const} */ (['pose', 'floor'])) {
+    near(likelihoodGain[key], exact.likelihoodGain[key], 4.5 * likelihoodGainError[key]);
+    assert.equal(measured.likelihoodGain[key], likelihoodGain[key]);
+    assert.equal(linearized.likelihoodGain[key], 0);
+  }
+  near(exact.likelihoodGain.pose, 0.124, 5e-4);
+  near(exact.areaRatio, 1.007, 5e-4);
+  near(areaRatio, exact.areaRatio, 0.02);
+  assert.deepEqual([measured.areaRatio, linearized.areaRatio], [areaRatio, 1]);
+});
+
+test('the gain is infinite on a surface, and NaN at a point with all that is said of one', async () => {
+  const { BananaMachine } = await (await freshModule()).load();
+  const surface = new BananaMachine(CANONICAL).stats;
+  assert.deepEqual([surface.likelihoodGain.pose, surface.likelihoodGainError.pose], [Infinity, NaN]);
+  near(surface.likelihoodGain.floor, 0.0178, 4.5 * surface.likelihoodGainError.floor);
+  const point = new BananaMachine({ alphas: [0, 0, 0, 0, 0.1, 0], samples: 5000 });
+  const { likelihoodGain, likelihoodGainError, coverage, ...rest } = point.stats;
+  const figures = [likelihoodGain, likelihoodGainError, coverage].flatMap((pair) => Object.values(pair));
+  figures.push(rest.crossTrackSkew, rest.crossTrackSkewError, rest.gaussianSkew, rest.rhoCrossHeading, rest.areaRatio);
+  assert.deepEqual(figures, Array(11).fill(NaN));
+  // A dust of noise is noise.
+  const dust = new BananaMachine({ alphas: Array(6).fill(1e-12), samples: 5000 }).stats;
+  assert.ok([dust.crossTrackSkew, dust.gaussianSkew, dust.coverage.ellipse, dust.areaRatio].every(Number.isFinite));
+  near(dust.likelihoodGain.pose, 0, 1e-6);
 });
 
 test('stats are those of the poses', async () => {
@@ -227,7 +262,7 @@ test('contours, curve, inspection and views', async () => {
   const { BananaMachine, commandReaching, randomSeed } = await (await freshModule()).load();
   const machine = new BananaMachine({ samples: 4000 });
   const { command, ...outlines } = machine.contours;
-  assert.deepEqual(Object.keys(outlines).sort(), ['ellipse', 'exponential', 'linearized', 'twistEllipse']);
+  assert.deepEqual(Object.keys(outlines).sort(), ['additive', 'ellipse', 'exponential', 'linearized', 'twistEllipse']);
   for (const outline of Object.values(outlines)) {
     assert.ok(outline instanceof Float64Array && outline.length > 60);
     assert.deepEqual(outline.slice(0, 2), outline.slice(-2), 'closed');

@@ -83,6 +83,7 @@ test('it opens facing a doorway of the apartment', () => {
     alphas: [0.12, 0.12, 0.12, 0.12, 0.03, 0.03],
     clearance: 0.13,
     conditioned: true,
+    unknown: 'free',
     sampler: 'endpoint',
     steps: 4,
     samples: 600,
@@ -372,9 +373,12 @@ test('a map of map_server, its image as a PGM file or as pixels', () => {
     resolution: 0.5,
     origin: new Float64Array([1, 2, 0]),
     occupied: new Uint8Array([1, ...Array(11).fill(0)]),
+    unknown: new Uint8Array(12),
   });
-  const [x, y] = machine.freePoint ?? [NaN, NaN];
-  assert.ok(Math.hypot(Math.max(x - 1.5, 0), Math.max(y - 2.5, 0)) > 0.1, `${x}, ${y}`);
+  // In the middle of the 3 × 3 cells beside the occupied one.
+  const { x, y, theta } = machine.openPlace ?? { x: NaN, y: NaN, theta: NaN };
+  assert.deepEqual([x, y], [2.25, 2.75]);
+  assert.ok(theta > -Math.PI && theta <= Math.PI);
   for (const [description, image] of /** @type {[any, any][]} */ ([
     [{ resolution: 0.5, origin: [1, 2, 0] }, PGM],
     [{ ...YAML, negate: false, mode: 'trinary' }, imageData()],
@@ -393,7 +397,7 @@ test('a map of map_server, its image as a PGM file or as pixels', () => {
   machine.setGrid({ ...YAML, origin: [1, 2, Math.PI / 2] }, PGM);
   assert.ok(Math.abs(machine.plan.bounds[0] + 0.5) < 1e-12, 'turned by its yaw');
   machine.setGrid(YAML, imageData(4, 3, Array(12).fill(0)));
-  assert.deepEqual([machine.freePoint, machine.stats.accepted], [null, 0]);
+  assert.deepEqual([machine.openPlace, machine.stats.accepted], [null, 0]);
   assert.equal(machine.startFree, false);
 });
 
@@ -436,12 +440,93 @@ test('a malformed map is explained by field and line, and the present one stays'
   assert.equal(machine.plan.walls.length, 16);
 });
 
+test('unknown cells are free or blocked, as the reader chooses', () => {
+  // Free on the left, then unknown, then occupied: two rows of cells of 1 m.
+  const strip = imageData(6, 2, [255, 255, 205, 205, 0, 0, 255, 255, 205, 205, 0, 0]);
+  const description = { resolution: 1, origin: [0, 0, 0], free_thresh: 0.196 };
+  const machine = new MapSqueeze({ samples: 2000, start: { x: 1, y: 1, theta: 0 } });
+  machine.setGrid(description, strip);
+  const cells = (/** @type {string} */ row) => Uint8Array.from([...row + row], Number);
+  assert.deepEqual([machine.grid?.occupied, machine.grid?.unknown], [cells('000011'), cells('001100')]);
+  const free = picture(machine);
+  machine.configure({ unknown: 'blocked' });
+  assert.deepEqual(machine.poses, free.poses, 'no draw is another');
+  assert.ok(machine.stats.accepted < free.stats.accepted);
+  const furthest = () => Math.max(...machine.poses.filter((_, i) => i % 3 === 0 && machine.verdicts[i / 3] & 4));
+  assert.ok(furthest() < 2 - 0.13);
+  assert.deepEqual(machine.grid, free.grid, 'it stays known which are unknown');
+  // The choice outlasts a change of the map, and is heeded by the next.
+  machine.setPlan(undefined);
+  machine.setGrid(description, strip);
+  assert.ok(furthest() < 2 - 0.13);
+  machine.configure({ unknown: 'free' });
+  assert.deepEqual(picture(machine), free);
+  assert.ok(furthest() > 2 + 0.13);
+  // What the threshold says is free is not unknown.
+  machine.setGrid({ ...description, free_thresh: 0.25 }, strip);
+  assert.deepEqual(machine.grid?.unknown, new Uint8Array(12));
+  refused(machine, [['unknown', () => machine.configure({ unknown: /** @type {any} */ ('maybe') })]]);
+
+  // A map that has too many sides when what is unknown is blocked.
+  const side = 320;
+  const speckled = imageData(side, side, Array.from({ length: side * side }, (_, i) => (i % 2 || Math.floor(i / side) % 2 ? 255 : 128)));
+  machine.setGrid(description, speckled);
+  assert.equal(machine.plan.walls.length, 0);
+  refused(machine, [['unknown is blocked; allowed is free, as the cells of this map would have more than 100000 sides', () => machine.configure({ unknown: 'blocked' })]]);
+  machine.setPlan(undefined);
+  machine.configure({ unknown: 'blocked' });
+  refused(machine, [['walls', () => machine.setGrid(description, speckled)]]);
+});
+
+test('a density has the colours of what most of the attempts in a cell are', () => {
+  const machine = new MapSqueeze({ samples: 5000 });
+  const [columns, rows] = [40, 30];
+  const [xMin, yMin, xMax, yMax] = [0, 2, 4, 7];
+  const ramps = Uint8Array.from({ length: 3 * 4 * 256 }, (_, i) => [Math.floor(i / 1024), 0, Math.floor(i / 4) % 256, 255][i % 4]);
+  const pixels = machine.picture(xMin, yMin, xMax, yMax, columns, rows, ramps).slice();
+  const { poses, verdicts } = machine;
+  const counts = Array.from({ length: columns * rows }, () => [0, 0, 0]);
+  verdicts.forEach((verdict, i) => {
+    const column = Math.floor(((poses[3 * i] - xMin) / (xMax - xMin)) * columns);
+    const row = Math.floor(((yMax - poses[3 * i + 1]) / (yMax - yMin)) * rows);
+    if (column < 0 || column >= columns || row < 0 || row >= rows) return;
+    counts[row * columns + column][verdict & 4 ? (verdict & 2 ? 1 : 2) : 0]++;
+  });
+  const all = counts.map((kinds) => kinds[0] + kinds[1] + kinds[2]);
+  const most = Math.max(...all);
+  const seen = new Set();
+  counts.forEach((kinds, cell) => {
+    const [kind, , shade, alpha] = pixels.subarray(4 * cell, 4 * cell + 4);
+    if (all[cell] === 0) return assert.equal(alpha, 0);
+    assert.equal(kinds[kind], Math.max(...kinds), 'the kind of most');
+    assert.equal(shade, Math.round(255 * Math.sqrt(all[cell] / most)));
+    seen.add(kind);
+  });
+  assert.equal(seen.size, 3);
+  const m = /** @type {any} */ (machine);
+  refused(machine, [
+    ['xMin', () => m.picture('0', 0, 1, 1, 2, 2, ramps)],
+    ['columns', () => m.picture(0, 0, 1, 1, 0, 2, ramps)],
+    ['ramps', () => m.picture(0, 0, 1, 1, 2, 2, ramps.subarray(4))],
+  ]);
+});
+
+test('on the edge of a map a robot is on it', () => {
+  const machine = new MapSqueeze({ samples: 500, start: { x: 3, y: 2, theta: Math.PI / 4 }, command: { v: 1, omega: 0, dt: 1 }, noise: 0.001 });
+  machine.setPlan({ bounds: [3, 2, 7, 5], walls: [] });
+  assert.equal(machine.startFree, true);
+  assert.equal(machine.stats.accepted, 500);
+  assert.equal(machine.stats.throughWall, 0);
+  const { x, y } = machine.openPlace ?? { x: NaN, y: NaN };
+  assert.ok(x > 4 && x < 6 && y > 3 && y < 4, 'in the open, not in the corner');
+});
+
 test('a wedged robot is told of, not waited for', () => {
   const machine = new MapSqueeze({ start: { x: 2.1, y: 2.1, theta: 0 } });
   assert.equal(machine.startFree, true);
   machine.setPlan(CELL);
   assert.deepEqual([machine.stats.accepted, machine.stats.acceptanceRate, machine.startFree], [0, 0, false]);
-  assert.equal(machine.freePoint, null);
+  assert.equal(machine.openPlace, null);
   assert.throws(() => machine.trial('whole-arc', 1, 10), /wedged: 10000 draws were tried and too few accepted/);
   machine.configure({ sampler: 'sub-stepped' });
   assert.equal(machine.stats.gaveUp, true);

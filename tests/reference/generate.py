@@ -9,6 +9,8 @@ nearest double and what that double leaves over, so that a test can measure erro
 place. The seed is fixed: running the script again gives the same files.
 """
 
+import cmath
+import math
 import pathlib
 import random
 
@@ -250,6 +252,169 @@ def pushed_skew_table():
     write("pushed_skew.csv", ["a", "b", "w", "caa", "cab", "caw", "cbb", "cbw", "cww", "skew"], rows)
 
 
+# ----------------------------------------------------------------------------------------------- likelihood gains
+
+def sums(kind, end=6.6, step=0.2, parts=64):
+    """Nodes and weights for E f(Z), Z of unit variance: trapezoidal for the normal noise, Simpson's rule on either half of
+    the triangle."""
+    if kind == "normal":
+        count = round(end / step)
+        nodes = [(step * i, step * math.exp(-0.5 * (step * i) ** 2)) for i in range(-count, count + 1)]
+    else:
+        edge = math.sqrt(6.0)
+        nodes = []
+        for side in (-1, 1):
+            for i in range(parts + 1):
+                z = edge * i / parts
+                factor = 1 if i in (0, parts) else 4 if i % 2 else 2
+                nodes.append((side * z, factor * (edge - z)))
+    total = sum(weight for _, weight in nodes)
+    return [(z, weight / total) for z, weight in nodes]
+
+
+def arc_end(s, turn):
+    """The end of an arc as a complex number."""
+    return s * (cmath.exp(1j * turn) - 1) / (1j * turn) if abs(turn) > 1e-9 else complex(s, s * turn / 2)
+
+
+def exp_pose(xi):
+    end = complex(xi[0], xi[1]) * arc_end(1.0, xi[2])
+    return [end.real, end.imag, xi[2]]
+
+
+def jacobian(f, point, step=1e-5):
+    """By central differences: rows are the components of f."""
+    columns = []
+    for i in range(len(point)):
+        ahead, back = list(point), list(point)
+        ahead[i] += step
+        back[i] -= step
+        columns.append([(a - b) / (2 * step) for a, b in zip(f(ahead), f(back))])
+    return [list(row) for row in zip(*columns)]
+
+
+def determinant(m):
+    if len(m) == 1:
+        return m[0][0]
+    return sum((-1) ** j * m[0][j] * determinant([row[:j] + row[j + 1:] for row in m[1:]]) for j in range(len(m)))
+
+
+def weighted_moments(points):
+    """Mean and covariance of (weight, vector) pairs."""
+    size, total = len(points[0][1]), sum(w for w, _ in points)
+    mean = [sum(w * p[i] for w, p in points) / total for i in range(size)]
+    cov = [[sum(w * (p[i] - mean[i]) * (p[j] - mean[j]) for w, p in points) / total for j in range(size)]
+           for i in range(size)]
+    return mean, cov
+
+
+def mean_log_size(kind, mean, deviation):
+    """E ln|mean + deviation·Z|."""
+    if kind == "normal":
+        weight, ends = lambda z: exp(-z * z / 2) / sqrt(2 * pi), [-13, -6, -2, 2, 6, 13]
+    else:
+        edge = sqrt(mpf(6))
+        weight, ends = lambda z: (edge - abs(z)) / 6, [-edge, 0, edge]
+    zero = -mpf(mean) / mpf(deviation)
+    ends = sorted(ends + ([zero] if ends[0] < zero < ends[-1] else []))
+    with mp.workdps(20):
+        return float(quad(lambda z: weight(z) * log(abs(mpf(mean) + mpf(deviation) * z)), ends))
+
+
+def cholesky(cov):
+    size = len(cov)
+    root = [[0.0] * size for _ in range(size)]
+    for j in range(size):
+        pivot = cov[j][j] - sum(root[j][k] ** 2 for k in range(j))
+        if pivot > 1e-12 * cov[j][j] and pivot > 1e-20:
+            for i in range(j, size):
+                root[i][j] = (cov[i][j] - sum(root[i][k] * root[j][k] for k in range(j))) / math.sqrt(pivot)
+    return root
+
+
+def outline_area(mean, cov, chords=128):
+    """The area inside the widget's outline of N(mean, cov) in exponential coordinates: that of the great circle of the 2σ
+    ellipsoid across the mean direction that leaves the place where it is. Loops count positively."""
+    root = cholesky(cov)
+    at = lambda u: [m + 2 * sum(row[k] * u[k] for k in range(3)) for m, row in zip(mean, root)]
+    place = lambda u: exp_pose(at(u))[:2]
+    spread = mp.zeros(3)
+    for axis in range(3):
+        for sign in (-1.0, 1.0):
+            end = [sign if k == axis else 0.0 for k in range(3)]
+            a, b = jacobian(place, end)
+            idle = matrix([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]) / 4
+            spread += idle * idle.T
+    values, vectors = mp.eigsy(spread)
+    k = [float(vectors[i, 2]) for i in range(3)]
+    aside = min(range(3), key=lambda i: abs(k[i]))
+    first = [(1.0 if i == aside else 0.0) - k[i] * k[aside] for i in range(3)]
+    size = math.sqrt(sum(c * c for c in first))
+    first = [c / size for c in first]
+    second = [k[1] * first[2] - k[2] * first[1], k[2] * first[0] - k[0] * first[2], k[0] * first[1] - k[1] * first[0]]
+    turned = lambda t: [math.cos(t) * f + math.sin(t) * g for f, g in zip(first, second)]
+    rim = [at(turned(2 * math.pi * i / chords)) for i in range(chords + 1)]
+    loops = {True: 0.0, False: 0.0}
+    for before, after in zip(rim, rim[1:]):
+        (x0, y0, _), (x1, y1, _) = exp_pose(before), exp_pose(after)
+        loops[after[0] >= 0] += 0.5 * (x0 * y1 - x1 * y0)
+    return sum(abs(loop) for loop in loops.values())
+
+
+def likelihood_gains(kind, alphas, v, omega, dt):
+    """Gain of pose and floor, and the ratio of areas, by their definitions: moments and mean logarithms by sums over all
+    combinations of noises, Jacobians by differences."""
+    sv, sw, sg = (dt * math.sqrt(alphas[i] * v * v + alphas[i + 1] * omega * omega) for i in (0, 2, 4))
+    # Of the length only two moments count, which three points have.
+    lengths = [(v * dt + z * sv, w) for z, w in ((-math.sqrt(3), 1 / 6), (0.0, 2 / 3), (math.sqrt(3), 1 / 6))]
+    reach = 6 * math.hypot(sw, sg) if kind == "normal" else math.inf
+    flat, bent, log_chart, total, places = [], [], 0.0, 0.0, []
+    # The arc to a place is the one of the nearest turn, which jumps half a circle off the command: finer steps.
+    arcs, log_arc = [], 0.0
+    polar = lambda q: [arc_end(*q).real, arc_end(*q).imag]
+    for z, wz in sums(kind, 6.0, 0.001, 1000):
+        turn = omega * dt + sw * z
+        near = omega * dt + math.remainder(sw * z, 2 * math.pi)
+        stretch = near / turn if turn != near else 1.0
+        log_arc += wz * math.log(abs(determinant(jacobian(polar, [stretch, near]))))
+        arcs += [(wz * ws, [s * stretch, near]) for s, ws in lengths]
+    for z, wz in sums(kind):
+        turn = omega * dt + sw * z
+        for s, ws in lengths:
+            places.append((wz * ws, [arc_end(s, turn).real, arc_end(s, turn).imag]))
+        for g, wg in sums(kind) if sg else [(0.0, 1.0)]:
+            if abs(sw * z + sg * g) > reach:
+                continue
+            theta = turn + sg * g
+            chart = math.log(abs(determinant(jacobian(exp_pose, [0.3, 0.2, theta]))))
+            for s, ws in lengths:
+                end = arc_end(s, turn)
+                xi = end / arc_end(1.0, theta)
+                weight = wz * wg * ws
+                flat.append((weight, [end.real, end.imag, theta]))
+                bent.append((weight, [xi.real, xi.imag, theta]))
+            log_chart += wz * wg * chart
+            total += wz * wg
+    (_, flat_cov), (mean, bent_cov), (_, place_cov), (_, arc_cov) = map(weighted_moments, (flat, bent, places, arcs))
+    half_log = lambda cov: 0.5 * math.log(determinant(cov))
+    pose = half_log(flat_cov) - half_log(bent_cov) - log_chart / total if sg else math.inf
+    floor = half_log(place_cov) - half_log(arc_cov) - mean_log_size(kind, v * dt, sv) - log_arc
+    polygon = 64 * math.sin(2 * math.pi / 128)
+    ellipse = polygon * 4 * math.sqrt(determinant(place_cov))
+    return pose, floor, ellipse / outline_area(mean, bent_cov)
+
+
+def gain_table():
+    straight = (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)
+    cases = [(k, OPENING, c) for k in ("normal", "triangular")
+             for c in [(1.0, 0.5, 1.0), (1.0, 1.2, 1.4), (1.0, 0.0, 2.0), (0.06, 1.5, 1.0), (-0.7, -1.1, 1.3)]]
+    cases += [(k, straight, (1.0, 0.0, 2.0)) for k in ("normal", "triangular")]
+    cases += [(k, CANONICAL, (1.0, 0.5, 1.0)) for k in ("normal", "triangular")]
+    rows = [[k, *map(repr, al), *map(repr, c), *("%.12g" % x for x in likelihood_gains(k, al, *c))] for k, al, c in cases]
+    write("likelihood_gain.csv",
+          ["kind", "a1", "a2", "a3", "a4", "a5", "a6", "v", "omega", "dt", "pose", "floor", "area_ratio"], rows)
+
+
 # --------------------------------------------------------------------------------------------------- compounding
 
 def fourth_order_terms(p, q):
@@ -306,3 +471,4 @@ if __name__ == "__main__":
     moments_table()
     pushed_skew_table()
     compounding_table()
+    gain_table()

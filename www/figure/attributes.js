@@ -3,7 +3,7 @@
  * and how a text becomes a value and the other way round.
  */
 
-import { refusal, word } from './checks.js';
+import { refusal } from './checks.js';
 import { THEMES } from './page/scheme.js';
 
 /**
@@ -29,7 +29,8 @@ import { THEMES } from './page/scheme.js';
  *
  * @typedef {object} Attribute
  * @property {Kind} kind
- * @property {string[]} [covers] attributes that say the same and take over where this one says nothing
+ * @property {(text: string | null) => string[]} [covers] attributes that say what this one says by a text, and take over where
+ *   it says nothing
  * @property {readonly string[]} [words] those that are allowed, where no declaration says it
  *
  * @typedef {Record<string, Attribute & (Setting | Own)>} Attributes by name; what others depend on comes first
@@ -62,10 +63,15 @@ export const WORDS = { parse: (text) => text.split(/\s+/).filter(Boolean), print
 /** Of the types that fit into an attribute. @type {Record<string, Kind>} */
 const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
 
+/** Of headings in HTML. */
+export const HEADING_LEVELS = /** @type {const} */ (['1', '2', '3', '4', '5', '6']);
+
 /** What every figure heeds besides. */
 export const COMMON = {
   theme: { words: THEMES, opening: 'auto' },
   share: {},
+  presentation: {},
+  'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
 };
 
 /**
@@ -114,28 +120,6 @@ function settingOf({ key, in: group, index, of, type }) {
       const { length } = config[group];
       if (index < length) return { [group]: config[group].with(index, value) };
       throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d+$/, '')}${length}`);
-    },
-  };
-}
-
-/**
- * A preset's name for a group of settings; none where it is no preset's.
- *
- * @param {string} group
- * @param {(Record<string, unknown> & { name: string })[]} presets each with the settings of that group
- * @returns {Attribute & Setting}
- */
-export function presetOf(group, presets) {
-  const covers = Object.keys(presets[0]).filter((key) => key !== 'name');
-  const names = presets.map(({ name }) => name);
-  return {
-    kind: WORD,
-    covers,
-    words: names,
-    get: ({ config }) => presets.find((preset) => covers.every((key) => config[group][key] === preset[key]))?.name ?? null,
-    change: (name) => {
-      const preset = presets[names.indexOf(word('preset', name, names))];
-      return { [group]: Object.fromEntries(covers.map((key) => [key, preset[key]])) };
     },
   };
 }

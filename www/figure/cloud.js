@@ -2,6 +2,7 @@
 
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
+import { pointOn } from '../scene/canvas.js';
 import { button } from '../ui/controls.js';
 import { counted } from '../ui/format.js';
 import { truth, wholeNumber } from './checks.js';
@@ -55,9 +56,19 @@ export class Cloud extends Part {
     return Math.ceil(this.#machine.config.samples / BATCHES);
   }
 
+  /** Whether it has not been shown yet: it opens with all of its samples on their way. */
+  get #unopened() {
+    return this.host.reading === undefined;
+  }
+
   /** How many samples have been asked for so far: all of them where the machine has given up before. */
   get asked() {
-    return this.complete ? this.#machine.config.samples : this.#machine.shown;
+    return this.complete || this.#unopened ? this.#machine.config.samples : this.#machine.shown;
+  }
+
+  /** Whether samples are still to come. */
+  get growing() {
+    return this.playing || this.#unopened;
   }
 
   /**
@@ -76,7 +87,7 @@ export class Cloud extends Part {
 
   /** @returns {Values} its part of the state */
   snapshot() {
-    return { shown: this.asked, playing: this.playing, marked: this.isMarked ? this.index : null };
+    return { shown: this.asked, playing: this.playing, marked: this.#isWanted ? this.index : null };
   }
 
   /**
@@ -85,9 +96,9 @@ export class Cloud extends Part {
    * @returns {Values} what follows for fields that are left out
    */
   completed(present, given) {
-    const { samples = present.samples } = given;
+    const { samples = present.samples, playing = present.playing } = given;
     const shown = present.shown === present.samples ? samples : Math.min(present.shown, samples);
-    const marked = present.marked !== null && present.marked < shown ? present.marked : null;
+    const marked = present.marked !== null && present.marked < (playing ? samples : shown) ? present.marked : null;
     return { shown, marked };
   }
 
@@ -123,7 +134,8 @@ export class Cloud extends Part {
       const { machine, held } = this.host;
       // A finger that moves scrolls the page; one that taps comes as a click.
       if (!machine || held || (event.pointerType === 'touch' && event.type !== 'click')) return;
-      const index = picture.nearest(machine, event.offsetX, event.offsetY);
+      const [x, y] = pointOn(/** @type {Element} */ (event.currentTarget ?? event.target), event);
+      const index = picture.nearest(machine, x, y);
       if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }
@@ -131,6 +143,16 @@ export class Cloud extends Part {
   /** Whether the marked sample is among those shown. */
   get isMarked() {
     return this.index >= 0 && this.index < this.#machine.shown;
+  }
+
+  /** Whether the marked sample is there, or comes. */
+  get #isWanted() {
+    return this.index >= 0 && this.index < markable(this.#machine, this.growing);
+  }
+
+  /** A mark of what is not there, and does not come, goes. */
+  unmark() {
+    if (!this.#isWanted) this.mark(-1);
   }
 
   /** @returns {boolean} whether there is nothing left to do in this frame: a large cloud may take more than one */
@@ -208,11 +230,20 @@ export function showOnly(machine, shown) {
   machine.grow(shown);
 }
 
+/**
+ * How many samples can be marked: one that is to come can be, and is from when it is there.
+ *
+ * @param {Growing} machine
+ * @param {boolean} growing
+ */
+const markable = ({ config, shown }, growing) => (growing ? config.samples : shown);
+
 /** What of the state of an element with a cloud is its own. @type {Record<string, import('./state.js').Owned>} */
 export const cloudState = {
   marked: {
     opening: null,
-    check: (field, marked, machine) => (marked === null ? null : wholeNumber(field, marked, 0, machine.shown - 1)),
+    check: (field, marked, machine, growing) =>
+      marked === null ? null : wholeNumber(field, marked, 0, markable(machine, growing) - 1),
   },
 };
 

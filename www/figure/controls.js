@@ -2,8 +2,9 @@
 
 import { html } from 'lit';
 import { words } from '../messages/registry.js';
-import { radioGroup, rich, sliderRow, toggle } from '../ui/controls.js';
-import { counted, fixed } from '../ui/format.js';
+import { radioGroup, rich, toggle } from '../ui/controls.js';
+import { counted, limit, numberIn, typed } from '../ui/format.js';
+import { sliderRow } from '../ui/slider.js';
 import { exportMenu } from './takeaway/export.js';
 
 /**
@@ -20,6 +21,7 @@ import { exportMenu } from './takeaway/export.js';
  * @property {(config: any) => number} [value] where several may be shown as one
  *
  * @typedef {Partial<Parameters<typeof sliderRow>[0]>} Row
+ * @typedef {Parameters<typeof sliderRow>[0]} WholeRow
  */
 
 /**
@@ -34,17 +36,52 @@ export function slider(figure, key, otherwise) {
   const { unit } = declared.find((setting) => setting.key === key) ?? {};
   const { config } = figure.reading;
   const setting = /** @type {Setting} */ (attributes[key]);
-  return sliderRow({
+  return typeable(figure, key, symbol, {
     ...look,
     id: key,
     symbol: rich(symbol),
     name,
     value: value ? value(config) : /** @type {number} */ (setting.get({ config, machine: figure.machine })),
-    show: (shown) => fixed(shown, decimals) + (unit ? ` ${unit}` : ''),
+    show: (shown) => typed(shown, decimals) + (unit ? ` ${unit}` : ''),
     effect: effect && rich(effect),
     input: (number) => want(figure, key, number),
     commit: () => figure.commit(),
     ...otherwise,
+  });
+}
+
+/**
+ * A slider whose value can be typed too, as far as the core goes.
+ *
+ * @param {Figure} figure
+ * @param {string} key of its setting
+ * @param {string} symbol
+ * @param {Omit<WholeRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[] }} row with the values at which the
+ *   slider ends, where it has others than these inside
+ * @param {(number: number) => void} [take] a value that was typed
+ * @param {(number: number) => string} [print]
+ */
+function typeable(figure, key, symbol, row, take = row.input, print = row.show) {
+  const { min = -Infinity, max = Infinity, type, unit } = figure.kind.declared.find((setting) => setting.key === key) ?? {};
+  const [first, last] = row.ends ?? [row.min, row.max];
+  const whole = type === 'whole';
+  const end = row.value >= row.max && last < max ? last : row.value <= row.min && first > min ? first : undefined;
+  return sliderRow({
+    ...row,
+    effect: end === undefined ? row.effect : words.sliderEnds(print(end)),
+    keys: min < 0 ? 'text' : whole ? 'numeric' : 'decimal',
+    type: (text) => {
+      const number = numberIn(text, unit);
+      if (number >= min && number <= max && (!whole || Number.isInteger(number))) {
+        take(number);
+        row.commit();
+        return print(number);
+      }
+      const given = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
+      figure.typing.refuse(key, words.refused(symbol.replaceAll('*', ''), given, limit(min), limit(max), whole));
+    },
+    refusal: figure.typing.refusalOf(key),
+    forget: () => figure.typing.forget(),
   });
 }
 
@@ -96,36 +133,50 @@ export function check(figure, key, label) {
   return toggle({ label, checked: figure.reading.config[key], change: (on) => figure.decide({ [key]: on }) });
 }
 
+/** What may be taken along of a figure, in folds, and the way to a full screen. @param {Figure} figure */
+export function takeAlong(figure) {
+  return html`${exportMenu(figure, figure.reading.config.seed)} ${figure.copies.render()} ${figure.presenting.button()}`;
+}
+
 /**
- * Growth, seed and size of the cloud, and what may be taken along of it.
+ * Growth, seed and size of the cloud.
  *
  * @param {Figure} figure
  * @param {readonly number[]} counts the sizes that the slider offers
  */
 export function cloudControls(figure, counts) {
-  const { samples, seed } = figure.reading.config;
+  const { samples } = figure.reading.config;
   const { cloud: say } = wordsOf(figure);
   const { name, effect } = wordsFor(figure, 'samples');
+  const last = counts.length - 1;
   const above = counts.findIndex((count) => count >= samples);
-  const nearest = above < 0 ? counts.length - 1 : above;
+  const nearest = above < 0 ? last : above;
   return html`<fieldset class="cloud">
     <legend class="visually-hidden">${say.legend}</legend>
+    ${typeable(
+      figure,
+      'samples',
+      'N',
+      {
+        id: 'samples',
+        symbol: html`<i>N</i>`,
+        name,
+        // Beyond the last there is no index, and the thumb says so.
+        value: samples > counts[last] ? last + 1 : nearest,
+        min: 0,
+        max: last,
+        step: 1,
+        ends: [counts[0], counts[last]],
+        show: (index) => counted(index === nearest || index > last ? samples : counts[index]),
+        effect,
+        role: 'truth',
+        input: (index) => want(figure, 'samples', counts[index]),
+        commit: () => figure.commit(),
+      },
+      (count) => want(figure, 'samples', count),
+      counted,
+    )}
     ${figure.cloud?.buttons(say)}
-    ${sliderRow({
-      id: 'samples',
-      symbol: html`<i>N</i>`,
-      name,
-      value: nearest,
-      min: 0,
-      max: counts.length - 1,
-      step: 1,
-      show: (index) => counted(index === nearest ? samples : counts[index]),
-      effect,
-      role: 'truth',
-      input: (index) => want(figure, 'samples', counts[index]),
-      commit: () => figure.commit(),
-    })}
-    ${exportMenu(figure, seed)} ${figure.copies.render()}
   </fieldset>`;
 }
 

@@ -6,12 +6,15 @@
 import { LitElement, html, noChange, nothing } from 'lit';
 import { en } from '../messages/en.js';
 import { addEnglish, speak, words } from '../messages/registry.js';
+import { presentationStyles } from '../ui/presentation.js';
 import { theme } from '../ui/theme.js';
 import { Announcer } from './announcer.js';
+import { COMMON, HEADING_LEVELS } from './attributes.js';
 import { word } from './checks.js';
 import { Gesture } from './gesture.js';
 import { Link } from './link.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
+import { Presentation } from './presentation.js';
 import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
 import { Settings } from './settings.js';
@@ -19,6 +22,7 @@ import { Stage } from './stage.js';
 import { State } from './state.js';
 import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
+import { Typing } from './typing.js';
 
 /**
  * @import { FigureState, Motion } from '../types.d.ts'
@@ -38,7 +42,13 @@ addEnglish(en);
  * throws it, an attribute reports it by `error`, and the last good value stays.
  *
  * @attr theme - Colours for a light page or a dark one; auto is as the surroundings are.
- * @attr share - Keeps the state in the fragment of the page’s address, and opens in the state that it carries.
+ * @attr share - Keeps the state in the fragment of the page’s address. A state that it carries is opened in any case.
+ * @attr presentation - Fills the screen, or the window, with pictures and figures for an audience: C shows the controls,
+ *   Escape leaves.
+ * @attr heading-level - Makes the slot `title` a heading of this level; the property is `headingLevel`.
+ *
+ * @slot title - The title above the figure, with its number; the figure’s name for screen readers too.
+ * @slot caption - What stands below it.
  *
  * @fires load - The figure is ready.
  * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run;
@@ -55,6 +65,7 @@ addEnglish(en);
  * @csspart button - A button.
  * @csspart readouts - The figures about the cloud.
  * @csspart table - A table of figures.
+ * @csspart fold - What is folded away, with its name.
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.
  *
@@ -74,7 +85,7 @@ addEnglish(en);
  * @template {{ config: Values }} Reading
  */
 export class FigureElement extends LitElement {
-  static styles = [theme, schemeStyles];
+  static styles = [theme, schemeStyles, presentationStyles];
 
   /** The widget's settings, as declared. @type {import('../settings.js').Declaration[]} */
   static declared = [];
@@ -98,6 +109,8 @@ export class FigureElement extends LitElement {
   link = new Link(this);
   announcer = new Announcer();
   copies = new CopyMenu(this);
+  typing = new Typing(this);
+  presenting = new Presentation(this);
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
   cloud;
   /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */
@@ -147,6 +160,15 @@ export class FigureElement extends LitElement {
    */
   content(_reading) {
     return nothing;
+  }
+
+  /**
+   * What of the content is not the pictures: it comes with the frame after the first, so that the figure is seen at once.
+   *
+   * @param {() => unknown} content
+   */
+  later(content) {
+    return this.stage.opening ? nothing : content();
   }
 
   /** What there is to take along, with every change so far in effect. @returns {import('./takeaway/export.js').Takeaway} */
@@ -322,6 +344,31 @@ export class FigureElement extends LitElement {
     this.toggleAttribute('share', Boolean(share));
   }
 
+  /** Whether it is shown to an audience. */
+  get presentation() {
+    return this.hasAttribute('presentation');
+  }
+
+  set presentation(presentation) {
+    this.toggleAttribute('presentation', Boolean(presentation));
+  }
+
+  /** The level of the heading that the title is; null where it is none. */
+  get headingLevel() {
+    return HEADING_LEVELS.find((level) => level === this.getAttribute('heading-level')) ?? null;
+  }
+
+  set headingLevel(level) {
+    if (level === null) this.removeAttribute('heading-level');
+    else this.setAttribute('heading-level', word('headingLevel', String(level), HEADING_LEVELS));
+  }
+
+  /** The figure's name: the title that the page gives it, or the widget's own. */
+  get label() {
+    const title = this.#given('title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
+    return title || /** @type {any} */ (words)[this.kind.vocabulary].title;
+  }
+
   /**
    * Everything that a reader can change, as plain data for `setState` and JSON. Of an element that is not
    * on the page, as it was when it left; null before it has come near the reader for the first time.
@@ -375,13 +422,12 @@ export class FigureElement extends LitElement {
   }
 
   /**
-   * The address of this page with the present state; rejects where `share` is not set.
+   * The address of this page with the present state.
    *
    * @public
    * @returns {Promise<string>}
    */
   async shareLink() {
-    if (!this.share) throw new Error('shareLink: the element lacks the attribute share, and would not heed the link.');
     return this.link.address();
   }
 
@@ -399,7 +445,8 @@ export class FigureElement extends LitElement {
   // The element's life.
 
   static get observedAttributes() {
-    return [...super.observedAttributes, ...Object.keys(this.attributes), 'theme', 'share'];
+    // HTML has attributes in lower case, whatever their properties are called.
+    return [...super.observedAttributes, ...Object.keys({ ...this.attributes, ...COMMON }).map((name) => name.toLowerCase())];
   }
 
   /**
@@ -415,9 +462,11 @@ export class FigureElement extends LitElement {
       if (text !== null) this.runtime.tolerate(() => word('theme', text, THEMES));
       this.requestUpdate();
       this.stage.repaint();
-    } else if (name === 'share') {
+    } else if (name === 'presentation') {
+      this.presenting.follow();
+    } else if (name === 'heading-level') {
+      if (text !== null) this.runtime.tolerate(() => word('heading-level', text, HEADING_LEVELS));
       this.requestUpdate();
-      if (old === null) this.link.follow();
     }
   }
 
@@ -430,8 +479,28 @@ export class FigureElement extends LitElement {
     speak(this);
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
-      <div class="surface ${this.stage.scheme}" @input=${stop} @change=${stop}>${this.#content()}</div>
+      <div class="surface ${this.stage.scheme} ${this.stage.opening ? 'opening' : ''} ${this.presenting.className}" @input=${stop} @change=${stop}>
+        ${this.#slot('title')} ${this.#content()} ${this.#slot('caption')} ${this.presenting.render()}
+      </div>
     `;
+  }
+
+  /** What the page has put into a slot. @param {string} name */
+  #given(name) {
+    return [...this.children].filter(({ slot }) => slot === name);
+  }
+
+  /** @param {'title' | 'caption'} name */
+  #slot(name) {
+    const level = name === 'title' ? this.headingLevel : null;
+    return html`<div
+      class="${name}-slot"
+      role=${level ? 'heading' : nothing}
+      aria-level=${level ?? nothing}
+      ?hidden=${this.#given(name).length === 0}
+    >
+      <slot name=${name} @slotchange=${() => this.requestUpdate()}></slot>
+    </div>`;
   }
 
   #content() {
@@ -439,9 +508,29 @@ export class FigureElement extends LitElement {
     const { failure, mending } = this.runtime;
     // Also at once: what asks for an update while there is one is not heard.
     if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-    return content ?? (mending ? noChange : html`<div class="reserved"></div>`);
+    return content ?? (mending ? noChange : this.#reserved());
   }
+
+  /** In the place of a figure that is not there yet: who comes to it from the keyboard comes into the figure. */
+  #reserved() {
+    return html`<div class="reserved" tabindex="0" role="group" aria-label=${this.label} @focus=${this.#reach}></div>`;
+  }
+
+  /** @param {FocusEvent} event */
+  #reach = async ({ relatedTarget }) => {
+    await this.runtime.hasten();
+    const { renderRoot, machine } = this;
+    if (!machine || document.activeElement !== this && document.activeElement !== document.body) return;
+    const stops = [...renderRoot.querySelectorAll(STOPS)].filter((stop) => stop.checkVisibility());
+    // Backwards, if the reader came from what is below.
+    const from = relatedTarget instanceof Node && relatedTarget !== document.body ? relatedTarget : this;
+    const below = this.compareDocumentPosition(from) & Node.DOCUMENT_POSITION_FOLLOWING;
+    /** @type {HTMLElement | undefined} */ (stops.at(below ? -1 : 0))?.focus();
+  };
 }
+
+/** What Tab stops at. */
+const STOPS = ':is(button, input, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
 /** The native controls' own events stay inside: the element has one of its own for each gesture. @param {Event} event */
 function stop(event) {

@@ -1,6 +1,7 @@
 /**
  * The state in the page's address: each element has a part of the fragment of its own, and leaves all
- * others as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
+ * others as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`. Every element opens what
+ * is there for it, so that a link which was copied works; one that is shared writes there as well.
  */
 
 import { pack, unpack } from './packing.js';
@@ -14,7 +15,7 @@ export class Link extends Part {
 
   hostConnected() {
     addEventListener('hashchange', this.follow);
-    if (this.host.share) goToAnchor();
+    goToAnchor();
   }
 
   hostDisconnected() {
@@ -23,7 +24,7 @@ export class Link extends Part {
 
   /** Looks for a state to open in: the first time only, as the address says where the figure began. */
   async prepare() {
-    if (this.host.share && !this.host.state.kept) this.#waiting = await this.#look();
+    if (!this.host.state.kept) this.#waiting = await this.#look();
   }
 
   /** Enters the state that waited for the machine. */
@@ -35,7 +36,7 @@ export class Link extends Part {
 
   /** The page's address may carry another state. */
   follow = async () => {
-    if (this.host.share && this.host.machine) this.#enter(await this.#look());
+    if (this.host.machine) this.#enter(await this.#look());
   };
 
   /** @param {unknown} state as the address has it; undefined for none */
@@ -45,6 +46,7 @@ export class Link extends Part {
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
   async #look() {
+    if (location.hash === '') return undefined;
     const key = `${keyOf(this.host)}=`;
     const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
     if (text === undefined) return undefined;

@@ -86,11 +86,12 @@ export class Reflection extends Part {
   /**
    * An attribute says something else.
    *
-   * @param {string} name
+   * @param {string} attribute in lower case
    * @param {string | null} text
    */
-  hear(name, text) {
-    if (this.#writing || !(name in this.#attributes)) return;
+  hear(attribute, text) {
+    const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
+    if (this.#writing || name === undefined) return;
     if (this.host.machine) this.#take(name, text);
     else this.#early.set(name, text);
   }
@@ -190,7 +191,7 @@ export class Reflection extends Part {
     const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== told.get(name)));
     for (const [name, entry] of Object.entries(this.#attributes)) {
       if (texts.get(name) !== null || !changed.has(name)) continue;
-      for (const covered of entry.covers ?? []) changed.add(covered);
+      for (const covered of entry.covers?.(null) ?? []) changed.add(covered);
     }
     if (this.#hearing) changed.delete(this.#hearing);
     this.#writing = true;
@@ -214,7 +215,7 @@ export class Reflection extends Part {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
       if (text !== usual.get(name) && !covered.has(name)) needed.push([name, text]);
-      for (const each of entry.covers ?? []) covered.add(each);
+      for (const each of entry.covers?.(text) ?? []) covered.add(each);
     }
     return needed;
   }

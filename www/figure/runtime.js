@@ -4,7 +4,7 @@
  */
 
 import { abandon, instantiate } from '../core.js';
-import { unwatch, watch } from './page/sight.js';
+import { look, unwatch, watch } from './page/sight.js';
 import { Part } from './part.js';
 
 /** Cores that may trap one after the other, without a picture between, until the figure gives up. */
@@ -20,17 +20,28 @@ export class Runtime extends Part {
   /** Whether what is shown is that of a machine which is being made again. */
   mending = false;
   #near = false;
-  #starting = false;
+  /** @type {Promise<void> | undefined} */
+  #starting;
   #crashes = 0;
 
   hostConnected() {
     watch(this.host, {
-      approach: () => {
-        this.#near = true;
-        this.#start();
-      },
+      approach: () => void this.hasten(),
       sight: (inSight) => this.host.stage.sight(inSight),
     });
+    this.#look();
+  }
+
+  /** The room for the figure is there, so that it has its place on the page. */
+  async #look() {
+    await this.host.updateComplete;
+    if (this.host.isConnected) look(this.host);
+  }
+
+  /** The reader is near, or there: starts what has not started. */
+  async hasten() {
+    this.#near = true;
+    await this.#start();
   }
 
   hostDisconnected() {
@@ -126,9 +137,13 @@ export class Runtime extends Part {
     this.machine = this.motion = undefined;
   }
 
-  async #start() {
-    if (this.#starting || this.machine || !this.#near) return;
-    this.#starting = true;
+  /** @returns {Promise<void>} that ends when it has started, or cannot */
+  #start() {
+    if (!this.machine && this.#near) this.#starting ??= this.#make();
+    return this.#starting ?? Promise.resolve();
+  }
+
+  async #make() {
     try {
       const [motion] = await Promise.all([instantiate(), this.host.link.prepare()]);
       if (!this.#near) return;
@@ -140,7 +155,7 @@ export class Runtime extends Part {
     } catch (error) {
       this.fail(error);
     } finally {
-      this.#starting = false;
+      this.#starting = undefined;
     }
     // It went and came back meanwhile, or trapped again.
     if (this.#near && !this.machine && this.failure === undefined) this.#start();

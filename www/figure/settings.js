@@ -42,6 +42,7 @@ export class Settings extends Part {
   want(change) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
+      this.host.typing.forget();
       Object.assign(this.#pending, typeof change === 'function' ? change(this.wanted) : change);
       this.host.gesture.step();
       this.host.stage.wake();

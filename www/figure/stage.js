@@ -20,6 +20,10 @@ export class Stage extends Part {
   /** @type {import('../ui/theme.js').Palette | undefined} */
   #palette;
   #drawable = false;
+  /** Whether the canvases have the screen's pixels. */
+  #sized = false;
+  /** Frames that have been drawn, as far as they matter: the first, and one more. */
+  #drawn = 0;
   /** Whether there is something to draw when it comes into sight. */
   #due = false;
   /** @type {import('./page/scheme.js').Surroundings} */
@@ -64,6 +68,7 @@ export class Stage extends Part {
 
   /** @param {boolean} inSight */
   sight(inSight) {
+    if (this.opening && !inSight) this.host.requestUpdate();
     this.inSight = inSight;
     if (!inSight) this.rest();
     else if (this.#due) this.wake();
@@ -75,6 +80,14 @@ export class Stage extends Part {
     if (this.host.machine && this.inSight) wake(this);
   }
 
+  /**
+   * Whether the first picture is still on its way to the reader, who sees it before anything else. Nobody waits for it who
+   * cannot see it.
+   */
+  get opening() {
+    return this.host.machine !== undefined && this.#drawn < 2 && this.inSight && !document.hidden;
+  }
+
   /** Asks for none any more. */
   rest() {
     sleep(this);
@@ -84,13 +97,14 @@ export class Stage extends Part {
   clear() {
     this.rest();
     this.#sizes?.disconnect();
-    this.#drawable = false;
+    this.#drawable = this.#sized = false;
+    this.#drawn = 0;
     this.#palette = undefined;
   }
 
   /** @param {number} elapsed milliseconds since the frame before */
   frame(elapsed) {
-    if (!this.host.machine || !this.#drawable || !this.#hasSize) return;
+    if (!this.host.machine || !this.#sized || !this.#hasSize) return;
     this.#due = false;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
@@ -110,8 +124,11 @@ export class Stage extends Part {
     const how = { elapsed, still: host.held, atOnce: isCalm() };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
-    host.requestUpdate();
-    if (moving.includes(true) || host.cloud?.playing) this.wake();
+    const opening = this.opening;
+    this.#drawn = Math.min(2, this.#drawn + 1);
+    // All else comes with the second frame.
+    if (!opening || this.#drawn === 2) host.requestUpdate();
+    if (opening || moving.includes(true) || host.cloud?.playing) this.wake();
   }
 
   /** @param {import('../scene/picture.js').Picture<any>} picture */
@@ -135,9 +152,11 @@ export class Stage extends Part {
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = /** @type {HTMLCanvasElement} */ (target);
       const exact = devicePixelContentBoxSize?.[0];
-      canvas.width = exact?.inlineSize ?? Math.round(contentRect.width * devicePixelRatio);
-      canvas.height = exact?.blockSize ?? Math.round(contentRect.height * devicePixelRatio);
+      const ratio = devicePixelRatio * (canvas.currentCSSZoom ?? 1);
+      canvas.width = exact?.inlineSize ?? Math.round(contentRect.width * ratio);
+      canvas.height = exact?.blockSize ?? Math.round(contentRect.height * ratio);
     }
+    this.#sized = true;
     // Inside a closed tab, nothing tells of a change of colours.
     this.#palette = undefined;
     // At once: a canvas that was resized is blank, and the next frame is too late to hide that.

@@ -11,7 +11,8 @@ import { orFree } from './runtime.js';
  *
  * @typedef {object} Owned something in the state that is the element's and not its machine's
  * @property {unknown} opening what it is when the widget opens
- * @property {(field: string, value: any, machine: any) => any} check what is taken of a value; throws
+ * @property {(field: string, value: any, machine: any, growing: boolean) => any} check what is taken of a value, of a figure
+ *   whose cloud has samples still to come or not; throws
  */
 
 /** Version of the states that `getState` gives; `setState` refuses any other. */
@@ -79,7 +80,7 @@ export class State extends Part {
     const whole = { ...present, ...host.completed(present, given) };
     const machine = orFree(host.createMachine(host.motion, whole), (made) => {
       for (const [name, { check }] of Object.entries(this.#owned)) {
-        whole[name] = check(`state.${name}`, whole[name], made);
+        whole[name] = check(`state.${name}`, whole[name], made, whole.playing);
       }
       host.cloud?.check(whole, made);
     });
@@ -98,7 +99,8 @@ export class State extends Part {
    * @param {unknown} value
    */
   assign(name, value) {
-    this.own[name] = this.#owned[name].check(name, value, this.host.machine);
+    const { machine, cloud } = this.host;
+    this.own[name] = this.#owned[name].check(name, value, machine, cloud?.growing ?? false);
   }
 
   /** @param {Values} state */

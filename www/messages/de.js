@@ -16,6 +16,9 @@ export const de = {
     omega: { name: 'ω, befohlene Drehrate' },
     dt: { name: 'Δt, Dauer' },
   },
+  sliderEnds: (end) => `Der Regler endet bei ${end}; Werte darüber hinaus kann man eintippen.`,
+  refused: (name, given, least, most, whole) =>
+    `${name} ist ${given}; erlaubt ist ${whole ? 'eine ganze Zahl von ' : ''}${least} bis ${most}.`,
   exports: {
     label: 'Abbildung sichern',
     png: 'PNG',
@@ -25,6 +28,7 @@ export const de = {
     svgTitle: 'Das Bild als Vektorgrafik',
     csvTitle: 'Jede Stichprobe, mit den Parametern und dem Startwert',
   },
+  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', end: 'Verlassen' },
   copies: {
     label: 'Abbildung weitergeben',
     link: 'Link kopieren',

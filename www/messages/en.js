@@ -25,6 +25,9 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     omega: { name: 'ω, commanded turn rate' },
     dt: { name: 'Δt, duration' },
   },
+  sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
+  refused: (name, given, least, most, whole) =>
+    `${name} is ${given}; allowed is ${whole ? 'a whole number from ' : ''}${least} to ${most}.`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',
@@ -34,6 +37,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     svgTitle: 'The picture as vector graphics',
     csvTitle: 'Every sample, with the parameters and the seed',
   },
+  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', end: 'Leave' },
   copies: {
     label: 'Share the figure',
     link: 'Copy link',

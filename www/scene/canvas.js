@@ -22,6 +22,18 @@
 export const LONGEST_SIDE = 16_384;
 
 /**
+ * A point of the window in an element's own CSS pixels, which a zoom makes larger or smaller.
+ *
+ * @param {Element} element
+ * @param {{ clientX: number, clientY: number }} point
+ */
+export function pointOn(element, { clientX, clientY }) {
+  const { left, top, width } = element.getBoundingClientRect();
+  const zoom = width / Math.max(1, element.clientWidth);
+  return [(clientX - left) / zoom, (clientY - top) / zoom];
+}
+
+/**
  * Clears a canvas and gives the view its size.
  *
  * @param {HTMLCanvasElement | Surface} canvas

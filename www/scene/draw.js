@@ -1,6 +1,6 @@
 /**
  * What pictures are made of: axes, robots, densities, outlines and marks. Every function takes the
- * brush, which knows the view's transform and the colours, and none keeps anything.
+ * brush, which knows the view's transform and the colours, and none keeps anything but the latest dot.
  */
 
 import { ticks } from 'd3-array';
@@ -166,11 +166,24 @@ function headingTick({ context, view }, x, y, heading, length) {
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
 }
 
+/** The dots of the latest kind: to make a canvas costs as much as to draw hundreds of them. @type {{ kind: string, dot: OffscreenCanvas } | undefined} */
+let latest;
+
 /**
  * @param {string} colour
  * @param {number} radius device pixels
  */
 function sprite(colour, radius) {
+  const kind = `${colour} ${radius}`;
+  if (latest?.kind !== kind) latest = { kind, dot: makeSprite(colour, radius) };
+  return latest.dot;
+}
+
+/**
+ * @param {string} colour
+ * @param {number} radius device pixels
+ */
+function makeSprite(colour, radius) {
   const half = Math.ceil(radius) + 1;
   const canvas = new OffscreenCanvas(2 * half, 2 * half);
   const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
@@ -268,27 +281,51 @@ export function trace({ context, view }, points) {
 }
 
 /**
- * A polyline through x, y pairs with a halo of paper, so that it reads on top of the cloud.
+ * @typedef {object} Outline
+ * @property {Float64Array} points x, y pairs
+ * @property {string} colour
+ * @property {number} width CSS pixels
+ * @property {number[]} dash
+ */
+
+/**
+ * Polylines with halos of paper, so that they read on top of the cloud. The halos are below all of them: where two nearly
+ * coincide, both are seen.
+ *
+ * @param {Brush} brush
+ * @param {Outline[]} outlines the last one on top
+ */
+export function drawOutlines(brush, outlines) {
+  const { context, palette } = brush;
+  const drawn = outlines.filter(({ points }) => points.length >= 4);
+  context.lineJoin = 'round';
+  context.globalAlpha = 0.7;
+  context.strokeStyle = palette.paper;
+  for (const { points, width } of drawn) {
+    trace(brush, points);
+    context.lineWidth = width + 2.5;
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+  for (const { points, colour, width, dash } of drawn) {
+    trace(brush, points);
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.setLineDash(dash);
+    context.stroke();
+  }
+  context.setLineDash([]);
+}
+
+/**
+ * A single one of them.
  *
  * @param {Brush} brush
  * @param {Float64Array} points
- * @param {{ colour: string, width: number, dash: number[] }} style
+ * @param {Omit<Outline, 'points'>} style
  */
-export function drawOutline(brush, points, { colour, width, dash }) {
-  if (points.length < 4) return;
-  const { context, palette } = brush;
-  trace(brush, points);
-  context.lineJoin = 'round';
-  context.strokeStyle = palette.paper;
-  context.lineWidth = width + 2.5;
-  context.globalAlpha = 0.7;
-  context.stroke();
-  context.globalAlpha = 1;
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.setLineDash(dash);
-  context.stroke();
-  context.setLineDash([]);
+export function drawOutline(brush, points, style) {
+  drawOutlines(brush, [{ points, ...style }]);
 }
 
 /**

@@ -1,13 +1,15 @@
 /** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
 
 import { html } from 'lit';
+import { pointOn } from './canvas.js';
 
 /**
  * @typedef {object} Hooks what a handle acts on; lengths in metres
  * @property {() => import('./view.js').View} view
  * @property {(pointer: number[]) => number[]} [at] x and y of what is held by a pointer that is there; the middle of
  *   the handle where it is left out
- * @property {(x: number, y: number) => void} drag what is held is wanted there
+ * @property {(x: number, y: number) => string | void} drag what is held is wanted there; a few words on what stops it, if
+ *   something does
  * @property {(event: KeyboardEvent) => boolean} key whether the key is one that moved it
  * @property {() => void} commit it has come to rest
  *
@@ -29,6 +31,8 @@ export class Handle {
   #hooks;
   /** From the pointer to what is held, metres: taken by its edge it does not jump. */
   #grip = [0, 0];
+  /** Where its middle was placed, CSS pixels: on the screen it is rounded. */
+  #middle = [0, 0];
 
   /**
    * @param {string} part class of its element
@@ -69,20 +73,27 @@ export class Handle {
   place(root, x, y, size) {
     const handle = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${this.#part}`));
     if (!handle) return;
+    this.#middle = [x, y];
     if (size !== undefined) handle.style.width = handle.style.height = `${size}px`;
     handle.style.translate = `${x}px ${y}px`;
   }
 
   /**
-   * @param {Element} handle
-   * @param {number} x CSS pixels of the window
-   * @param {number} y
+   * @param {number[]} point CSS pixels of the picture
    * @returns {number[]} the same in metres
    */
-  #world(handle, x, y) {
-    const { left, top } = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
+  #world([x, y]) {
     const view = this.#hooks.view();
-    return [view.toWorldX(x - left), view.toWorldY(y - top)];
+    return [view.toWorldX(x), view.toWorldY(y)];
+  }
+
+  /**
+   * @param {PointerEvent} event on the handle
+   * @returns {number[]} where the pointer is, metres
+   */
+  #pointer(event) {
+    const { parentElement } = /** @type {Element} */ (event.currentTarget);
+    return this.#world(pointOn(/** @type {Element} */ (parentElement), event));
   }
 
   #hold = (/** @type {PointerEvent} */ event) => {
@@ -90,21 +101,21 @@ export class Handle {
     const handle = /** @type {Element} */ (event.currentTarget);
     handle.setPointerCapture(event.pointerId);
     this.held = true;
-    const pointer = this.#world(handle, event.clientX, event.clientY);
-    const { left, top, width, height } = handle.getBoundingClientRect();
-    const held = this.#hooks.at?.(pointer) ?? this.#world(handle, left + width / 2, top + height / 2);
+    const pointer = this.#pointer(event);
+    const held = this.#hooks.at?.(pointer) ?? this.#world(this.#middle);
     this.#grip = [held[0] - pointer[0], held[1] - pointer[1]];
   };
 
   #drag = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
-    const [x, y] = this.#world(/** @type {Element} */ (event.currentTarget), event.clientX, event.clientY);
-    this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]);
+    const [x, y] = this.#pointer(event);
+    stopped(/** @type {HTMLElement} */ (event.currentTarget), this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]));
   };
 
-  #release = () => {
+  #release = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
     this.held = false;
+    stopped(/** @type {HTMLElement} */ (event.currentTarget));
     this.#hooks.commit();
   };
 
@@ -113,4 +124,21 @@ export class Handle {
     event.preventDefault();
     this.#hooks.commit();
   };
+}
+
+/**
+ * Says beside a handle what stops it, towards the middle of its picture.
+ *
+ * @param {HTMLElement} handle
+ * @param {string | void} words nothing where nothing stops it
+ */
+function stopped(handle, words) {
+  if (!words) {
+    delete handle.dataset.stop;
+    return;
+  }
+  const picture = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
+  const { left, right } = handle.getBoundingClientRect();
+  handle.dataset.stop = words;
+  handle.classList.toggle('right', left + right > picture.left + picture.right);
 }

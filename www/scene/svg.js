@@ -73,10 +73,18 @@ export class SvgContext {
     this.#path += `L${short(x)},${short(y)}`;
   };
 
-  /** A whole circle: there are no others. @type {CanvasPath['arc']} */
-  arc = (x, y, radius) => {
-    const [r, across] = [short(radius), short(2 * radius)];
-    this.#path += `M${short(x - radius)},${short(y)}a${r},${r} 0 1 0 ${across},0a${r},${r} 0 1 0 -${across},0Z`;
+  /** @type {CanvasPath['arc']} */
+  arc = (x, y, radius, from, to, backwards = false) => {
+    const r = short(radius);
+    const turn = backwards ? from - to : to - from;
+    if (turn >= 2 * Math.PI) {
+      const across = short(2 * radius);
+      this.#path += `M${short(x - radius)},${short(y)}a${r},${r} 0 1 0 ${across},0a${r},${r} 0 1 0 -${across},0Z`;
+      return;
+    }
+    const at = (/** @type {number} */ angle) => `${short(x + radius * Math.cos(angle))},${short(y + radius * Math.sin(angle))}`;
+    const [large, clockwise] = [turn > Math.PI, !backwards].map(Number);
+    this.#path += `${this.#path ? 'L' : 'M'}${at(from)}A${r},${r} 0 ${large} ${clockwise} ${at(to)}`;
   };
 
   /** @type {CanvasPath['rect']} */

@@ -3,6 +3,7 @@
  * only with the map, the view or the colours.
  */
 
+import { channels } from '../ui/theme.js';
 import { LONGEST_SIDE } from './canvas.js';
 
 /**
@@ -14,6 +15,9 @@ import { LONGEST_SIDE } from './canvas.js';
 /** Width of a wall that has none, CSS pixels. */
 const WALL = 2.5;
 
+/** Distance and width of the lines that hatch what is unknown, CSS pixels. */
+const HATCH = { apart: 7, width: 1, opacity: 0.4 };
+
 /** Width of the outline of cells: enough to keep a cell visible in a view of a whole building. */
 const OUTLINE = 0.75;
 
@@ -22,8 +26,12 @@ const WALLS_A_STROKE = 500;
 
 export class WallLayer {
   #plan;
-  /** @type {{ canvas: OffscreenCanvas, grid: Grid } | undefined} */
-  #cells;
+  /** The grid, if its cells are drawn. @type {Grid | undefined} */
+  #grid;
+  #hasUnknown;
+  #width;
+  /** Those cells in that colour. @type {Record<string, { canvas: OffscreenCanvas, colour: string } | undefined>} */
+  #masks = {};
   #layer = new OffscreenCanvas(1, 1);
   /** What the layer shows. */
   #shown = '';
@@ -31,25 +39,26 @@ export class WallLayer {
   /**
    * @param {Plan} plan
    * @param {Grid | null} grid the cells that the walls outline, if they do
+   * @param {number} [width] of a wall that has none, CSS pixels
    */
-  constructor(plan, grid) {
+  constructor(plan, grid, width = WALL) {
     this.#plan = plan;
     // Cells of a longer grid are outlined only.
-    if (grid && Math.max(grid.columns, grid.rows) <= LONGEST_SIDE) {
-      this.#cells = { canvas: maskOf(grid), grid };
-    }
+    if (grid && Math.max(grid.columns, grid.rows) <= LONGEST_SIDE) this.#grid = grid;
+    this.#width = grid ? OUTLINE : width;
+    this.#hasUnknown = grid?.unknown.includes(1) ?? false;
     this.solid = grid !== null;
   }
 
   /** @param {Brush} brush */
   draw(brush) {
     const { context, view, palette, ratio } = brush;
-    const { extent, width, height } = view;
-    if ('vector' in context && !this.#cells) {
+    const { extent, frame, width, height } = view;
+    if ('vector' in context && !this.#grid) {
       this.#outline(brush);
       return;
     }
-    const wanted = JSON.stringify([extent, width, height, palette.truth, palette.rule, ratio]);
+    const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
     if (wanted !== this.#shown) {
       this.#shown = wanted;
       this.#paint(brush);
@@ -64,17 +73,28 @@ export class WallLayer {
     this.#layer.height = Math.round(view.height * ratio);
     const context = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#layer.getContext('2d'));
     context.scale(ratio, ratio);
-    if (this.#cells) {
-      context.save();
-      fillCells(context, view, this.#cells);
-      context.restore();
-      // The mask says where, the colour is the palette's.
-      context.globalCompositeOperation = 'source-in';
-      context.fillStyle = palette.truth;
-      context.fillRect(0, 0, view.width, view.height);
-      context.globalCompositeOperation = 'source-over';
+    if (this.#grid) {
+      if (this.#hasUnknown) {
+        // The mask says where, the hatching goes there.
+        fillCells(context, view, this.#grid, this.#mask('unknown', palette.muted));
+        context.globalCompositeOperation = 'source-in';
+        hatch(context, view, palette.muted);
+        context.globalCompositeOperation = 'source-over';
+      }
+      fillCells(context, view, this.#grid, this.#mask('occupied', palette.truth));
     }
     this.#outline({ context, view, palette });
+  }
+
+  /**
+   * @param {'occupied' | 'unknown'} kind of cell
+   * @param {string} colour
+   */
+  #mask(kind, colour) {
+    const grid = /** @type {Grid} */ (this.#grid);
+    let mask = this.#masks[kind];
+    if (mask?.colour !== colour) mask = this.#masks[kind] = { canvas: maskOf(grid, grid[kind], colour), colour };
+    return mask.canvas;
   }
 
   /** @param {Pick<Brush, 'view' | 'palette'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} brush */
@@ -85,7 +105,7 @@ export class WallLayer {
     context.strokeRect(left, top, view.toPixelX(bounds[2]) - left, view.toPixelY(bounds[1]) - top);
 
     context.strokeStyle = palette.truth;
-    context.lineWidth = this.solid ? OUTLINE : WALL;
+    context.lineWidth = this.#width;
     context.lineCap = this.solid ? 'butt' : 'round';
     for (let first = 0; first < walls.length; first += 4 * WALLS_A_STROKE) {
       const last = Math.min(walls.length, first + 4 * WALLS_A_STROKE);
@@ -100,21 +120,50 @@ export class WallLayer {
   }
 }
 
-/** A pixel a cell, the lowest row first, opaque where it is occupied. @param {Grid} grid */
-function maskOf({ columns, rows, occupied }) {
+/**
+ * A pixel a cell, the lowest row first, coloured where the cell is.
+ *
+ * @param {Grid} grid
+ * @param {Uint8Array} cells 1 where they are
+ * @param {string} colour
+ */
+function maskOf({ columns, rows }, cells, colour) {
   const image = new ImageData(columns, rows);
-  for (let i = 0; i < occupied.length; i++) image.data[4 * i + 3] = 255 * occupied[i];
+  const pixels = new Uint32Array(image.data.buffer);
+  const [pixel] = new Uint32Array(Uint8Array.of(...channels(colour), 255).buffer);
+  for (let i = 0; i < cells.length; i++) pixels[i] = pixel * cells[i];
   const canvas = new OffscreenCanvas(columns, rows);
   /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d')).putImageData(image, 0, 0);
   return canvas;
 }
 
 /**
+ * Diagonals over the whole of a view; nothing is left between them.
+ *
  * @param {OffscreenCanvasRenderingContext2D} context
  * @param {View} view
- * @param {{ canvas: OffscreenCanvas, grid: Grid }} cells
+ * @param {string} colour
  */
-function fillCells(context, view, { canvas, grid }) {
+function hatch(context, { width, height }, colour) {
+  context.beginPath();
+  for (let x = -height; x < width; x += HATCH.apart) {
+    context.moveTo(x, height);
+    context.lineTo(x + height, 0);
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = HATCH.width;
+  context.globalAlpha = HATCH.opacity;
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+/**
+ * @param {OffscreenCanvasRenderingContext2D} context
+ * @param {View} view
+ * @param {Grid} grid
+ * @param {OffscreenCanvas} mask
+ */
+function fillCells(context, view, grid, mask) {
   const [x, y, yaw] = grid.origin;
   const [along, up] = [grid.resolution * Math.cos(yaw), grid.resolution * Math.sin(yaw)];
   /** Where a corner of a cell is drawn. */
@@ -123,6 +172,7 @@ function fillCells(context, view, { canvas, grid }) {
     view.toPixelY(y + column * up + row * along),
   ];
   const [from, right, above] = [corner(0, 0), corner(1, 0), corner(0, 1)];
+  context.save();
   context.transform(
     right[0] - from[0],
     right[1] - from[1],
@@ -133,5 +183,6 @@ function fillCells(context, view, { canvas, grid }) {
   );
   // Cells that are large on the screen have edges.
   context.imageSmoothingEnabled = Math.hypot(right[0] - from[0], right[1] - from[1]) < 2;
-  context.drawImage(canvas, 0, 0);
+  context.drawImage(mask, 0, 0);
+  context.restore();
 }

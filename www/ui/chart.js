@@ -100,6 +100,7 @@ export const chartStyles = css`
  * @property {{ name: string, text: string, x: number, y: number }} marker its value in words; y is NaN where there
  *   is none, and the marker waits on the x axis then
  * @property {{ value: number, error: number }} measured at the marker's x; NaN where there is none
+ * @property {{ x: number, text: string }} [remark] beside the zero line, from there on to the right
  * @property {(to: (x: number) => number) => void} move given what makes the next x of the present one
  * @property {() => void} commit
  */
@@ -178,7 +179,7 @@ function scaleOf({ curve, min, max }) {
  * @param {Chart} chart
  * @param {ReturnType<typeof scaleOf>} scale
  */
-function axes({ axes: names, min, max }, { half, x, y }) {
+function axes({ axes: names, min, max, remark }, { half, x, y }) {
   return svg`
     ${ticks(min, max, 5).map(
       (value) => svg`
@@ -193,7 +194,8 @@ function axes({ axes: names, min, max }, { half, x, y }) {
     <line class="axis" x1=${LEFT} x2=${RIGHT} y1=${BOTTOM} y2=${BOTTOM} />
     <text class="name" x=${RIGHT} y=${BOTTOM + 31} text-anchor="end">${names.x}</text>
     <text class="name" x="0" y="12">${names.y}</text>
-    <line class="zero" x1=${LEFT} x2=${RIGHT} y1=${y(0)} y2=${y(0)} />`;
+    <line class="zero" x1=${LEFT} x2=${RIGHT} y1=${y(0)} y2=${y(0)} />
+    ${remark ? svg`<text x=${x(remark.x) + 8} y=${y(0) - 9}>${remark.text}</text>` : nothing}`;
 }
 
 /**

@@ -1,11 +1,7 @@
-/**
- * Native inputs with a label, the value with its unit, and one line that says what the parameter
- * does to the picture.
- */
+/** Native inputs with a label, buttons, and groups of them. */
 
 import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
-import { finger } from './finger.js';
 
 export const controlStyles = css`
   /* The sliders of a group share their columns, each as wide as its widest text in whatever font. */
@@ -14,34 +10,14 @@ export const controlStyles = css`
     grid-template-columns: auto minmax(4rem, 1fr) auto;
     column-gap: 0.6rem;
     min-width: 0;
-    margin: 0 0 1.4rem;
+    margin: 0;
     padding: 0;
     border: 0;
-  }
-
-  fieldset:has(.picking) {
-    grid-template-columns: auto auto minmax(4rem, 1fr) auto;
+    position: relative;
   }
 
   fieldset > * {
     grid-column: 1 / -1;
-  }
-
-  .slider {
-    display: grid;
-    grid-template-columns: subgrid;
-    align-items: center;
-    margin-bottom: 0.45rem;
-  }
-
-  .slider label {
-    min-width: 1.6rem;
-    font-size: 1.1rem;
-  }
-
-  .slider .value {
-    text-align: right;
-    white-space: nowrap;
   }
 
   .effect {
@@ -50,69 +26,7 @@ export const controlStyles = css`
     line-height: 1.25;
   }
 
-  .slider .effect {
-    grid-column: 2 / -1;
-    margin: -0.15rem 0 0;
-  }
-
-  .slider.picking .effect {
-    grid-column: 3 / -1;
-  }
-
-  .slider.off :is(label, .value) {
-    color: var(--muted);
-  }
-
-  .slider.off input[type='range'] {
-    --thumb: var(--paper);
-    --thumb-edge: var(--muted);
-  }
-
-  input[type='range'] {
-    --thumb-edge: var(--thumb);
-    appearance: none;
-    width: 100%;
-    height: 1.75rem;
-    margin: 0;
-    background: none;
-    cursor: pointer;
-    touch-action: pan-y;
-  }
-
-  input[type='range']::-webkit-slider-runnable-track {
-    height: 2px;
-    background: var(--muted);
-    border-radius: 1px;
-  }
-
-  input[type='range']::-moz-range-track {
-    height: 2px;
-    background: var(--muted);
-    border-radius: 1px;
-  }
-
-  input[type='range']::-webkit-slider-thumb {
-    appearance: none;
-    width: 1.05rem;
-    height: 1.05rem;
-    margin-top: calc(1px - 0.525rem);
-    background: var(--thumb);
-    border: 2px solid var(--thumb-edge);
-    border-radius: 50%;
-    box-shadow: 0 0 0 3px var(--paper);
-  }
-
-  input[type='range']::-moz-range-thumb {
-    box-sizing: border-box;
-    width: 1.05rem;
-    height: 1.05rem;
-    background: var(--thumb);
-    border: 2px solid var(--thumb-edge);
-    border-radius: 50%;
-    box-shadow: 0 0 0 3px var(--paper);
-  }
-
-  :is(button, input, textarea, summary, .handle, .chart-marker):focus-visible {
+  :is(button, input, textarea, summary, .handle, .chart-marker, .reserved):focus-visible {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
   }
@@ -228,65 +142,6 @@ export const controlStyles = css`
   }
 `;
 
-/**
- * A slider row.
- *
- * @param {object} row
- * @param {string} row.id unique in the widget
- * @param {unknown} row.symbol
- * @param {string} [row.name] what a screen reader says where the symbol says too little
- * @param {number} row.value
- * @param {number} row.min
- * @param {number} row.max
- * @param {number} row.step
- * @param {(value: number) => string} row.show a value with its unit
- * @param {unknown} row.effect what the parameter does to the picture
- * @param {'prior' | 'prediction' | 'truth'} row.role
- * @param {boolean} [row.off] its value has no effect at present
- * @param {unknown} [row.pick] a control in front of the label
- * @param {(value: number) => void} row.input while it moves
- * @param {() => void} row.commit when it comes to rest
- */
-export function sliderRow(row) {
-  const classes = `slider${row.pick ? ' picking' : ''}${row.off ? ' off' : ''}`;
-  const shown = row.show(row.value);
-  const set = (/** @type {Event} */ event) => {
-    // A browser sets a slider as soon as a finger comes down on it.
-    if (!finger.waits) row.input(inputOf(event).valueAsNumber);
-  };
-  const room = longest([shown, row.show(row.min), row.show(row.max)]);
-  return html`
-    <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
-      ${row.pick ?? nothing}
-      <label for=${row.id}>${row.symbol}</label>
-      <input
-        id=${row.id}
-        type="range"
-        min=${row.min}
-        max=${row.max}
-        step=${row.step}
-        .value=${live(String(row.value))}
-        aria-label=${row.name ?? nothing}
-        aria-valuetext=${shown}
-        aria-describedby="${row.id}-effect"
-        @pointerdown=${finger.comes}
-        @pointermove=${(/** @type {PointerEvent} */ event) => {
-          finger.moves(event);
-          if (event.pointerType === 'touch' && !finger.waits) set(event);
-        }}
-        @pointerup=${(/** @type {PointerEvent} */ event) => finger.goes() && set(event)}
-        @pointercancel=${(/** @type {PointerEvent} */ event) => {
-          if (finger.goes()) inputOf(event).value = String(row.value);
-        }}
-        @input=${set}
-        @change=${row.commit}
-      />
-      <span class="value roomy" data-room=${room}>${shown}</span>
-      <p class="effect" id="${row.id}-effect">${row.effect}</p>
-    </div>
-  `;
-}
-
 /** A message with its italics and subscripts. @param {string} message as messages/en.js has it */
 export function rich(message) {
   return message
@@ -331,13 +186,14 @@ export function toggle({ label, checked, change }) {
 }
 
 /**
- * @param {string} label
+ * @param {unknown} label
  * @param {() => void} press
- * @param {{ pressed?: boolean, disabled?: boolean, title?: string }} [state]
+ * @param {{ pressed?: boolean, disabled?: boolean, title?: string, name?: string }} [state] with a class
  */
-export function button(label, press, { pressed, disabled = false, title } = {}) {
+export function button(label, press, { pressed, disabled = false, title, name } = {}) {
   return html`<button
     type="button"
+    class=${name ?? nothing}
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}

@@ -34,8 +34,45 @@ function print(value, options) {
  */
 export function fixed(value, decimals) {
   // Rounded here, as the number is in binary: ties of its shortest decimals are none.
-  const rounded = Number(value.toFixed(decimals));
+  const digits = value.toFixed(decimals);
+  const rounded = Number(digits);
+  // English needs no formatter, whose making costs more than the rest of a first frame.
+  if (language === 'en' && Math.abs(rounded) < 1e21) return rounded < 0 ? MINUS + digits.slice(1) : digits.replace('-', '');
   return print(rounded, { minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false });
+}
+
+/** Decimals beyond the usual ones that a short number is shown with. */
+const FEW_MORE = 2;
+
+/**
+ * A value as it was typed: with more decimals than usual where few more say all of it.
+ *
+ * @param {number} value
+ * @param {number} decimals usual ones
+ * @returns {string} "0.0525" with 3, and "0.052" for 0.05210987
+ */
+export function typed(value, decimals) {
+  const all = String(value).split('.')[1]?.length ?? 0;
+  return fixed(value, all > decimals && all <= decimals + FEW_MORE ? all : decimals);
+}
+
+/**
+ * A number that was typed in the present language, or with a decimal point.
+ *
+ * @param {string} text "−0,301", "1.5 m/s", "2 000"
+ * @param {string} [unit] that may follow it
+ * @returns {number} NaN where it is none
+ */
+export function numberIn(text, unit = '') {
+  const plain = text.replace(/\s/g, '').replace(MINUS, '-');
+  const bare = unit && plain.endsWith(unit) ? plain.slice(0, -unit.length) : plain;
+  const [, decimal] = fixed(0.5, 1);
+  return bare === '' ? NaN : Number(bare.replace(decimal, '.'));
+}
+
+/** @param {number} value @returns {string} "1 000 000"; "1·10⁻⁶" */
+export function limit(value) {
+  return Number.isInteger(value) ? counted(value) : significant(value, 1);
 }
 
 /** Below this a number is taken for a 0 that rounding has passed over. */
@@ -62,6 +99,14 @@ export function significant(value, digits) {
 }
 
 /**
+ * @param {number} exponent not below 0
+ * @returns {string} "e²⁴⁹", the exponent rounded to a whole number
+ */
+export function powerOfE(exponent) {
+  return `e${String(Math.round(exponent)).replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)])}`;
+}
+
+/**
  * @param {number} value above 0
  * @param {number} digits significant ones
  * @returns {string} "0.47", "12", "1 200"
@@ -77,6 +122,7 @@ export function rounded(value, digits) {
  * @returns {string} "100 000"
  */
 export function counted(count) {
+  if (language === 'en' && Math.abs(count) < 1e21) return fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
   return print(count, { maximumFractionDigits: 0, useGrouping: true });
 }
 

@@ -1,38 +1,72 @@
 /**
- * The page of a widget: its picture large at the left with the controls beside it, everything in one column
- * where there is little room.
+ * The page of a widget, from above: its pictures side by side, the sentence that they say, the figures that matter, the
+ * controls in compact rows, and folds with everything else. So much is seen without scrolling in a column of 700 pixels.
  */
 
 import { css } from 'lit';
 import { controlStyles } from './controls.js';
 import { markedStyles } from './marked.js';
 import { readoutStyles } from './readouts.js';
+import { sliderStyles } from './slider.js';
 
 const layout = css`
+  .views,
+  .controls {
+    display: grid;
+    gap: 0.25rem 2rem;
+    align-items: start;
+  }
+
+  .controls {
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr));
+    gap: 0 2.5rem;
+  }
+
+  @container (min-width: 56rem) {
+    .controls {
+      column-gap: 5rem;
+    }
+  }
+
+  /* What is needed less often, one beside the other; an open one has the whole width. */
+  .folds {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: start;
+    gap: 0.1rem 1.2rem;
+    margin-top: 0.4rem;
+    padding-top: 0.3rem;
+    border-top: 1px solid var(--rule);
+  }
+
+  .folds > details {
+    min-width: 0;
+  }
+
+  .folds > details[open] {
+    flex: 1 0 100%;
+    padding-bottom: 0.8rem;
+  }
+
+  .begin button {
+    min-height: 1.75rem;
+    padding: 0 0.5rem 0.1rem;
+  }
+
+  .folded {
+    padding-top: 0.4rem;
+  }
+
   .figures {
     display: grid;
-    gap: 1.5rem 2.75rem;
+    gap: 1rem 2.75rem;
     align-items: start;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
-    margin-top: 1.5rem;
   }
 
   figure,
   dl {
     margin: 0;
-  }
-
-  @container (min-width: 56rem) {
-    .machine {
-      display: grid;
-      column-gap: 2.75rem;
-      grid-template-columns: minmax(0, 1fr) 22rem;
-    }
-
-    .figures {
-      grid-column: 1 / -1;
-      grid-template-columns: minmax(0, 1fr) minmax(0, 1fr) 22rem;
-    }
   }
 
   .stage {
@@ -71,6 +105,27 @@ const layout = css`
     background: var(--paper);
     border: 3px solid var(--prior);
     border-radius: 50%;
+  }
+
+  /* What stops a handle that is dragged on. */
+  .handle[data-stop]::before {
+    content: attr(data-stop);
+    position: absolute;
+    top: 50%;
+    left: calc(100% + 0.3rem);
+    translate: 0 -50%;
+    padding: 0.1rem 0.5rem;
+    background: var(--ink);
+    border-radius: 3px;
+    color: var(--paper);
+    font-size: 0.85rem;
+    white-space: nowrap;
+    pointer-events: none;
+  }
+
+  .handle.right[data-stop]::before {
+    right: calc(100% + 0.3rem);
+    left: auto;
   }
 
   .handle:hover::after {
@@ -130,10 +185,6 @@ const layout = css`
     margin-bottom: 0.7rem;
   }
 
-  .cloud {
-    margin: 1rem 0 0;
-  }
-
   .seed {
     margin-left: auto;
     color: var(--muted);
@@ -145,18 +196,10 @@ const layout = css`
     font-size: 0.92rem;
   }
 
-  /* In one column the floor stays in sight while the controls below it are used. */
-  @container (width < 56rem) {
-    .floor {
-      display: contents;
-    }
-
-    .controls {
-      margin-top: 1.5rem;
-    }
-
+  /* On a phone the floor stays in sight while the controls below it are used. */
+  @container (width < 30rem) {
     @media (min-height: 37.5rem) {
-      .stage {
+      .stage[part='picture'] {
         position: sticky;
         top: 0;
         z-index: 1;
@@ -167,16 +210,25 @@ const layout = css`
           0 0.5rem 0.5rem var(--paper);
       }
 
+      .views {
+        display: contents;
+      }
+
+      /* Clear of the shadow. */
+      .stage + .stage {
+        margin-top: 0.7rem;
+      }
+
       .stage canvas {
         max-height: 38svh;
       }
 
       /* What has the focus stays clear of the floor above it. */
       :is(button, input, summary, textarea, .chart-marker) {
-        scroll-margin-top: calc(38svh + 6.5rem);
+        scroll-margin-top: calc(38svh + 2rem);
       }
     }
   }
 `;
 
-export const layoutStyles = [readoutStyles, markedStyles, controlStyles, layout];
+export const layoutStyles = [readoutStyles, markedStyles, controlStyles, sliderStyles, layout];

@@ -4,38 +4,31 @@ import { css, html, nothing } from 'lit';
 import { rich } from './controls.js';
 
 export const readoutStyles = css`
+  /* A name above its figure, side by side. */
   .readouts {
-    display: grid;
-    column-gap: 2.5rem;
-    margin: 0.7rem 0 0.5rem;
-    border-bottom: 1px solid var(--rule);
-  }
-
-  @container (min-width: 43rem) {
-    .readouts {
-      grid: repeat(4, auto) / auto-flow minmax(0, 1fr);
-    }
-  }
-
-  .readouts div {
     display: flex;
     flex-wrap: wrap;
-    justify-content: space-between;
-    align-items: baseline;
-    column-gap: 0.75rem;
-    padding: 0.28rem 0;
-    border-top: 1px solid var(--rule);
+    gap: 0.2rem 2rem;
+    margin: 0.1rem 0 0.5rem;
   }
 
   .readouts dt {
-    flex: 1;
-    min-width: min-content;
+    color: var(--muted);
+    font-size: 0.84rem;
+    line-height: 1.25;
   }
 
   .readouts dd {
-    margin: 0 0 0 auto;
-    text-align: right;
+    margin: 0;
+    font-size: 1.1rem;
+    line-height: 1.25;
     white-space: nowrap;
+  }
+
+  .readouts .detail {
+    color: var(--muted);
+    font-size: 0.84rem;
+    white-space: normal;
   }
 
   sub {
@@ -109,12 +102,20 @@ export const readoutStyles = css`
   }
 `;
 
-/** @param {[name: string, value: string, longest?: string][]} rows each with room for the longest value there is */
+/**
+ * @typedef {[text: string, longest?: string]} Roomy a text that changes, with room for the longest that it may be
+ *
+ * @param {[name: string, value: string, longest?: string, detail?: Roomy][]} rows each with what it may need to be
+ *   understood, in smaller print
+ */
 export function readoutList(rows) {
   return html`<dl class="readouts" part="readouts">
     ${rows.map(
-      ([name, value, longest = value]) =>
-        html`<div><dt>${rich(name)}</dt><dd class="roomy" data-room=${longest}>${value}</dd></div>`,
+      ([name, value, longest = value, detail]) => html`<div>
+        <dt>${rich(name)}</dt>
+        <dd class="roomy" data-room=${longest}>${value}</dd>
+        ${detail ? html`<dd class="detail roomy" data-room=${detail[1] ?? detail[0]}>${rich(detail[0])}</dd>` : nothing}
+      </div>`,
     )}
   </dl>`;
 }

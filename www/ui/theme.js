@@ -73,6 +73,16 @@ export const theme = css`
     color: var(--ink);
   }
 
+  .title-slot {
+    margin: 0 0 0.3rem;
+    font-size: 1.1rem;
+  }
+
+  .caption-slot {
+    margin: 0.5rem 0 0;
+    font-size: 0.95rem;
+  }
+
   .failure {
     margin: 0;
     padding: 1rem 0;
@@ -113,6 +123,10 @@ export const theme = css`
       margin: 0 1.5rem 0 0 !important;
     }
 
+    .printed {
+      visibility: visible !important;
+    }
+
     .roomy::after,
     .reserved {
       display: none !important;
@@ -133,17 +147,18 @@ export const theme = css`
  * @param {HTMLElement} surface
  */
 export function resolvePalette(surface) {
-  const swatch = document.createElement('span');
-  swatch.hidden = true;
-  // In forced colours too, the roles keep their hues.
-  swatch.style.forcedColorAdjust = 'none';
-  surface.append(swatch);
-  const style = getComputedStyle(swatch);
-  const colours = ROLES.map((role) => {
+  // One for each role: all are there before the first is asked, so that the browser styles them once.
+  const swatches = ROLES.map((role) => {
+    const swatch = document.createElement('span');
+    swatch.hidden = true;
     swatch.style.color = `var(--${role})`;
-    return [role, style.color];
+    // In forced colours too, the roles keep their hues.
+    swatch.style.forcedColorAdjust = 'none';
+    return swatch;
   });
-  swatch.remove();
+  surface.append(...swatches);
+  const colours = swatches.map((swatch, i) => [ROLES[i], getComputedStyle(swatch).color]);
+  for (const swatch of swatches) swatch.remove();
   return /** @type {Palette} */ (Object.fromEntries(colours));
 }
 
@@ -155,6 +170,9 @@ let pixel;
  * @returns {[number, number, number]} red, green, blue, 0 to 255
  */
 export function channels(colour) {
+  // As browsers hand most colours out.
+  const plain = colour.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
+  if (plain) return [Number(plain[1]), Number(plain[2]), Number(plain[3])];
   const context = (pixel ??= /** @type {OffscreenCanvasRenderingContext2D} */ (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })
   ));

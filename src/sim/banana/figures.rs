@@ -1,9 +1,15 @@
 //! What a cloud of the Banana Machine says, as the widget shows it.
 
+use super::OUTLINE_SEGMENTS;
 use crate::geom::arc::ArcInversion;
 use crate::geom::se2::SE2;
+use crate::models::OdomDelta;
+use crate::sim::cloud::START;
 use crate::stats::fused::CloudFigures;
-use crate::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
+use crate::stats::{
+    CartesianMoments, CrossTrack, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
+    MeasuredGain, predicted_cross_track_skew,
+};
 use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
 /// What the shown samples say. Figures without meaning (no spread, too few samples) are NaN.
@@ -17,6 +23,19 @@ pub struct Figures {
     /// Shares of the samples inside the two 2σ contours.
     pub inside_ellipse: f64,
     pub inside_exponential: f64,
+    /// How much likelier a robot is under a Gaussian in exponential coordinates, or in those of its arc.
+    pub gain: MeasuredGain,
+    /// How many times the 2σ outline in exponential coordinates fits into the 2σ ellipse in (x, y), on the floor.
+    pub area_ratio: f64,
+}
+
+/// Which coordinates reach as far as the robots of a cloud turn.
+#[derive(Clone, Copy, Debug)]
+pub struct Charted {
+    /// Exponential ones.
+    pub pose: bool,
+    /// Those of the arc that ends where the robot does.
+    pub arc: bool,
 }
 
 impl Figures {
@@ -33,26 +52,33 @@ impl Figures {
             gaussian_skew: f64::NAN,
             inside_ellipse: f64::NAN,
             inside_exponential: f64::NAN,
+            gain: MeasuredGain { value: LikelihoodGain::NONE, error: LikelihoodGain::NONE },
+            area_ratio: f64::NAN,
         }
     };
 
-    /// The figures of a cloud; without a chart nothing is said in exponential coordinates.
-    pub fn of(cloud: &CloudFigures, chart_holds: bool) -> Self {
-        let CloudFigures { cartesian, exponential, cross_track, inside_ellipse, inside_exponential } = *cloud;
-        let figures = Self {
-            cartesian,
-            exponential,
-            cross_track,
-            gaussian_skew: predicted_cross_track_skew(&exponential.mean, &exponential.cov),
-            inside_ellipse,
-            inside_exponential,
-        };
-        if chart_holds {
-            return figures;
+    /// The figures of a cloud; where coordinates do not reach, nothing is said in them.
+    pub fn of(cloud: &CloudFigures, charted: Charted) -> Self {
+        let CloudFigures { cartesian, exponential, cross_track, inside_ellipse, inside_exponential, gain } =
+            *cloud;
+        let ellipse = Ellipse::from_moments(&cartesian);
+        let mut figures = Self { cartesian, cross_track, inside_ellipse, gain, ..Self::NONE };
+        if charted.pose {
+            figures.exponential = exponential;
+            // One point has no shape, nor an inside, for all that its headings do to its exponential coordinates.
+            if !ellipse.is_point() {
+                figures.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
+                figures.inside_exponential = inside_exponential;
+            }
+            let contour = ExponentialContour::new(&exponential, &START);
+            figures.area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
+        } else {
+            (figures.gain.value.pose, figures.gain.error.pose) = (f64::NAN, f64::NAN);
         }
-        let (mean, cov) = (Vector3::repeat(f64::NAN), Matrix3::repeat(f64::NAN));
-        let exponential = ExponentialMoments { mean, cov };
-        Self { exponential, gaussian_skew: f64::NAN, inside_exponential: f64::NAN, ..figures }
+        if !charted.arc {
+            (figures.gain.value.floor, figures.gain.error.floor) = (f64::NAN, f64::NAN);
+        }
+        figures
     }
 }
 
@@ -74,7 +100,7 @@ impl serde::Serialize for Stats<'_> {
         }
         let Self { n, figures } = self;
         let coverage = Coverage { ellipse: figures.inside_ellipse, exponential: figures.inside_exponential };
-        let mut stats = serializer.serialize_struct("Stats", 8)?;
+        let mut stats = serializer.serialize_struct("Stats", 11)?;
         stats.serialize_field("n", n)?;
         stats.serialize_field("cartesian", &figures.cartesian)?;
         stats.serialize_field("exponential", &figures.exponential)?;
@@ -83,11 +109,14 @@ impl serde::Serialize for Stats<'_> {
         stats.serialize_field("gaussianSkew", &figures.gaussian_skew)?;
         stats.serialize_field("rhoCrossHeading", &figures.cross_track.rho_heading)?;
         stats.serialize_field("coverage", &coverage)?;
+        stats.serialize_field("likelihoodGain", &figures.gain.value)?;
+        stats.serialize_field("likelihoodGainError", &figures.gain.error)?;
+        stats.serialize_field("areaRatio", &figures.area_ratio)?;
         stats.end()
     }
 }
 
-/// Moments of the pose, in m and rad, and its cross-track skew.
+/// Moments of the pose, in m and rad, and the measures of its banana.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Column {
@@ -96,6 +125,8 @@ pub struct Column {
     #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "crate::stats::plain::matrix"))]
     pub cov: Matrix3<f64>,
     pub cross_track_skew: f64,
+    pub likelihood_gain: LikelihoodGain,
+    pub area_ratio: f64,
 }
 
 /// Moments of the pose three ways, and of its exponential coordinates.
@@ -124,6 +155,8 @@ pub struct Contours {
     pub exponential: Vec<[f64; 2]>,
     /// The 2σ ellipse of the exponential moments in (along, heading).
     pub twist_ellipse: Vec<[f64; 2]>,
+    /// The 2σ circle of noise that is added to the pose: see [`super::BananaMachine::additive`].
+    pub additive: Vec<[f64; 2]>,
 }
 
 /// One sample, explained.
@@ -131,8 +164,16 @@ pub struct Contours {
 pub struct Sample {
     pub pose: SE2,
     pub twist: Vector3<f64>,
-    /// The arc and last turn that led to it; under the odometry model, which knows no arc, that would lead to it.
-    pub executed: ArcInversion,
-    /// The arc of `executed`, as (x, y) in m.
+    pub executed: Executed,
+    /// Where it drove, as (x, y) in m.
     pub path: Vec<[f64; 2]>,
+}
+
+/// What a robot did instead of what it was told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Executed {
+    /// An arc and a last turn, both of duration `dt` (s).
+    Arc { arc: ArcInversion, dt: f64 },
+    /// The three legs of the odometry model, which knows no arc.
+    Legs(OdomDelta),
 }

@@ -3,7 +3,8 @@
 mod figures;
 mod settings;
 
-pub use figures::{Column, Contours, Figures, Sample, Stats, Table};
+use figures::Charted;
+pub use figures::{Column, Contours, Executed, Figures, Sample, Stats, Table};
 pub use settings::*;
 
 use super::cloud::drive::Drive;
@@ -11,14 +12,18 @@ use super::cloud::picture::Ramp;
 use super::cloud::views::{Grid, Nearest, View};
 use super::cloud::{Cloud, START, picture::Picture};
 use super::settings::{Rules, SettingsError};
-use crate::geom::arc::{Arc, ArcInversion, invert_arc};
+use crate::geom::arc::{Arc, arc_near};
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
 use crate::models::{
-    MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas, VelocityCmd,
-    VelocityModel,
+    Hinges, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseModel,
+    VelocityAlphas, VelocityCmd, VelocityModel,
 };
-use crate::stats::{CartesianMoments, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments};
+use crate::noise::{NoiseKind, Variance};
+use crate::stats::{
+    CartesianMoments, Ellipse, ExactGain, ExactMoments, ExponentialContour, ExponentialMoments,
+    LikelihoodGain,
+};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::TryReserveError;
 use std::f64::consts::TAU;
@@ -34,8 +39,29 @@ impl Settings {
             ModelKind::Odometry => {
                 let alphas = OdomAlphas(self.effective(self.odometry_alphas));
                 let reading = OdomDelta::from_poses(&START, &command_end(&command));
-                Motion::Odometry(OdometryModel { alphas, noise: self.noise }, reading)
+                let model = OdometryModel { alphas, noise: self.noise };
+                Motion::Odometry(Wheels { model, reverse_aware: self.reverse_aware }, reading)
             }
+        }
+    }
+}
+
+/// The odometry model as it is set.
+struct Wheels {
+    model: OdometryModel,
+    reverse_aware: bool,
+}
+
+impl Hinges for Wheels {
+    fn noise(&self) -> NoiseKind {
+        self.model.noise
+    }
+
+    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+        if self.reverse_aware {
+            ReverseAware(self.model).variances(delta)
+        } else {
+            self.model.variances(delta)
         }
     }
 }
@@ -43,7 +69,7 @@ impl Settings {
 /// A model with its control.
 enum Motion {
     Velocity(VelocityModel, VelocityCmd),
-    Odometry(OdometryModel, OdomDelta),
+    Odometry(Wheels, OdomDelta),
 }
 
 impl Motion {
@@ -51,6 +77,24 @@ impl Motion {
         match self {
             Self::Velocity(model, command) => ExactMoments::of_velocity(model, command),
             Self::Odometry(model, reading) => ExactMoments::of_odometry(model, reading),
+        }
+    }
+
+    fn exact_gain(&self, command: &VelocityCmd) -> ExactGain {
+        match self {
+            Self::Velocity(model, command) => ExactGain::of_velocity(model, command),
+            Self::Odometry(model, reading) => {
+                ExactGain::of_odometry(model, reading, command.omega * command.dt)
+            }
+        }
+    }
+
+    fn executed(&self, unit_noise: [f64; 3]) -> Executed {
+        match self {
+            Self::Velocity(model, command) => {
+                Executed::Arc { arc: model.executed(command, unit_noise), dt: command.dt }
+            }
+            Self::Odometry(model, reading) => Executed::Legs(model.executed(reading, unit_noise)),
         }
     }
 
@@ -73,14 +117,8 @@ impl Motion {
 /// reverse, round the circle or not), the one whose turn is nearest to that of `near`.
 pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     let dt = near.dt;
-    let ArcInversion { v_hat, omega_hat, .. } = invert_arc(&START, &SE2::new(x, y, 0.0), dt);
-    let windings = ((near.omega - omega_hat) * dt / TAU).round();
-    if windings == 0.0 || omega_hat == 0.0 {
-        return VelocityCmd { v: v_hat, omega: omega_hat, dt };
-    }
-    // On one circle the length driven is proportional to the turn.
-    let omega = omega_hat + windings * TAU / dt;
-    VelocityCmd { v: v_hat * (omega / omega_hat), omega, dt }
+    let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), near.omega * dt);
+    VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
 fn command_end(command: &VelocityCmd) -> SE2 {
@@ -93,6 +131,10 @@ const CHART_SIGMAS: f64 = 4.0;
 
 /// Points of a skew curve at most; each costs some ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
+
+/// Standard deviation of noise that is added to the pose, m: that of a robot of the opening command, √(½ tr Σ) of x and y,
+/// rounded. Tuned there, it suits no other distance.
+pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 const OUTLINE_SEGMENTS: usize = 128;
@@ -112,14 +154,21 @@ impl BananaMachine {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        let mut machine = Self::empty(settings)?;
+        machine.grow(settings.samples);
+        Ok(machine)
+    }
+
+    /// A machine that shows nothing yet: whoever lets the cloud grow need not wait for all of it first.
+    ///
+    /// # Errors
+    /// As [`BananaMachine::new`].
+    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
         let drive = settings.motion(settings.command).drive(&settings.command);
         let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
-        let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() };
-        machine.show(settings.samples);
-        machine.finish();
-        Ok(machine)
+        Ok(Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() })
     }
 
     pub fn settings(&self) -> &Settings {
@@ -156,7 +205,7 @@ impl BananaMachine {
     /// Goes on with what was begun for about as many poses, of twice as many as are shown; whether all is done.
     pub fn advance(&mut self, poses: usize) -> bool {
         if let Some(figures) = self.cloud.advance(poses) {
-            self.figures = Figures::of(&figures, self.chart_holds());
+            self.figures = Figures::of(&figures, self.charted());
         }
         self.cloud.is_fresh()
     }
@@ -225,8 +274,13 @@ impl BananaMachine {
     /// Whether the robots keep short of turning a whole circle, where exponential coordinates end. Where not, every
     /// figure and contour in them is undefined.
     pub fn chart_holds(&self) -> bool {
+        self.charted().pose
+    }
+
+    fn charted(&self) -> Charted {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
-        (omega * dt).abs() + CHART_SIGMAS * self.cloud.turn_deviation() < TAU
+        let holds = |deviation: f64| (omega * dt).abs() + CHART_SIGMAS * deviation < TAU;
+        Charted { pose: holds(self.cloud.turn_deviation()), arc: holds(self.cloud.arc_deviation()) }
     }
 
     /// R_u and τ: mean and covariance in exponential coordinates as the model has them, the variance of the turn after
@@ -252,22 +306,57 @@ impl BananaMachine {
         }
     }
 
+    /// What the chapter argues against: the noise-free end x̄ with noise added to the pose, x_t = x̄ + ε with
+    /// ε ~ N(0, [`ADDITIVE_DEVIATION`]²·I) over x and y, whatever was commanded and whatever the α's are.
+    pub fn additive(&self) -> CartesianMoments {
+        let variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
+        let cov = Matrix3::from_diagonal(&Vector3::new(variance, variance, 0.0));
+        CartesianMoments { cov, ..self.linearized() }
+    }
+
     /// The model's own moments, by quadrature.
     pub fn exact(&self) -> ExactMoments {
         self.settings.motion(self.settings.command).exact()
     }
 
+    /// What the model says of its exponential coordinates, by quadrature.
+    pub fn exact_gain(&self) -> ExactGain {
+        let Settings { command, .. } = self.settings;
+        self.settings.motion(command).exact_gain(&command)
+    }
+
     /// The moments of the pose in three ways, and those of its exponential coordinates as the model has them.
     pub fn table(&self) -> Table {
-        let (linearized, exact, Figures { cartesian, cross_track, .. }) =
-            (self.linearized(), self.exact(), self.figures);
+        let linearized = self.linearized();
+        let Figures { cartesian, cross_track, gain, area_ratio, .. } = self.figures;
         Table {
-            // A Gaussian in (x, y), whatever its moments, has no skew.
-            linearized: Column { mean: linearized.mean, cov: linearized.cov, cross_track_skew: 0.0 },
-            exact: Column { mean: exact.mean, cov: exact.cov, cross_track_skew: exact.cross_track_skew },
-            measured: Column { mean: cartesian.mean, cov: cartesian.cov, cross_track_skew: cross_track.skew },
+            // A Gaussian in (x, y), whatever its moments, has no skew, and to first order none in other coordinates differs.
+            linearized: Column {
+                mean: linearized.mean,
+                cov: linearized.cov,
+                cross_track_skew: 0.0,
+                likelihood_gain: LikelihoodGain { pose: 0.0, floor: 0.0 },
+                area_ratio: 1.0,
+            },
+            exact: self.exact_column(),
+            measured: Column {
+                mean: cartesian.mean,
+                cov: cartesian.cov,
+                cross_track_skew: cross_track.skew,
+                likelihood_gain: gain.value,
+                area_ratio,
+            },
             tangent: self.tangent(),
         }
+    }
+
+    #[inline(never)]
+    fn exact_column(&self) -> Column {
+        let (ExactMoments { mean, cov, cross_track_skew }, gain) = (self.exact(), self.exact_gain());
+        let ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
+        let contour = ExponentialContour::new(&gain.exponential, &START);
+        let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
+        Column { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
     /// The exact cross-track skew at `points` rotational velocities spread evenly from `first` to `last` (rad/s), all
@@ -296,19 +385,34 @@ impl BananaMachine {
             linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
             exponential: if_any(charted, contour.boundary(OUTLINE_SEGMENTS)),
             twist_ellipse: if_any(charted, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            additive: Ellipse::from_moments(&self.additive()).boundary(OUTLINE_SEGMENTS),
         }
     }
 
     /// Sample `index` of those shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
-        let dt = self.settings.command.dt;
-        let executed = match self.settings.motion(self.settings.command) {
-            Motion::Velocity(model, command) => model.executed(&command, self.cloud.unit_noise(index)),
-            Motion::Odometry(..) => invert_arc(&START, &pose, dt),
+        let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
+        let path = match executed {
+            Executed::Arc { arc, dt } => arc_points(arc.v_hat * dt, arc.omega_hat * dt),
+            Executed::Legs(_) => vec![[START.x(), START.y()], [pose.x(), pose.y()]],
         };
-        let path = arc_points(executed.v_hat * dt, executed.omega_hat * dt);
         Some(Sample { pose, twist: self.twist(&pose), executed, path })
+    }
+
+    /// What each of the samples shown executed: v̂ (m/s), ω̂ and γ̂ (rad/s), or under the odometry model δ̂_rot1 (rad),
+    /// δ̂_trans (m) and δ̂_rot2 (rad).
+    pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        let motion = self.settings.motion(self.settings.command);
+        (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {
+            Executed::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
+            Executed::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
+        })
+    }
+
+    /// What odometry without noise reads when the command is carried out.
+    pub fn reading(&self) -> OdomDelta {
+        OdomDelta::from_poses(&START, &command_end(&self.settings.command))
     }
 
     /// How many of the shown samples lie in each cell of a grid over a view: see [`Picture::density`].

@@ -1,7 +1,9 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
-use crate::geom::lanes::LANES;
+use super::{ALL, BLOCK};
+use crate::geom::lanes::{LANES, lanes};
 use crate::noise::{NoiseKind, centred_uniform};
+use crate::stats::sums::PairSums;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
@@ -17,11 +19,15 @@ pub struct Draws {
     rng: Xoshiro256PlusPlus,
     /// Four samples an entry.
     unit_noise: Vec<[f64x4; 3]>,
+    /// Over the first `summed` entries, whole blocks of them. They stay when a slider moves the robots.
+    sums: PairSums,
+    summed: usize,
 }
 
 impl Draws {
     pub fn new(seed: u64, noise: NoiseKind) -> Self {
-        Self { seed, noise, rng: Xoshiro256PlusPlus::seed_from_u64(seed), unit_noise: Vec::new() }
+        let rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        Self { seed, noise, rng, unit_noise: Vec::new(), sums: PairSums::new(), summed: 0 }
     }
 
     /// Makes room for the draws of `count` samples.
@@ -50,6 +56,34 @@ impl Draws {
             unit_noise.push(uniforms.map(f64x4::from));
         }
         noise.quantiles(unit_noise.get_mut(first..).unwrap_or_default().as_flattened_mut());
+    }
+
+    /// Sums over the first `fours` entries, as far as they fill blocks.
+    #[inline(never)]
+    pub fn sum_to(&mut self, fours: usize) {
+        while fours >= self.summed + BLOCK {
+            let block = self.unit_noise[self.summed..][..BLOCK].iter();
+            block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL)));
+            self.sums.close_block();
+            self.summed += BLOCK;
+        }
+    }
+
+    /// The sums of the first two noises, their squares and product over `count` samples that have been drawn.
+    #[inline(never)]
+    pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
+        let fours = count / LANES;
+        if self.summed > fours {
+            (self.sums, self.summed) = (PairSums::new(), 0);
+        }
+        self.sum_to(fours);
+        let mut sums = self.sums.clone();
+        for (four, noise) in self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed) {
+            let mask = lanes(|lane| if LANES * four + lane < count { ALL } else { 0.0 });
+            sums.add([noise[0], noise[1]], mask);
+        }
+        sums.close_block();
+        sums.finish()
     }
 
     /// All unit noise drawn so far, four samples an entry; the last four may be more than was asked for.

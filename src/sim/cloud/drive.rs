@@ -1,8 +1,8 @@
 //! Either model as one formula, from the start pose at the origin: a length driven on a bearing, and a heading.
 
-use crate::geom::lanes::{HalfTurn, Trigonometry, any};
-use crate::models::{OdomDelta, OdometryModel, VelocityCmd, VelocityModel};
-use crate::stats::fused::{FourPoses, Reference};
+use crate::geom::lanes::{Circle, HalfTurn, Trigonometry, any};
+use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
+use crate::stats::fused::{FourArcs, FourPoses, Reference, Scale};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
@@ -25,7 +25,7 @@ pub struct Drive {
     /// Half of the heading is `share` · bearing + half_rest, rad.
     share: f64,
     half_rest: Affine,
-    /// Half of the commanded turn, rad: where the branch of the logarithm is.
+    /// Half of the commanded turn, rad: where the branches of the logarithm and of the arc are.
     near: f64,
     near_half: [f64; 2],
     trigonometry: Trigonometry,
@@ -57,7 +57,7 @@ impl Drive {
     }
 
     /// `turn` is that of the command which the reading came from, rad.
-    pub fn of_odometry(model: &OdometryModel, u: &OdomDelta, turn: f64) -> Self {
+    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         Self {
             is_arc: false,
@@ -88,17 +88,48 @@ impl Drive {
         }
     }
 
-    /// Where four motions end: x, y.
+    /// Where four motions end, x, y; the arcs that end there; and whether these are regular, so that length and half the
+    /// turn are as far from those without noise as [`Drive::regular`] says.
     #[inline(always)]
-    pub fn ends(&self, motions: &Motions) -> [f64x4; 2] {
-        let any = self.is_far(motions);
-        let circle = if any {
-            self.trigonometry.any_circle(motions.bearing)
-        } else {
-            self.trigonometry.circle(motions.bearing)
-        };
+    pub fn ends(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
+        let Motions { length, bearing, .. } = *motions;
+        let is_far = self.is_far(motions);
+        let circle =
+            if is_far { self.trigonometry.any_circle(bearing) } else { self.trigonometry.circle(bearing) };
+        let ends = self.ends_on(motions, &circle);
+        if is_far || !self.is_arc {
+            return (ends, self.other_arcs(bearing, ends), false);
+        }
+        (ends, FourArcs { length, half: bearing, sinc: circle.sinc }, true)
+    }
+
+    #[inline(always)]
+    fn ends_on(&self, motions: &Motions, circle: &Circle) -> [f64x4; 2] {
         let distance = if self.is_arc { motions.length * circle.sinc } else { motions.length };
         [distance * circle.cos, distance * circle.sin]
+    }
+
+    /// What noise adds to the length and half the turn of regular arcs.
+    #[inline(always)]
+    pub fn regular(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
+        let of = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
+        [unit_noise[0] * of[0], unit_noise[1] * of[1]]
+    }
+
+    /// The sums of [`Drive::regular`] from those of the unit noise.
+    pub fn regular_sums(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
+        if !self.is_arc {
+            return [0.0; 5];
+        }
+        let ([_, s], [_, t]) = (self.length, self.bearing);
+        [a * s, b * t, aa * (s * s), ab * (s * t), bb * (t * t)]
+    }
+
+    /// The arcs that lead to `ends`, which lie on the lines of these bearings.
+    #[inline(never)]
+    fn other_arcs(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
+        let HalfTurn { half, sinc, sin, cos, .. } = self.trigonometry.any_half_turn(bearing, self.near);
+        FourArcs { length: (x * cos + y * sin) / sinc, half, sinc }
     }
 
     /// The poses of four motions that ended at `ends`, with their logarithms on the branch of the commanded turn.
@@ -109,31 +140,60 @@ impl Drive {
         } else {
             self.trigonometry.half_turn(motions.half)
         };
-        let ([x, y], HalfTurn { half, cotangent, sin, cos }) = (*ends, turn);
-        let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
-        FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos }
+        logarithms(ends, turn)
     }
 
     /// Whether an angle leaves the range of the short formulas.
     #[inline(always)]
     fn is_far(&self, motions: &Motions) -> bool {
         let [middle, reach] = self.near_half;
-        any(motions.bearing.abs().simd_gt(f64x4::splat(NEAR))
-            | (motions.half - middle).abs().simd_gt(f64x4::splat(reach)))
+        let beyond = |angle: f64x4| (angle - middle).abs().simd_gt(f64x4::splat(reach));
+        any(beyond(motions.bearing) | beyond(motions.half))
     }
 
-    /// Where a motion without noise ends, in the parts that a cloud's sums are counted from.
-    pub fn nominal(&self) -> Reference {
-        let motions = self.motions(&[f64x4::splat(0.0); 3]);
-        let poses = self.poses(&motions, &self.ends(&motions));
-        [poses.x, poses.y, poses.along, poses.lateral, poses.half].map(|lanes| lanes.to_array()[0])
+    /// Four robots in all coordinates, by the long formulas: the passes over a cloud have the short ones inlined.
+    #[inline(never)]
+    pub fn robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
+        let motions = self.motions(unit_noise);
+        let circle = self.trigonometry.any_circle(motions.bearing);
+        let ends = self.ends_on(&motions, &circle);
+        let turn = self.trigonometry.any_half_turn(motions.half, self.near);
+        (logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
     }
+
+    /// Where a motion without noise ends, in the parts that a cloud's sums are counted from, and the scale of its factors.
+    pub fn nominal(&self) -> (Reference, Scale) {
+        let (poses, arcs) = self.robots(&[f64x4::splat(0.0); 3]);
+        let mut parts = [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
+            .map(|lanes| lanes.to_array()[0]);
+        if self.is_arc {
+            // As regular arcs have them, to the bit.
+            [parts[5], parts[6]] = [self.length[0], self.bearing[0]];
+        }
+        let [chart, arc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
+        // Of the length as it is with noise: the command may be to stay.
+        let length = libm::hypot(self.length[0], self.length[1]);
+        (parts, [1.0 / chart, 1.0 / (length * arc * arc)])
+    }
+
+    /// Standard deviation of the turn of the arc that ends where the robot does, rad.
+    pub fn arc_deviation(&self) -> f64 {
+        2.0 * self.bearing[1].abs()
+    }
+}
+
+/// The poses at `ends` whose half headings are of `turn`, with their logarithms.
+#[inline(always)]
+fn logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
+    let ([x, y], HalfTurn { half, cotangent, sinc, sin, cos }) = (*ends, turn);
+    let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
+    FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos, sinc }
 }
 
 /// A quarter turn, less a margin for rounding.
 const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// The half headings within a quarter turn of 0 and of `near`: their middle, and how far they reach from there.
+/// The half turns within a quarter turn of 0 and of `near`: their middle, and how far they reach from there.
 fn near_half(near: f64) -> [f64; 2] {
     let (low, high) = ((near - NEAR).max(-NEAR), (near + NEAR).min(NEAR));
     [0.5 * (low + high), 0.5 * (high - low)]

@@ -39,7 +39,6 @@ pub struct Cloud {
 
 /// How far a refresh has come.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "one a cloud, and boxes would be allocated at every event")]
 enum Pass {
     /// Whether the sums are counted from where the model expects the cloud, else from its own means.
     Spread {
@@ -68,7 +67,8 @@ impl Cloud {
         self.draws.restart(seed, noise);
         self.drive = drive;
         self.goal = shown;
-        self.pass = Pass::Spread { sums: Spread::new(drive.nominal()), first: true };
+        let (reference, scale) = drive.nominal();
+        self.pass = Pass::Spread { sums: Spread::new(reference, scale), first: true };
         self.next = 0;
     }
 
@@ -88,6 +88,7 @@ impl Cloud {
             match pass {
                 Pass::Spread { sums, first } => {
                     draws.extend_to(block.end * LANES);
+                    draws.sum_to((*goal / LANES).min(block.end));
                     if positions.len() < block.end {
                         positions.resize(block.end, [f64x4::splat(0.0); 2]);
                     }
@@ -98,8 +99,13 @@ impl Cloud {
                     if ended {
                         let better = sums.better_reference(*goal).filter(|_| *first);
                         *pass = match better {
-                            Some(reference) => Pass::Spread { sums: Spread::new(reference), first: false },
-                            None => Pass::Shape(Shape::new(sums.finish(*goal), &START)),
+                            Some(reference) => {
+                                Pass::Spread { sums: Spread::new(reference, sums.scale()), first: false }
+                            }
+                            None => {
+                                let regular = drive.regular_sums(draws.pair_sums(*goal));
+                                Pass::Shape(Shape::new(sums.finish(*goal, regular), &START))
+                            }
                         };
                     }
                 }
@@ -109,7 +115,8 @@ impl Cloud {
                     }
                     sums.close_block();
                     if ended {
-                        let figures = sums.finish(*goal);
+                        let first = draws.fours().iter().map(|noise| drive.robots(noise));
+                        let figures = sums.finish(*goal, first);
                         *pass = Pass::Done;
                         return Some(figures);
                     }
@@ -128,6 +135,11 @@ impl Cloud {
     /// Standard deviation of the turn, rad.
     pub fn turn_deviation(&self) -> f64 {
         self.drive.turn_deviation()
+    }
+
+    /// That of the turn of the arc that ends where the robot does, rad.
+    pub fn arc_deviation(&self) -> f64 {
+        self.drive.arc_deviation()
     }
 
     /// The number of samples there are to show: during a refresh perhaps not all yet.
@@ -181,10 +193,21 @@ const ALL: f64 = f64::from_bits(u64::MAX);
 /// Drives four robots after the other and adds them to the sums of the first pass.
 #[inline(never)]
 fn spread(drive: &Drive, noise: &[[f64x4; 3]], ends: &mut [[f64x4; 2]], mask: f64x4, sums: &mut Spread) {
+    let is_whole = mask.all();
     for (noise, ends) in noise.iter().zip(ends) {
         let motions = drive.motions(noise);
-        *ends = drive.ends(&motions);
-        sums.add(&drive.poses(&motions, ends), mask);
+        let (arcs, is_regular);
+        (*ends, arcs, is_regular) = drive.ends(&motions);
+        let poses = drive.poses(&motions, ends);
+        sums.add(&poses, mask);
+        if is_whole {
+            sums.multiply(&poses, &arcs);
+        } else {
+            sums.multiply_some(&poses, &arcs, mask);
+        }
+        if !is_regular {
+            sums.add_irregular(&arcs, drive.regular(noise), mask);
+        }
     }
 }
 

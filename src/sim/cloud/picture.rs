@@ -89,10 +89,7 @@ impl Picture {
         self.count(cloud, view, grid)?;
         self.pixels.resize(cells, [0; 4]);
         let most = most_of(rows_of(&mut self.counts, grid));
-        let colour = |count: u32| {
-            let share = (f64::from(count) / f64::from(most)).sqrt();
-            ramp[((RAMP - 1) as f64 * share + 0.5) as usize % RAMP]
-        };
+        let colour = |count: u32| ramp[shade(count, most)];
         self.table.clear();
         self.table.push([0; 4]);
         self.table.extend((1..=most.min(TABLE as u32)).map(colour));
@@ -114,6 +111,13 @@ impl Picture {
         clear_frame(&mut self.counts, grid);
         Ok(&self.pixels)
     }
+}
+
+/// The step of a ramp for a count: 255·√(count/most).
+#[inline(always)]
+pub fn shade(count: u32, most: u32) -> usize {
+    let share = (f64::from(count) / f64::from(most)).sqrt();
+    ((RAMP - 1) as f64 * share + 0.5) as usize % RAMP
 }
 
 /// The fullest cell of some rows.

@@ -1,21 +1,29 @@
 //! Map Squeeze: motion conditioned on a floor plan, and what the condition cannot see.
 
 mod driver;
+mod picture;
 mod settings;
 
 pub use driver::{ACCEPTED, Attempt, END_FREE, PATH_FREE};
+pub use picture::{KINDS, Kind};
 pub use settings::*;
 
 use super::cloud::draws::Draws;
-use super::cloud::views::Nearest;
-use super::settings::{Rules, SettingsError};
+use super::cloud::picture::Ramp;
+use super::cloud::views::{Grid, Nearest};
+use super::settings::{Allowed, Rules, SettingsError};
 use crate::geom::arc::Arc;
-use crate::map::{Cost, FloorPlan, MAX_DRAWS, MapConditioned, Sampler, Wedged};
+use crate::geom::se2::SE2;
+use crate::map::{
+    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned, OccupancyGrid, Sampler, Wedged,
+};
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use driver::Driver;
+use picture::Picture;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
+use std::collections::TryReserveError;
 
 /// Counts over the attempts shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -87,6 +95,7 @@ pub struct MapSqueeze {
     attempts: Vec<Attempt>,
     tally: Tally,
     gave_up: bool,
+    picture: Picture,
 }
 
 /// Draws a part of a motion on average before the machine gives up: an acceptance of 5 % over all attempts. Fewer
@@ -106,6 +115,7 @@ impl MapSqueeze {
             attempts: Vec::new(),
             tally: Tally::default(),
             gave_up: false,
+            picture: Picture::default(),
         };
         machine.configure(settings)?;
         Ok(machine)
@@ -127,6 +137,15 @@ impl MapSqueeze {
         self.grow(shown);
     }
 
+    /// Puts the robot into a grid, as [`MapSqueeze::set_plan`] does into a plan; what is unknown there is as the settings say.
+    ///
+    /// # Errors
+    /// As [`FloorPlan::from_grid`]; nothing has changed then.
+    pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
+        self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
+        Ok(())
+    }
+
     /// How many attempts to show when there are `samples` from now on.
     fn shown_of(&self, samples: usize) -> usize {
         let complete = self.gave_up || self.attempts.len() == self.settings.samples;
@@ -137,9 +156,21 @@ impl MapSqueeze {
     /// its count, as far as there are samples for it.
     ///
     /// # Errors
-    /// As [`MapSqueeze::new`]; nothing has changed then.
+    /// As [`MapSqueeze::new`], and where the unknown cells of the map cannot be what they are to be; nothing has changed
+    /// then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
+        let changed = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
+        let plan = changed.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
+        // The only way in which a grid that was accepted can be refused.
+        let plan = plan.transpose().map_err(|_| SettingsError {
+            field: "unknown".to_owned(),
+            value: f64::NAN,
+            allowed: Allowed::Word {
+                is: "blocked",
+                allowed: "free, as the cells of this map would have more than 100000 sides",
+            },
+        })?;
         let shown = self.shown_of(settings.samples);
         self.attempts
             .try_reserve_exact(settings.samples.saturating_sub(self.attempts.len()))
@@ -148,6 +179,9 @@ impl MapSqueeze {
         self.draws.restart(settings.seed, NoiseKind::Normal);
         self.draws.extend_to(settings.samples);
         self.settings = settings;
+        if let Some(plan) = plan {
+            self.plan = plan;
+        }
         self.restart();
         self.grow(shown);
         Ok(())
@@ -164,7 +198,7 @@ impl MapSqueeze {
     pub fn grow(&mut self, count: usize) -> usize {
         let end = self.attempts.len().saturating_add(count).min(self.settings.samples);
         let steps = self.settings.parts() as usize;
-        let Self { plan, settings, draws, attempts, tally, gave_up } = self;
+        let Self { plan, settings, draws, attempts, tally, gave_up, .. } = self;
         let model = conditioned(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
         while attempts.len() < end && !*gave_up {
@@ -210,6 +244,15 @@ impl MapSqueeze {
         }
     }
 
+    /// Where the attempts shown end, as an image of a pixel a cell: each in the colours of the kind that most of those in it
+    /// are, ramp[255·√(count/most)] for a count of all of them, transparent where there is nobody.
+    ///
+    /// # Errors
+    /// Where memory does not suffice for the cells.
+    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; KINDS]) -> Result<&[[u8; 4]], TryReserveError> {
+        self.picture.paint(&self.attempts, grid, ramps)
+    }
+
     /// The attempt that ends nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
@@ -245,6 +288,11 @@ impl MapSqueeze {
             }
         }
         Ok(total)
+    }
+
+    /// A pose in the open, see [`FloorPlan::open_place`].
+    pub fn open_place(&self) -> Option<SE2> {
+        self.plan.open_place(self.settings.clearance)
     }
 
     /// Whether the robot fits where it starts.

@@ -1,7 +1,7 @@
 //! What a user sets of Map Squeeze, but for the map.
 
 use crate::geom::se2::SE2;
-use crate::map::Sampler;
+use crate::map::{Sampler, Unknown};
 use crate::models::VelocityCmd;
 use crate::sim::settings::{
     ALPHA, Level, MAX_SEED, QUANTITY, Rules, Settable, Setting, SettingsError, Words, check_whole, group,
@@ -17,6 +17,10 @@ impl Words for Sampler {
         // Its parts are those of the setting `steps`.
         ("sub-stepped", Self::SubStepped(1)),
     ];
+}
+
+impl Words for Unknown {
+    const WORDS: &'static [(&'static str, Self)] = &[("free", Self::Free), ("blocked", Self::Blocked)];
 }
 
 group!([f64; 3] as [x, y, theta] => {
@@ -59,6 +63,8 @@ settings! {
         clearance: f64 = 0.13, "m", in 0.0..=10.0;
         /// Whether draws are judged by the map at all; where not, all of them are accepted.
         conditioned: bool = true;
+        /// What cells of which the map says nothing are for the robot.
+        unknown: Unknown = Unknown::Free;
         /// How draws are judged.
         sampler: Sampler = Sampler::Endpoint;
         // Opens with the first number that shows the point.

@@ -14,6 +14,8 @@ const AHEAD = '600px';
 
 /** @type {WeakMap<Element, Watcher>} */
 const watchers = new WeakMap();
+/** Those that are near, and have been told. @type {WeakSet<Element>} */
+const near = new WeakSet();
 /** @type {IntersectionObserver | undefined} */
 let nearness;
 /** @type {IntersectionObserver | undefined} */
@@ -29,7 +31,10 @@ export function watch(element, watcher) {
   watchers.set(element, watcher);
   nearness ??= new IntersectionObserver(
     (entries) => {
-      for (const { target, isIntersecting } of entries) if (isIntersecting) watchers.get(target)?.approach();
+      for (const { target, isIntersecting } of entries) {
+        if (isIntersecting) approach(target);
+        else near.delete(target);
+      }
     },
     { rootMargin: AHEAD },
   );
@@ -40,8 +45,28 @@ export function watch(element, watcher) {
   presence.observe(element);
 }
 
+/**
+ * Looks at once where an element is: what a page opens with need not wait for the observers, which look once a frame.
+ *
+ * @param {Element} element that is watched
+ */
+export function look(element) {
+  const { top, bottom, width } = element.getBoundingClientRect();
+  if (width === 0 || top >= innerHeight || bottom <= 0) return;
+  watchers.get(element)?.sight(true);
+  approach(element);
+}
+
+/** Once for each time that it comes near, whoever sees it first. @param {Element} element */
+function approach(element) {
+  if (near.has(element)) return;
+  near.add(element);
+  watchers.get(element)?.approach();
+}
+
 /** @param {Element} element */
 export function unwatch(element) {
   nearness?.unobserve(element);
   presence?.unobserve(element);
+  near.delete(element);
 }

@@ -1,6 +1,7 @@
 /** The menu from which a reader copies a link to the figure as it is, or the HTML that embeds it. */
 
 import { html, nothing } from 'lit';
+import { address, classic } from '../../address.js';
 import { words } from '../../messages/registry.js';
 import { escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
@@ -26,9 +27,7 @@ export class CopyMenu extends Part {
     return html`<details class="copies" part="copies">
       <summary>${say.label}</summary>
       <div class="buttons">
-        ${host.share
-          ? button(say.link, async () => this.#copy(await host.shareLink()), { title: say.linkTitle })
-          : nothing}
+        ${button(say.link, async () => this.#copy(await host.shareLink()), { title: say.linkTitle })}
         ${button(say.code, () => this.#copy(host.embedCode()), { title: say.codeTitle })}
       </div>
       <output>${copied ? (copied.done ? say.done : say.byHand) : nothing}</output>
@@ -39,15 +38,22 @@ export class CopyMenu extends Part {
   }
 }
 
+/** Where the script is for everybody, if it is not known from where it came. */
+const PUBLISHED = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/motion-widgets.js';
+
 /**
- * HTML for a page that has the script beside it, with the attributes that the figure needs to open as it is now.
+ * HTML for any page: the script that defined the element, from where it came, and the tag with the attributes
+ * that the figure needs to open as it is now.
  *
  * @param {import('../figure.js').Figure} figure
  */
 export function embedding(figure) {
   const given = ['theme', 'lang', 'dir'].map((name) => /** @type {[string, string]} */ ([name, figure.getAttribute(name) ?? '']));
   const needed = figure.machine ? figure.reflection.needed() : [];
-  const script = tag('script', [['type', 'module'], ['src', 'motion-widgets.js']]);
+  // A file on a disk, or a script inside of the page, is nothing to others.
+  const known = /^https?:/.test(address);
+  const kind = /** @type {[string, string]} */ (known && classic ? ['defer', ''] : ['type', 'module']);
+  const script = tag('script', [kind, ['src', known ? address : PUBLISHED]]);
   return `${script}\n${tag(figure.localName, [...given.filter(([, text]) => text !== ''), ...needed])}\n`;
 }
 
@@ -56,5 +62,5 @@ export function embedding(figure) {
  * @param {[string, string][]} attributes
  */
 function tag(name, attributes) {
-  return `<${name}${attributes.map(([key, text]) => ` ${key}="${escaped(text)}"`).join('')}></${name}>`;
+  return `<${name}${attributes.map(([key, text]) => (text === '' ? ` ${key}` : ` ${key}="${escaped(text)}"`)).join('')}></${name}>`;
 }

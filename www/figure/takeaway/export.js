@@ -31,7 +31,9 @@ const SIZE = { width: 720, height: 432 };
  */
 function drawOn({ scene, pictures: [picture], stage }, ratio, makeContext) {
   const canvas = stage.canvasOf(picture);
-  const { width: clientWidth, height } = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
+  const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
+  // Enlarged for an audience or not, it is the same picture.
+  const [clientWidth, height] = [box.width, box.height].map((length) => length / (canvas.currentCSSZoom ?? 1));
   const { fontFamily, fontSize } = getComputedStyle(canvas);
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const context = /** @type {CanvasRenderingContext2D} */ (makeContext(size));

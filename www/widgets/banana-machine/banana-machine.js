@@ -5,23 +5,24 @@
 
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
-import { Cloud, showOnly } from '../../figure/cloud.js';
-import { canvas, cloudControls } from '../../figure/controls.js';
+import { Cloud } from '../../figure/cloud.js';
+import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
-import { alphaCounts } from '../../settings.js';
+import { openingAlphas } from '../../settings.js';
 import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
+import { fold } from '../../ui/fold.js';
 import { fixed } from '../../ui/format.js';
-import { commandControls, noiseControls, overlayToggles } from './controls.js';
+import { alphaControls, commandControls, modelControls, overlayToggles, presetButtons } from './controls.js';
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
-import { markedRobot, readouts, twistTable, workedExample } from './readouts.js';
+import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
 import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
@@ -31,6 +32,19 @@ import { announcementOf, captionOf, longestNote, planeText, skewText, twistCapti
  * @import { Values } from '../../figure/state.js'
  * @import { Reading } from './reading.js'
  */
+
+/** Of each robot in a table: where it ended, its exponential coordinates, and what it executed to get there. */
+const POSE_COLUMNS = ['x_m', 'y_m', 'theta_rad'];
+const TWIST_COLUMNS = ['xi_along_m', 'xi_lateral_m', 'xi_heading_rad'];
+const EXECUTED_COLUMNS = {
+  velocity: ['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
+  odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
+};
+
+/** What the figure takes. @type {Parameters<typeof reserve>[0]} */
+const ROOM = [
+  [0, 51.7, 160], [25, 45.2, 160], [30, 44.6, 40], [35, 42.9, 40], [37, 31, 40], [39, 27, 40], [42.5, 24.1, 40], [56, 24.2, 25], [76, 22.8, 25],
+];
 
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
@@ -44,7 +58,7 @@ import { announcementOf, captionOf, longestNote, planeText, skewText, twistCapti
  * @extends {FigureElement<Machine, Reading>}
  */
 export class BananaMachineElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve([[0, 240], [31, 214], [47, 172], [57, 105]]), ...bananaStyles];
+  static styles = [...FigureElement.styles, reserve(ROOM), ...bananaStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -62,7 +76,8 @@ export class BananaMachineElement extends FigureElement {
 
   /** @type {FigureElement<Machine, Reading>['createMachine']} */
   createMachine = (motion, state) => {
-    const machine = new motion.BananaMachine();
+    // Empty: the cloud grows before the reader's eyes, and nobody waits for what is not shown yet.
+    const machine = motion.BananaMachine.empty();
     if (!state) return machine;
     const { model, alphas, shown } = state;
     return orFree(machine, () => {
@@ -70,14 +85,14 @@ export class BananaMachineElement extends FigureElement {
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configure({ model: other, alphas: alphas[other] });
       machine.configure({ ...this.settingsOf(state), alphas: alphas[model] });
-      showOnly(machine, shown);
+      machine.grow(shown);
     });
   };
 
   /** @param {Machine} machine */
   read(machine) {
-    if (this.cloud.index >= machine.shown) this.cloud.mark(-1);
-    return readingOf(machine, this.#curve);
+    this.cloud.unmark();
+    return readingOf(machine);
   }
 
   get scene() {
@@ -89,12 +104,12 @@ export class BananaMachineElement extends FigureElement {
 
   get takeaway() {
     const { config, shown: count } = this.fresh;
-    const { poses } = /** @type {Machine} */ (this.machine);
+    const { poses, twists, executed } = /** @type {Machine} */ (this.machine);
     return {
-      title: words.banana.title,
+      title: this.label,
       settings: { element: this.localName, ...config },
-      columns: ['x_m', 'y_m', 'theta_rad'],
-      row: (/** @type {number} */ i) => [...poses.subarray(3 * i, 3 * i + 3)],
+      columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
+      row: (/** @type {number} */ i) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
       count,
     };
   }
@@ -110,7 +125,7 @@ export class BananaMachineElement extends FigureElement {
    * @param {Values} given
    */
   completed(present, given) {
-    const alphas = object('state.alphas', given.alphas ?? {}, Object.keys(alphaCounts));
+    const alphas = object('state.alphas', given.alphas ?? {}, Object.keys(openingAlphas));
     return { ...super.completed(present, given), alphas: { ...present.alphas, ...alphas } };
   }
 
@@ -132,6 +147,17 @@ export class BananaMachineElement extends FigureElement {
    */
   get twists() {
     return this.ask((machine) => machine.twists);
+  }
+
+  /**
+   * What each robot shown executed: v̂ (m/s), ω̂, γ̂ (rad/s), or under the odometry model its legs δ̂_rot1 (rad), δ̂_trans (m),
+   * δ̂_rot2 (rad); a copy.
+   *
+   * @public
+   * @returns {Float64Array | null}
+   */
+  get executed() {
+    return this.ask((machine) => machine.executed);
   }
 
   /** The marked robot, if it is among those shown. */
@@ -166,35 +192,45 @@ export class BananaMachineElement extends FigureElement {
     const say = words.banana;
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
-      <section class="machine" aria-label=${say.title}>
-        <div class="floor">
+      <section class="machine" aria-label=${this.label}>
+        <div class="views">
           <div class="stage" part="picture">
             ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}
-            <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
-              <span>${captionOf(reading)}</span>
-            </p>
           </div>
-          ${overlayToggles(this)} ${readouts(reading)}
-          ${markedRobot(this, this.#inspection)}
-          ${cloudControls(this, SAMPLE_COUNTS)}
+          <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>
-        <div class="controls" part="controls">${commandControls(this)} ${noiseControls(this)}</div>
-        <div class="figures" part="figures">
-          <figure>
-            ${canvas(this, this.#twist, twistText(reading))}
-            <figcaption>${twistCaption(reading)}</figcaption>
-            ${twistTable(reading)}
-          </figure>
-          <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
-          ${workedExample(reading)}
+        ${this.later(() => html`
+        <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
+          <span>${captionOf(reading)}</span>
+        </p>
+        ${readouts(reading)} ${presetButtons(this)}
+        <div class="controls" part="controls">
+          <div>${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
+          ${alphaControls(this)}
         </div>
+        <div class="folds">
+          ${fold(say.modelAndNoise, () => html`${modelControls(this)} ${overlayToggles(this)} ${markedRobot(this, this.#inspection)}`)}
+          ${fold(say.figures, () => this.#figures(reading))}
+          ${takeAlong(this)}
+        </div>`)}
       </section>
     `;
   }
 
   /** @param {Reading} reading */
-  #chart({ config: { command }, stats, exactSkew, curve }) {
-    const { chart: label, chartAxis, chartMarker, chartText } = words.banana;
+  #figures(reading) {
+    const say = words.banana;
+    return html`${otherReadouts(reading)}
+      <div class="figures" part="figures">
+        <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
+        <figure>${workedExample(reading)}</figure>
+        <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
+      </div>`;
+  }
+
+  /** @param {Reading} reading */
+  #chart({ config: { command }, stats, exactSkew }) {
+    const { chart: label, chartAxis, chartMarker, chartText, chartRemark } = words.banana;
     return chart({
       ...looks.omega,
       label,
@@ -205,7 +241,8 @@ export class BananaMachineElement extends FigureElement {
         x: command.omega,
         y: exactSkew,
       },
-      curve,
+      curve: this.#curve.of(/** @type {Machine} */ (this.machine)),
+      remark: { x: 0, text: chartRemark },
       measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
       move: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
       commit: () => this.commit(),

@@ -1,57 +1,64 @@
 /** The Banana Machine's controls: the command, the noise and the overlays. */
 
-import { html } from 'lit';
-import { choices, slider, sliders } from '../../figure/controls.js';
+import { html, nothing } from 'lit';
+import { check, choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { presets } from '../../settings.js';
 import { button, choice, toggle } from '../../ui/controls.js';
-import { fixed } from '../../ui/format.js';
+import { typed } from '../../ui/format.js';
+import { PRESETS, presetIn, presetNamed } from './presets.js';
 import { alphaName } from './reading.js';
 import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 
 /** @typedef {import('./banana-machine.js').BananaMachineElement} Figure */
 
 /** @param {Figure} figure */
-export function commandControls(figure) {
-  const { command } = figure.reading.config;
-  return html`
-    <fieldset>
-      <legend>${words.command}</legend>
-      <div class="buttons">
-        ${presets['banana-machine'].map(({ name, v, omega, dt }) =>
-          button(
-            words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
-            () => figure.decide({ command: { v, omega, dt } }),
-            { pressed: command.v === v && command.omega === omega && command.dt === dt },
-          ),
-        )}
-      </div>
-      ${sliders(figure, COMMAND)}
-    </fieldset>
-  `;
+export function presetButtons(figure) {
+  const present = presetIn(figure.reading.config);
+  return html`<div class="buttons presets">
+    ${PRESETS.map(({ name }) =>
+      button(
+        words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
+        () => figure.decide((config) => presetNamed(name, /** @type {any} */ (config))),
+        { pressed: name === present },
+      ),
+    )}
+  </div>`;
 }
 
 /** @param {Figure} figure */
-export function noiseControls(figure) {
+export function commandControls(figure) {
+  return html`<fieldset>
+    <legend class="visually-hidden">${words.command}</legend>
+    ${sliders(figure, COMMAND)}
+  </fieldset>`;
+}
+
+/** @param {Figure} figure */
+export function modelControls(figure) {
   const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
   // From 1; the other model may have fewer.
   const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
-  return html`
-    <fieldset>
-      <legend>${say.modelAndNoise}</legend>
-      ${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
-    </fieldset>
-    <fieldset class="alphas">
-      <legend>${say.settings.alphas.name}</legend>
-      ${toggle({
-        label: say.isolate,
-        checked: isolate !== null,
-        change: (on) => figure.decide({ isolate: on ? chosen : null }),
-      })}
-      ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, say.settings.alphas.effects[model][index]))}
-    </fieldset>
-  `;
+  return html`<fieldset>
+    <legend class="visually-hidden">${say.modelAndNoise}</legend>
+    ${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
+    ${model === 'odometry' ? check(figure, 'reverseAware', say.reverseAware) : nothing}
+    ${toggle({
+      label: say.isolate,
+      checked: isolate !== null,
+      change: (on) => figure.decide({ isolate: on ? chosen : null }),
+    })}
+  </fieldset>`;
+}
+
+/** @param {Figure} figure */
+export function alphaControls(figure) {
+  const { model, alphas } = figure.reading.config;
+  const { name, effects } = words.banana.settings.alphas;
+  return html`<fieldset class="alphas">
+    <legend class="visually-hidden">${name}</legend>
+    ${alphas.map((_, index) => alphaSlider(figure, `alpha${index + 1}`, index + 1, effects[model][index]))}
+  </fieldset>`;
 }
 
 /**
@@ -67,7 +74,7 @@ function alphaSlider(figure, key, number, [path, picture]) {
   return slider(figure, key, {
     off,
     pick: isolate === null ? undefined : choice({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose }),
-    show: (value) => (off ? words.banana.off(fixed(value, 3)) : fixed(value, 3)),
+    show: (value) => (off ? words.banana.off(typed(value, 3)) : typed(value, 3)),
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
       if (off) choose();

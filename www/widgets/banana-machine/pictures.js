@@ -9,6 +9,7 @@ import {
   drawHeap,
   drawMark,
   drawOutline,
+  drawOutlines,
   drawPixels,
   drawRobot,
 } from '../../scene/draw.js';
@@ -31,7 +32,7 @@ import { DASHES } from './settings.js';
  */
 
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
-const MAX_DOTS = 2500;
+const MAX_DOTS = 1000;
 
 /** Rays of a fan of headings: more look no different. */
 const MAX_RAYS = 400;
@@ -126,7 +127,7 @@ export class PlanePicture extends CloudPicture {
   /** @type {Picture<Scene>['paint']} */
   paint = (brush, scene) => {
     const { view, palette } = brush;
-    const { machine, contours, overlays, table, marked } = scene;
+    const { machine, contours, overlays, table, marked, end } = scene;
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
     clipped(brush, () => {
       const { cov } = table.exact;
@@ -138,15 +139,15 @@ export class PlanePicture extends CloudPicture {
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       const styles = /** @type {const} */ ([
+        ['additive', palette.prediction, 2.5],
         ['linearized', palette.prediction, 1.75],
         ['ellipse', palette.prediction, 2],
         ['exponential', palette.posterior, 2.25],
         ['command', palette.prior, 2.5],
       ]);
-      for (const [name, colour, width] of styles) {
-        if (!overlays[name]) continue;
-        drawOutline(brush, contours[name], { colour, width, dash: DASHES[name] });
-      }
+      const drawn = styles.filter(([name]) => overlays[name]);
+      drawOutlines(brush, drawn.map(([name, colour, width]) => ({ points: contours[name], colour, width, dash: DASHES[name] })));
+      if (overlays.command && scene.reading) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
       if (marked) {
         const { pose, path } = marked;
@@ -155,6 +156,97 @@ export class PlanePicture extends CloudPicture {
       }
     });
   };
+}
+
+/** Radius of the arcs that show a turn, CSS pixels, and how far beyond the end the second one's line goes on. */
+const TURN_RADIUS = 26;
+const TURN_LINE = 38;
+
+/**
+ * What odometry reads of the command: turn, drive, turn.
+ *
+ * @param {Brush} brush
+ * @param {import('../../types.d.ts').Legs} reading
+ * @param {[number, number]} end metres
+ */
+function drawReading(brush, { rot1, trans, rot2 }, [x, y]) {
+  const { context, view, palette } = brush;
+  const [fromX, fromY, toX, toY] = [view.toPixelX(0), view.toPixelY(0), view.toPixelX(x), view.toPixelY(y)];
+  const ahead = view.direction(rot1);
+  context.lineWidth = 1.5;
+  context.strokeStyle = palette.prior;
+  context.beginPath();
+  // Straight ahead from the start, the drive, and on from its end.
+  context.moveTo(fromX + TURN_LINE, fromY);
+  context.lineTo(fromX, fromY);
+  context.lineTo(toX, toY);
+  context.lineTo(toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y);
+  context.moveTo(toX, toY);
+  const last = view.direction(rot1 + rot2);
+  context.lineTo(toX + TURN_LINE * last.x, toY + TURN_LINE * last.y);
+  context.stroke();
+  turn(context, fromX, fromY, 0, rot1);
+  turn(context, toX, toY, rot1, rot2);
+  context.textBaseline = 'middle';
+  /** @type {[name: string, x: number, y: number, toward: number][]} */
+  const labels = [
+    ['δ_rot1', fromX, fromY, rot1 / 2],
+    ['δ_rot2', toX, toY, rot1 + rot2 / 2],
+  ];
+  for (const [name, atX, atY, toward] of labels) {
+    const { x: dx, y: dy } = view.direction(toward);
+    label(brush, name, atX + (TURN_LINE + 6) * dx, atY + (TURN_LINE + 6) * dy, dx < 0 ? 'right' : 'left');
+  }
+  if (trans > 0) label(brush, 'δ_trans', (fromX + toX) / 2 + 10 * ahead.y, (fromY + toY) / 2 - 10 * ahead.x + 6, 'left');
+}
+
+/**
+ * @param {Brush['context']} context
+ * @param {number} x CSS pixels
+ * @param {number} y
+ * @param {number} from heading, rad
+ * @param {number} by rad; positive to the left
+ */
+function turn(context, x, y, from, by) {
+  context.beginPath();
+  // On the screen y runs down.
+  context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0);
+  context.stroke();
+}
+
+/**
+ * A symbol with its subscript, legible on whatever is under it.
+ *
+ * @param {Brush} brush
+ * @param {string} symbol with its subscript behind a low line
+ * @param {number} x CSS pixels
+ * @param {number} y
+ * @param {'left' | 'right'} align
+ */
+function label({ context, palette, font }, symbol, x, y, align) {
+  const [letter, subscript] = symbol.split('_');
+  const [large, small] = [`italic ${font}`, font.replace(/[\d.]+(?=px)/, (size) => String(0.8 * Number(size)))];
+  const widthIn = (/** @type {string} */ style, /** @type {string} */ text) => {
+    context.font = style;
+    return context.measureText(text).width;
+  };
+  const width = widthIn(large, letter);
+  const left = align === 'left' ? x : x - width - widthIn(small, subscript);
+  context.textAlign = 'left';
+  context.lineWidth = 4;
+  context.lineJoin = 'round';
+  context.strokeStyle = palette.paper;
+  context.fillStyle = palette.prior;
+  /** @type {[style: string, text: string, x: number, y: number][]} */
+  const parts = [[large, letter, left, y], [small, subscript, left + width, y + 4]];
+  for (const [style, text, atX, atY] of parts) {
+    context.font = style;
+    context.strokeText(text, atX, atY);
+  }
+  for (const [style, text, atX, atY] of parts) {
+    context.font = style;
+    context.fillText(text, atX, atY);
+  }
 }
 
 /** Robots that are all in one place. @param {BananaMachine} machine */

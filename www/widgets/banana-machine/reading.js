@@ -40,9 +40,8 @@ export class CurveMemo {
  * Everything that the pictures and readouts need of the machine, asked once a change.
  *
  * @param {Machine} machine
- * @param {CurveMemo} memo
  */
-export function readingOf(machine, memo) {
+export function readingOf(machine) {
   const { config, shown, stats, contours, table, chartHolds } = machine;
   return {
     config,
@@ -52,10 +51,49 @@ export function readingOf(machine, memo) {
     table,
     note: noteOn(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
-    curve: memo.of(machine),
+    gain: gainOf(stats, table),
+    bowTie: bowTieOf(config),
+    /** The command as odometry reads it; null under the velocity model. */
+    reading: config.model === 'odometry' ? machine.reading : null,
     /** The end of the commanded arc, metres. */
     end: /** @type {[number, number]} */ ([...contours.command.slice(-2)]),
   };
+}
+
+/**
+ * The gain of the Gaussian in the coordinates that bend with the cloud. Where its covariance is singular, the gain over
+ * (x, y, θ) is unbounded; then it is that of the arc's own coordinates over (x, y).
+ *
+ * @param {Stats} stats
+ * @param {Table} table
+ */
+function gainOf({ n, likelihoodGain, likelihoodGainError }, { exact }) {
+  const unbounded = exact.likelihoodGain.pose === Infinity;
+  const kind = unbounded ? 'floor' : 'pose';
+  return { n, unbounded, value: likelihoodGain[kind], error: likelihoodGainError[kind], exact: exact.likelihoodGain[kind] };
+}
+
+/**
+ * Whether the noise of the length is that of the turn above all, and so large beside the length that is commanded that the
+ * robots end on both sides of the start; if so, what says it.
+ *
+ * @param {Settings} config
+ */
+function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAware }) {
+  const [a1, a2, a3, a4] = alphas.map((alpha, i) => (isolate === null || isolate === i + 1 ? alpha : 0));
+  if (model === 'velocity') {
+    const [straight, turning] = [a1 * v * v, a2 * omega * omega];
+    const deviation = Math.sqrt(straight + turning);
+    return turning > straight && deviation > Math.abs(v) ? { model, length: v, deviation } : null;
+  }
+  const turn = omega * dt;
+  const length = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
+  // It turns by half of it before the drive and by half of it after; in reverse, as the table has it, by that much less
+  // than half a turn.
+  const rotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
+  const [straight, turning] = [a3 * length * length, 2 * a4 * rotation * rotation];
+  const deviation = Math.sqrt(straight + turning);
+  return turning > straight && deviation > length ? { model, length, deviation } : null;
 }
 
 /** @param {number} index from 0 */
@@ -103,7 +141,7 @@ function spreadOf({ exact: { cov } }) {
  * @param {boolean} chartHolds whether exponential coordinates reach as far as the robots turn
  * @returns {string} empty for an ordinary cloud
  */
-function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
+function noteOn({ model, command, alphas, isolate, reverseAware }, table, stats, chartHolds) {
   const { notes, alphaIsZero } = words.banana;
   const spread = spreadOf(table);
   const { v, omega } = command;
@@ -114,6 +152,6 @@ function noteOn({ model, command, alphas, isolate }, table, stats, chartHolds) {
   }
   if (spread === 'headings') return notes.headings;
   if (!chartHolds) return notes.circle;
-  if (model === 'odometry' && v < 0) return notes.backwards;
+  if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;
   return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
 }

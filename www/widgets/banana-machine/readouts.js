@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';
 import { rich } from '../../ui/controls.js';
-import { NOTHING, counted, fixed, percent, significant, withError } from '../../ui/format.js';
+import { NOTHING, counted, fixed, percent, powerOfE, significant, withError } from '../../ui/format.js';
 import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 
@@ -15,20 +15,62 @@ import { figureTable, readoutList } from '../../ui/readouts.js';
 /** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const NOMINAL = 1 - Math.exp(-2);
 
-/** @param {Reading} reading */
-export function readouts({ config, stats }) {
+/** A cloud's skew, and at most its error, as wide as they print. */
+const longestSkew = () => withError(-1, 1, 4);
+
+/**
+ * The three that matter: whether the cloud leans, how much likelier the other coordinates make it, and how much floor the
+ * ellipse wastes.
+ *
+ * @param {Reading} reading
+ */
+export function readouts({ config, stats, exactSkew, gain }) {
+  const say = words.banana.readouts;
+  const { coverage, areaRatio } = stats;
+  const all = counted(config.samples);
+  return readoutList([
+    [
+      say.skew,
+      withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
+      longestSkew(),
+      [say.skewDetail(fixed(exactSkew, 3)), say.skewDetail(fixed(-1, 3))],
+    ],
+    [
+      gain.unbounded ? say.gainOnFloor : say.gain,
+      withError(gain.value, gain.error, 3),
+      withError(-1, 1, 4),
+      [gainText(gain), say.likelier(all, powerOfE(10 * config.samples))],
+    ],
+    [
+      say.area,
+      fixed(areaRatio, 2),
+      fixed(-1, 2),
+      [say.areaDetail(percent(coverage.ellipse), percent(coverage.exponential)), say.areaDetail(percent(1), percent(1))],
+    ],
+  ]);
+}
+
+/** What the gain means for the whole cloud. @param {Reading['gain']} gain */
+function gainText({ n, unbounded, value }) {
+  const { unbounded: without, likelier, unlikelier } = words.banana.readouts;
+  if (unbounded) return without;
+  if (Number.isNaN(value)) return NOTHING;
+  return (value < 0 ? unlikelier : likelier)(counted(n), powerOfE(Math.abs(n * value)));
+}
+
+/** The others. @param {Reading} reading */
+export function otherReadouts({ config, stats, gain, table }) {
   const all = counted(config.samples);
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
+  const shares = say.sharesOf(percent(1), percent(1), percent(NOMINAL));
   return readoutList([
-    [say.skew, withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3), withError(-1, 1, 3)],
-    [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
-    [say.plane, '0'],
-    [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
     [say.robots, nOfAll(counted(stats.n), all), nOfAll(all, all)],
-    [say.exponential, percent(stats.coverage.exponential), percent(1)],
-    [say.ellipse, percent(stats.coverage.ellipse), percent(1)],
-    [say.nominal, percent(NOMINAL)],
+    [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
+    [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
+    [say.exactGain, fixed(gain.exact, 4), fixed(-1, 4)],
+    [say.exactArea, fixed(table.exact.areaRatio, 3), fixed(-1, 3)],
+    [say.shares, say.sharesOf(percent(stats.coverage.ellipse), percent(stats.coverage.exponential), percent(NOMINAL)), shares],
   ]);
 }
 
@@ -43,12 +85,27 @@ export function markedRobot(figure, inspection) {
   const { shown } = figure.reading;
   const quantity = (/** @type {string} */ symbol, /** @type {number} */ value, /** @type {string} */ unit) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
-  const arc = inspection && [
-    quantity('v̂', inspection.vHat, 'm/s'),
-    quantity('ω̂', inspection.omegaHat, 'rad/s'),
-    quantity('γ̂', inspection.gammaHat, 'rad/s'),
-  ];
-  return markedSample(figure.cloud, { id: 'robot', label: robot, hint: markHint, shown, beyond: shown - 1, told: arc });
+  const told = inspection && (inspection.legs
+    ? legsOf(inspection.legs, /** @type {import('../../types.d.ts').Legs} */ (figure.reading.reading))
+    : [
+        quantity('v̂', inspection.vHat, 'm/s'),
+        quantity('ω̂', inspection.omegaHat, 'rad/s'),
+        quantity('γ̂', inspection.gammaHat, 'rad/s'),
+      ]);
+  return markedSample(figure.cloud, { id: 'robot', label: robot, hint: markHint, shown, beyond: shown - 1, told });
+}
+
+/**
+ * The noise of each hinge: what was read less what was driven, as Table 5.6 subtracts it.
+ *
+ * @param {import('../../types.d.ts').Legs} driven
+ * @param {import('../../types.d.ts').Legs} read
+ */
+function legsOf(driven, read) {
+  return /** @type {const} */ ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']]).map(([leg, unit]) => {
+    const noise = read[leg] - driven[leg];
+    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;
+  });
 }
 
 /** Digits of what is computed, as many as the book prints; and of what chance leaves uncertain. */

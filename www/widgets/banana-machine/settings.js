@@ -1,10 +1,11 @@
 /** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORDS, attributesOf, presetOf } from '../../figure/attributes.js';
+import { WORDS, attributesOf } from '../../figure/attributes.js';
 import { subset, wholeNumber } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
-import { alphaCounts, presets, settings } from '../../settings.js';
+import { openingAlphas, settings } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.js';
+import { presetAttribute } from './presets.js';
 
 export const declared = settings['banana-machine'];
 
@@ -12,13 +13,13 @@ export const declared = settings['banana-machine'];
 export const vocabulary = 'banana';
 
 /** Dashes of the outlines on the floor, CSS pixels. @satisfies {Record<string, number[]>} */
-export const DASHES = { command: COMMAND_DASH, ellipse: [7, 4], linearized: [9, 3, 2, 3], exponential: [] };
+export const DASHES = { command: COMMAND_DASH, ellipse: [7, 4], linearized: [9, 3, 2, 3], additive: [1.5, 5], exponential: [] };
 export const OVERLAYS = /** @type {(keyof typeof DASHES)[]} */ (Object.keys(DASHES));
 const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
-  preset: presetOf('command', presets['banana-machine']),
+  preset: presetAttribute,
   ...attributesOf(declared),
   overlays: { kind: WORDS, own: true, words: OVERLAYS },
 };
@@ -27,7 +28,7 @@ export const attributes = {
 export const own = {
   ...cloudState,
   /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
-  isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, alphaCounts.velocity) },
+  isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
   overlays: { opening: OPENING_OVERLAYS, check: (field, overlays) => subset(field, overlays, OVERLAYS) },
 };
 

@@ -5,19 +5,70 @@ import { chartStyles } from '../../ui/chart.js';
 import { layoutStyles } from '../../ui/layout.js';
 
 const own = css`
-  canvas.plane {
-    aspect-ratio: 5 / 3;
+  canvas {
+    aspect-ratio: 5 / 4;
   }
 
-  @container (max-width: 34rem) {
-    canvas.plane {
-      aspect-ratio: 5 / 4;
+  @container (min-width: 30rem) {
+    .views {
+      grid-template-columns: 1fr 1fr;
+      gap: 1rem;
     }
   }
 
-  canvas.twist {
-    aspect-ratio: 380 / 250;
-    max-width: 34rem;
+  @container (min-width: 56rem) {
+    canvas {
+      aspect-ratio: 2;
+    }
+  }
+
+  /* In the column of a book the rows of buttons are one line each. */
+  @container (max-width: 48rem) {
+    .controls {
+      column-gap: 1.5rem;
+    }
+
+    .cloud .buttons {
+      gap: 0.25rem;
+    }
+
+    .cloud .buttons button {
+      padding-inline: 0.25rem;
+      font-size: 0.84rem;
+    }
+
+    .buttons {
+      gap: 0.35rem;
+    }
+
+    .presets button {
+      padding-inline: 0.4rem;
+      font-size: 0.92rem;
+    }
+  }
+
+  /* The seed shares the line in which the help of N appears. */
+  .cloud .buttons {
+    margin-bottom: 0.2rem;
+  }
+
+  .cloud .seed {
+    position: absolute;
+    right: 0;
+    bottom: 0;
+    font-size: 0.84rem;
+    line-height: 1.25;
+  }
+
+  .cloud:has(.slider:is(:focus-within, :hover)) .seed {
+    visibility: hidden;
+  }
+
+  /* The three that matter, side by side where there is room. */
+  .surface .machine > .readouts {
+    display: grid;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12.5rem), 1fr));
+    gap: 0.2rem 1.25rem;
   }
 
   .swatch {
@@ -35,7 +86,7 @@ const own = css`
     --role: var(--prior);
   }
 
-  .legend :is(.ellipse, .linearized) {
+  .legend :is(.ellipse, .linearized, .additive) {
     --role: var(--prediction);
   }
 
@@ -43,9 +94,6 @@ const own = css`
     --role: var(--posterior);
   }
 
-  .alphas > .toggle {
-    margin-bottom: 0.4rem;
-  }
 `;
 
 export const bananaStyles = [...layoutStyles, chartStyles, own];

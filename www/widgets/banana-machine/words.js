@@ -11,7 +11,6 @@ import { en } from './en.js';
 import { deviation, silenceOf } from './reading.js';
 
 /**
- * @import { Stats } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
  */
 
@@ -19,10 +18,11 @@ addEnglish({ banana: en });
 
 /** The longest of the sentences that may come, to keep room for. */
 export function longestNote() {
-  const { notes, settings } = words.banana;
+  const { notes, settings, bend } = words.banana;
+  const skew = withError(-1, 1, 4);
   const { velocity, odometry } = settings.alphas.effects;
   const silences = [...velocity.map((_, i) => silenceOf('velocity', i)), ...odometry.map((_, i) => silenceOf('odometry', i))];
-  return longest([...Object.values(notes), ...silences]);
+  return longest([...Object.values(notes), ...silences, ...Object.values(bend.bowTie).map((say) => say('−1.00', '1.00', skew)), bend.bothWays(skew, '1.00'), bend.stillBent(skew, '0.00')]);
 }
 
 /** What is announced after a change has come to rest. @param {Reading} reading */
@@ -40,7 +40,8 @@ export function announcementOf({ config, stats, note }) {
  * @param {Reading} reading
  * @param {string[]} overlays names of the outlines that are shown
  */
-export function planeText({ config, stats, note }, overlays) {
+export function planeText(reading, overlays) {
+  const { config, stats, note } = reading;
   const { plane, noRobots, mean, spread, drawnOver } = words.banana;
   const sentences = [plane(commandText(config.command))];
   if (stats.n === 0) sentences.push(noRobots);
@@ -48,7 +49,7 @@ export function planeText({ config, stats, note }, overlays) {
     const { mean: centre, cov } = stats.cartesian;
     sentences.push(mean(counted(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
     if (note) sentences.push(note);
-    else sentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(stats));
+    else sentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(reading));
   }
   if (overlays.length) sentences.push(drawnOver(overlays.join(', ')));
   return sentences.filter(Boolean).join(' ');
@@ -59,17 +60,43 @@ function deviationText(variance) {
   return fixed(deviation(variance), 2);
 }
 
-/** @param {Stats} stats */
-function bendText({ crossTrackSkew: skew, crossTrackSkewError: error }) {
+/** An exact skew below this is 0, by symmetry: the rounding of its quadrature is some 1e-15. */
+const NO_SKEW = 1e-9;
+
+/** Below this a cloud leans so little that nobody sees it. */
+const HARDLY = 0.05;
+
+/** From this gain on, nats a robot, a hundred robots tell the two Gaussians apart: by a factor of e² and more. */
+const BENT = 0.02;
+
+/** From this area ratio on, the ellipse is seen to be too large. */
+const TOO_LARGE = 1.1;
+
+/**
+ * What the cloud looks like: to which side it leans is the model's to decide, and the robots' to show.
+ *
+ * @param {Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table'>} reading
+ */
+function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error }, exactSkew, bowTie, table }) {
   if (Number.isNaN(skew)) return '';
-  const { unsure, hardly, right, left } = words.banana.bend;
-  const sentence = Math.abs(skew) < 2 * error ? unsure : Math.abs(skew) < 0.05 ? hardly : skew < 0 ? right : left;
-  return sentence(withError(skew, error, 2));
+  const say = words.banana.bend;
+  const [measured, exactly] = [withError(skew, error, 2), fixed(exactSkew, 3)];
+  if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
+  if (Math.abs(exactSkew) < NO_SKEW) {
+    const { areaRatio, likelihoodGain } = table.exact;
+    if (areaRatio > TOO_LARGE) return say.bothWays(measured, fixed(areaRatio, 2));
+    const gain = likelihoodGain.pose;
+    return gain > BENT && gain < Infinity ? say.stillBent(measured, fixed(gain, 2)) : say.neither(measured);
+  }
+  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
+  if (Math.abs(exactSkew) < HARDLY) return say.hardly(measured);
+  return exactSkew < 0 ? say.right(measured) : say.left(measured);
 }
 
 /** What stands under the view of the floor. @param {Reading} reading */
-export function captionOf({ note, stats }) {
-  return note || (stats.n === 0 ? words.banana.noRobots : bendText(stats) || words.banana.fewRobots);
+export function captionOf(reading) {
+  const { note, stats } = reading;
+  return note || (stats.n === 0 ? words.banana.noRobots : bendText(reading) || words.banana.fewRobots);
 }
 
 /** @param {number} skew exact */

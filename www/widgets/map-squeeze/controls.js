@@ -4,9 +4,9 @@
  */
 
 import { html, nothing } from 'lit';
-import { check, slider, sliders } from '../../figure/controls.js';
+import { check, choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, choice, inputOf, radioGroup, rich } from '../../ui/controls.js';
+import { button, choice, inputOf, longest, radioGroup, rich } from '../../ui/controls.js';
 import { EXTENSIONS } from './maps/open.js';
 import { MOTION, PRESETS, SAMPLERS } from './settings.js';
 
@@ -22,30 +22,45 @@ const EXAMPLE = `{
   ]
 }`;
 
-/** @param {Figure} figure */
+/** Places of the present map; the apartment's are not offered in another, which they would make the reader leave. @param {Figure} figure */
 export function placeControls(figure) {
   const { x, y, theta } = figure.reading.config.start;
-  const { map, view } = figure.state.own;
   const say = words.squeeze;
+  const isHere = (/** @type {import('../../types.d.ts').Pose} */ place) => place.x === x && place.y === y && place.theta === theta;
+  const places = PRESETS.map(({ name, start }) =>
+    button(say.presets[/** @type {keyof typeof say.presets} */ (name)], () => figure.go(start), { pressed: isHere(start) }),
+  );
+  const { left } = figure;
   return html`<fieldset>
-    <legend>${say.place}</legend>
+    <legend class="visually-hidden">${say.place}</legend>
     <div class="buttons">
-      ${PRESETS.map(({ name, start }) =>
-        button(say.presets[/** @type {keyof typeof say.presets} */ (name)], () => figure.go(start), {
-          pressed: map === null && start.x === x && start.y === y && start.theta === theta,
-        }),
-      )}
+      ${figure.map
+        ? html`${button(say.own.open, () => figure.goToOpen(), { pressed: figure.inTheOpen })}
+          ${button(say.own.leave, () => figure.leaveMap())}`
+        : html`${places} ${left ? button(say.own.back(left.name || say.pasted), () => figure.returnToMap()) : nothing}`}
     </div>
-    ${radioGroup(say.settings.view.name, 'view', say.views, view, (name) => figure.choose('view', name))}
   </fieldset>`;
+}
+
+/** @param {Figure} figure */
+export function viewChoice(figure) {
+  const { settings: { view: { name } }, views } = words.squeeze;
+  return radioGroup(name ?? '', 'view', views, figure.state.own.view, (view) => figure.choose('view', view));
+}
+
+/** What the cells are of which the map says nothing. @param {Figure} figure */
+export function unknownChoice(figure) {
+  return choices(figure, 'unknown', words.squeeze.unknown);
 }
 
 /** @param {Figure} figure */
 export function judgeControls(figure) {
   const { conditioned, sampler } = figure.reading.config;
   const say = words.squeeze;
+  const effect = say.samplerEffects[conditioned ? sampler : 'off'];
   return html`<fieldset class="judge">
-    <legend>${say.map} ${check(figure, 'conditioned', say.condition)}</legend>
+    <legend class="visually-hidden">${say.map}</legend>
+    ${check(figure, 'conditioned', say.condition)}
     <div class="choices" role="radiogroup" aria-label=${say.settings.sampler.name} aria-describedby="sampler-effect">
       ${SAMPLERS.map((name) =>
         choice({
@@ -56,16 +71,18 @@ export function judgeControls(figure) {
         }),
       )}
     </div>
-    <p class="effect" id="sampler-effect">${rich(say.samplerEffects[conditioned ? sampler : 'off'])}</p>
-    ${sampler === 'sub-stepped' ? slider(figure, 'steps', { off: !conditioned }) : nothing}
+    <p class="effect caption roomy" id="sampler-effect" data-room=${longest(Object.values(say.samplerEffects))}>
+      <span>${rich(effect)}</span>
+    </p>
   </fieldset>`;
 }
 
 /** @param {Figure} figure */
 export function motionControls(figure) {
+  const { conditioned, sampler } = figure.reading.config;
   return html`<fieldset>
-    <legend>${words.squeeze.commandAndNoise}</legend>
-    ${sliders(figure, MOTION)}
+    <legend class="visually-hidden">${words.squeeze.commandAndNoise}</legend>
+    ${sliders(figure, MOTION)} ${slider(figure, 'steps', { off: !conditioned || sampler !== 'sub-stepped' })}
   </fieldset>`;
 }
 
@@ -82,7 +99,7 @@ export function ownMap(figure, opener, map) {
   };
   const { complaint } = opener;
   return html`<fieldset class="own-map">
-    <legend>${say.legend}</legend>
+    <legend class="visually-hidden">${say.legend}</legend>
     <div>
       <p>${say.text}</p>
       <label for="map-files">${say.files}</label>
@@ -100,7 +117,6 @@ export function ownMap(figure, opener, map) {
       />
       <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>
-      ${figure.map === null ? nothing : button(say.leave, () => figure.go(PRESETS[0].start))}
     </div>
     <div>
       <label for="map-text">${say.plan}</label>

@@ -104,11 +104,14 @@ export class RobotHandles extends Part {
   /**
    * @param {number} x metres
    * @param {number} y
+   * @returns {string | undefined} what stops it
    */
   #moveTo(x, y) {
     const [left, bottom, right, top] = this.host.picture.plan.bounds;
     const { theta } = this.#start;
-    this.#want({ x: clamp(x, left, right), y: clamp(y, bottom, top), theta });
+    const [inX, inY] = [clamp(x, left, right), clamp(y, bottom, top)];
+    this.#want({ x: inX, y: inY, theta });
+    return inX === x && inY === y ? undefined : words.squeeze.mapEnds;
   }
 
   /** @param {number} theta radians */

@@ -1,31 +1,38 @@
 /** <map-squeeze>: motion conditioned on a map, and what the condition cannot see. */
 
-import { html } from 'lit';
+import { html, nothing } from 'lit';
 import { Cloud, showOnly } from '../../figure/cloud.js';
-import { canvas, cloudControls } from '../../figure/controls.js';
+import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { judgeControls, motionControls, ownMap, placeControls } from './controls.js';
+import { fold } from '../../ui/fold.js';
+import { judgeControls, motionControls, ownMap, placeControls, unknownChoice, viewChoice } from './controls.js';
 import { CostMeter } from './cost.js';
 import { RobotHandles } from './handles.js';
 import { applyMap, mapData } from './maps/data.js';
-import { MapOpener } from './maps/open.js';
+import { FOLD, MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
-import { costTable, legend, markedDraw, tally } from './readouts.js';
+import { costTable, legend, markedDraw, rates, tally } from './readouts.js';
 import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
-import { announcementOf, mapText, pictureText } from './words.js';
+import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
 
 /**
  * @import { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts'
  * @import { OwnMap } from './maps/files.js'
  * @import { Reading } from './reading.js'
  */
+
+/** What the figure takes. @type {Parameters<typeof reserve>[0]} */
+const ROOM = [
+  [0, 52.7, 80], [22, 49.7, 80], [23, 46.6, 80], [25, 43.1, 80], [33, 40.1, 80], [37, 39, 80], [38, 48.5, 0], [38.5, 42.7, 0], [45, 6.6, 80],
+  [50, 42.7, 0], [53, 9.5, 62.5], [58, 7.6, 62.5], [60, 40.8, 0], [62, 39.4, 0], [71.5, 9.6, 41.7],
+];
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.
@@ -36,7 +43,7 @@ import { announcementOf, mapText, pictureText } from './words.js';
  * @extends {FigureElement<Machine, Reading>}
  */
 export class MapSqueezeElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve([[0, 175], [26, 152], [33, 141], [47, 120], [57, 87]]), ...squeezeStyles];
+  static styles = [...FigureElement.styles, reserve(ROOM), ...squeezeStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -51,6 +58,12 @@ export class MapSqueezeElement extends FigureElement {
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
   #handles = new RobotHandles(this);
+  /** What unknown cells are in the map of the picture. */
+  #unknown = '';
+  /** The reader's own map that was left last, and where the robot stood in it. @type {{ map: MapData, start: Pose } | null} */
+  #left = null;
+  /** Where the robot was put last in the open. @type {Pose | undefined} */
+  #open;
 
   /** @type {FigureElement<Machine, Reading>['createMachine']} */
   createMachine = (motion, state) => {
@@ -68,13 +81,15 @@ export class MapSqueezeElement extends FigureElement {
     if (!machine) return;
     this.#opener.forgive();
     this.#meter.outdate();
-    this.picture = new FloorPicture(machine.plan, machine.grid);
+    this.#unknown = machine.config.unknown;
+    this.picture = new FloorPicture(machine.plan, machine.grid, this.picture);
     this.pictures = [this.picture];
   }
 
   /** @param {Machine} machine */
   read(machine) {
     const reading = readingOf(machine);
+    if (reading.config.unknown !== this.#unknown && this.picture.hasUnknown) this.machineChanged();
     this.#meter.heed(reading.config, !this.cloud.playing && !this.held);
     return reading;
   }
@@ -84,13 +99,13 @@ export class MapSqueezeElement extends FigureElement {
     const { index, isMarked } = this.cloud;
     this.picture.close = this.state.own.view === 'close';
     const marked = isMarked && { pose: fresh.poses.subarray(3 * index), path: this.machine?.path(index) };
-    return { ...fresh, marked: marked || undefined };
+    return { ...fresh, machine: this.machine, marked: marked || undefined };
   }
 
   get takeaway() {
     const { config, poses, verdicts } = this.fresh;
     return {
-      title: words.squeeze.title,
+      title: this.label,
       settings: { element: this.localName, map: this.map?.name ?? null, ...config },
       columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
       row: (/** @type {number} */ i) => [
@@ -101,7 +116,7 @@ export class MapSqueezeElement extends FigureElement {
     };
   }
 
-  announcement = announcementOf;
+  announcement = verdictOf;
 
   get held() {
     return this.#handles.held !== undefined;
@@ -140,8 +155,10 @@ export class MapSqueezeElement extends FigureElement {
 
   set map(map) {
     this.reflection.whenReady('map', map, () => {
-      if (map === null) this.#leave();
-      else this.#enter({ name: map?.name ?? '', apply: (machine) => applyMap(machine, map) });
+      if (map === null) {
+        this.#leave();
+        this.#findRoom();
+      } else this.#enter({ name: map?.name ?? '', apply: (machine) => applyMap(machine, map) });
       this.reflection.tell();
       this.settings.show();
     });
@@ -157,13 +174,54 @@ export class MapSqueezeElement extends FigureElement {
     return this.ask((machine) => machine.verdicts);
   }
 
-  /** The reader wants the robot in the apartment. @param {Pose} start */
+  /** The own map that was left last: the reader can go back to it. */
+  get left() {
+    return this.#left?.map ?? null;
+  }
+
+  /** The reader wants the robot at a place in the present map, or in the apartment. @param {Pose} start */
   go(start) {
-    this.runtime.attempt(() => this.#leave());
     this.decide({ start });
   }
 
-  /** The reader wants the robot in a map of their own. @param {OwnMap} map */
+  /** The reader wants the robot in the open. */
+  goToOpen() {
+    this.runtime.attempt(() => {
+      if (this.machine) this.go(this.#putInTheOpen(this.machine));
+    });
+  }
+
+  /** Whether the robot is where it was put last in the open. */
+  get inTheOpen() {
+    const { x, y, theta } = this.reading.config.start;
+    return this.#open?.x === x && this.#open.y === y && this.#open.theta === theta;
+  }
+
+  /**
+   * Where the robot is put that comes into a map: in an occupancy grid also where it has room, for what is unknown there
+   * may be free, so that a place which is free may lie outside of everything that was mapped.
+   *
+   * @param {Machine} machine
+   * @returns {Pose}
+   */
+  #putInTheOpen({ openPlace, config, plan }) {
+    const [left, bottom, right, top] = plan.bounds;
+    return (this.#open = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
+  }
+
+  /** The reader wants to leave their map, which stays at hand. */
+  leaveMap() {
+    this.runtime.attempt(() => this.#leave());
+    this.go(PRESETS[0].start);
+  }
+
+  /** The reader wants to go back to their map, as they left it. */
+  returnToMap() {
+    const left = this.#left;
+    if (left) this.open({ name: left.map.name ?? '', start: left.start, apply: (machine) => applyMap(machine, left.map) });
+  }
+
+  /** The reader wants the robot in a map of their own. @param {OwnMap & { start?: Pose }} map */
   open(map) {
     if (!this.machine) return;
     this.runtime.attempt(() => this.#enter(map));
@@ -173,10 +231,11 @@ export class MapSqueezeElement extends FigureElement {
 
   /** Leaves the reader's own map, if it is there. */
   #leave() {
-    const { machine } = this;
+    const { machine, map } = this;
     if (!machine) return;
     this.#opener.forgive();
-    if (!this.map) return;
+    if (!map) return;
+    this.#left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);
     this.#moved(null);
   }
@@ -185,7 +244,7 @@ export class MapSqueezeElement extends FigureElement {
    * Puts the robot into another map. A machine of its own tries it: the present one stays as it is where
    * the map, or the place in it, is refused.
    *
-   * @param {OwnMap} map
+   * @param {OwnMap & { start?: Pose }} map with the place in it, where that is known
    */
   #enter(map) {
     const { motion } = this;
@@ -194,12 +253,20 @@ export class MapSqueezeElement extends FigureElement {
     let data = null;
     const next = orFree(this.createMachine(motion, this.snapshot()), (machine) => {
       map.apply(machine);
-      findRoom(machine);
+      if (map.start) machine.configure({ start: map.start });
+      else if (!machine.startFree || machine.grid) machine.configure({ start: this.#putInTheOpen(machine) });
       showOnly(machine, this.cloud.asked);
       data = mapData(machine, map.name);
     });
     this.runtime.replace(next);
+    this.#left = null;
     this.#moved(data);
+  }
+
+  /** In the apartment the robot goes to where it opens if it has no room where it is. */
+  #findRoom() {
+    const { machine } = this;
+    if (machine && !machine.startFree) this.settings.assign({ start: PRESETS[0].start });
   }
 
   /** @param {MapData | null} map that the machine has now */
@@ -213,46 +280,40 @@ export class MapSqueezeElement extends FigureElement {
   /** @param {Reading} reading */
   content(reading) {
     const { config, note } = reading;
+    const say = words.squeeze;
     const own = this.map;
-    const map = mapText(own ? own.name || words.squeeze.pasted : words.squeeze.apartment, this.picture.plan);
+    const map = mapText(own ? own.name || say.pasted : say.apartment, this.picture.plan);
+    const { hasUnknown } = this.picture;
     return html`
       <section
         class="machine"
-        aria-label=${words.squeeze.title}
+        aria-label=${this.label}
         @dragover=${this.#opener.over}
         @dragleave=${this.#opener.leave}
         @drop=${this.#opener.drop}
       >
-        <div class="floor">
+        <div class="views">
           <div class="stage" part="picture">
             ${canvas(this, this.picture, pictureText(reading, map))}
             ${this.#handles.render()}
           </div>
-          <p class="note" part="caption" ?hidden=${note === ''}>${note}</p>
-          ${legend(config)} ${tally(reading)} ${markedDraw(this)}
-          ${cloudControls(this, SAMPLE_COUNTS)}
+          <p class="verdict caption roomy ${note && 'note'}" part="caption" data-room=${longestVerdict(config)}>
+            <span>${verdictOf(reading)}</span>
+          </p>
+          <div class="aside">
+            ${this.later(() => html`${rates(reading)} ${placeControls(this)} ${hasUnknown ? unknownChoice(this) : nothing} ${judgeControls(this)}`)}
+          </div>
         </div>
-        <div class="controls" part="controls">
-          ${placeControls(this)} ${judgeControls(this)} ${motionControls(this)} ${costTable(this.#meter, config.steps)}
-        </div>
-        ${ownMap(this, this.#opener, map)}
+        ${this.later(() => html`
+        <div class="controls" part="controls">${motionControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
+        <div class="folds">
+          ${fold(say.keyAndSample, () => html`${viewChoice(this)} ${legend(reading, hasUnknown)} ${markedDraw(this)}`)}
+          ${fold(say.countsLabel, () => html`${tally(reading)} ${costTable(this.#meter, config.steps)}`)}
+          ${fold(say.own.legend, () => ownMap(this, this.#opener, map), FOLD)} ${takeAlong(this)}
+        </div>`)}
       </section>
     `;
   }
-}
-
-/**
- * Moves the robot to where it fits. In an occupancy grid it does so anyhow: the unknown is free there,
- * so that a place which is free may lie outside of everything that was mapped.
- *
- * @param {Machine} machine
- */
-function findRoom(machine) {
-  if (machine.startFree && machine.grid === null) return;
-  const { freePoint, config, plan } = machine;
-  const [left, bottom, right, top] = plan.bounds;
-  const [x, y] = freePoint ?? [(left + right) / 2, (bottom + top) / 2];
-  machine.configure({ start: { ...config.start, x, y } });
 }
 
 define('map-squeeze', MapSqueezeElement);

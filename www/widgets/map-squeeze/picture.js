@@ -1,6 +1,6 @@
 /** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
 
-import { clipped, drawAxes, drawDots, drawMark, drawOutline, trace } from '../../scene/draw.js';
+import { clipped, densityRamp, drawAxes, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer } from '../../scene/walls.js';
@@ -8,11 +8,13 @@ import { clamp } from '../../ui/clamp.js';
 import { COMMAND_DASH } from '../shared/command.js';
 
 /**
- * @import { MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
+ * @import { Grid, MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Extent } from '../../scene/view.js'
+ * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
+ *   machine: MapSqueeze,
  *   marked: { pose: Float64Array, path: Float64Array } | undefined,
  * }} Scene
  */
@@ -26,28 +28,62 @@ const RING = { metres: 0.085, least: 3.5, most: 6 };
 /** A robot in a view of a large map is drawn no smaller than this, CSS pixels. */
 const SMALLEST_ROBOT = 3;
 
-/** Surroundings shown around the commanded way: this many times its length, and at least so many metres. */
-const SURROUNDINGS = 0.7;
+/** Surroundings shown around the end of the command: this many times its length, and at least so many metres. */
+const SURROUNDINGS = 0.8;
 const MIN_SURROUNDINGS = 0.8;
+
+/** Room shown around the commanded way, metres. */
+const WAYSIDE = 0.45;
 
 /** How near to a sample the pointer must be to mark it, CSS pixels. */
 const REACH = 12;
 
+/** Cells of the density, CSS pixels, of many samples and of few, which need larger ones to be a density. */
+const CELL = { least: 2, most: 5, samples: 40_000 };
+
+/** Paths that a density is drawn with: more would hide it. */
+const PATHS_ON_DENSITY = 25;
+
+/** The overview in a corner of a close-up: its sides at most, as shares of the picture's, and what is around it. */
+const OVERVIEW = { width: 0.34, height: 0.4, margin: 8, padding: 0.05, wall: 1.25 };
+
+/** How much further the overview keeps from the end of the commanded way than from its start. */
+const END_WEIGHT = 1.5;
+
 /** @extends {Picture<Scene>} */
 export class FloorPicture extends Picture {
   plan;
+  /** Whether there are cells of which the map says nothing. */
+  hasUnknown;
   #near = new View();
   #whole = this.view;
   #walls;
+  #overview;
+  /** Corners of what the map knows: what is around it may be much more. @type {ArrayLike<number>} */
+  #known;
+  #pixels = new OffscreenCanvas(1, 1);
+  /** Colours of the density. @type {Uint8Array} */
+  #ramps = new Uint8Array();
+  /** What they were made of. @type {Palette | undefined} */
+  #palette;
 
   /**
    * @param {Plan} plan
-   * @param {import('../../types.d.ts').Grid | null} grid
+   * @param {Grid | null} grid
+   * @param {FloorPicture} [former] the picture whose place it takes: where the map is as large, the views stay where they are
    */
-  constructor(plan, grid) {
+  constructor(plan, grid, former) {
     super('plane', new View());
     this.plan = plan;
+    this.hasUnknown = grid?.unknown.includes(1) ?? false;
     this.#walls = new WallLayer(plan, grid);
+    this.#overview = new WallLayer(plan, grid, OVERVIEW.wall);
+    this.#known = grid && this.hasUnknown ? knownCorners(grid) : plan.walls;
+    if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
+      this.#near = former.#near;
+      this.#whole = former.#whole;
+      this.view = former.view;
+    }
   }
 
   /** Whether the view is of the robot's surroundings only. */
@@ -62,13 +98,27 @@ export class FloorPicture extends Picture {
   /** @param {Scene} scene */
   fit({ commanded, config, poses }) {
     if (!this.close) {
-      this.#whole.fit(extentAround(poses, 3, mapped(this.plan, config.start)));
+      this.#whole.fit(extentAround(poses, 3, this.#mapped(config.start)));
       return;
     }
     const length = Math.abs(config.command.v * config.command.dt);
     const room = Math.max(MIN_SURROUNDINGS, SURROUNDINGS * length) + config.clearance;
-    const { xMin, yMin, xMax, yMax } = extentAround(commanded, 2);
-    this.#near.fit({ xMin: xMin - room, yMin: yMin - room, xMax: xMax + room, yMax: yMax + room });
+    const [x, y] = commanded.slice(-2);
+    const way = extentAround(commanded, 2);
+    const wayside = [way.xMin - WAYSIDE, way.yMin - WAYSIDE, way.xMax + WAYSIDE, way.yMax + WAYSIDE];
+    this.#near.fit(extentAround([...wayside, x - room, y - room, x + room, y + room], 2));
+  }
+
+  /**
+   * The part of the plan of which something is known, as long as the robot is in it; otherwise all of it.
+   *
+   * @param {{ x: number, y: number }} robot
+   */
+  #mapped({ x, y }) {
+    const [xMin, yMin, xMax, yMax] = this.plan.bounds;
+    const box = extentAround(this.#known, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
+    const inside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
+    return inside ? box : { xMin, yMin, xMax, yMax };
   }
 
   /**
@@ -84,16 +134,25 @@ export class FloorPicture extends Picture {
   }
 
   /** @type {Picture<Scene>['paint']} */
-  paint = (brush, { sorted, poses, paths, commanded, config, marked }) => {
+  paint = (brush, scene) => {
+    const { sorted, paths, commanded, config, marked } = scene;
     const { palette } = brush;
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
     clipped(brush, () => {
       // What passes through a wall must not hide it.
-      drawPaths(brush, paths);
-      drawDots(brush, sorted.accepted, { x: 0, y: 1, heading: 2 });
-      drawRings(brush, poses, sorted.through);
-      this.#walls.draw(brush);
-      drawCrosses(brush, sorted.rejected);
+      if (sorted) {
+        drawPaths(brush, paths);
+        const layout = { x: 0, y: 1, heading: 2 };
+        drawDots(brush, sorted.free, layout);
+        drawDots({ ...brush, palette: { ...palette, cloud: palette.accent } }, sorted.through, layout);
+        drawRings(brush, sorted.through);
+        this.#walls.draw(brush);
+        drawCrosses(brush, sorted.rejected);
+      } else {
+        this.#drawDensity(brush, scene);
+        this.#walls.draw(brush);
+        drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY));
+      }
       drawOutline(brush, commanded, { colour: palette.prior, width: 2.5, dash: COMMAND_DASH });
       drawRobots(brush, config, commanded);
       if (marked) {
@@ -102,21 +161,109 @@ export class FloorPicture extends Picture {
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
       }
     });
+    if (this.close) this.#drawOverview(brush, scene);
   };
+
+  /**
+   * @param {Brush} brush
+   * @param {Scene} scene
+   */
+  #drawDensity(brush, { machine, stats }) {
+    const { view, palette } = brush;
+    if (this.#palette !== palette) {
+      this.#palette = palette;
+      const ramps = [palette.truth, palette.cloud, palette.accent].map((cloud) => densityRamp({ ...palette, cloud }));
+      this.#ramps = Uint8Array.from(ramps.flatMap((ramp) => [...ramp]));
+    }
+    const { left, right, top, bottom } = view.frame;
+    const { xMin, yMin, xMax, yMax } = view.extent;
+    const cell = clamp(CELL.most * Math.sqrt(CELL.samples / stats.attempts) / 2, CELL.least, CELL.most);
+    const columns = Math.max(1, Math.round((right - left) / cell));
+    const rows = Math.max(1, Math.round((bottom - top) / cell));
+    const pixels = machine.picture(xMin, yMin, xMax, yMax, columns, rows, this.#ramps);
+    drawPixels(brush, this.#pixels, pixels, columns);
+  }
+
+  /**
+   * The whole map in a corner, with the part that the picture shows.
+   *
+   * @param {Brush} brush
+   * @param {Scene} scene
+   */
+  #drawOverview(brush, { config: { start }, commanded }) {
+    const { context, palette, view } = brush;
+    const { left, right, top, bottom } = view.frame;
+    const { xMin, yMin, xMax, yMax } = this.#mapped(start);
+    const [spanX, spanY] = [xMax - xMin, yMax - yMin].map((span) => (1 + 2 * OVERVIEW.padding) * span);
+    const scale = Math.min((OVERVIEW.width * (right - left)) / spanX, (OVERVIEW.height * (bottom - top)) / spanY);
+    const [width, height] = [scale * spanX, scale * spanY];
+    const [x, y] = freeCorner(view, width, height, commanded);
+    const small = new View({ left: x, right: view.width - x - width, top: y, bottom: view.height - y - height });
+    small.resize(view.width, view.height);
+    const [padX, padY] = [OVERVIEW.padding * (xMax - xMin), OVERVIEW.padding * (yMax - yMin)];
+    small.extent = { xMin: xMin - padX, yMin: yMin - padY, xMax: xMax + padX, yMax: yMax + padY };
+    const overview = { ...brush, view: small };
+    context.beginPath();
+    context.rect(x, y, width, height);
+    context.fillStyle = palette.paper;
+    context.fill();
+    clipped(overview, () => {
+      this.#overview.draw(overview);
+      drawOutline(overview, commanded, { colour: palette.prior, width: 1.5, dash: [] });
+      const [fromX, toX] = [view.extent.xMin, view.extent.xMax].map((at) => small.toPixelX(at));
+      const [fromY, toY] = [view.extent.yMax, view.extent.yMin].map((at) => small.toPixelY(at));
+      context.strokeStyle = palette.ink;
+      context.lineWidth = 1.25;
+      context.strokeRect(fromX, fromY, toX - fromX, toY - fromY);
+    });
+    context.strokeStyle = palette.muted;
+    context.lineWidth = 1;
+    context.strokeRect(x, y, width, height);
+  }
 }
 
 /**
- * The part of a plan that has walls, as long as the robot is in it; otherwise all of it. Around what
- * a robot has mapped there is often as much again of which nothing is known.
+ * The corner of a picture that is furthest from the commanded way, above all from its end, where the samples are.
  *
- * @param {Plan} plan
- * @param {{ x: number, y: number }} robot
+ * @param {View} view
+ * @param {number} width of what is put there, CSS pixels
+ * @param {number} height
+ * @param {Float64Array} commanded
+ * @returns {[x: number, y: number]} its left and its top, CSS pixels
  */
-function mapped({ bounds, walls }, { x, y }) {
-  const [xMin, yMin, xMax, yMax] = bounds;
-  const box = extentAround(walls, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
-  const inside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
-  return inside ? box : { xMin, yMin, xMax, yMax };
+function freeCorner(view, width, height, commanded) {
+  const { left, right, top, bottom } = view.frame;
+  const { margin } = OVERVIEW;
+  const [start, end] = [commanded.slice(0, 2), commanded.slice(-2)];
+  let [most, corner] = [-1, /** @type {[number, number]} */ ([left, top])];
+  for (const y of [bottom - margin - height, top + margin]) {
+    for (const x of [right - margin - width, left + margin]) {
+      const distance = (/** @type {Float64Array} */ [atX, atY]) =>
+        Math.hypot(x + width / 2 - view.toPixelX(atX), y + height / 2 - view.toPixelY(atY));
+      const least = Math.min(distance(start), distance(end) / END_WEIGHT);
+      // Rounding does not decide between corners that are alike.
+      if (least > most + 1) [most, corner] = [least, [x, y]];
+    }
+  }
+  return corner;
+}
+
+/** The corners of the box of cells of which a grid says something, as x, y pairs. @param {Grid} grid */
+function knownCorners({ columns, unknown, resolution, origin: [x, y, yaw] }) {
+  const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
+  for (let i = 0; i < unknown.length; i++) {
+    if (unknown[i]) continue;
+    const [column, row] = [i % columns, Math.floor(i / columns)];
+    if (column < box.left) box.left = column;
+    if (column + 1 > box.right) box.right = column + 1;
+    if (row < box.bottom) box.bottom = row;
+    if (row + 1 > box.top) box.top = row + 1;
+  }
+  if (box.left > box.right) return [];
+  const { left, bottom, right, top } = box;
+  const [along, up] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
+  const corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+  return corners.flatMap(([column, row]) => [x + column * along - row * up, y + column * up + row * along]);
 }
 
 /**
@@ -157,14 +304,13 @@ function drawPaths(brush, paths) {
 
 /**
  * @param {Brush} brush
- * @param {Float64Array} poses
- * @param {number[]} through indices of those to ring
+ * @param {Float64Array} triples
  */
-function drawRings({ context, view, palette }, poses, through) {
+function drawRings({ context, view, palette }, triples) {
   const radius = clamp(RING.metres * view.scaleX, RING.least, RING.most);
   context.beginPath();
-  for (const i of through) {
-    const [x, y] = [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
+  for (let i = 0; i < triples.length; i += 3) {
+    const [x, y] = [view.toPixelX(triples[i]), view.toPixelY(triples[i + 1])];
     context.moveTo(x + radius, y);
     context.arc(x, y, radius, 0, 2 * Math.PI);
   }

@@ -11,6 +11,9 @@ import { counted } from '../../ui/format.js';
 /** Most paths that are drawn: more would be one blot, and cost more than a frame. */
 const MAX_PATHS = 150;
 
+/** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
+export const MAX_DOTS = 1500;
+
 /**
  * Everything that the picture and the readouts need of the machine, asked once a change.
  *
@@ -18,17 +21,29 @@ const MAX_PATHS = 150;
  */
 export function readingOf(machine) {
   const { config, stats, verdicts, poses, commanded, startFree } = machine;
-  const sorted = sort(poses, verdicts);
+  const through = first(verdicts, MAX_PATHS, (verdict) => kindOf(verdict) === 2);
   return {
     config,
     stats,
     verdicts,
     poses,
     commanded,
-    sorted,
-    paths: sorted.through.slice(0, MAX_PATHS).map((index) => machine.path(index)),
+    sorted: stats.attempts > MAX_DOTS ? undefined : sort(poses, verdicts),
+    paths: through.map((index) => machine.path(index)),
     note: noteOn(config, stats, startFree),
   };
+}
+
+/**
+ * @param {Uint8Array} verdicts
+ * @param {number} most
+ * @param {(verdict: number) => boolean} holds
+ * @returns {number[]} the first indices for which it holds
+ */
+function first(verdicts, most, holds) {
+  const indices = [];
+  for (let i = 0; i < verdicts.length && indices.length < most; i++) if (holds(verdicts[i])) indices.push(i);
+  return indices;
 }
 
 /**
@@ -38,16 +53,17 @@ export function readingOf(machine) {
  * @param {Uint8Array} verdicts
  */
 function sort(poses, verdicts) {
-  const indices = [...verdicts.keys()];
-  const isAccepted = (/** @type {number} */ i) => (verdicts[i] & bits.accepted) !== 0;
-  const accepted = indices.filter(isAccepted);
-  const posesOf = (/** @type {number[]} */ some) => Float64Array.from(some.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
-  return {
-    rejected: posesOf(indices.filter((i) => !isAccepted(i))),
-    accepted: posesOf(accepted),
-    /** Indices of those whose path is not free. */
-    through: accepted.filter((i) => (verdicts[i] & bits.pathFree) === 0),
+  const posesOf = (/** @type {number} */ wanted) => {
+    const some = first(verdicts, verdicts.length, (verdict) => kindOf(verdict) === wanted);
+    return Float64Array.from(some.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
+  return { rejected: posesOf(0), free: posesOf(1), through: posesOf(2) };
+}
+
+/** 0 for a draw that is rejected, 1 for an accepted one, 2 where its path is not free. @param {number} verdict */
+function kindOf(verdict) {
+  if ((verdict & bits.accepted) === 0) return 0;
+  return (verdict & bits.pathFree) === 0 ? 2 : 1;
 }
 
 /**

@@ -3,7 +3,7 @@
  * sampler costs.
  */
 
-import { html } from 'lit';
+import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.js';
 import { counted, fixed, percent, rounded } from '../../ui/format.js';
 import { markedSample } from '../../ui/marked.js';
@@ -18,8 +18,13 @@ import { keptWords, shareOf, verdictText } from './words.js';
  * @import { Reading } from './reading.js'
  */
 
-/** What the marks in the picture mean. @param {Settings} config */
-export function legend(config) {
+/**
+ * What the marks in the picture mean.
+ *
+ * @param {Reading} reading
+ * @param {boolean} hasUnknown whether there are cells of which the map says nothing
+ */
+export function legend({ config, sorted }, hasUnknown) {
   const { kept, through } = keptWords(config);
   const { rejected, key: say } = words.squeeze;
   return html`<ul class="legend key" part="legend">
@@ -46,26 +51,42 @@ export function legend(config) {
       </svg>
       ${say.commanded}
     </li>
-  </ul>`;
+    ${hasUnknown
+      ? html`<li>
+          <svg class="unknown" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 18L18 2M9 18L25 2M16 18L32 2" /></svg>
+          ${say.unknown}
+        </li>`
+      : nothing}
+  </ul>
+  <p class="about">${sorted ? nothing : say.density} ${say.overview}</p>`;
 }
 
 /** The share that is longest in print. @type {Pick<Stats, 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} */
 const CERTAIN = { throughWallRate: 1, throughWallInterval: [1, 1], gaveUp: false };
 
+/** The two rates that matter. @param {Reading} reading */
+export function rates({ stats, config }) {
+  const say = words.squeeze.rates;
+  const { conditioned, sampler } = config;
+  const accepted = !conditioned ? say.kept : sampler === 'sub-stepped' ? say.ofParts : say.accepted;
+  const share = shareOf(stats, config);
+  return readoutList([
+    [accepted, percent(stats.acceptanceRate), percent(1)],
+    [share.interval ? say.interval : say.through, share.text, shareOf(CERTAIN, config).text],
+  ]);
+}
+
 /** @param {Reading} reading */
 export function tally({ stats, config, paths: { length: paths } }) {
   const { kept, through } = keptWords(config);
-  const share = shareOf(stats, config);
   const all = counted(config.samples);
   const say = words.squeeze.tally;
   return readoutList([
     [say.drawn, counted(stats.drawn), all],
     [kept, counted(stats.accepted), all],
-    [config.sampler === 'sub-stepped' ? say.rateOfParts : say.rate, percent(stats.acceptanceRate), percent(1)],
-    [say.draws(kept), fixed(stats.drawsPerAccepted, 2), fixed(10, 2)],
     [through, counted(stats.throughWall), all],
-    [say.share(kept) + (share.interval ? say.interval : ''), share.text, shareOf(CERTAIN, config).text],
     [say.paths, paths < stats.throughWall ? say.first(counted(paths)) : counted(paths), say.first(all)],
+    [say.draws(kept), fixed(stats.drawsPerAccepted, 2), fixed(10, 2)],
     [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2), fixed(10, 2)],
   ]);
 }

@@ -15,14 +15,14 @@ export const vocabulary = 'squeeze';
 export const PRESETS = presets['map-squeeze'];
 const PRESET_NAMES = PRESETS.map(({ name }) => name);
 
-const VIEWS = ['whole', 'close'];
+const VIEWS = ['close', 'whole'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
   preset: {
     kind: WORD,
     own: true,
-    covers: ['x', 'y', 'theta'],
+    covers: () => ['x', 'y', 'theta'],
     words: PRESET_NAMES,
     opening: PRESET_NAMES[0],
   },
@@ -33,7 +33,7 @@ export const attributes = {
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
 export const own = {
   ...cloudState,
-  view: { opening: 'whole', check: (field, view) => word(field, view, VIEWS) },
+  view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
   /** The reader's own; null for the apartment. */
   map: { opening: null, check: (_, map, machine) => map && mapData(machine, map.name ?? '') },
 };
@@ -64,5 +64,5 @@ export const SAMPLERS = /** @type {('endpoint' | 'whole-arc' | 'sub-stepped')[]}
   declared.find(({ key }) => key === 'sampler')?.words
 );
 
-/** Sample counts of the slider. The machine takes more, but their marks would be one blot. */
-export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000];
+/** Sample counts of the slider. The machine takes more, but they would be slow to follow a slider. */
+export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];

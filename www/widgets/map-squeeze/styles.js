@@ -4,31 +4,68 @@ import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 
 const own = css`
-  canvas.plane {
-    aspect-ratio: 4 / 3;
+  canvas {
+    aspect-ratio: 5 / 4;
   }
 
-  @container (max-width: 34rem) {
-    canvas.plane {
-      aspect-ratio: 1 / 1;
+  /* The picture with the sentence below it, and beside it the figures and what is chosen. */
+  @container (min-width: 38rem) {
+    .views {
+      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 14.5rem;
     }
+
+    .stage {
+      grid-area: stage;
+    }
+
+    .verdict {
+      grid-area: verdict;
+    }
+
+    .aside {
+      grid-area: aside;
+    }
+  }
+
+  /* Wider, and not higher: all of it is to fit on a screen. */
+  @container (min-width: 50rem) {
+    canvas {
+      aspect-ratio: 8 / 5;
+    }
+  }
+
+  @container (min-width: 60rem) {
+    canvas {
+      aspect-ratio: 12 / 5;
+    }
+  }
+
+  .aside .buttons {
+    gap: 0.4rem;
+  }
+
+  .aside .readouts {
+    display: block;
+  }
+
+  .aside .choices > span {
+    flex: 1 0 100%;
+  }
+
+  .about {
+    color: var(--muted);
+    margin: 0 0 0.7rem;
   }
 
   .own-map {
     display: grid;
     gap: 0.5rem 2.75rem;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
-    margin: 1.5rem 0 0;
+    margin: 0;
   }
 
   .own-map > * {
     grid-column: auto;
-  }
-
-  @container (min-width: 56rem) {
-    .own-map {
-      grid-column: 1 / -1;
-    }
   }
 
   .dropping .stage {
@@ -85,7 +122,12 @@ const own = css`
   }
 
   .key .through .dot {
-    fill: var(--cloud);
+    fill: var(--accent);
+  }
+
+  .key .unknown {
+    stroke: var(--muted);
+    opacity: 0.6;
   }
 
   .key .commanded {
@@ -97,20 +139,6 @@ const own = css`
     color: var(--ink);
   }
 
-  .judge legend {
-    display: flex;
-    align-items: center;
-    justify-content: space-between;
-  }
-
-  .judge legend .toggle {
-    font-style: normal;
-    font-size: 1rem;
-  }
-
-  .judge > .effect {
-    margin: 0 0 0.6rem;
-  }
 
   .choices {
     --name: 3rem;
@@ -126,6 +154,8 @@ const own = css`
 
   .own-map .note {
     margin: 0.7rem 0;
+    /* Scrolled to, it brings along which map is there. */
+    scroll-margin: 4rem;
     overflow-wrap: anywhere;
   }
 

@@ -5,9 +5,11 @@
 
 import { addEnglish, words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
+import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
+import { SAMPLERS } from './settings.js';
 
 /**
  * @import { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts'
@@ -52,13 +54,29 @@ export function shareOf({ throughWallRate, throughWallInterval: [low, high], gav
   return { text: `${percent(throughWallRate)} (${fixed(100 * low, 1)}–${percent(high)})`, interval: true };
 }
 
-/** What is announced after a change has come to rest. @param {Reading} reading */
-export function announcementOf({ config, stats: { drawn, accepted, throughWall, throughWallRate }, note }) {
+/** What the picture shows, in one sentence; and what keeps the robot from moving, if something does. @param {Reading} reading */
+export function verdictOf({ config, stats, note }) {
+  const { accepted, attempts } = stats;
   if (note && accepted === 0) return note;
-  const { kept, ofThem } = keptWords(config);
+  if (attempts === 0) return words.squeeze.noneYet;
+  const sentence = sentenceOf(config, { ...stats, all: attempts });
+  return note ? `${sentence} ${note}` : sentence;
+}
+
+/** The longest verdict under these settings, for its room. @param {Settings} config */
+export function longestVerdict({ samples }) {
+  const all = { accepted: samples, all: samples, throughWall: samples, throughWallRate: 1 };
+  return longest(SAMPLERS.map((sampler) => sentenceOf({ conditioned: true, sampler }, all)));
+}
+
+/**
+ * @param {Pick<Settings, 'conditioned' | 'sampler'>} config
+ * @param {Pick<Stats, 'accepted' | 'throughWall' | 'throughWallRate'> & { all: number }} counts
+ */
+function sentenceOf({ conditioned, sampler }, { accepted, all, throughWall, throughWallRate }) {
   const say = words.squeeze;
-  const share = accepted > 0 ? say.ofThem(counted(throughWall), ofThem, percent(throughWallRate)) : '';
-  return `${say.counts(counted(drawn), counted(accepted), kept)}${share}.${note ? ` ${note}` : ''}`;
+  const tested = say.tested[conditioned ? sampler : 'off'](counted(accepted), counted(all));
+  return say.verdictOf(tested, say.throughOf(throughWall, counted(throughWall), percent(throughWallRate)));
 }
 
 /**

@@ -7,7 +7,10 @@ import { limits } from '../../../settings.js';
 /** @import { MapData, MapSqueeze } from '../../../types.d.ts' */
 
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
-const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'];
+const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
+
+/** Shades of a cell in the image that a grid is handed over as, white being occupied. */
+const [OCCUPIED, UNKNOWN] = [2, 1];
 
 /**
  * The map that a machine has.
@@ -19,8 +22,9 @@ const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'
 export function mapData(machine, name) {
   const { grid } = machine;
   if (grid) {
-    const { columns, rows, resolution, origin, occupied } = grid;
-    return { name, columns, rows, resolution, origin: [...origin], occupied: packBits(occupied) };
+    const { columns, rows, resolution, origin, occupied, unknown } = grid;
+    const data = { name, columns, rows, resolution, origin: [...origin], occupied: packBits(occupied) };
+    return unknown.includes(1) ? { ...data, unknown: packBits(unknown) } : data;
   }
   const { bounds, walls } = machine.plan;
   return { name, bounds: [...bounds], walls: Array.from({ length: walls.length / 4 }, (_, i) => [...walls.subarray(4 * i, 4 * i + 4)]) };
@@ -43,8 +47,11 @@ export function applyMap(machine, data) {
   }
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
-  const cells = unpackBits(map.occupied, columns * rows);
-  const header = new TextEncoder().encode(`P5 ${columns} ${rows} 1\n`);
+  const cells = unpackBits('map.occupied', map.occupied, columns * rows).map((bit) => OCCUPIED * bit);
+  if (map.unknown !== undefined) {
+    unpackBits('map.unknown', map.unknown, cells.length).forEach((bit, i) => (cells[i] ||= UNKNOWN * bit));
+  }
+  const header = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED}\n`);
   const image = new Uint8Array(header.length + cells.length);
   image.set(header);
   // Cells are counted from the bottom, and rows of an image from the top; negated, white is what is occupied.
@@ -65,19 +72,20 @@ function packBits(cells) {
 }
 
 /**
+ * @param {string} field
  * @param {unknown} text
  * @param {number} count
  */
-function unpackBits(text, count) {
+function unpackBits(field, text, count) {
   const length = Math.ceil(count / 8);
   const allowed = `base64 of ${length} bytes, a bit for each cell`;
-  if (typeof text !== 'string') throw refusal('map.occupied', text, allowed, TypeError);
+  if (typeof text !== 'string') throw refusal(field, text, allowed, TypeError);
   let bytes;
   try {
     bytes = fromBase64(text);
   } catch {
-    throw refusal('map.occupied', text, allowed);
+    throw refusal(field, text, allowed);
   }
-  if (bytes.length !== length) throw refusal('map.occupied', text, allowed);
+  if (bytes.length !== length) throw refusal(field, text, allowed);
   return Uint8Array.from({ length: count }, (_, i) => (bytes[i >> 3] >> (7 - (i & 7))) & 1);
 }

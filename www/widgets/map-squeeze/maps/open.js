@@ -8,6 +8,9 @@ import { words } from '../../../messages/registry.js';
 /** What the names of files may end in. */
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
+/** The fold that says which map is there and why another was refused. */
+export const FOLD = 'map-fold';
+
 /** @extends {Part<import('../map-squeeze.js').MapSqueezeElement>} */
 export class MapOpener extends Part {
   /** Why the latest map was refused. @type {(() => string) | undefined} */
@@ -48,7 +51,14 @@ export class MapOpener extends Part {
         return sentence ? sentence(refused) : refused.cannot(message);
       };
       this.host.requestUpdate();
+      await this.host.updateComplete;
+      this.#fold?.querySelector('[role=alert]')?.scrollIntoView({ block: 'nearest' });
     }
+  }
+
+  /** Not there until the figure has been drawn. @returns {HTMLDetailsElement | null} */
+  get #fold() {
+    return this.host.renderRoot.querySelector(`#${FOLD}`);
   }
 
   over = (/** @type {DragEvent} */ event) => {
@@ -68,6 +78,8 @@ export class MapOpener extends Part {
     if (!event.dataTransfer?.types.includes('Files')) return;
     // The browser would leave the page for the file.
     event.preventDefault();
+    // What becomes of the file is said in there.
+    if (this.#fold) this.#fold.open = true;
     this.choose([...event.dataTransfer.files]);
   };
 }

@@ -1,0 +1,122 @@
+//! Where a robot is put that comes into a map.
+
+use super::floor_plan::FloorPlan;
+use super::occupancy::OccupancyGrid;
+use crate::geom::se2::SE2;
+use std::f64::consts::TAU;
+
+/// Headings that are looked along: one in five degrees.
+const HEADINGS: u32 = 72;
+
+/// Squares along the longer side of a plan that has no cells of its own.
+const SQUARES: f64 = 256.0;
+
+impl FloorPlan {
+    /// A pose in the open for a disc of radius `clearance` (m): in the middle of the largest square that is known to be
+    /// free, heading where the way is known to be free for longest. Where the disc does not fit there, the first place
+    /// where it does; None where it fits nowhere.
+    pub fn open_place(&self, clearance: f64) -> Option<SE2> {
+        let squares = Squares::of(self);
+        let open = squares.middle_of_largest().map(|middle| squares.point(middle));
+        let fits = |point: &[f64; 2]| self.point_free(*point, clearance).free;
+        let [x, y] = open.filter(fits).or_else(|| squares.middles().find(fits))?;
+        Some(SE2::new(x, y, squares.longest_way([x, y], fits)))
+    }
+}
+
+/// A map in squares: the cells of its grid, or those of a raster over its bounds.
+struct Squares<'a> {
+    plan: &'a FloorPlan,
+    columns: usize,
+    rows: usize,
+    /// m.
+    side: f64,
+}
+
+impl<'a> Squares<'a> {
+    fn of(plan: &'a FloorPlan) -> Self {
+        if let Some(grid) = plan.grid() {
+            let [columns, rows] = grid.size();
+            return Self { plan, columns, rows, side: grid.resolution() };
+        }
+        let [left, bottom, right, top] = plan.bounds();
+        let (width, height) = (right - left, top - bottom);
+        let side = width.max(height) / SQUARES;
+        let [columns, rows] = [width, height].map(|length| (length / side) as usize);
+        Self { plan, columns, rows, side }
+    }
+
+    fn grid(&self) -> Option<&OccupancyGrid> {
+        self.plan.grid()
+    }
+
+    /// The point at these coordinates, in squares from the lower left corner.
+    fn point(&self, at: [f64; 2]) -> [f64; 2] {
+        let [left, bottom, ..] = self.plan.bounds();
+        let on_plan = [left + at[0] * self.side, bottom + at[1] * self.side];
+        self.grid().map_or(on_plan, |grid| grid.point(at))
+    }
+
+    fn middles(&self) -> impl Iterator<Item = [f64; 2]> {
+        let middle = |i: usize| i as f64 + 0.5;
+        (0..self.rows).flat_map(move |row| {
+            (0..self.columns).map(move |column| self.point([middle(column), middle(row)]))
+        })
+    }
+
+    /// Whether all of a square is known to be free.
+    fn free(&self, column: usize, row: usize) -> bool {
+        if let Some(grid) = self.grid() {
+            return grid.known_free(column, row);
+        }
+        let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
+        column < self.columns && row < self.rows && self.plan.field().least(middle) > 0.75 * self.side
+    }
+
+    /// The middle of the largest square of free ones, in squares from the lower left corner; None where none is free.
+    fn middle_of_largest(&self) -> Option<[f64; 2]> {
+        let (mut largest, mut middle) = (0, None);
+        // For each column, the largest free square whose upper right corner is there: one more than the smallest of those
+        // to the left, below, and below to the left.
+        let mut sizes = vec![0u32; self.columns];
+        for row in 0..self.rows {
+            let mut before = 0;
+            for column in 0..self.columns {
+                let left = if column > 0 { sizes[column - 1] } else { 0 };
+                let below = sizes[column];
+                let size = if self.free(column, row) { 1 + before.min(below).min(left) } else { 0 };
+                if size > largest {
+                    let half = 0.5 * f64::from(size);
+                    (largest, middle) = (size, Some([column as f64 + 1.0 - half, row as f64 + 1.0 - half]));
+                }
+                (before, sizes[column]) = (below, size);
+            }
+        }
+        middle
+    }
+
+    /// The heading in which the robot gets furthest over free squares.
+    fn longest_way(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
+        let (mut longest, mut heading) = (0, 0.0);
+        for i in 0..HEADINGS {
+            let angle = TAU * f64::from(i) / f64::from(HEADINGS);
+            let (sin, cos) = libm::sincos(angle);
+            let way = (1..)
+                .map(|steps| 0.5 * self.side * f64::from(steps))
+                .map(|length| [x + length * cos, y + length * sin])
+                .take_while(|point| self.free_at(*point) && fits(point))
+                .count();
+            if way > longest {
+                (longest, heading) = (way, angle);
+            }
+        }
+        heading
+    }
+
+    fn free_at(&self, [x, y]: [f64; 2]) -> bool {
+        let [left, bottom, ..] = self.plan.bounds();
+        let on_plan = [(x - left) / self.side, (y - bottom) / self.side];
+        let [column, row] = self.grid().map_or(on_plan, |grid| grid.cell_coordinates([x, y]));
+        column >= 0.0 && row >= 0.0 && self.free(column as usize, row as usize)
+    }
+}

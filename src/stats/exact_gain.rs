@@ -1,0 +1,238 @@
+//! The likelihood gain of a model itself: quadrature over the two noises that turn the robot; the rest is closed.
+
+use super::exact::{ExactMoments, RayMoments};
+use super::gain::{Charts, LikelihoodGain, Moments};
+use super::moments::ExponentialMoments;
+use super::quadrature::{Node, broken_nodes};
+use crate::geom::angle::wrap_angle;
+use crate::geom::sinc::sinc;
+use crate::models::{Hinges, OdomDelta, VelocityCmd, VelocityModel};
+use crate::noise::NoiseKind;
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::{LN_2, PI, TAU};
+
+/// What a model says of its exponential coordinates, for robots that start at the identity pose.
+///
+/// Those coordinates end where a robot turns a whole circle, and Gaussian noise reaches that with some probability: there
+/// the moments of ξ are infinite. Noise that turns the robot by more than [`REACH`] standard deviations is left out, which
+/// changes a variance by 1e-7 of it; where a whole circle is nearer than that, the figures are NaN. Headings are not
+/// wrapped: where many robots turn more than half a circle further than commanded, which a cloud takes for turns the other
+/// way round, its `pose` is another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExactGain {
+    pub value: LikelihoodGain,
+    /// Mean and covariance of ξ, on the branch where the robot turned as far as it did.
+    pub exponential: ExponentialMoments,
+}
+
+/// Standard deviations of a normal turn that are integrated over. Ten million robots get to 5.3; fewer would show in the
+/// fourth digit, more would reach the whole circle under commands for which clouds have moments.
+const REACH: f64 = 6.0;
+
+/// No breaks, see [`broken_nodes`].
+const SMOOTH: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// A length driven on a bearing, and two turns.
+struct Legs {
+    noise: NoiseKind,
+    /// Whether the length is that of an arc, whose chord on the bearing φ/2 is shorter by sinc(φ/2).
+    is_arc: bool,
+    /// Mean and standard deviation, m.
+    length: [f64; 2],
+    /// Rad, on the branch of half the commanded turn.
+    bearing: [f64; 2],
+    /// Mean, and the standard deviations by the noise of the bearing and by that after it, rad.
+    turn: [f64; 3],
+}
+
+impl ExactGain {
+    /// Of the velocity model.
+    pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
+        let [v, omega, gamma] = model.deviations(u).map(|deviation| deviation * u.dt);
+        let turn = u.omega * u.dt;
+        let legs = Legs {
+            noise: model.noise,
+            is_arc: true,
+            length: [u.v * u.dt, v],
+            bearing: [0.5 * turn, 0.5 * omega],
+            turn: [turn, omega, gamma],
+        };
+        legs.gain(&ExactMoments::of_velocity(model, u))
+    }
+
+    /// Of the odometry model whose reading `u` came from a command that turns by `turn` (rad).
+    pub fn of_odometry(model: &impl Hinges, u: &OdomDelta, turn: f64) -> Self {
+        let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
+        // In reverse the reading faces away first.
+        let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
+        let ahead = if half_circles % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let legs = Legs {
+            noise: model.noise(),
+            is_arc: false,
+            length: [ahead * u.trans, trans],
+            bearing: [u.rot1 - half_circles * PI, rot1],
+            turn: [turn + wrap_angle(u.rot1 + u.rot2 - turn), rot1, rot2],
+        };
+        legs.gain(&ExactMoments::of_odometry(model, u))
+    }
+}
+
+impl Legs {
+    fn gain(&self, plain: &ExactMoments) -> ExactGain {
+        let (mean_log_length, [bearing, deviation]) = (self.mean_log_length(), self.bearing);
+        let (twist, chart) = self.twist();
+        let (arc, ratio) = self.arc();
+        let jacobians = [chart, mean_log_length + ratio - LN_2];
+        let charts = Charts::new((plain.mean, plain.cov), twist, arc, jacobians);
+        let [turn, by_bearing, after] = self.turn;
+        let if_short_of_circle =
+            |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
+        let pose = if_short_of_circle(turn, self.reach(by_bearing, after));
+        let floor = if_short_of_circle(2.0 * bearing, self.reach(2.0 * deviation, 0.0));
+        let gain = charts.gain();
+        ExactGain {
+            value: LikelihoodGain { pose: gain.pose * pose, floor: gain.floor * floor },
+            exponential: ExponentialMoments { mean: twist.0 * pose, cov: twist.1 * pose },
+        }
+    }
+
+    /// The nodes of a noise with this standard deviation.
+    fn nodes(&self, deviation: f64, breaks: [f64; 2]) -> Vec<Node> {
+        if deviation == 0.0 {
+            return vec![Node { value: 0.0, weight: 1.0 }];
+        }
+        broken_nodes(self.noise, self.reach(1.0, 0.0), breaks)
+    }
+
+    /// How far the sum of two noises of these standard deviations goes.
+    fn reach(&self, one: f64, other: f64) -> f64 {
+        match self.noise {
+            NoiseKind::Normal => REACH * libm::hypot(one, other),
+            NoiseKind::Triangular => 6f64.sqrt() * (one + other),
+        }
+    }
+
+    /// Moments of ξ, and the mean of ln sinc²(ξ_ω/2). At the bearing β, the chord r is turned back by half of the
+    /// heading θ: ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
+    fn twist(&self) -> (Moments, f64) {
+        let ([bearing, deviation], [turn, by_bearing, after]) = (self.bearing, self.turn);
+        let reach = self.reach(by_bearing, after);
+        let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
+        let last_nodes = self.nodes(after, SMOOTH);
+        for first in self.nodes(deviation, SMOOTH) {
+            let bearing = bearing + deviation * first.value;
+            let chord = if self.is_arc { sinc(bearing) } else { 1.0 };
+            for last in &last_nodes {
+                let excess_turn = by_bearing * first.value + after * last.value;
+                let weight = first.weight * last.weight;
+                if excess_turn.abs() > reach {
+                    continue;
+                }
+                let half = 0.5 * (turn + excess_turn);
+                let chart = sinc(half);
+                let (sin, cos) = libm::sincos(bearing - half);
+                let unit = [cos, sin].map(|part| part * (chord / chart));
+                logs.add(weight, chart * chart);
+                moments.add(weight, unit, excess_turn);
+            }
+        }
+        let (mean, cov) = moments.finish(self.length);
+        ((mean + Vector3::z() * turn, cov), logs.finish())
+    }
+
+    /// Moments of length and turn φ, in this order, of the arc that ends where the robot does; and the mean of ln|c·sinc²(φ/2)|, where that
+    /// arc is c times as long as the length driven.
+    fn arc(&self) -> (Moments, f64) {
+        let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
+        let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
+        // A cloud has the arc of the nearest turn, which may lead there the other way round.
+        let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
+        for node in self.nodes(deviation, breaks) {
+            let driven = bearing + deviation * node.value;
+            let half_circles = ((driven - near) / PI).round();
+            let half = driven - half_circles * PI;
+            let ahead = if half_circles % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            let half_sinc = sinc(half);
+            let stretch = ahead * if self.is_arc { sinc(driven) } else { 1.0 } / half_sinc;
+            logs.add(node.weight, (stretch * half_sinc * half_sinc).abs());
+            moments.add(node.weight, [stretch, 0.0], 2.0 * (half - bearing));
+        }
+        let (mean, cov) = moments.finish(self.length);
+        let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
+        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), logs.finish())
+    }
+
+    /// The mean of ln|length|.
+    fn mean_log_length(&self) -> f64 {
+        let [mean, deviation] = self.length.map(f64::abs);
+        if deviation == 0.0 {
+            return libm::log(mean);
+        }
+        match self.noise {
+            NoiseKind::Normal => libm::log(deviation) + normal_mean_log(mean / deviation),
+            NoiseKind::Triangular => triangular_mean_log(mean, 6f64.sqrt() * deviation),
+        }
+    }
+}
+
+/// A weighted mean of logarithms.
+#[derive(Default)]
+struct MeanLog {
+    total: f64,
+    sum: f64,
+}
+
+impl MeanLog {
+    #[inline(never)]
+    fn add(&mut self, weight: f64, of: f64) {
+        self.total += weight;
+        self.sum += weight * libm::log(of);
+    }
+
+    fn finish(&self) -> f64 {
+        self.sum / self.total
+    }
+}
+
+/// E ln|m + Z| for a standard normal Z, to 1e-10.
+///
+/// (m + Z)² is noncentral χ² of one degree of freedom: a Poisson mixture, of mean m²/2, of χ² with 1 + 2j degrees, whose
+/// logarithms have the means ln 2 + ψ(½ + j).
+fn normal_mean_log(m: f64) -> f64 {
+    /// From here on the fourth term of the asymptotic series is below 1e-10; far beyond, exp(−m²/2) is no double.
+    const FAR: f64 = 30.0;
+    /// ψ(½) = −γ − 2 ln 2.
+    const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
+    if m > FAR {
+        // E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
+        let square = 1.0 / (m * m);
+        return libm::log(m) - square * (0.5 + square * (0.75 + square * 2.5));
+    }
+    let rate = 0.5 * m * m;
+    let (mut chance, mut digamma, mut sum) = (libm::exp(-rate), DIGAMMA_HALF, LN_2);
+    // Twelve standard deviations beyond the mean and more.
+    for j in 0..720 {
+        let j = f64::from(j);
+        sum += chance * digamma;
+        chance *= rate / (j + 1.0);
+        digamma += 1.0 / (j + 0.5);
+    }
+    0.5 * sum
+}
+
+/// E ln|m + T| for T of the triangular density on ±`edge`, to 1e-14: by its moments where 0 is far, else a second
+/// difference of the second antiderivative of the logarithm, because T is a sum of two uniform numbers.
+fn triangular_mean_log(m: f64, edge: f64) -> f64 {
+    if edge < 0.5 * m {
+        let square = (edge / m) * (edge / m);
+        let (mut power, mut sum) = (1.0, libm::log(m));
+        for k in 1..=24 {
+            let even = f64::from(2 * k);
+            power *= square;
+            sum -= 2.0 * power / (even * (even + 1.0) * (even + 2.0));
+        }
+        return sum;
+    }
+    let antiderivative = |x: f64| if x == 0.0 { 0.0 } else { x * x * (0.5 * libm::log(x.abs()) - 0.75) };
+    (antiderivative(m + edge) - 2.0 * antiderivative(m) + antiderivative(m - edge)) / (edge * edge)
+}

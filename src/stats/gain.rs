@@ -1,0 +1,215 @@
+//! How much likelier a cloud is under a Gaussian in coordinates of its own than under one in (x, y, θ): the measure of a
+//! banana that also sees the ones which bend to neither side.
+
+use super::cross_track::NO_SPREAD;
+use super::moments::{mean_and_cov, mean_heading};
+use crate::geom::arc::arc_near;
+use crate::geom::lanes::{LANES, lanes, log};
+use crate::geom::se2::{SE2, wrap_angle};
+use crate::geom::sinc::sinc;
+use crate::models::covariance_root;
+use nalgebra::{Matrix3, Vector3};
+use wide::f64x4;
+
+/// Mean log-likelihood of a cloud under one Gaussian less that under another, in nats a robot. Both Gaussians have the
+/// cloud's own moments in their coordinates, and both are densities over the same measure, so that neither units nor the
+/// frame matter.
+///
+/// Infinite where the cloud fills no volume in the coordinates that bend with it, but does in the plain ones: there the
+/// bent Gaussian is infinitely narrow. NaN where it fills none in the plain ones, or where there are too few poses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+pub struct LikelihoodGain {
+    /// Of exponential coordinates ξ over (x, y, θ), as densities over dx dy dθ = sinc²(ξ_ω/2) dξ:
+    /// ½(ln det Σ_xyθ − ln det Σ_ξ) − mean of ln sinc²(ξ_ω/2).
+    pub pose: f64,
+    /// Of the length s and turn φ of the arc that ends there over (x, y), as densities over
+    /// dx dy = |s|·sinc²(φ/2)/2 ds dφ: ½(ln det Σ_xy − ln det Σ_sφ) − mean of ln(|s|·sinc²(φ/2)/2).
+    pub floor: f64,
+}
+
+impl LikelihoodGain {
+    /// Without meaning.
+    pub const NONE: Self = Self { pose: f64::NAN, floor: f64::NAN };
+}
+
+/// A gain, and how far to trust it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredGain {
+    pub value: LikelihoodGain,
+    /// Standard errors: of the per-robot differences of the two log-densities, the standard deviation over √n. The fitted
+    /// moments add nothing to first order, because each Gaussian's likelihood is at its maximum over them. NaN where the
+    /// gain is not finite.
+    pub error: LikelihoodGain,
+}
+
+impl MeasuredGain {
+    /// The gain of `poses`, all driven from `start` under a command that turns by `turn` (rad): ξ and the arcs are taken
+    /// on the branches nearest to it.
+    pub fn from_poses(poses: &[SE2], start: &SE2, turn: f64) -> Self {
+        let back = start.inverse();
+        let steps: Vec<SE2> = poses.iter().map(|pose| back * *pose).collect();
+        let heading = mean_heading(&steps);
+        let plain = |step: &SE2| Vector3::new(step.x(), step.y(), wrap_angle(step.theta() - heading));
+        let twist = |step: &SE2| step.log_near(turn);
+        let arc = |step: &SE2| {
+            let (length, turn) = arc_near(&SE2::identity(), step, turn);
+            Vector3::new(length, turn, 0.0)
+        };
+        let jacobians = |step: &SE2| {
+            let (arc, chart) = (arc(step), sinc(0.5 * twist(step).z));
+            let half_sinc = sinc(0.5 * arc.y);
+            [chart * chart, 0.5 * arc.x.abs() * half_sinc * half_sinc]
+        };
+        let moments = |of: &dyn Fn(&SE2) -> Vector3<f64>| {
+            let first = steps.first().map_or_else(Vector3::zeros, of);
+            let (offset, cov) = mean_and_cov(steps.iter().map(|step| of(step) - first), steps.len());
+            (first + offset, cov)
+        };
+        let mean_logs = [0, 1].map(|i| {
+            steps.iter().map(|step| libm::log(jacobians(step)[i])).sum::<f64>() / steps.len() as f64
+        });
+        let charts = Charts::new(moments(&plain), moments(&twist), moments(&arc), mean_logs);
+        let mut differences = Differences::new(charts);
+        for four in steps.chunks(LANES) {
+            // Those that a last four lacks are not counted.
+            let each = |of: &dyn Fn(&SE2) -> Vector3<f64>| {
+                let points: [_; LANES] = std::array::from_fn(|lane| of(&four[lane % four.len()]));
+                std::array::from_fn(|i| lanes(|lane| points[lane][i]))
+            };
+            let jacobians = [0, 1].map(|i| lanes(|lane| jacobians(&four[lane % four.len()])[i]));
+            let robots = FourRobots { plain: each(&plain), twist: each(&twist), arc: each(&arc), jacobians };
+            differences.add(&robots, four.len());
+        }
+        differences.finish(steps.len())
+    }
+}
+
+/// Four robots in all coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct FourRobots {
+    /// x and y (m), and the heading from the mean one (rad).
+    pub plain: [f64x4; 3],
+    pub twist: [f64x4; 3],
+    /// Length (m) and turn (rad) of the arc that ends at x, y, and 0.
+    pub arc: [f64x4; 3],
+    /// dx dy dθ over dξ, and dx dy over ds dφ.
+    pub jacobians: [f64x4; 2],
+}
+
+/// The Gaussians that a cloud or a model has in each of the coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Charts {
+    plain: Normal,
+    twist: Normal,
+    arc: Normal,
+    gain: LikelihoodGain,
+}
+
+/// Mean and covariance.
+pub(super) type Moments = (Vector3<f64>, Matrix3<f64>);
+
+impl Charts {
+    /// From the moments of the coordinates of robots as in [`FourRobots`], and the mean logarithms of their Jacobians.
+    pub fn new(plain: Moments, twist: Moments, arc: Moments, log_jacobians: [f64; 2]) -> Self {
+        let (plain, twist, arc) = (Normal::new(&plain, 2), Normal::new(&twist, 2), Normal::new(&arc, 1));
+        let gain = |dimensions: usize, bent: &Normal| {
+            let (plain, bent) = (plain.log_volumes[dimensions - 1], bent.log_volumes[dimensions - 1]);
+            // Where the plain Gaussian is flat, there is nothing to gain on.
+            if plain == f64::NEG_INFINITY { f64::NAN } else { plain - bent - log_jacobians[3 - dimensions] }
+        };
+        let gain = LikelihoodGain { pose: gain(3, &twist), floor: gain(2, &arc) };
+        Self { plain, twist, arc, gain }
+    }
+
+    pub fn gain(&self) -> LikelihoodGain {
+        self.gain
+    }
+}
+
+/// The spread of the differences of two log-densities over a sample.
+#[derive(Clone, Debug)]
+pub(super) struct Differences {
+    charts: Charts,
+    count: f64,
+    /// Of the difference at a robot from the gain, for pose and floor: sum, and sum of squares.
+    sums: [[f64x4; 2]; 2],
+}
+
+impl Differences {
+    pub fn new(charts: Charts) -> Self {
+        Self { charts, count: 0.0, sums: [[f64x4::splat(0.0); 2]; 2] }
+    }
+
+    /// Adds the first `count` of four.
+    #[inline(never)]
+    pub fn add(&mut self, robots: &FourRobots, count: usize) {
+        let Charts { plain, twist, arc, gain } = &self.charts;
+        let mask = lanes(|lane| if lane < count { f64::from_bits(u64::MAX) } else { 0.0 });
+        let of_plain = plain.squared_distances(&robots.plain);
+        let of_twist = twist.squared_distances(&robots.twist)[2];
+        let of_arc = arc.squared_distances(&robots.arc)[1];
+        let constants = [2, 1].map(|last| plain.log_volumes[last]);
+        let (bent, gains) = ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
+        let squares = [of_plain[2] - of_twist, of_plain[1] - of_arc];
+        for i in 0..2 {
+            let volumes = constants[i] - bent[i] - gains[i];
+            let differences = (squares[i] * 0.5 - log(robots.jacobians[i]) + volumes) & mask;
+            self.sums[i][0] += differences;
+            self.sums[i][1] += differences * differences;
+        }
+        self.count += count as f64;
+    }
+
+    /// The gain of a cloud of `count` poses, of which those added are a fair sample.
+    pub fn finish(&self, count: usize) -> MeasuredGain {
+        let error = |sums: [f64x4; 2]| {
+            let [sum, squares] = sums.map(f64x4::reduce_add);
+            let variance = (squares - sum * (sum / self.count)) / (self.count - 1.0);
+            (variance / count as f64).sqrt()
+        };
+        let [pose, floor] = self.sums.map(error);
+        MeasuredGain { value: self.charts.gain, error: LikelihoodGain { pose, floor } }
+    }
+}
+
+/// A Gaussian of up to three dimensions, each with those before it a Gaussian as well.
+#[derive(Clone, Copy, Debug)]
+struct Normal {
+    mean: Vector3<f64>,
+    /// Lower triangular L with L·Lᵀ the covariance; on its diagonal the inverses, 0 for a direction without extent.
+    root: Matrix3<f64>,
+    /// ½ ln det of the covariance of the first one, two and three coordinates; −∞ where it is 0 to rounding.
+    log_volumes: [f64; 3],
+}
+
+impl Normal {
+    /// Of the coordinates the first `lengths` are metres, the others rad.
+    #[inline(never)]
+    fn new((mean, cov): &Moments, lengths: usize) -> Self {
+        let extent: f64 = (0..lengths).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
+        let mut root = covariance_root(cov).unwrap_or_else(|_| Matrix3::zeros());
+        let mut sum = 0.0;
+        let log_volumes = std::array::from_fn(|j| {
+            let deviation = root[(j, j)];
+            let flat = deviation <= NO_SPREAD * if j < lengths { extent.sqrt() } else { 1.0 };
+            sum += if flat { f64::NEG_INFINITY } else { libm::log(deviation) };
+            root[(j, j)] = if flat { 0.0 } else { 1.0 / deviation };
+            sum
+        });
+        Self { mean: *mean, root, log_volumes }
+    }
+
+    /// Squared Mahalanobis distances of four points in the first one, two and three coordinates.
+    #[inline(never)]
+    fn squared_distances(&self, points: &[f64x4; 3]) -> [f64x4; 3] {
+        let mut offsets: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);
+        let mut sum = f64x4::splat(0.0);
+        std::array::from_fn(|j| {
+            let whitened = offsets[j] * self.root[(j, j)];
+            (j + 1..3).for_each(|row| offsets[row] -= whitened * self.root[(row, j)]);
+            sum += whitened * whitened;
+            sum
+        })
+    }
+}

@@ -1,0 +1,83 @@
+//! Sums of millions of terms, four at a time: naive over a block of them and compensated over the blocks.
+
+use crate::geom::lanes::halves;
+use wide::{f64x2, f64x4};
+
+/// Sums of `N` quantities.
+#[derive(Clone, Debug)]
+pub struct Sums<const N: usize> {
+    /// Added to by [`add`].
+    pub block: [f64x2; N],
+    total: [f64x2; N],
+    lost: [f64x2; N],
+}
+
+impl<const N: usize> Sums<N> {
+    pub fn new() -> Self {
+        let zero = [f64x2::splat(0.0); N];
+        Self { block: zero, total: zero, lost: zero }
+    }
+
+    pub fn close_block(&mut self) {
+        close(&mut self.block, &mut self.total, &mut self.lost);
+    }
+
+    pub fn finish(&self) -> [f64; N] {
+        std::array::from_fn(|i| whole(self.total[i], self.lost[i]))
+    }
+}
+
+/// Adds blocks to their totals, keeping what rounding loses (Knuth's two-sum).
+#[inline(never)]
+fn close(blocks: &mut [f64x2], totals: &mut [f64x2], lost: &mut [f64x2]) {
+    for ((block, total), lost) in blocks.iter_mut().zip(totals).zip(lost) {
+        let term = std::mem::replace(block, f64x2::splat(0.0));
+        let sum = *total + term;
+        let of_term = sum - *total;
+        *lost += (*total - (sum - of_term)) + (term - of_term);
+        *total = sum;
+    }
+}
+
+#[inline(never)]
+fn whole(total: f64x2, lost: f64x2) -> f64 {
+    let ([a, b], [c, d]) = (total.to_array(), lost.to_array());
+    (a + b) + (c + d)
+}
+
+/// A sum of four added to its block.
+#[inline(always)]
+pub fn add<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
+    for i in 0..N {
+        let [low, high] = halves(terms[i]);
+        block[i] += low + high;
+    }
+}
+
+/// Sums of two quantities, and of their squares and product: a, b, a², a·b, b².
+#[derive(Clone, Debug)]
+pub struct PairSums(Sums<5>);
+
+impl PairSums {
+    pub fn new() -> Self {
+        Self(Sums::new())
+    }
+
+    pub fn add(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
+        let (a, b) = (a & mask, b & mask);
+        add(&mut self.0.block, [a, b, a * a, a * b, b * b]);
+    }
+
+    pub fn subtract(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
+        let (a, b) = (a & mask, b & mask);
+        add(&mut self.0.block, [-a, -b, -(a * a), -(a * b), -(b * b)]);
+    }
+
+    pub fn close_block(&mut self) {
+        self.0.close_block();
+    }
+
+    pub fn finish(&self) -> [f64; 5] {
+        self.0.finish()
+    }
+}

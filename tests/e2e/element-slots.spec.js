@@ -1,0 +1,39 @@
+import { expect } from '@playwright/test';
+import { NAMES, assign, heard, property, ready, show } from './element-support.js';
+import { STILL, boxOf, test } from './support.js';
+
+test.use(STILL);
+
+for (const name of NAMES) {
+  test(`${name} has the title above and the caption below that the page gives it`, async ({ page }) => {
+    await show(page, `<${name} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await expect(widget.getByRole('heading', { name: 'Figure 9.3 One command', level: 3 })).toBeVisible();
+    await expect(widget.getByRole('region', { name: 'Figure 9.3 One command' })).toBeVisible();
+    const [title, picture, caption] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured')].map(boxOf));
+    expect(title.y + title.height).toBeLessThanOrEqual(picture.y);
+    expect(caption.y).toBeGreaterThan(picture.y + picture.height);
+    await page.emulateMedia({ media: 'print' });
+    await expect(widget.getByText('Figure 9.3')).toBeVisible();
+    await expect(widget.getByText('measured')).toBeVisible();
+    await page.emulateMedia({ media: 'screen' });
+    await widget.evaluate((element) => element.removeAttribute('heading-level'));
+    await expect(widget.getByRole('heading')).toHaveCount(0);
+    await widget.evaluate((element) => element.replaceChildren());
+    await expect(widget.getByRole('region', { name: /^(The Banana Machine|Map Squeeze)$/ })).toBeVisible();
+    await expect(widget.locator('.title-slot')).toBeHidden();
+  });
+}
+
+test('a heading has one of six levels', async ({ page }) => {
+  await show(page, '<map-squeeze heading-level="9"></map-squeeze>');
+  const widget = page.locator('map-squeeze');
+  await ready(widget);
+  expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['heading-level is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
+  expect(await assign(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');
+  expect(await assign(widget, 'headingLevel', 2)).toBe('');
+  expect([await property(widget, 'headingLevel'), await widget.getAttribute('heading-level')]).toEqual(['2', '2']);
+  expect(await assign(widget, 'headingLevel', null)).toBe('');
+  expect(await widget.getAttribute('heading-level')).toBe(null);
+});

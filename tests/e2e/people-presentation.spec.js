@@ -1,0 +1,79 @@
+import { expect } from '@playwright/test';
+import { expectAccessible } from './axe.js';
+import { NAMES, ready, show } from './element-support.js';
+import { STILL, boxOf, centreOf, frames, test } from './support.js';
+
+/** @typedef {import('./element-support.js').AnyElement} AnyElement */
+
+test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
+
+for (const name of NAMES) {
+  test(`${name} fills the screen, legible from the last row, and leaves as it came`, async ({ page }) => {
+    await show(page, `<div style="height: 300px"></div><${name}></${name}><div style="height: 3000px"></div>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await widget.getByRole('button', { name: 'Present' }).scrollIntoViewIfNeeded();
+    const [before, scrolled] = [await boxOf(widget), await page.evaluate(() => scrollY)];
+    await widget.getByRole('button', { name: 'Present' }).click();
+    await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe(name);
+    await frames(page);
+    expect(await boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
+    // Two thirds of the height, and all of the width between them, less what stands beside them.
+    const pictures = await Promise.all((await widget.locator('canvas').all()).map(boxOf));
+    for (const { height } of pictures) expect(height).toBeGreaterThan(1080 * 0.6);
+    expect(pictures.reduce((sum, { width }) => sum + width, 0)).toBeGreaterThan(1920 * 0.65);
+    const zoom = await widget.locator('.surface').evaluate((element) => Number(getComputedStyle(element).zoom));
+    const sizes = await widget.locator('canvas, .readouts dt, .readouts dd, [part=caption]').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
+    for (const size of sizes) expect(size * zoom).toBeGreaterThanOrEqual(24);
+    // Nothing to scroll, and every control behind the key that is named.
+    expect(await widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight)).toBe(true);
+    await expect(widget.locator('.slider').first()).toBeHidden();
+    const controls = widget.getByRole('button', { name: 'C Controls' });
+    await expect(controls).toBeFocused();
+    await expectAccessible(page, undefined, name);
+    await page.keyboard.press('c');
+    await expect(controls).toHaveAttribute('aria-pressed', 'true');
+    await expect(widget.locator('.slider').first()).toBeVisible();
+    // In the field of a value, it is a letter as any other.
+    await widget.locator('.typed').first().click();
+    await page.keyboard.press('c');
+    await expect(controls).toHaveAttribute('aria-pressed', 'true');
+    await page.keyboard.press('Escape');
+    await expect(widget).toHaveAttribute('presentation');
+    await page.keyboard.press('Escape');
+    await expect(widget).not.toHaveAttribute('presentation');
+    await expect.poll(() => page.evaluate(() => document.fullscreenElement)).toBe(null);
+    await expect.poll(() => page.evaluate(() => scrollY)).toBe(scrolled);
+    expect(await boxOf(widget)).toEqual(before);
+    await expect(widget.getByRole('button', { name: 'Present' })).toBeFocused();
+  });
+
+  test(`${name} fills the window where the screen is not to be had, and nothing behind it has the focus`, async ({ page }) => {
+    await page.addInitScript(() => Object.defineProperty(Document.prototype, 'fullscreenEnabled', { value: false }));
+    await show(page, `<${name}></${name}><p><a id="behind" href="#">Behind</a></p>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await widget.evaluate((element) => void (Reflect.set(element, 'presentation', true)));
+    await expect(widget).toHaveAttribute('presentation');
+    expect(await boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
+    await page.locator('#behind').focus();
+    await expect(page.locator('#behind')).not.toBeFocused();
+    await page.keyboard.press('Escape');
+    await expect(widget).not.toHaveAttribute('presentation');
+  });
+}
+
+test('a handle stays under the pointer while the picture is enlarged', async ({ page }) => {
+  await show(page, '<banana-machine presentation></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const from = await centreOf(handle);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 60, from.y - 40, { steps: 4 });
+  await frames(page);
+  const to = await centreOf(handle);
+  expect(Math.hypot(to.x - from.x - 60, to.y - from.y + 40)).toBeLessThan(2);
+  await page.mouse.up();
+});

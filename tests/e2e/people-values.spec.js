@@ -1,0 +1,146 @@
+import { expect } from '@playwright/test';
+import { expectAccessible } from './axe.js';
+import { heard, property, ready, show } from './element-support.js';
+import { settings } from '../../www/settings.js';
+import { STILL, frames, test, valueField } from './support.js';
+
+/** @typedef {import('@playwright/test').Locator} Locator */
+
+test.use(STILL);
+
+/**
+ * @param {import('@playwright/test').Page} page
+ * @param {string} name
+ */
+async function widgetOf(page, name) {
+  await show(page, `<${name}></${name}>`);
+  const widget = page.locator(name);
+  await ready(widget);
+  await heard(page);
+  return widget;
+}
+
+/** What is said of the row. @param {Locator} widget @param {string} key */
+const help = (widget, key) => widget.locator(`#${key}-effect`);
+
+test('a digit on a slider leads into its value, Enter back, and the value may lie beyond the slider', async ({ page }) => {
+  const widget = await widgetOf(page, 'banana-machine');
+  const slider = widget.locator('#alpha1');
+  await slider.focus();
+  await page.keyboard.type('0.4');
+  await expect(valueField(widget, 'alpha1')).toBeFocused();
+  await page.keyboard.press('Enter');
+  await expect(slider).toBeFocused();
+  expect(await property(widget, 'alpha1')).toBe(0.4);
+  expect((await heard(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
+  // The thumb stands at its end, and is marked.
+  await expect(slider).toHaveValue('0.2');
+  await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
+  await expect(widget.locator('.slider.above')).toHaveCount(1);
+  await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');
+  await expect(help(widget, 'alpha1')).toBeVisible();
+  // Back on the slider, it goes on from its end.
+  await page.keyboard.press('ArrowLeft');
+  expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
+  await expect(widget.locator('.slider.above')).toHaveCount(0);
+});
+
+test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
+  const widget = await widgetOf(page, 'banana-machine');
+  const field = valueField(widget, 'v');
+  await field.click();
+  await page.keyboard.type('\u22122.125 m/s');
+  await page.keyboard.press('Tab');
+  expect(await property(widget, 'v')).toBe(-2.125);
+  await expect(field).toHaveValue('\u22122.125 m/s');
+  await field.click();
+  await page.keyboard.type('7');
+  await page.keyboard.press('Escape');
+  await expect(widget.locator('#v')).toBeFocused();
+  await expect(field).toHaveValue('\u22122.125 m/s');
+  expect(await property(widget, 'v')).toBe(-2.125);
+  // From the slider by Enter, and nothing is changed by that alone.
+  await heard(page);
+  await page.keyboard.press('Enter');
+  await expect(field).toBeFocused();
+  await page.keyboard.press('Enter');
+  expect(await heard(page)).toEqual([]);
+});
+
+for (const [key, text, complaint] of [
+  ['alpha1', '-1', 'α₁ is −1; allowed is 0 to 1\u202f000\u202f000.'],
+  ['omega', 'quick', 'ω is "quick"; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000.'],
+  ['omega', '', 'ω is ""; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000.'],
+  ['dt', '0', 'Δt is 0; allowed is 1·10⁻⁶ to 1\u202f000\u202f000.'],
+  ['samples', '2.5', 'N is 2.5; allowed is a whole number from 1 to 10\u202f000\u202f000.'],
+]) {
+  test(`${key} refuses "${text}", says what is allowed, and keeps its value`, async ({ page }) => {
+    const widget = await widgetOf(page, 'banana-machine');
+    const before = await property(widget, key);
+    const field = valueField(widget, key);
+    const shown = await field.inputValue();
+    await field.click();
+    await field.fill(text);
+    await page.keyboard.press('Enter');
+    await expect(widget.locator('[role=alert]')).toHaveText(complaint);
+    await expect(help(widget, key)).toBeVisible();
+    await expect(field).toBeFocused();
+    await expect(field).toHaveValue(shown);
+    await expect(field).toHaveAttribute('aria-describedby', `${key}-effect`);
+    expect(await property(widget, key)).toBe(before);
+    expect(await heard(page)).toEqual([]);
+    await expectAccessible(page, undefined, 'banana-machine');
+    await page.keyboard.type('1');
+    await page.keyboard.press('Enter');
+    await expect(widget.locator('[role=alert]')).toHaveCount(0);
+    expect(await property(widget, key)).toBe(1);
+  });
+}
+
+test('every slider takes the least and the greatest value of the core', async ({ page }) => {
+  for (const name of ['banana-machine', 'map-squeeze']) {
+    const widget = await widgetOf(page, name);
+    const keys = await widget.locator('.slider input[type=range]').evaluateAll((sliders) => sliders.map(({ id }) => id));
+    expect(keys.length).toBeGreaterThan(5);
+    for (const key of keys) {
+      const { min = NaN, max = NaN } = settings[name].find((setting) => setting.key === key) ?? {};
+      // A million samples take their time, and are no other case.
+      for (const value of key === 'samples' ? [min] : [min, max]) {
+        await valueField(widget, key).click();
+        await valueField(widget, key).fill(String(value));
+        await page.keyboard.press('Enter');
+        expect(await property(widget, key), `${name}: ${key}`).toBe(value);
+      }
+      await widget.evaluate((element, name) => element.removeAttribute(name), key);
+    }
+  }
+});
+
+test('German has a decimal comma, and takes a point too', async ({ page }) => {
+  const widget = await widgetOf(page, 'banana-machine');
+  await page.addScriptTag({ type: 'module', url: '/de.js' });
+  await page.evaluate(() => (document.documentElement.lang = 'de'));
+  await frames(page);
+  for (const [text, value] of [['0,35', 0.35], ['0.45', 0.45]]) {
+    await widget.locator('#alpha1').focus();
+    await page.keyboard.type(String(text));
+    await page.keyboard.press('Enter');
+    expect(await property(widget, 'alpha1')).toBe(value);
+  }
+  await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
+  await expect(help(widget, 'alpha1')).toContainText('Der Regler endet bei 0,200');
+});
+
+test('the focus cuts through no line of help', async ({ page }) => {
+  const widget = await widgetOf(page, 'banana-machine');
+  for (const key of await widget.locator('.slider input[type=range]').evaluateAll((sliders) => sliders.map(({ id }) => id))) {
+    await widget.locator(`#${key}`).focus();
+    await page.keyboard.press('Shift+Tab');
+    await page.keyboard.press('Tab');
+    const outline = await widget.locator(`#${key}`).evaluate((slider) => {
+      const { outlineStyle } = getComputedStyle(slider);
+      return [outlineStyle, getComputedStyle(slider, '::-webkit-slider-thumb').outlineStyle];
+    });
+    expect(outline[0], key).toBe('none');
+  }
+});

@@ -1,0 +1,131 @@
+/** A figure before an audience: it fills the screen, and all but its pictures and figures waits behind a key. */
+
+import { html, nothing } from 'lit';
+import { words } from '../messages/registry.js';
+import { button } from '../ui/controls.js';
+import { Part } from './part.js';
+
+/** The key that shows and hides the controls. */
+const KEY = 'c';
+
+/**
+ * The window that a figure is laid out for then, CSS pixels; the screen shows it enlarged. Smaller, and the ticks of the
+ * axes, 13 px here, are larger for those in the last row, but the sentence takes more of the picture's room.
+ */
+const LAYOUT = { width: 960, height: 540 };
+
+export class Presentation extends Part {
+  /** Whether the controls are shown. */
+  #controls = false;
+  /** Ends listening; there while the figure is presented. @type {AbortController | undefined} */
+  #listening;
+  /** How far the page was scrolled. */
+  #scrolled = 0;
+
+  hostConnected() {
+    this.follow();
+  }
+
+  hostDisconnected() {
+    this.#end();
+  }
+
+  /** The element may have become a presentation, or have been one. */
+  follow() {
+    const { host } = this;
+    if (!host.isConnected || host.presentation === (this.#listening !== undefined)) return;
+    host.requestUpdate();
+    if (host.presentation) this.#begin();
+    else this.#end();
+  }
+
+  #begin() {
+    const { host } = this;
+    this.#listening = new AbortController();
+    const { signal } = this.#listening;
+    this.#scrolled = scrollY;
+    addEventListener('keydown', this.#key, { signal });
+    addEventListener('resize', this.#enlarge, { signal });
+    // Nothing behind the figure takes the focus.
+    document.addEventListener('focusin', (event) => event.composedPath().includes(host) || this.#focus(), { signal });
+    host.addEventListener(
+      'fullscreenchange',
+      () => {
+        if (!host.matches(':fullscreen')) host.presentation = false;
+      },
+      { signal },
+    );
+    this.#enlarge();
+    // Where the screen is not to be had, as in most frames and without a key or a press, the window is filled.
+    if (document.fullscreenEnabled && navigator.userActivation?.isActive !== false) host.requestFullscreen().catch(() => {});
+    host.updateComplete.then(() => this.#focus());
+  }
+
+  #end() {
+    if (!this.#listening) return;
+    const { host } = this;
+    this.#listening.abort();
+    this.#listening = undefined;
+    this.#controls = false;
+    host.style.removeProperty('--zoom');
+    this.#restore(host.matches(':fullscreen') ? document.exitFullscreen() : undefined);
+  }
+
+  /**
+   * Brings the reader back to where they were: the page was shorter meanwhile.
+   *
+   * @param {Promise<void>} [left] that the screen is left
+   */
+  async #restore(left) {
+    await Promise.allSettled([left, this.host.updateComplete]);
+    await new Promise(requestAnimationFrame);
+    if (this.#listening) return;
+    scrollTo({ top: this.#scrolled, behavior: 'instant' });
+    /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector('.to-present'))?.focus({ preventScroll: true });
+  }
+
+  #focus() {
+    /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector('.presenting button'))?.focus();
+  }
+
+  #enlarge = () => {
+    const zoom = Math.max(1, Math.min(innerWidth / LAYOUT.width, innerHeight / LAYOUT.height));
+    this.host.style.setProperty('--zoom', String(zoom));
+  };
+
+  #key = (/** @type {KeyboardEvent} */ event) => {
+    const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
+    const [target] = event.composedPath();
+    const typing = target instanceof Element && target.matches("textarea, input:not([type='range'], [type='radio'], [type='checkbox'])");
+    if (defaultPrevented || ctrlKey || altKey || metaKey) return;
+    if (key === 'Escape') this.host.presentation = false;
+    else if (key.toLowerCase() === KEY && !typing) this.#toggle();
+  };
+
+  #toggle() {
+    this.#controls = !this.#controls;
+    this.host.requestUpdate();
+  }
+
+  /** What the surface is called meanwhile, for styles. */
+  get className() {
+    return this.#listening && this.#controls ? 'with-controls' : '';
+  }
+
+  /** The button that begins it. */
+  button() {
+    const say = words.presentation;
+    return html`<span class="begin">${button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' })}</span>`;
+  }
+
+  /** What a reader can do meanwhile, with the keys for it. */
+  render() {
+    if (!this.#listening) return nothing;
+    const say = words.presentation;
+    const keyed = (/** @type {string} */ key, /** @type {string} */ label) => html`<kbd>${key}</kbd> ${label}`;
+    return html`<div class="presenting">
+      ${button(keyed(KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
+      ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
+    </div>`;
+  }
+}

@@ -1,0 +1,105 @@
+/** How a figure looks before an audience: as in a small window, which the whole screen shows enlarged. */
+
+import { css } from 'lit';
+
+export const presentationStyles = css`
+  :host([presentation]) {
+    position: fixed !important;
+    inset: 0 !important;
+    z-index: 2147483647 !important;
+    display: block !important;
+    box-sizing: border-box !important;
+    width: 100% !important;
+    max-width: none !important;
+    height: 100% !important;
+    max-height: none !important;
+    margin: 0 !important;
+    padding: 0 !important;
+    border: 0 !important;
+    overflow: hidden !important;
+  }
+
+  :host([presentation]) .surface {
+    zoom: var(--zoom);
+    display: flex;
+    flex-direction: column;
+    box-sizing: border-box;
+    height: 100%;
+    padding: 0.4rem 0.8rem;
+    overflow: auto;
+    overscroll-behavior: contain;
+  }
+
+  :host([presentation]) .machine {
+    flex: 1;
+    display: flex;
+    flex-direction: column;
+    min-height: 0;
+  }
+
+  :host([presentation]) .views {
+    flex: 1;
+    display: grid;
+    grid-template-rows: minmax(0, 1fr);
+    min-height: 0;
+  }
+
+  :host([presentation]) .stage {
+    position: relative !important;
+    height: 100%;
+    min-height: 0;
+  }
+
+  :host([presentation]) .stage canvas {
+    width: 100%;
+    height: 100%;
+    max-height: none;
+    aspect-ratio: auto;
+  }
+
+  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, [part~='caption'], [part~='readouts']),
+  :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts']),
+  :host([presentation]) .surface > .caption-slot,
+  :host([presentation]) .begin {
+    display: none !important;
+  }
+
+  /* What is set below is seen above. */
+  :host([presentation]) .with-controls .machine {
+    flex: none;
+  }
+
+  :host([presentation]) .with-controls .views {
+    position: sticky;
+    top: 0;
+    z-index: 1;
+    flex: none;
+    height: calc(50vh / var(--zoom));
+    background: var(--paper);
+  }
+
+  .presenting {
+    position: fixed;
+    top: 0.4rem;
+    right: 0.6rem;
+    z-index: 2;
+    display: flex;
+    gap: 0.4rem;
+    font-size: 0.75rem;
+  }
+
+  .presenting button {
+    min-height: 0;
+    padding: 0 0.4rem;
+    background: var(--paper);
+  }
+
+  .presenting button[aria-pressed='true'] {
+    background: var(--ink);
+  }
+
+  kbd {
+    font: inherit;
+    font-weight: bold;
+  }
+`;

@@ -1,0 +1,317 @@
+/** A slider with its label, its value, which can be typed too, and one line that says what it does to the picture. */
+
+import { css, html, nothing } from 'lit';
+import { live } from 'lit/directives/live.js';
+import { inputOf, longest } from './controls.js';
+import { finger } from './finger.js';
+
+export const sliderStyles = css`
+  /* Room for the line of help of the row that has the focus or the pointer. */
+  fieldset:has(.slider) {
+    padding-bottom: 1.35rem;
+  }
+
+  fieldset:has(.picking) {
+    grid-template-columns: auto auto minmax(4rem, 1fr) auto;
+  }
+
+  .slider {
+    display: grid;
+    grid-template-columns: subgrid;
+    align-items: center;
+  }
+
+  .slider label {
+    min-width: 1.6rem;
+    font-size: 1.1rem;
+    line-height: 1;
+  }
+
+  .slider .value {
+    position: relative;
+    text-align: right;
+    white-space: nowrap;
+  }
+
+  /* The value lies over its print, which keeps the room for it and is what paper has. */
+  .printed {
+    visibility: hidden;
+  }
+
+  .typed {
+    position: absolute;
+    inset: -0.2rem 0 auto auto;
+    box-sizing: border-box;
+    width: calc(100% + 0.4rem);
+    padding: 0.1rem 0.1rem 0.1rem 0.2rem;
+    background: none;
+    border: 1px solid transparent;
+    border-radius: 3px;
+    color: inherit;
+    font: inherit;
+    font-variant-numeric: inherit;
+    text-align: right;
+    cursor: text;
+  }
+
+  .typed:hover {
+    border-color: var(--muted);
+  }
+
+  .slider .effect {
+    position: absolute;
+    right: 0;
+    bottom: 0;
+    left: 0;
+    margin: 0;
+    visibility: hidden;
+  }
+
+  .slider:focus-within .effect,
+  fieldset:not(:focus-within) > .slider:hover .effect {
+    visibility: visible;
+  }
+
+  /* What was refused is said until something else is of interest, also over what stands below. */
+  .slider.refused .effect {
+    top: calc(100% - 1.3rem);
+    bottom: auto;
+    z-index: 1;
+    visibility: visible;
+    background: var(--paper);
+    color: var(--accent);
+  }
+
+  fieldset:has(.refused) > .slider:not(.refused) .effect {
+    visibility: hidden !important;
+  }
+
+  .slider.off :is(label, .value) {
+    color: var(--muted);
+  }
+
+  .slider.off input[type='range'] {
+    --thumb: var(--paper);
+    --thumb-edge: var(--muted);
+  }
+
+  input[type='range'] {
+    --thumb-edge: var(--thumb);
+    appearance: none;
+    width: 100%;
+    height: 1.75rem;
+    margin: 0;
+    background: none;
+    cursor: pointer;
+    touch-action: pan-y;
+  }
+
+  input[type='range']::-webkit-slider-runnable-track {
+    height: 2px;
+    background: var(--muted);
+    border-radius: 1px;
+  }
+
+  input[type='range']::-moz-range-track {
+    height: 2px;
+    background: var(--muted);
+    border-radius: 1px;
+  }
+
+  input[type='range']::-webkit-slider-thumb {
+    appearance: none;
+    width: 1.05rem;
+    height: 1.05rem;
+    margin-top: calc(1px - 0.525rem);
+    background: var(--thumb);
+    border: 2px solid var(--thumb-edge);
+    border-radius: var(--thumb-round, 50%);
+    clip-path: var(--thumb-shape);
+    box-shadow: 0 0 0 3px var(--paper);
+  }
+
+  input[type='range']::-moz-range-thumb {
+    box-sizing: border-box;
+    width: 1.05rem;
+    height: 1.05rem;
+    background: var(--thumb);
+    border: 2px solid var(--thumb-edge);
+    border-radius: var(--thumb-round, 50%);
+    clip-path: var(--thumb-shape);
+    box-shadow: 0 0 0 3px var(--paper);
+  }
+
+  /* A thumb at its end points to where the value is. */
+  .slider.above {
+    --thumb-shape: polygon(0 0, 55% 0, 100% 50%, 55% 100%, 0 100%);
+  }
+
+  .slider.below {
+    --thumb-shape: polygon(100% 0, 45% 0, 0 50%, 45% 100%, 100% 100%);
+  }
+
+  .slider:is(.above, .below) input[type='range'] {
+    --thumb-round: 0;
+  }
+
+  /* Around the thumb alone: around all of the slider it would cut into the rows above and below. */
+  input[type='range']:focus-visible {
+    outline: none;
+  }
+
+  input[type='range']:focus-visible::-webkit-slider-thumb {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  input[type='range']:focus-visible::-moz-range-thumb {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  .typed:focus-visible {
+    outline-offset: 0;
+    background: var(--paper);
+  }
+`;
+
+/** What begins a number, typed where a slider has the focus. */
+const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
+
+/**
+ * A slider row. Its value is a field as well: what is typed there may lie beyond the slider. Tab passes the field by;
+ * Enter or the first digit leads from the slider into it, Enter and Escape lead back.
+ *
+ * @param {object} row
+ * @param {string} row.id unique in the widget
+ * @param {unknown} row.symbol
+ * @param {string} [row.name] what a screen reader says where the symbol says too little
+ * @param {number} row.value
+ * @param {number} row.min
+ * @param {number} row.max
+ * @param {number} row.step
+ * @param {(value: number) => string} row.show a value with its unit
+ * @param {unknown} row.effect what the parameter does to the picture
+ * @param {'prior' | 'prediction' | 'truth'} row.role
+ * @param {boolean} [row.off] its value has no effect at present
+ * @param {unknown} [row.pick] a control in front of the label
+ * @param {'decimal' | 'numeric' | 'text'} row.keys of a phone, to type the value with
+ * @param {(text: string) => string | undefined} row.type takes what was typed and returns it as it is shown from now on;
+ *   undefined where it is refused
+ * @param {string} [row.refusal] what is said of what was refused
+ * @param {() => void} row.forget there is something else of interest than what was refused
+ * @param {(value: number) => void} row.input while it moves
+ * @param {() => void} row.commit when it comes to rest
+ */
+export function sliderRow(row) {
+  const states = {
+    picking: row.pick,
+    off: row.off,
+    below: row.value < row.min,
+    above: row.value > row.max,
+    refused: row.refusal,
+  };
+  const classes = ['slider', ...Object.keys(states).filter((key) => states[/** @type {keyof typeof states} */ (key)])].join(' ');
+  const shown = row.show(row.value);
+  const set = (/** @type {Event} */ event) => {
+    // A browser sets a slider as soon as a finger comes down on it.
+    if (!finger.waits) row.input(inputOf(event).valueAsNumber);
+  };
+  const room = longest([shown, row.show(row.min), row.show(row.max)]);
+  return html`
+    <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
+      ${row.pick ?? nothing}
+      <label for=${row.id} id="${row.id}-name">${row.symbol}</label>
+      <input
+        id=${row.id}
+        type="range"
+        min=${row.min}
+        max=${row.max}
+        step=${row.step}
+        .value=${live(String(row.value))}
+        aria-label=${row.name ?? nothing}
+        aria-valuetext=${shown}
+        aria-describedby="${row.id}-effect"
+        @keydown=${leadIntoField}
+        @pointerdown=${finger.comes}
+        @pointermove=${(/** @type {PointerEvent} */ event) => {
+          finger.moves(event);
+          if (event.pointerType === 'touch' && !finger.waits) set(event);
+        }}
+        @pointerup=${(/** @type {PointerEvent} */ event) => finger.goes() && set(event)}
+        @pointercancel=${(/** @type {PointerEvent} */ event) => {
+          if (finger.goes()) inputOf(event).value = String(row.value);
+        }}
+        @input=${set}
+        @change=${row.commit}
+      />
+      <span class="value roomy" data-room=${room}>
+        <span class="printed">${shown}</span>
+        ${field(row, shown)}
+      </span>
+      <p class="effect" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
+    </div>
+  `;
+}
+
+/**
+ * The value of a slider as a field to type into.
+ *
+ * @param {Pick<Parameters<typeof sliderRow>[0], 'id' | 'name' | 'keys' | 'type' | 'forget'>} row
+ * @param {string} shown
+ */
+function field({ id, name, keys, type, forget }, shown) {
+  /** @returns {boolean} whether what stands there is the value now */
+  const take = (/** @type {HTMLInputElement} */ input) => {
+    // By default it has what stood there when the reader came.
+    if (input.value === input.defaultValue) return true;
+    const now = type(input.value);
+    input.value = input.defaultValue = now ?? input.defaultValue;
+    return now !== undefined;
+  };
+  const key = (/** @type {KeyboardEvent} */ event) => {
+    const input = inputOf(event);
+    if (event.key === 'Escape') input.value = input.defaultValue;
+    else if (event.key !== 'Enter') return;
+    // Escape does nothing else here.
+    event.preventDefault();
+    if (take(input)) sliderBeside(input).focus();
+    else input.select();
+  };
+  return html`<input
+    class="typed"
+    type="text"
+    tabindex="-1"
+    inputmode=${keys}
+    enterkeyhint="done"
+    autocomplete="off"
+    spellcheck="false"
+    aria-label=${name ?? nothing}
+    aria-labelledby=${name ? nothing : `${id}-name`}
+    aria-describedby="${id}-effect"
+    .value=${shown}
+    @focus=${(/** @type {Event} */ event) => {
+      const input = inputOf(event);
+      input.defaultValue = input.value;
+      input.select();
+    }}
+    @input=${forget}
+    @keydown=${key}
+    @blur=${(/** @type {Event} */ event) => take(inputOf(event))}
+  />`;
+}
+
+/** Goes on in the field beside a slider: it takes the key that was pressed, and all of its text is selected. @param {KeyboardEvent} event */
+function leadIntoField(event) {
+  const { key, ctrlKey, altKey, metaKey } = event;
+  if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !BEGINS_A_NUMBER.test(key))) return;
+  if (key === 'Enter') event.preventDefault();
+  const row = /** @type {Element} */ (inputOf(event).closest('.slider'));
+  /** @type {HTMLInputElement} */ (row.querySelector('.typed')).focus();
+}
+
+/** @param {Element} input the field of its value */
+function sliderBeside(input) {
+  const row = /** @type {Element} */ (input.closest('.slider'));
+  return /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
+}

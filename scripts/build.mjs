@@ -56,7 +56,7 @@ async function buildCore() {
   await silencePanics(at('build/motion_bg.wasm'));
   makeFactory('build/motion');
   // What scripts/bundle.mjs gives to who imports the file.
-  const type = 'declare const module: () => Uint8Array<ArrayBuffer> | URL;\nexport default module;\n';
+  const type = 'declare const modules: { motion: Carried; [tag: string]: Carried | undefined };\ntype Carried = () => Uint8Array<ArrayBuffer> | URL;\nexport default modules;\n';
   writeFileSync(at('build/motion_bg.wasm.d.ts'), type);
   // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
   const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
@@ -64,6 +64,7 @@ async function buildCore() {
     at('node_modules/binaryen/bin/wasm-opt'), '-O3', '--converge', ...features.map((name) => `--enable-${name}`),
     at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),
   ]);
+  await divide(at('build/motion_bg.wasm'));
 }
 
 /** @returns {Promise<string>} the path of the module as rustc leaves it */
@@ -87,11 +88,7 @@ async function compileCore() {
  * @param {string} path of the module, with the names of its functions
  */
 async function silencePanics(path) {
-  // Not in a bare clone.
-  const { default: binaryen } = await import('binaryen');
-  const module = binaryen.readBinary(readFileSync(path));
-  const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
-  module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
+  const { binaryen, module } = await opened(path);
   // Its types leave this out.
   const { Function: functions } = /** @type {any} */ (binaryen);
   const panics = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
@@ -104,6 +101,38 @@ async function silencePanics(path) {
   }
   writeFileSync(path, module.emitBinary());
   module.dispose();
+}
+
+/**
+ * Writes, for each class that the core exports, a module without the others. The whole one's glue fits it.
+ *
+ * @param {string} path of the whole module
+ */
+async function divide(path) {
+  const { binaryen, module: whole } = await opened(path);
+  const exported = Array.from({ length: whole.getNumExports() }, (_, i) => binaryen.getExportInfo(whole.getExportByIndex(i)).name);
+  whole.dispose();
+  const classes = exported.flatMap((name) => name.match(/^__wbg_(\w+)_free$/)?.slice(1) ?? []);
+  for (const kept of classes) {
+    const { module } = await opened(path);
+    const others = classes.filter((name) => name !== kept);
+    for (const name of exported) {
+      if (others.some((other) => name.startsWith(`${other}_`) || name === `__wbg_${other}_free`)) module.removeExport(name);
+    }
+    module.runPasses(['remove-unused-module-elements']);
+    writeFileSync(at(`build/${kept}_bg.wasm`), module.emitBinary());
+    module.dispose();
+  }
+}
+
+/** @param {string} path of a module */
+async function opened(path) {
+  // Not in a bare clone.
+  const { default: binaryen } = await import('binaryen');
+  const module = binaryen.readBinary(readFileSync(path));
+  const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
+  module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
+  return { binaryen, module };
 }
 
 /**

@@ -1,9 +1,10 @@
 // www/ to dist/: what a page, a bundler, an iframe, a disk and Node each take. doc/embedding.md says which is for whom.
 
+import { createHash } from 'node:crypto';
 import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { dirname, join, relative } from 'node:path';
+import { basename, dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
-import { widgets } from './declarations.mjs';
+import { pascal, widgets } from './declarations.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
 import { withTables } from './tables.mjs';
@@ -14,7 +15,10 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 /** What is copied as it is; index.html becomes classroom.html as well. */
 const COPIED = /\.(html|css)$/;
 
-/** What a bundle finds where it imports the WebAssembly module: a function that returns it. */
+/** Their tags. */
+const WIDGETS = Object.keys(declared.settings);
+
+/** What a bundle finds where it imports the WebAssembly module: functions that return it, or what a widget needs of it. */
 const MODULE = {
   /**
    * The bytes as characters, one each. Brotli and gzip see through this, as they do not through base64 or through a
@@ -26,11 +30,25 @@ const MODULE = {
   inlined: (bytes) =>
     `const text = ${JSON.stringify(Buffer.from(bytes).toString('latin1'))};` +
     // Not Uint8Array.from: going through the characters one by one, as its iterator does, takes ten times as long.
-    'export default () => { const bytes = new Uint8Array(text.length);' +
-    'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; };',
-  /** Bundlers know this form, and carry the file along. It stands in a chunk: external.js and the widgets share it. */
-  external: () => "export default () => new URL('../motion.wasm', import.meta.url);",
+    'export default { motion: () => { const bytes = new Uint8Array(text.length);' +
+    'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; } };',
+  /** Bundlers know this form, and carry the files along. It stands in a chunk: external.js and the widgets share it. */
+  external: () => {
+    const files = [['motion', '../motion.wasm'], ...WIDGETS.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
+    return `export default {${files.map(([name, path]) => `'${name}': () => new URL('${path}', import.meta.url)`)}};`;
+  },
 };
+
+/**
+ * The module that a widget needs, without the machines of others.
+ *
+ * @param {string} tag
+ */
+function moduleOf(tag) {
+  const contents = readFileSync(at(`build/${pascal(tag).toLowerCase()}_bg.wasm`));
+  const hash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
+  return { path: `dist/chunks/${tag}-${hash}.wasm`, contents };
+}
 
 /** What takes the place of www/address.js, where a bundle is not the very script that the page names. */
 const ADDRESS = {
@@ -39,9 +57,6 @@ const ADDRESS = {
   /** Of the script that a chunk belongs to. */
   chunk: "export const address = import.meta.url.replace(/chunks\\/[^/]*$/, 'external.js'); export const classic = false;",
 };
-
-/** Their tags. */
-const WIDGETS = Object.keys(declared.settings);
 
 /** What the scripts of the elements export. */
 const DECLARATIONS = `export * from './core.js';
@@ -126,6 +141,7 @@ export async function bundle() {
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
   write(at('dist/motion.wasm'), wasm);
+  for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts' };
   for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);

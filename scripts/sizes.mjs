@@ -1,6 +1,6 @@
 // What the products and the widgets weigh over the wire, and each library: `node scripts/sizes.mjs` prints it.
 
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, constants } from 'node:zlib';
 import { settings } from '../www/settings.js';
@@ -36,7 +36,7 @@ function loadedWith(path) {
 
 /**
  * @returns {Record<string, string[]>} by the tag of each widget, what a page with that one loads by external.js before
- *   anyone touches it: scripts, and the module
+ *   anyone touches it: scripts, and its module
  */
 export function loadedByWidgets() {
   const products = Object.entries(outputs());
@@ -45,8 +45,13 @@ export function loadedByWidgets() {
     if (!found) throw new Error(`external.js has no chunk of ${tag}.`);
     return found[0];
   };
+  const module = (/** @type {string} */ tag) => {
+    const found = readdirSync(at('dist/chunks')).find((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
+    if (!found) throw new Error(`dist/chunks has no module for ${tag}.`);
+    return `dist/chunks/${found}`;
+  };
   const first = loadedWith('dist/external.js');
-  const paths = (/** @type {string} */ tag) => [...new Set([...first, ...loadedWith(chunk(tag)), 'dist/motion.wasm'])];
+  const paths = (/** @type {string} */ tag) => [...new Set([...first, ...loadedWith(chunk(tag)), module(tag)])];
   return Object.fromEntries(Object.keys(settings).map((tag) => [tag, paths(tag)]));
 }
 

@@ -1,5 +1,5 @@
 /**
- * Loads the WebAssembly core, compiled once a page or process. The only file that touches generated glue.
+ * Loads the WebAssembly core; a page or process compiles a module once. The only file that touches generated glue.
  * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
  */
 
@@ -10,8 +10,10 @@ import carried from '../build/motion_bg.wasm';
 
 /** What the first to name a source named. @type {Source | undefined} */
 let wanted;
-/** @type {Promise<WebAssembly.Module> | undefined} */
-let compiling;
+/** Modules, by what carries them. @type {Map<() => Source, Promise<WebAssembly.Module>>} */
+const compiling = new Map();
+/** Tags of widgets that the page has met, in external.js. @type {Set<string>} */
+const expected = new Set();
 /** @type {Promise<import('./types.d.ts').Motion> | undefined} */
 let loading;
 
@@ -40,16 +42,34 @@ export function load(source) {
  *
  * @type {typeof import('./types.d.ts').instantiate}
  */
-export async function instantiate(source) {
+export function instantiate(source) {
+  wanted ??= source;
+  return made('motion');
+}
+
+/**
+ * As `instantiate`, for a widget. In external.js its module has no other's machine, as long as the page has met no other.
+ *
+ * @param {string} tag
+ */
+export function instantiateFor(tag) {
+  return made(tag);
+}
+
+/** @param {string} tag of a widget that the page has met */
+export function expect(tag) {
+  expected.add(tag);
+}
+
+/**
+ * @param {string} name
+ * @returns {Promise<import('./types.d.ts').Motion>}
+ */
+async function made(name) {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
-  wanted ??= source;
-  compiling ??= compile().catch((error) => {
-    wanted = compiling = undefined;
-    throw error;
-  });
-  const motion = await makeCore(await compiling);
+  const motion = await makeCore(await compiled(name));
   for (const each of Object.values(motion)) if ('free' in (each.prototype ?? {})) makeDisposable(/** @type {any} */ (each));
   return motion;
 }
@@ -64,11 +84,30 @@ export function abandon(machine) {
   /** @type {{ __destroy_into_raw(): number }} */ (/** @type {unknown} */ (machine)).__destroy_into_raw();
 }
 
-/** @returns {Promise<WebAssembly.Module>} */
-async function compile() {
+/**
+ * @param {string} name of a widget, or of the whole core
+ * @returns {Promise<WebAssembly.Module>}
+ */
+async function compiled(name) {
   // Elements ask while they are being defined, before the script that imports them has had its say.
   await null;
-  const source = wanted ?? carried();
+  const own = carried[name];
+  // One for all is less than one for each.
+  const carrier = own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
+  let module = compiling.get(carrier);
+  if (!module) {
+    module = compile(wanted ?? carrier()).catch((error) => {
+      wanted = undefined;
+      compiling.delete(carrier);
+      throw error;
+    });
+    compiling.set(carrier, module);
+  }
+  return module;
+}
+
+/** @param {Source} source */
+async function compile(source) {
   try {
     if (source instanceof WebAssembly.Module) return source;
     if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return await WebAssembly.compile(source);

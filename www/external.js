@@ -4,6 +4,7 @@
  */
 
 import { vocabularies, widgets } from '../build/widgets.js';
+import { expect } from './core.js';
 import { en } from './messages/en.js';
 import { addEnglish } from './messages/registry.js';
 
@@ -21,7 +22,10 @@ function meet(root) {
   for (const element of [root, ...root.querySelectorAll('*')]) {
     if (!(element instanceof Element)) continue;
     const { localName } = element;
-    if (waiting.delete(localName)) widgets[localName]();
+    if (waiting.delete(localName)) {
+      expect(localName);
+      widgets[localName]();
+    }
     // What a widget shows has no widget in it.
     else if (localName in widgets) continue;
     else if (element.shadowRoot) watch(element.shadowRoot);

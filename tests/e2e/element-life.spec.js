@@ -68,6 +68,15 @@ test.describe('far from the window', () => {
     expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
   });
 
+  test('a page with one widget fetches what it needs of the module', async ({ page }) => {
+    for (const name of NAMES) {
+      const module = page.waitForRequest(/\.wasm$/);
+      await show(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
+      await ready(page.locator(name));
+      expect(new URL((await module).url()).pathname).toMatch(new RegExp(`^/chunks/${name}-\\w+\\.wasm$`));
+    }
+  });
+
   for (const width of [320, 375, 768, 1280]) {
     test(`room is kept, ${width} px wide: nothing moves when the figure comes`, FRESH, async ({ page }) => {
       // Lower than a figure: what comes after it is out of sight, whatever a page keeps for it before the script is there.

@@ -3,7 +3,7 @@
  * at a trap and made again from the last good state.
  */
 
-import { abandon, instantiate } from '../core.js';
+import { abandon, instantiateFor } from '../core.js';
 import { look, unwatch, watch } from './page/sight.js';
 import { Part } from './part.js';
 
@@ -145,7 +145,7 @@ export class Runtime extends Part {
 
   async #make() {
     try {
-      const [motion] = await Promise.all([instantiate(), this.host.link.prepare()]);
+      const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
       if (!this.#near) return;
       const machine = this.host.createMachine(motion, this.host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });

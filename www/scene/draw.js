@@ -24,13 +24,18 @@ const TICK_SPACING = { x: 60, y: 48 };
  */
 const TICKS_A_STROKE = 25;
 
+/** Gap between entries of a key, and width of a sample in one: shares of the size of its type. */
+const KEY = { gap: 1.1, sample: 1.9, space: 0.4 };
+
 /**
- * Hairline axes with ticks at the left and the bottom, and a faint grid.
+ * Hairline axes with ticks at the left and the bottom, a faint grid, and above it the name of what runs upwards and a key.
  *
  * @param {Brush} brush
  * @param {{ x: string, y: string }} names
+ * @param {KeyEntry[]} key the most important first: as many as there is room for
  */
-export function drawAxes({ context, view, palette, font }, names) {
+export function drawAxes(brush, names, key) {
+  const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
   context.font = font;
@@ -66,6 +71,32 @@ export function drawAxes({ context, view, palette, font }, names) {
   context.fillText(names.x, right, bottom + 6);
   context.textAlign = 'left';
   context.fillText(names.y, 2, top - 22);
+  drawKey(brush, 2 + context.measureText(names.y).width, key);
+}
+
+/**
+ * @typedef {object} KeyEntry
+ * @property {string} name
+ * @property {(x: number, y: number, width: number) => void} draw a sample, from its left to its right in the middle of the line; CSS pixels
+ *
+ * @param {Brush} brush
+ * @param {number} x where there is room, CSS pixels
+ * @param {KeyEntry[]} entries
+ */
+function drawKey({ context, view, palette, font }, x, entries) {
+  const { right, top } = view.frame;
+  const size = parseFloat(font);
+  const width = KEY.sample * size;
+  for (const { name, draw } of entries) {
+    context.font = font;
+    const from = x + KEY.gap * size;
+    const text = from + width + KEY.space * size;
+    x = text + context.measureText(name).width;
+    if (x > right) return;
+    context.fillStyle = palette.ink;
+    context.fillText(name, text, top - 22);
+    draw(from, top - 22 + size / 2, width);
+  }
 }
 
 /**

@@ -46,6 +46,13 @@ export const de = {
     additive: '2σ von Rauschen auf der Pose, überall 0,2 m',
     exponential: '2σ-Gauß in Exponentialkoordinaten',
   },
+  key: {
+    command: 'Befehl',
+    ellipse: 'Gauß in (x, y)',
+    linearized: 'linearisiert',
+    additive: 'Rauschen auf der Pose',
+    exponential: 'Gauß in ξ',
+  },
   modelAndNoise: 'Modell und Umrisse',
   figures: 'Zahlen',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },

@@ -48,6 +48,14 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     additive: '2σ of noise added to the pose, 0.2 m everywhere',
     exponential: '2σ Gaussian in exponential coordinates',
   },
+  /** Above the pictures, where there is little room. */
+  key: {
+    command: 'command',
+    ellipse: 'Gaussian in (x, y)',
+    linearized: 'linearized',
+    additive: 'added noise',
+    exponential: 'Gaussian in ξ',
+  },
   modelAndNoise: 'Model and outlines',
   figures: 'Figures',
   models: { velocity: 'velocity', odometry: 'odometry' },

@@ -106,6 +106,41 @@ function cellSize(area, count) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
 
+/** @typedef {keyof typeof DASHES} OutlineName in the order that they are painted in, and that the key names them in */
+const PAINTED = /** @type {const} @satisfies {OutlineName[]} */ (['additive', 'linearized', 'ellipse', 'exponential', 'command']);
+const NAMED = /** @type {const} @satisfies {OutlineName[]} */ (['ellipse', 'exponential', 'linearized', 'additive', 'command']);
+
+/** @param {Palette} palette @returns {Record<OutlineName, { colour: string, width: number, dash: number[] }>} */
+const outlineStyles = ({ prediction, posterior, prior }) => ({
+  additive: { colour: prediction, width: 2.5, dash: DASHES.additive },
+  linearized: { colour: prediction, width: 1.75, dash: DASHES.linearized },
+  ellipse: { colour: prediction, width: 2, dash: DASHES.ellipse },
+  exponential: { colour: posterior, width: 2.25, dash: DASHES.exponential },
+  command: { colour: prior, width: 2.5, dash: DASHES.command },
+});
+
+/**
+ * @param {Brush} brush
+ * @param {OutlineName} name
+ * @param {{ colour: string, width: number, dash: number[] }} style
+ * @returns {import('../../scene/draw.js').KeyEntry}
+ */
+function keyEntry({ context }, name, { colour, width, dash }) {
+  return {
+    name: words.banana.key[name],
+    draw: (x, y, length) => {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.setLineDash(dash);
+      context.beginPath();
+      context.moveTo(x, y);
+      context.lineTo(x + length, y);
+      context.stroke();
+      context.setLineDash([]);
+    },
+  };
+}
+
 /** The floor from above. */
 export class PlanePicture extends CloudPicture {
   constructor() {
@@ -128,7 +163,10 @@ export class PlanePicture extends CloudPicture {
   paint = (brush, scene) => {
     const { view, palette } = brush;
     const { machine, contours, overlays, table, marked, end } = scene;
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
+    const styles = outlineStyles(palette);
+    const drawn = (/** @type {OutlineName} */ name) => overlays[name];
+    const key = NAMED.filter(drawn).map((name) => keyEntry(brush, name, styles[name]));
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     clipped(brush, () => {
       const { cov } = table.exact;
       const heaped = deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
@@ -138,15 +176,7 @@ export class PlanePicture extends CloudPicture {
         this.paintCloud(brush, machine, area);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      const styles = /** @type {const} */ ([
-        ['additive', palette.prediction, 2.5],
-        ['linearized', palette.prediction, 1.75],
-        ['ellipse', palette.prediction, 2],
-        ['exponential', palette.posterior, 2.25],
-        ['command', palette.prior, 2.5],
-      ]);
-      const drawn = styles.filter(([name]) => overlays[name]);
-      drawOutlines(brush, drawn.map(([name, colour, width]) => ({ points: contours[name], colour, width, dash: DASHES[name] })));
+      drawOutlines(brush, PAINTED.filter(drawn).map((name) => ({ points: contours[name], ...styles[name] })));
       if (overlays.command && scene.reading) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
       if (marked) {
@@ -296,14 +326,15 @@ export class TwistPicture extends CloudPicture {
   paint = (brush, scene) => {
     const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
-    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading });
+    const { exponential } = outlineStyles(palette);
+    const key = overlays.exponential ? [keyEntry(brush, 'exponential', exponential)] : [];
+    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, key);
     clipped(brush, () => {
       const [{ cov }] = twistMoments(scene);
       const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;
       this.paintCloud(brush, machine, area);
       if (overlays.exponential) {
-        const style = { colour: palette.posterior, width: 2.25, dash: DASHES.exponential };
-        drawOutline(brush, contours.twistEllipse, style);
+        drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {
         const { v, omega, dt } = config.command;

@@ -1,11 +1,13 @@
 /** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
 
+import { words } from '../../messages/registry.js';
 import { clipped, densityRamp, drawAxes, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer } from '../../scene/walls.js';
 import { clamp } from '../../ui/clamp.js';
 import { COMMAND_DASH } from '../shared/command.js';
+import { keptWords } from './words.js';
 
 /**
  * @import { Grid, MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
@@ -137,7 +139,7 @@ export class FloorPicture extends Picture {
   paint = (brush, scene) => {
     const { sorted, paths, commanded, config, marked } = scene;
     const { palette } = brush;
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' });
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
     clipped(brush, () => {
       // What passes through a wall must not hide it.
       if (sorted) {
@@ -267,18 +269,67 @@ function knownCorners({ columns, unknown, resolution, origin: [x, y, yaw] }) {
 }
 
 /**
+ * What the marks are, or the colours of a density.
+ *
+ * @param {Brush} brush
+ * @param {Scene} scene
+ * @returns {import('../../scene/draw.js').KeyEntry[]}
+ */
+function keyOf({ context, palette }, { config, sorted }) {
+  /** @typedef {(x: number, y: number) => void} Shape */
+  const circle = (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ radius) => {
+    context.moveTo(x + radius, y);
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+  };
+  /** @type {Shape} */
+  const dot = (x, y) => {
+    circle(x, y, 2);
+    context.fill();
+  };
+  /** @type {Shape} */
+  const ringed = (x, y) => {
+    dot(x, y);
+    circle(x, y, 5);
+  };
+  /** @type {Shape} */
+  const patch = (x, y) => {
+    context.rect(x - 5, y - 5, 10, 10);
+    context.fill();
+  };
+  const entry = (/** @type {string} */ name, /** @type {string} */ colour, /** @type {Shape} */ shape) => ({
+    name,
+    draw: (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ width) => {
+      context.strokeStyle = context.fillStyle = colour;
+      context.lineWidth = 1;
+      context.beginPath();
+      (sorted ? shape : patch)(x + width / 2, y);
+      context.stroke();
+    },
+  });
+  const { kept, ofThem } = keptWords(config);
+  const entries = [entry(kept, palette.cloud, dot), entry(ofThem, palette.accent, ringed)];
+  return config.conditioned ? [...entries, entry(words.squeeze.rejected, palette.muted, (x, y) => cross(context, x, y))] : entries;
+}
+
+/**
+ * @param {Brush['context']} context
+ * @param {number} x CSS pixels
+ * @param {number} y
+ */
+function cross(context, x, y) {
+  context.moveTo(x - CROSS, y - CROSS);
+  context.lineTo(x + CROSS, y + CROSS);
+  context.moveTo(x - CROSS, y + CROSS);
+  context.lineTo(x + CROSS, y - CROSS);
+}
+
+/**
  * @param {Brush} brush
  * @param {Float64Array} triples
  */
 function drawCrosses({ context, view, palette }, triples) {
   context.beginPath();
-  for (let i = 0; i < triples.length; i += 3) {
-    const [x, y] = [view.toPixelX(triples[i]), view.toPixelY(triples[i + 1])];
-    context.moveTo(x - CROSS, y - CROSS);
-    context.lineTo(x + CROSS, y + CROSS);
-    context.moveTo(x - CROSS, y + CROSS);
-    context.lineTo(x + CROSS, y - CROSS);
-  }
+  for (let i = 0; i < triples.length; i += 3) cross(context, view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]));
   context.strokeStyle = palette.muted;
   context.lineWidth = 1;
   context.globalAlpha = 0.5;

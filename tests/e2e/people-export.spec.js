@@ -145,8 +145,10 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(few.images).toBe(0);
   expect(few.paths).toBeGreaterThan(1000);
   expect(few.texts).toBeGreaterThan(8);
-  // The commanded arc and the ellipse.
-  expect(few.dashed).toBe(2);
+  // The commanded arc and the ellipse, and what they are called above the picture.
+  expect(few.dashed).toBe(4);
+  const drawn = await svgOf(widget);
+  for (const name of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(drawn).toContain(`>${name}</text>`);
   await widget.getByRole('slider', { name: 'robots in the whole cloud' }).fill('9');
   await frames(page);
   const many = await elementsOf(page, await svgOf(widget));

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, boxOf, detail, frames, numberIn, openWhole, pictureOf, readout, state, test, unfold } from './support.js';
+import { STILL, boxOf, counted, detail, frames, numberIn, openWhole, pictureOf, readout, state, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -62,7 +62,7 @@ const sentence = (widget) => widget.locator('.caption > span');
 test('the sentence says what the model decides and the robots show', async ({ page }) => {
   const widget = await openWhole(page);
   const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
-  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.43 ± 0\.01, where any Gaussian in \(x, y\) has 0\.$/);
+  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.431\s±\s0\.013, where any Gaussian in \(x, y\) has 0\.$/);
   await widget.locator('#omega').fill('-0.5');
   await expect(sentence(widget)).toHaveText(/tail to the left/);
 
@@ -72,13 +72,21 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   const { table } = await state(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
-  await expect(sentence(widget)).toHaveText(/^The cloud curls to both sides alike, so its skew is 0 \(−?0\.\d+ ± 0\.\d+\); yet the ellipse covers 1\.97 times/);
+  // Of one thing one number: what the sentence says stands beside it.
+  const ratio = await readout(widget, 'area of ellipse').textContent();
+  await expect(sentence(widget)).toHaveText(
+    new RegExp(`^The cloud leans to neither side: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\. Yet it is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\.$`),
+  );
+  // Nearly symmetric, and as bent.
+  await widget.locator('#omega').fill('0.02');
+  await expect(sentence(widget)).toHaveText(/^The cloud hardly leans to either side: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\. Yet it is bent: its ellipse covers/);
   await press('Straight');
-  const gain = (await state(widget)).table.exact.likelihoodGain.pose.toFixed(2);
-  await expect(sentence(widget)).toHaveText(new RegExp(`^The cloud leans to neither side: skew .*, exactly 0\\. Yet it is bent: .* gains ${gain} nats`));
+  await frames(page);
+  const gain = await readout(widget, 'gain of a Gaussian').textContent();
+  await expect(sentence(widget)).toHaveText(new RegExp(`^The cloud leans to neither side: skew .*, exactly 0 by symmetry\\. Yet it is bent, with a gain of ${gain?.replaceAll(' ', '\\s')} nats a robot\\.$`));
   // Hardly any noise in the turn: nothing is bent.
   for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
-  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+ ± [\d.]+, and exactly 0 by symmetry\.$/);
+  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });
 
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason', async ({ page }) => {
@@ -94,11 +102,10 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason', as
   expect(behind / config.samples).toBeGreaterThan(0.3);
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
-  await widget.locator('#omega').fill('0.05');
   await widget.locator('#samples').fill('3');
   const { stats, table: few } = await state(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
-  await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*own is −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
+  await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
 
 test('figures without meaning are a dash: α₅ alone leaves all robots in one place', async ({ page }) => {
@@ -106,9 +113,9 @@ test('figures without meaning are a dash: α₅ alone leaves all robots in one p
   await widget.getByLabel('Isolate one').check();
   await widget.getByRole('radio', { name: 'Only α₅' }).check();
   await frames(page);
-  for (const name of ['cross-track skew', 'gain of ξ', 'area of ellipse', 'predicts']) await expect(readout(widget, name)).toHaveText('—');
-  await expect(detail(widget, 'gain of ξ')).toHaveText('—');
-  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly —; a Gaussian: 0');
+  for (const name of ['cross-track skew', 'gain of a Gaussian', 'area of ellipse', 'predicts', 'exact gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
+  await expect(detail(widget, 'gain of a Gaussian')).toHaveText('—');
+  await expect(detail(widget, 'cross-track skew')).toHaveText('exact —; Gaussian: 0');
   await expect(detail(widget, 'area of ellipse')).toHaveText('inside: — and —');
 });
 
@@ -119,8 +126,8 @@ test('without γ̂ the gain is unbounded, and said of the floor', async ({ page 
   expect(table.exact.likelihoodGain.pose).toBe(Infinity);
   const gain = numberIn(((await readout(widget, 'gain on the floor').textContent()) ?? '').split(' ± ')[0]);
   expect(Math.abs(gain - stats.likelihoodGain.floor)).toBeLessThan(0.001);
-  await expect(detail(widget, 'gain on the floor')).toContainText('unbounded');
-  await expect(detail(widget, 'cross-track skew')).toContainText('exactly −0.301');
+  await expect(detail(widget, 'gain on the floor')).toHaveText(`${counted(stats.n * stats.likelihoodGain.floor)} for all ${counted(stats.n)}; over (x, y, θ) ∞: no γ̂`);
+  await expect(detail(widget, 'cross-track skew')).toContainText('exact −0.301');
 });
 
 test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {

@@ -4,6 +4,7 @@
 pub mod density;
 pub mod distance;
 pub mod golden;
+pub mod told;
 
 use motion::NoiseKind;
 use motion::geom::se2::SE2;

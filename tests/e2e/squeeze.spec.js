@@ -208,9 +208,9 @@ test.describe('judging', () => {
     const { stats } = await squeezed(widget);
     expect(stats.throughWall).toBeGreaterThan(150);
     await unfold(widget, 'Counts and costs');
-    await expect(readout(widget, 'paths shown')).toHaveText('the first 150');
+    await expect(readout(widget, 'with their way drawn')).toHaveText('the first 150');
     await widget.getByLabel('whole arc').check();
-    await expect(readout(widget, 'paths shown')).toHaveText('0');
+    await expect(readout(widget, 'with their way drawn')).toHaveText('0');
   });
 
   test('sliders set the command, the noise, the clearance, k and the count', async ({ page }) => {

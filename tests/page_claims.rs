@@ -6,8 +6,8 @@
 
 mod common;
 
-use common::SIGMAS;
 use common::told::Told;
+use common::{SIGMAS, winds_around};
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Settings};
 
@@ -28,15 +28,6 @@ fn machine(settings: Settings) -> BananaMachine {
 
 fn page() -> Told {
     Told::on_page(include_str!("../www/index.html"))
-}
-
-/// Whether a closed outline winds around a point.
-fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let crossings = outline.windows(2).filter(|ends| {
-        let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
-        (ay > y) != (by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
-    });
-    crossings.count() % 2 == 1
 }
 
 #[test]

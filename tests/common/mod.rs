@@ -41,6 +41,19 @@ pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
 }
 
+/// Whether a closed outline winds around a point.
+pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let turns: i32 = outline
+        .windows(2)
+        .map(|ends| {
+            let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
+            let left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
+            i32::from(ay <= y && by > y && left) - i32::from(ay > y && by <= y && !left)
+        })
+        .sum();
+    turns != 0
+}
+
 // ------------------------------------------------------------------------------------------- reference tables
 
 /// A table of tests/reference, written by generate.py.

@@ -65,6 +65,11 @@ impl Told {
     }
 }
 
+fn is_thousands(word: &str) -> bool {
+    let digits = word.trim_end_matches([',', '.', ':']);
+    digits.len() == 3 && digits.chars().all(|c| c.is_ascii_digit())
+}
+
 /// The numbers between the parts, if the text begins with these.
 fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
     let mut rest = text.strip_prefix(parts[0])?;
@@ -73,9 +78,13 @@ fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
         .map(|part| {
             let in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
             let mut end = rest.find(|c| !in_number(c)).unwrap_or(rest.len());
+            // Documents have a plain space between thousands.
+            if rest[end..].starts_with(' ') && rest[end + 1..].split(' ').next().is_some_and(is_thousands) {
+                end += 4;
+            }
             // The end of a sentence is no decimal point.
             end -= usize::from(rest[..end].ends_with('.'));
-            let digits: String = rest[..end].replace('−', "-").replace(THIN_SPACE, "");
+            let digits: String = rest[..end].replace('−', "-").replace([THIN_SPACE, ' '], "");
             let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
             rest = rest[end..].strip_prefix(part)?;
             Some(Number { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimals) })

@@ -104,8 +104,8 @@ fn torn_in_two_the_hard_arc_has_too_much_heading_variance() {
 /// Of γ̂ alone: what the Gaussian with the moments of ξ says of robots that all stand at one point.
 #[test]
 fn the_gaussian_of_one_point_has_figures_that_mean_nothing() {
-    let [skew, inside, alpha] =
-        document().numbers("over the floor, with a skew of # and # % of the robots inside for α₅ = #:");
+    let [alpha, skew, inside] = document()
+        .numbers("at the opening command and α₅ = # with a skew of # and # % of the robots inside:");
     let velocity_alphas = [0.0, 0.0, 0.0, 0.0, alpha.value, 0.0];
     let point = machine(Settings { velocity_alphas, samples: 1_000_000, ..Settings::default() });
     let cloud: Vec<SE2> = point.poses().collect();
@@ -118,7 +118,6 @@ fn the_gaussian_of_one_point_has_figures_that_mean_nothing() {
         off.dot(&(precision * off)) <= 4.0
     });
     let share = within.count() as f64 / 1e6;
-    println!("{predicted} {share}");
     skew.assert(predicted, 0.003);
     inside.assert_percent(share, 0.0015);
 }
@@ -138,7 +137,6 @@ fn the_two_shares_inside_the_outline_differ_as_told() {
             let inside = machine.poses().filter(|pose| winds_around(&outline, [pose.x(), pose.y()])).count();
             let drawn = inside as f64 / robots.value;
             let off = 100.0 * (drawn - machine.figures().inside_exponential).abs();
-            println!("{model:?} {name}: {drawn} {off}");
             match (model, name) {
                 (ModelKind::Velocity, "pivot") => pivot.assert(off, 0.0),
                 (ModelKind::Odometry, "pivot") => held.assert_percent(drawn, 0.0),

@@ -61,7 +61,7 @@ export const de = {
     headings: 'Nur γ̂ rauscht: Alle Roboter halten am selben Punkt, und nur ihre Richtungen fächern sich auf.',
     circle: 'Manche Roboter drehen sich fast im Kreis. Dort enden die Exponentialkoordinaten und ihre Zahlen.',
     backwards: 'Die Odometrie liest Rückwärtsfahren als zwei halbe Drehungen und berechnet für beide Rauschen.',
-    line: 'Nur eine Zahl rauscht: Die Roboter liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
+    line: 'Nur ein Rauschen bleibt: Die Roboter liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
   },
   alphaIsZero: (alpha) => `${alpha} gilt allein und ist 0: gar kein Rauschen. Dreh es auf.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
@@ -121,7 +121,7 @@ export const de = {
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
     'Exakte Schiefe über dem befohlenen *ω*, und die der Roboter mit ihrem Standardfehler. Die gestrichelte Linie ist jede Gauß-Verteilung in *(x, y)*. ' +
-    'Bei *ω* = 0 ist sie der Symmetrie wegen 0, wie krumm die Wolke auch sei: Das sagt der Gewinn.',
+    'Bei *ω* = 0 ist sie der Symmetrie wegen 0, wie krumm die Wolke auch sei: siehe den Gewinn.',
   chartRemark: 'symmetrisch, doch krumm',
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
@@ -141,8 +141,8 @@ export const de = {
     nominal: 'von jedem Gauß in seiner 2σ-Ellipse',
   },
   gainIs:
-    'Gewinn: um wie viel glaubhafter die Posen der Roboter unter dem Gauß in *ξ* sind als unter dem in *(x, y, θ)*, als Logarithmus; ein Nat ist ein Faktor *e*. ' +
-    'Am Boden: ihre Orte, nach Länge und Drehung des Bogens dorthin, statt nach *(x, y)*.',
+    'Gewinn: um wie viele Nat glaubhafter die Roboter unter dem Gauß in *ξ* sind als unter dem in *(x, y, θ)*; ein Nat ist ein Faktor *e*. ' +
+    'Am Boden: nach Länge und Drehung des Bogens zu jedem Ort, statt nach *(x, y)*.',
   nOfAll: (n, all) => `${n} von ${all}`,
   robot: 'Roboter',
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',

@@ -63,7 +63,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
     circle: 'Some robots turn nearly a full circle. Exponential coordinates end there, and their figures with them.',
     backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
-    line: 'Only one number is noisy: the robots lie on a line, and an outline without area holds no share of them.',
+    line: 'Only one noise is left: the robots lie on a line, and an outline without area holds no share of them.',
   },
   alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
@@ -125,7 +125,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
     'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*. ' +
-    'At *ω* = 0 it is 0 by symmetry, however bent the cloud is: that the gain tells.',
+    'At *ω* = 0 it is 0 by symmetry, however bent the cloud is: see the gain.',
   chartRemark: 'symmetric, still bent',
   readouts: {
     skew: 'cross-track skew',
@@ -145,8 +145,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     nominal: 'of any Gaussian inside its 2σ ellipse',
   },
   gainIs:
-    'Gain: how much likelier the robots’ poses are under the Gaussian in *ξ* than under the one in *(x, y, θ)*, as a logarithm; a nat is a factor of *e*. ' +
-    'On the floor: their places, by length and turn of the arc to each, instead of *(x, y)*.',
+    'Gain: how many nats likelier the robots are under the Gaussian in *ξ* than under the one in *(x, y, θ)*; a nat is a factor of *e*. ' +
+    'On the floor: by length and turn of the arc to each place, instead of *(x, y)*.',
   nOfAll: (n, all) => `${n} of ${all}`,
   robot: 'Robot',
   markHint: 'Point at one in either view to mark it in both.',

@@ -96,7 +96,7 @@ export const de = {
     overview: 'In der Ecke: die ganze Karte und der Teil davon, der zu sehen ist.',
     accepted: (kept) => `${kept}, mit Richtung`,
     through: (through) =>
-      `${through}: der Weg, die dünne Linie, ist nicht frei, er berührt eine Wand oder verlässt die Karte`,
+      `${through}: Sein Weg, die dünne Linie, berührt eine Wand oder verlässt die Karte`,
     commanded: 'der Befehl ohne Rauschen',
   },
   tally: {

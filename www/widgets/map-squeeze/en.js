@@ -93,12 +93,12 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     interval: 'of these, through a wall (95\u202f% interval)',
   },
   key: {
-    density: 'As so many are drawn as a density, the darker the more: each spot has the colour of what most of them are.',
+    density: 'So many are a density, the darker the more: each spot has the colour of what most there are.',
     unknown: 'unknown: the map says nothing',
     overview: 'In the corner: the whole map, and the part of it that is shown.',
     accepted: (kept) => `${kept}, with its heading`,
     through: (through) =>
-      `${through}: the way it took, the thin line, is not free, it touches a wall or leaves the map`,
+      `${through}: its way, the thin line, touches a wall or leaves the map`,
     commanded: 'the command without noise',
   },
   tally: {
@@ -112,7 +112,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   markHint: 'Point at one to see its path and the verdict on it.',
   costs: {
     caption:
-      'One accepted sample of each sampler under the settings above, timed on this device when nothing moves; and the share of one core that 2000 particles at 20 Hz would take. All is from this one pose, and repeated runs differ by several per cent.',
+      'One accepted sample of each sampler under the settings above, timed on this device when nothing moves; and the share of a core that 2000 particles at 20 Hz would take. All from this pose; repeated runs differ by several per cent.',
     sampler: 'sampler',
     draws: 'draws',
     tests: 'wall distances',

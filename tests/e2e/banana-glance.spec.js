@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, boxOf, counted, detail, frames, numberIn, openWhole, pictureOf, readout, state, test, unfold } from './support.js';
+import { STILL, boxOf, counted, detail, frames, numberIn, openWhole, pictureOf, readout, state, test, unfold, valueField } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -77,6 +77,10 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   await expect(sentence(widget)).toHaveText(
     new RegExp(`^The cloud leans to neither side: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\. Yet it is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\.$`),
   );
+  // However many robots, within what.
+  await valueField(widget, 'samples').fill('300000');
+  await valueField(widget, 'samples').press('Enter');
+  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew −?0\.00\d\s±\s0\.00\d, exactly 0 by symmetry\./);
   // Nearly symmetric, and as bent.
   await widget.locator('#omega').fill('0.02');
   await expect(sentence(widget)).toHaveText(/^The cloud hardly leans to either side: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\. Yet it is bent: its ellipse covers/);
@@ -100,6 +104,14 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason', as
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
   const behind = (await state(widget)).poses.filter((x, i) => i % 3 === 0 && x < 0).length;
   expect(behind / config.samples).toBeGreaterThan(0.3);
+
+  // Under the odometry model the drive is what is left of the arc, and both rotations are noisy.
+  await widget.getByLabel('odometry').check();
+  const { config: turning } = await state(widget);
+  const drive = 0.06 * (Math.sin(0.75) / 0.75);
+  const spread = Math.sqrt(turning.alphas[2] * drive ** 2 + 2 * turning.alphas[3] * 0.75 ** 2);
+  await expect(sentence(widget)).toContainText(`α₄ spreads a drive of ${drive.toFixed(2)} m by ${spread.toFixed(2)} m`);
+  await widget.getByLabel('velocity').check();
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');

@@ -48,13 +48,32 @@ for (const [size, language] of /** @type {const} */ ([
     expect(twist.height).toBe(plane.height);
     expect(twist.x).toBeGreaterThan(plane.x + plane.width);
     await expect(widget.locator('.machine > .readouts > div')).toHaveCount(3);
+    await expectLines(widget, 1);
   });
 }
 
-test('on a phone the figure is at most 2000 px tall', async ({ page }) => {
-  const widget = await alone(page, { width: 375, height: 812 });
-  expect((await boxOf(widget)).height).toBeLessThanOrEqual(2000);
-});
+/**
+ * How many lines each of the three figures has below it.
+ *
+ * @param {Locator} widget
+ * @param {number} lines
+ */
+async function expectLines(widget, lines) {
+  const details = widget.locator('.machine > .readouts .detail');
+  await expect(details).toHaveCount(3);
+  const counts = await details.evaluateAll((all) =>
+    all.map((each) => Math.round(each.getBoundingClientRect().height / parseFloat(getComputedStyle(each).lineHeight))),
+  );
+  expect(counts).toEqual([lines, lines, lines]);
+}
+
+for (const language of ['en', 'de']) {
+  test(`on a phone the figure is at most 2000 px tall, and its figures are a line each, ${language}`, async ({ page }) => {
+    const widget = await alone(page, { width: 375, height: 812 }, `lang="${language}"`);
+    expect((await boxOf(widget)).height).toBeLessThanOrEqual(2000);
+    await expectLines(widget, 1);
+  });
+}
 
 /** @param {Locator} widget */
 const sentence = (widget) => widget.locator('.caption > span');
@@ -127,7 +146,7 @@ test('figures without meaning are a dash: α₅ alone leaves all robots in one p
   await frames(page);
   for (const name of ['cross-track skew', 'gain of a Gaussian', 'area of ellipse', 'predicts', 'exact gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(detail(widget, 'gain of a Gaussian')).toHaveText('—');
-  await expect(detail(widget, 'cross-track skew')).toHaveText('exact —; Gaussian: 0');
+  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly —');
   await expect(detail(widget, 'area of ellipse')).toHaveText('inside: — and —');
 });
 
@@ -139,7 +158,7 @@ test('without γ̂ the gain is unbounded, and said of the floor', async ({ page 
   const gain = numberIn(((await readout(widget, 'gain on the floor').textContent()) ?? '').split(' ± ')[0]);
   expect(Math.abs(gain - stats.likelihoodGain.floor)).toBeLessThan(0.001);
   await expect(detail(widget, 'gain on the floor')).toHaveText(`${counted(stats.n * stats.likelihoodGain.floor)} for all ${counted(stats.n)}; over (x, y, θ) ∞: no γ̂`);
-  await expect(detail(widget, 'cross-track skew')).toContainText('exact −0.301');
+  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly −0.301');
 });
 
 test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {

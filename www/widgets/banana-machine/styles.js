@@ -74,7 +74,7 @@ const own = css`
   /* What the gain means for all robots is the longest line. */
   @container (min-width: 40rem) {
     .surface .machine > .readouts {
-      grid-template-columns: 19fr 28fr 20fr;
+      grid-template-columns: 16fr 30fr 20fr;
       column-gap: 1rem;
     }
   }

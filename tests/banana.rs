@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::{KINDS, SIGMAS, golden, pose_distance, seeded};
+use common::{KINDS, SIGMAS, golden, pose_distance, seeded, winds_around};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
@@ -433,19 +433,6 @@ fn the_drawn_contour_holds_the_printed_share() {
             assert!((drawn - printed).abs() < most, "{name}, γ {gamma}: {drawn} drawn, {printed} printed");
         }
     }
-}
-
-/// Whether a closed outline winds around a point.
-fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let turns: i32 = outline
-        .windows(2)
-        .map(|ends| {
-            let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
-            let left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
-            i32::from(ay <= y && by > y && left) - i32::from(ay > y && by <= y && !left)
-        })
-        .sum();
-    turns != 0
 }
 
 #[test]

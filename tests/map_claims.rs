@@ -1,5 +1,5 @@
 //! What the page, the widget and doc/model.md say of motion in the apartment, computed: every "more", "less" and "first",
-//! and every share to the digits it is told in.
+//! and every share to the digits it is told in, which are read there.
 #![allow(
     clippy::disallowed_methods,
     reason = "an expected value may come from the platform's own mathematics"
@@ -7,6 +7,7 @@
 
 mod common;
 
+use common::told::{Number, Told};
 use common::{SIGMAS, mean, seeded};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -45,10 +46,17 @@ fn in_parts(place: usize, parts: u32, omega: f64) -> (f64, f64) {
     through(settings(place, Sampler::SubStepped(parts), omega))
 }
 
-/// A share that is told in per cent, to within `rounding` of them.
-fn assert_told((share, error): (f64, f64), told: f64, rounding: f64, what: &str) {
-    let off = (100.0 * share - told).abs();
-    assert!(off < 100.0 * SIGMAS * error + rounding, "{what}: {share} ± {error} instead of {told} %");
+/// A share that is told in per cent.
+fn assert_told((share, error): (f64, f64), told: Number) {
+    told.assert_percent(share, SIGMAS * error);
+}
+
+fn page() -> Told {
+    Told::on_page(include_str!("../www/index.html"))
+}
+
+fn document() -> Told {
+    Told::in_document(include_str!("../doc/model.md"))
 }
 
 /// Beyond the errors of both.
@@ -56,9 +64,13 @@ fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
     assert!(other.0 - one.0 > SIGMAS * one.1.hypot(other.1), "{what}: {one:?} is not less than {other:?}");
 }
 
-/// "Most of what is accepted lies behind it", and "only what stopped short of the wall is left".
 #[test]
 fn facing_the_wall_most_of_what_is_accepted_lies_behind_it() {
+    let [share] = page().numbers(
+        "Press Facing a wall: # % of what is accepted went through a wall, where the robot could never have gone. \
+         Choose whole arc: only what stopped short of the wall is left.",
+    );
+    assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), share);
     let behind = |sampler| {
         let machine = machine(settings(WALL, sampler, 0.0));
         let accepted: Vec<f64> =
@@ -70,9 +82,13 @@ fn facing_the_wall_most_of_what_is_accepted_lies_behind_it() {
     assert_eq!(behind(Sampler::WholeArc), 0.0);
 }
 
-/// "One of the two climbs and stalls just below; the other gets there before half a radian a second, and falls again."
 #[test]
 fn forty_per_cent_is_reached_by_turning_and_not_by_noise() {
+    let [forty, n] = page().numbers(
+        "Push the share through a wall above # % with n alone, then with ω alone from n = #. One of the two climbs and \
+         stalls just below; the other gets there before half a radian a second, and falls again.",
+    );
+    let (forty, opening) = (forty.value / 100.0, n.value);
     let at = |n: f64, omega: f64| {
         through(Settings { alphas: alphas_of_noise(n), ..settings(DOORWAY, Sampler::Endpoint, omega) })
     };
@@ -82,27 +98,29 @@ fn forty_per_cent_is_reached_by_turning_and_not_by_noise() {
     for n in [0.24, 0.28, 0.32, 0.36, 0.4] {
         let many = Settings { samples: 1_000_000, ..settings(DOORWAY, Sampler::Endpoint, 0.0) };
         let (share, error) = through(Settings { alphas: alphas_of_noise(n), ..many });
-        assert!(share > 0.385 && share + SIGMAS * error < 0.4, "n = {n}: {share} ± {error}");
+        assert!(share > forty - 0.015 && share + SIGMAS * error < forty, "n = {n}: {share} ± {error}");
     }
-    let (share, error) = at(0.12, 0.4);
-    assert!(share - SIGMAS * error > 0.4, "{share} ± {error}");
-    let by_turning = [0.0, 0.2, 0.4].map(|omega| at(0.12, omega));
+    let (share, error) = at(opening, 0.4);
+    assert!(share - SIGMAS * error > forty, "{share} ± {error}");
+    let by_turning = [0.0, 0.2, 0.4].map(|omega| at(opening, omega));
     by_turning.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "up to there it climbs"));
-    let beyond = [0.5, 0.7, 1.0, 1.5].map(|omega| at(0.12, omega));
+    let beyond = [0.5, 0.7, 1.0, 1.5].map(|omega| at(opening, omega));
     beyond.windows(2).for_each(|pair| assert_less(pair[1], pair[0], "and falls again"));
 }
 
-/// "Straight ahead fewer and fewer pass as k grows, until nothing does; with ω = 0.5 more and more do at first, from 41 to
-/// 50 % at k = 6, and then fewer."
 #[test]
 fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
-    for (place, at_sixteen) in [(DOORWAY, 0.4), (CORRIDOR, 0.04)] {
+    page().says("raise k at the doorway until nothing passes a wall. Straight ahead fewer and fewer do.");
+    let [doorway, corridor] = document().numbers(
+        "Facing the doorway and in the corridor it falls with k on a straight command, to # % and # % at 16.",
+    );
+    for (place, at_sixteen) in [(DOORWAY, doorway), (CORRIDOR, corridor)] {
         let endpoint = through(settings(place, Sampler::Endpoint, 0.0));
         let shares: Vec<(f64, f64)> =
             [2, 4, 8, 16].map(|parts| in_parts(place, parts, 0.0)).into_iter().collect();
         assert_less(shares[0], endpoint, "two parts");
         shares.windows(2).for_each(|pair| assert_less(pair[1], pair[0], "more parts"));
-        assert_told(shares[3], at_sixteen, 0.05, "at k = 16");
+        assert_told(shares[3], at_sixteen);
         assert!(in_parts(place, 64, 0.0).0 < 1e-3, "next to nothing at the end of the slider");
     }
     // The numbers of samples that the page asks for, or opens with.
@@ -112,15 +130,25 @@ fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
         assert_eq!(machine(opening).tally().through_wall, 0);
     }
 
-    let bend = |place, parts| in_parts(place, parts, 0.5);
+    let [omega, on_page, at_worst, worst] = page().numbers(
+        "Now turn ω up to #: more and more pass at first, from # % judged by the endpoint to # % at k = #, and only \
+         then fewer.",
+    );
+    let bend = |place, parts| in_parts(place, parts, omega.value);
+    assert_told(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
+    assert_told(bend(DOORWAY, worst.value as u32), at_worst);
+    let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = document().numbers(
+        "with ω = 0.5, from # % judged by the endpoint over # % at k = 4 to # % at 6, and falls over # % at 8 to # % at \
+         16 (doorway); from # % over # and # % to # % at 8, and falls to # % at 12 (corridor).",
+    );
     for (place, endpoint, told) in [
-        (DOORWAY, 41.0, [(4, 46.0), (6, 50.0), (8, 48.0), (16, 19.0)]),
-        (CORRIDOR, 53.0, [(4, 60.0), (6, 63.0), (8, 65.0), (12, 55.0)]),
+        (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
+        (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
     ] {
-        let first = through(settings(place, Sampler::Endpoint, 0.5));
-        assert_told(first, endpoint, 0.5, "the endpoint on a bend");
+        let first = through(settings(place, Sampler::Endpoint, omega.value));
+        assert_told(first, endpoint);
         for (parts, share) in told {
-            assert_told(bend(place, parts), share, 0.5, &format!("{place}: {parts} parts on a bend"));
+            assert_told(bend(place, parts), share);
         }
         assert_less(first, bend(place, 4), "four parts on a bend let more pass");
         assert_less(bend(place, 4), bend(place, 6), "and six still more");
@@ -135,15 +163,25 @@ fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
     assert_less(bend(CORRIDOR, 12), bend(CORRIDOR, 8), "and then fewer pass");
 }
 
-/// "The share through the wall rises, from 93 to more than 99 %", and "from k = 16 on […] the robot stands wedged".
 #[test]
 fn facing_the_wall_more_parts_make_it_worse() {
     let shares = [2, 4, 8].map(|parts| in_parts(WALL, parts, 0.0));
     shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
-    assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), 86.7, 0.5, "one part");
-    for (share, told, rounding) in [(shares[0], 93.0, 0.5), (shares[1], 98.0, 0.5), (shares[2], 99.8, 0.05)] {
-        assert_told(share, told, rounding, "facing the wall");
-    }
+    let [one, two, four, eight, wedged] = document().numbers(
+        "the share through it rises from # % at k = 1 to # %, # % and # % at k = 2, 4, 8; from k = # on so few parts \
+         reach across that the widget gives up",
+    );
+    assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), one);
+    shares.into_iter().zip([two, four, eight]).for_each(|(share, told)| assert_told(share, told));
+    let [from, to, at_two, at_eight] =
+        page().numbers("go from k = # to #. The share through the wall rises, from # % to # %:");
+    assert_eq!((from.value, to.value), (2.0, 8.0));
+    assert_told(shares[0], at_two);
+    assert_told(shares[2], at_eight);
+    page().says(
+        "From k = 16 on hardly a part is long enough to jump, and the robot stands wedged before the wall.",
+    );
+    assert_eq!(wedged.value, 16.0);
     assert!(!machine(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
     for parts in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
@@ -153,9 +191,9 @@ fn facing_the_wall_more_parts_make_it_worse() {
     }
 }
 
-/// "The noise of one part is independent of the others' and averages out, so that the spread shrinks as 1/√k."
 #[test]
 fn the_spread_shrinks_with_the_root_of_the_parts() {
+    page().says("the noise of one part is independent of the others' and averages out, so that the spread shrinks as 1/√k.");
     let plan = FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field");
     for parts in [1u32, 4, 16, 64] {
         let along = Settings {
@@ -192,10 +230,14 @@ fn a_wider_robot_meets_more() {
     }
 }
 
-/// "Between 0.1 and 9 % of the accepted samples get the other verdict (200 000 samples a preset, n from 0.12 to 0.2, ω from 0
-/// to 1; the doorway 6 to 9 %)", judged by the geodesic instead of the arc.
+/// Judged by the geodesic instead of the arc.
 #[test]
 fn judged_by_the_geodesic_some_get_the_other_verdict() {
+    let [least, most, doorway_least, doorway_most] = document().numbers(
+        "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
+         # to # %)",
+    );
+    assert_eq!(most.value, doorway_most.value);
     let plan = FloorPlan::apartment();
     for (place, [x, y, theta]) in PRESETS {
         let start = SE2::new(x, y, theta);
@@ -223,9 +265,9 @@ fn judged_by_the_geodesic_some_get_the_other_verdict() {
             }
             let share = f64::from(differ) / f64::from(accepted);
             let error = SIGMAS * (share * (1.0 - share) / f64::from(accepted)).sqrt();
-            let least = if place == "doorway" { 0.06 } else { 0.001 };
-            println!("{place} {n} {omega}: {share}");
-            assert!(share + error > least && share - error < 0.09, "{place}, n = {n}, ω = {omega}: {share}");
+            let least = if place == "doorway" { doorway_least } else { least };
+            let (least, most) = (least.value / 100.0, most.value / 100.0);
+            assert!(share + error > least && share - error < most, "{place}, n = {n}, ω = {omega}: {share}");
         }
     }
 }

@@ -197,7 +197,7 @@ fn pose_density_integrates_to_one() {
     for u in &readings()[..5] {
         for (kind, allowed) in [(NoiseKind::Normal, 4e-6), (NoiseKind::Triangular, 1e-4)] {
             let model = model(kind);
-            // Twice the cells change no integral of the normal density, and of the triangular ones by 8e-5 at most.
+            // Twice the cells change no integral of the normal density, and of the triangular ones by 9e-5 at most.
             let total = box_around(u, &x, variances(u, f64::abs), 8)
                 .integral(|pose| model.pose_density(pose, u, &x).unwrap());
             // Beyond the box lie 2 · P(z > 2√6) = 1e-6 of each Gaussian leg.

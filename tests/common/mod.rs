@@ -4,6 +4,7 @@
 pub mod density;
 pub mod distance;
 pub mod golden;
+pub mod told;
 
 use motion::NoiseKind;
 use motion::geom::se2::SE2;
@@ -38,6 +39,19 @@ pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
 pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     let turn = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
+}
+
+/// Whether a closed outline winds around a point.
+pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let turns: i32 = outline
+        .windows(2)
+        .map(|ends| {
+            let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
+            let left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
+            i32::from(ay <= y && by > y && left) - i32::from(ay > y && by <= y && !left)
+        })
+        .sum();
+    turns != 0
 }
 
 // ------------------------------------------------------------------------------------------- reference tables

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, boxOf, detail, frames, numberIn, openWhole, pictureOf, readout, state, test, unfold } from './support.js';
+import { STILL, boxOf, counted, detail, frames, numberIn, openWhole, pictureOf, readout, state, test, unfold, valueField } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -48,13 +48,32 @@ for (const [size, language] of /** @type {const} */ ([
     expect(twist.height).toBe(plane.height);
     expect(twist.x).toBeGreaterThan(plane.x + plane.width);
     await expect(widget.locator('.machine > .readouts > div')).toHaveCount(3);
+    await expectLines(widget, 1);
   });
 }
 
-test('on a phone the figure is at most 2000 px tall', async ({ page }) => {
-  const widget = await alone(page, { width: 375, height: 812 });
-  expect((await boxOf(widget)).height).toBeLessThanOrEqual(2000);
-});
+/**
+ * How many lines each of the three figures has below it.
+ *
+ * @param {Locator} widget
+ * @param {number} lines
+ */
+async function expectLines(widget, lines) {
+  const details = widget.locator('.machine > .readouts .detail');
+  await expect(details).toHaveCount(3);
+  const counts = await details.evaluateAll((all) =>
+    all.map((each) => Math.round(each.getBoundingClientRect().height / parseFloat(getComputedStyle(each).lineHeight))),
+  );
+  expect(counts).toEqual([lines, lines, lines]);
+}
+
+for (const language of ['en', 'de']) {
+  test(`on a phone the figure is at most 2000 px tall, and its figures are a line each, ${language}`, async ({ page }) => {
+    const widget = await alone(page, { width: 375, height: 812 }, `lang="${language}"`);
+    expect((await boxOf(widget)).height).toBeLessThanOrEqual(2000);
+    await expectLines(widget, 1);
+  });
+}
 
 /** @param {Locator} widget */
 const sentence = (widget) => widget.locator('.caption > span');
@@ -62,7 +81,7 @@ const sentence = (widget) => widget.locator('.caption > span');
 test('the sentence says what the model decides and the robots show', async ({ page }) => {
   const widget = await openWhole(page);
   const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
-  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.43 ± 0\.01, where any Gaussian in \(x, y\) has 0\.$/);
+  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.431\s±\s0\.013, where any Gaussian in \(x, y\) has 0\.$/);
   await widget.locator('#omega').fill('-0.5');
   await expect(sentence(widget)).toHaveText(/tail to the left/);
 
@@ -72,13 +91,25 @@ test('the sentence says what the model decides and the robots show', async ({ pa
   const { table } = await state(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
-  await expect(sentence(widget)).toHaveText(/^The cloud curls to both sides alike, so its skew is 0 \(−?0\.\d+ ± 0\.\d+\); yet the ellipse covers 1\.97 times/);
+  // Of one thing one number: what the sentence says stands beside it.
+  const ratio = await readout(widget, 'area of ellipse').textContent();
+  await expect(sentence(widget)).toHaveText(
+    new RegExp(`^The cloud leans to neither side: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\. Yet it is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\.$`),
+  );
+  // However many robots, within what.
+  await valueField(widget, 'samples').fill('300000');
+  await valueField(widget, 'samples').press('Enter');
+  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew −?0\.00\d\s±\s0\.00\d, exactly 0 by symmetry\./);
+  // Nearly symmetric, and as bent.
+  await widget.locator('#omega').fill('0.02');
+  await expect(sentence(widget)).toHaveText(/^The cloud hardly leans to either side: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\. Yet it is bent: its ellipse covers/);
   await press('Straight');
-  const gain = (await state(widget)).table.exact.likelihoodGain.pose.toFixed(2);
-  await expect(sentence(widget)).toHaveText(new RegExp(`^The cloud leans to neither side: skew .*, exactly 0\\. Yet it is bent: .* gains ${gain} nats`));
+  await frames(page);
+  const gain = await readout(widget, 'gain of a Gaussian').textContent();
+  await expect(sentence(widget)).toHaveText(new RegExp(`^The cloud leans to neither side: skew .*, exactly 0 by symmetry\\. Yet it is bent, with a gain of ${gain?.replaceAll(' ', '\\s')} nats a robot\\.$`));
   // Hardly any noise in the turn: nothing is bent.
   for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
-  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+ ± [\d.]+, and exactly 0 by symmetry\.$/);
+  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });
 
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason', async ({ page }) => {
@@ -93,12 +124,19 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason', as
   const behind = (await state(widget)).poses.filter((x, i) => i % 3 === 0 && x < 0).length;
   expect(behind / config.samples).toBeGreaterThan(0.3);
 
+  // Under the odometry model the drive is what is left of the arc, and both rotations are noisy.
+  await widget.getByLabel('odometry').check();
+  const { config: turning } = await state(widget);
+  const drive = 0.06 * (Math.sin(0.75) / 0.75);
+  const spread = Math.sqrt(turning.alphas[2] * drive ** 2 + 2 * turning.alphas[3] * 0.75 ** 2);
+  await expect(sentence(widget)).toContainText(`α₄ spreads a drive of ${drive.toFixed(2)} m by ${spread.toFixed(2)} m`);
+  await widget.getByLabel('velocity').check();
+
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
-  await widget.locator('#omega').fill('0.05');
   await widget.locator('#samples').fill('3');
   const { stats, table: few } = await state(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
-  await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*own is −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
+  await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
 
 test('figures without meaning are a dash: α₅ alone leaves all robots in one place', async ({ page }) => {
@@ -106,9 +144,9 @@ test('figures without meaning are a dash: α₅ alone leaves all robots in one p
   await widget.getByLabel('Isolate one').check();
   await widget.getByRole('radio', { name: 'Only α₅' }).check();
   await frames(page);
-  for (const name of ['cross-track skew', 'gain of ξ', 'area of ellipse', 'predicts']) await expect(readout(widget, name)).toHaveText('—');
-  await expect(detail(widget, 'gain of ξ')).toHaveText('—');
-  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly —; a Gaussian: 0');
+  for (const name of ['cross-track skew', 'gain of a Gaussian', 'area of ellipse', 'predicts', 'exact gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
+  await expect(detail(widget, 'gain of a Gaussian')).toHaveText('—');
+  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly —');
   await expect(detail(widget, 'area of ellipse')).toHaveText('inside: — and —');
 });
 
@@ -119,8 +157,8 @@ test('without γ̂ the gain is unbounded, and said of the floor', async ({ page 
   expect(table.exact.likelihoodGain.pose).toBe(Infinity);
   const gain = numberIn(((await readout(widget, 'gain on the floor').textContent()) ?? '').split(' ± ')[0]);
   expect(Math.abs(gain - stats.likelihoodGain.floor)).toBeLessThan(0.001);
-  await expect(detail(widget, 'gain on the floor')).toContainText('unbounded');
-  await expect(detail(widget, 'cross-track skew')).toContainText('exactly −0.301');
+  await expect(detail(widget, 'gain on the floor')).toHaveText(`${counted(stats.n * stats.likelihoodGain.floor)} for all ${counted(stats.n)}; over (x, y, θ) ∞: no γ̂`);
+  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly −0.301');
 });
 
 test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {

@@ -31,7 +31,7 @@ const STATES = /** @type {[string, (banana: Locator, squeeze: Locator) => Promis
     await unfold(squeeze);
   }],
   ['isolated, with a note', async (banana) => {
-    await banana.locator('.toggle', { hasText: /Isolate one|Nur einen/ }).locator('input').check();
+    await banana.locator('.toggle', { hasText: /Isolate one|Nur ein α/ }).locator('input').check();
     await banana.locator('#omega').fill('0');
     await expect(banana.locator('.note')).toBeVisible();
   }],

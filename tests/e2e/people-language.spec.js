@@ -146,6 +146,55 @@ test('the nearest lang decides, whenever it changes; a language without words is
   await play('Abspielen');
 });
 
+test('a catalogue of another shape is refused by name, and what is shorter does', async ({ page }) => {
+  const widget = await open(page);
+  const complaints = await page.evaluate(async () => {
+    const url = new URL('/motion-widgets.js', location.href).href;
+    const { setMessages } = await import(url);
+    const rows = [['v² dans v̂', 'étale le nuage'], ['ω² dans v̂', 'aussi']];
+    const given = [
+      { alphaIsSilent: 'silence' },
+      { alphaIsSilent: (/** @type {any} */ a, /** @type {any} */ b, /** @type {any} */ c, /** @type {any} */ d, /** @type {any} */ e) => `${a}${b}${c}${d}${e}` },
+      { settings: { alphas: { effects: { velocity: rows } } } },
+      { settings: { alphas: { effects: { velocity: [...rows, ...rows, ...rows] } } } },
+      { settings: { alphas: { effects: 'x' } } },
+      { settings: null },
+      { readouts: { nominal: () => 'x' } },
+      { readouts: { ellipse: 'x' } },
+    ];
+    return given.map((banana) => {
+      try {
+        setMessages('fr', { banana });
+      } catch (error) {
+        return String(error).replace('TypeError: messages: fr.banana.', '').replace(/one of .*/, 'one of');
+      }
+    });
+  });
+  expect(complaints).toEqual([
+    'alphaIsSilent is a string; allowed is a function of 4 values.',
+    'alphaIsSilent is a function of 5 values; allowed is a function of 4 values.',
+    'settings.alphas.effects.velocity is a list of 2; allowed is a list of 6.',
+    'settings.alphas.effects.velocity.0 is a list of 2; allowed is a list of 3.',
+    'settings.alphas.effects is a string; allowed is a group.',
+    'settings is null; allowed is a group.',
+    'readouts.nominal is a function of 0 values; allowed is a string.',
+    'readouts.ellipse is a string; allowed is one of',
+  ]);
+  // Of fewer values than there are: what is left out is not said.
+  await page.evaluate(async () => {
+    const url = new URL('/motion-widgets.js', location.href).href;
+    const { setMessages } = await import(url);
+    setMessages('fr', { banana: { alphaIsSilent: (/** @type {string} */ alpha) => `${alpha} se tait.`, bend: { right: () => 'À droite.' } } });
+  });
+  await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
+  await expect(widget.locator('.caption > span')).toHaveText('À droite.');
+  await widget.getByRole('button', { name: 'Straight' }).click();
+  await unfold(widget);
+  await widget.getByLabel('Isolate one').check();
+  await expect(widget.locator('.note')).toHaveText('α₄ se tait.');
+  expect((await said(widget)).filter((text) => text.includes('undefined') && !text.endsWith('exact skew undefined'))).toEqual([]);
+});
+
 test('a page may replace words and add languages, and is told of a message that is none', async ({ page }) => {
   const widget = await open(page);
   await unfold(widget);

@@ -188,7 +188,7 @@ test.describe('judging', () => {
         const rate = sampler === 'sub-stepped' ? 'accepted, of all parts drawn' : /^\s*accepted\s*[\d.]+\u202f%/;
         expect(await shown(rate)).toBeCloseTo(100 * stats.acceptanceRate, 1);
         expect(await shown('draws needed for one accepted')).toBeCloseTo(stats.drawsPerAccepted, 2);
-        expect(await shown('walls measured for one accepted')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
+        expect(await shown('wall distances computed for one accepted')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
         const share = (await readout(widget, 'of these, through a wall').textContent()) ?? '';
         if (sampler === 'whole-arc') {
           expect(share).toBe('0, by construction');
@@ -208,9 +208,9 @@ test.describe('judging', () => {
     const { stats } = await squeezed(widget);
     expect(stats.throughWall).toBeGreaterThan(150);
     await unfold(widget, 'Counts and costs');
-    await expect(readout(widget, 'paths shown')).toHaveText('the first 150');
+    await expect(readout(widget, 'with their way drawn')).toHaveText('the first 150');
     await widget.getByLabel('whole arc').check();
-    await expect(readout(widget, 'paths shown')).toHaveText('0');
+    await expect(readout(widget, 'with their way drawn')).toHaveText('0');
   });
 
   test('sliders set the command, the noise, the clearance, k and the count', async ({ page }) => {

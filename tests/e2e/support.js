@@ -224,6 +224,9 @@ export async function openWhole(page) {
   return widget;
 }
 
+/** @param {number} count @returns {string} as the widget prints it, rounded */
+export const counted = (count) => String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, '\u202f');
+
 /**
  * @param {string | null} text as the widget prints numbers
  * @returns {number}

@@ -228,6 +228,22 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.close();
 });
 
+test('words that were given before a widget came, and are of another shape, are reported; it speaks English', async () => {
+  const page = await browser.newPage();
+  /** @type {string[]} */
+  const complaints = [];
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  const module = `<script type="module">import { setMessages } from '${DIST}external.js';
+    setMessages('fr', { step: 'Un pas', banana: { alphaIsSilent: 'silence', presets: { straight: 'Tout droit' } } });</script>`;
+  const body = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${module}<banana-machine></banana-machine>`;
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+  await page.goto(`${server.address}page.html`);
+  await page.getByRole('button', { name: 'Straight' }).waitFor();
+  await page.getByRole('button', { name: 'Un pas' }).waitFor();
+  assert.deepEqual(complaints, ['TypeError: messages: fr.banana.alphaIsSilent is a string; allowed is a function of 4 values.']);
+  await page.close();
+});
+
 test('two copies of the bundle on a page get along', async () => {
   for (const [first, second] of [['motion-widgets.js', 'external.js'], ['external.js', 'motion-widgets.iife.js'], ['motion-widgets.js', 'motion-widgets.js?copy']]) {
     const { complaints } = await pageWith(script(first) + script(second));

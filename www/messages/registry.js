@@ -14,7 +14,7 @@
  *
  * @typedef {object} Shared what all scripts of a page share: a language may come in a file of its own
  * @property {object} english what the elements say where nobody has given them other words
- * @property {Record<string, object>} catalogues what was given, by language
+ * @property {Record<string, Record<string, object>>} catalogues what was given, by language
  * @property {Set<() => void>} listeners called when words or languages change
  */
 
@@ -40,6 +40,17 @@ shared.listeners.add(() => voices.clear());
  */
 export function addEnglish(messages) {
   shared.english = merge(shared.english, messages);
+  // What a page gave before these came has not been checked.
+  for (const [lang, given] of Object.entries(shared.catalogues)) {
+    for (const key of Object.keys(messages).filter((key) => key in given)) {
+      try {
+        check(messages, { [key]: given[key] }, lang);
+      } catch (error) {
+        delete given[key];
+        reportError(error);
+      }
+    }
+  }
   tellAll();
 }
 
@@ -49,7 +60,8 @@ export function addEnglish(messages) {
  *
  * @param {string} lang a BCP 47 tag: "de", "pt-BR"
  * @param {object} messages in the shape of the English ones, or a part of it
- * @throws {TypeError} if a message is not of the catalogue, or not of the kind it is there
+ * @throws {TypeError} if a message is not of the catalogue, or not of the kind it is there: a list has as many entries as the
+ *   English one, and a function is of as many values or fewer
  */
 export function setMessages(lang, messages) {
   const { english, catalogues } = shared;
@@ -67,18 +79,22 @@ export function setMessages(lang, messages) {
 function check(known, given, path) {
   if (Object.keys(known).length === 0) return;
   for (const [key, message] of Object.entries(given)) {
-    const expected = kind(known[key]);
-    if (kind(message) !== expected) {
-      const allowed = expected === 'undefined' ? `one of ${Object.keys(known).join(', ')}` : `a ${expected}`;
-      throw new TypeError(`messages: ${path}.${key} is a ${kind(message)}; allowed is ${allowed}.`);
+    const expected = known[key];
+    const [is, allowed] = [describe(message), describe(expected)];
+    const isLess = typeof message === 'function' && typeof expected === 'function' && message.length < expected.length;
+    if (is !== allowed && !isLess) {
+      const instead = expected === undefined ? `one of ${Object.keys(known).join(', ')}` : allowed;
+      throw new TypeError(`messages: ${path}.${key} is ${is}; allowed is ${instead}.`);
     }
-    if (expected === 'object') check(known[key], message, `${path}.${key}`);
+    if (typeof message === 'object') check(expected, message, `${path}.${key}`);
   }
 }
 
-/** @param {unknown} value */
-function kind(value) {
-  return Array.isArray(value) ? 'list' : typeof value;
+/** @param {any} value */
+function describe(value) {
+  if (Array.isArray(value)) return `a list of ${value.length}`;
+  if (typeof value === 'function') return `a function of ${value.length} values`;
+  return value === null || value === undefined ? String(value) : typeof value === 'object' ? 'a group' : `a ${typeof value}`;
 }
 
 /**
@@ -88,7 +104,7 @@ function kind(value) {
 function merge(base, over) {
   const merged = { ...base };
   for (const [key, message] of Object.entries(over)) {
-    merged[key] = kind(message) === 'object' ? merge(base[key] ?? {}, message) : message;
+    merged[key] = typeof message === 'object' && !Array.isArray(message) ? merge(base[key] ?? {}, message) : message;
   }
   return merged;
 }

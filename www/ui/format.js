@@ -138,10 +138,10 @@ export function percent(share) {
  * @param {number} value
  * @param {number} error its standard error
  * @param {number} decimals at least: a small error has as many as show its first digit
- * @returns {string} "−0.412 ± 0.031"
+ * @returns {string} "−0.412 ± 0.031"; "∞" and "—" have no error
  */
 export function withError(value, error, decimals) {
-  if (Number.isNaN(value)) return NOTHING;
+  if (!Number.isFinite(value)) return fixed(value, 0);
   const needed = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
   return `${fixed(value, needed)} ± ${fixed(error, needed)}`;
 }

@@ -220,7 +220,7 @@ export class BananaMachineElement extends FigureElement {
   /** @param {Reading} reading */
   #figures(reading) {
     const say = words.banana;
-    return html`${otherReadouts(reading)}
+    return html`${otherReadouts(reading)}<p>${rich(say.gainIs)}</p>
       <div class="figures" part="figures">
         <figure>${this.#chart(reading)}<figcaption>${rich(say.chartCaption)}</figcaption></figure>
         <figure>${workedExample(reading)}</figure>

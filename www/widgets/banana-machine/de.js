@@ -43,7 +43,7 @@ export const de = {
     command: 'befohlener Bogen',
     ellipse: '2σ-Gauß-Ellipse in (x, y)',
     linearized: 'linearisierte Ellipse (EKF)',
-    additive: '2σ von Rauschen auf der Pose, überall 0,2 m',
+    additive: '2σ von Rauschen auf der Pose, überall σ = 0,2 m',
     exponential: '2σ-Gauß in Exponentialkoordinaten',
   },
   key: {
@@ -58,7 +58,7 @@ export const de = {
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
   reverseAware: 'Rückwärts ist keine halbe Drehung',
-  isolate: 'Nur einen gelten lassen',
+  isolate: 'Nur ein α gelten lassen',
   only: (alpha) => `Nur ${alpha}`,
   off: (value) => `${value} aus`,
   notes: {
@@ -68,7 +68,7 @@ export const de = {
     headings: 'Nur γ̂ rauscht: Alle Roboter halten am selben Punkt, und nur ihre Richtungen fächern sich auf.',
     circle: 'Manche Roboter drehen sich fast im Kreis. Dort enden die Exponentialkoordinaten und ihre Zahlen.',
     backwards: 'Die Odometrie liest Rückwärtsfahren als zwei halbe Drehungen und berechnet für beide Rauschen.',
-    line: 'Nur eine Zahl rauscht: Die Roboter liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
+    line: 'Nur ein Rauschen bleibt: Die Roboter liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
   },
   alphaIsZero: (alpha) => `${alpha} gilt allein und ist 0: gar kein Rauschen. Dreh es auf.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
@@ -87,13 +87,11 @@ export const de = {
   mean: (robots, x, y) => `${robots} Roboter halten um x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standardabweichungen ${x} m in x und ${y} m in y.`,
   bend: {
-    unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, die des Modells ist ${exactly}.`,
-    hardly: (skew) => `Die Wolke neigt kaum zu einer Seite: Schiefe ${skew}.`,
-    neither: (skew) => `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, und der Symmetrie wegen genau 0.`,
-    stillBent: (skew, gain) =>
-      `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, genau 0. Doch sie ist krumm: Der Gauß in ξ gewinnt ${gain} Nat je Roboter.`,
-    bothWays: (skew, ratio) =>
-      `Die Wolke biegt sich nach beiden Seiten gleich: Schiefe 0 (${skew}). Doch die Ellipse bedeckt ${ratio}-mal so viel Boden wie nötig.`,
+    unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactly}.`,
+    hardly: (skew, exactly) => `Die Wolke neigt kaum zu einer Seite: Schiefe ${skew}, genau ${exactly}.`,
+    neither: (skew) => `Die Wolke neigt zu keiner Seite: Schiefe ${skew}, genau 0 (Symmetrie).`,
+    wide: (ratio) => `Doch sie ist krumm: Ihre Ellipse bedeckt ${ratio}-mal so viel Boden wie der ξ-Umriss.`,
+    gains: (gain) => `Doch sie ist krumm, mit einem Gewinn von ${gain} Nat je Roboter.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `Eine Fliege: Das Rauschen α₂ω² streut v̂ um ${deviation} m/s um ${speed}, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
@@ -130,26 +128,28 @@ export const de = {
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
     'Exakte Schiefe über dem befohlenen *ω*, und die der Roboter mit ihrem Standardfehler. Die gestrichelte Linie ist jede Gauß-Verteilung in *(x, y)*. ' +
-    'Bei *ω* = 0 biegt sich die Wolke nach beiden Seiten gleich: Die Schiefe ist der Symmetrie wegen 0, der Gewinn nicht.',
+    'Bei *ω* = 0 ist sie der Symmetrie wegen 0, wie krumm die Wolke auch sei: siehe den Gewinn.',
   chartRemark: 'symmetrisch, doch krumm',
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
-    skewDetail: (exactly) => `genau ${exactly}; ein Gauß: 0`,
-    gain: 'Gewinn von *ξ*, Nat/Roboter',
+    skewDetail: (exactly) => `genau ${exactly}`,
+    gain: 'Gewinn des Gauß in *ξ*, Nat/Roboter',
     gainOnFloor: 'Gewinn am Boden, Nat/Roboter',
-    likelier: (_robots, power) => `alle: ${power}-mal glaubhafter`,
-    unlikelier: (_robots, power) => `alle: ${power}-mal unglaubhafter`,
-    unbounded: 'über *(x, y, θ)* unbegrenzt: kein *γ̂*',
-    area: 'Fläche Ellipse durch *ξ*-Umriss',
+    likelier: (nats, robots, power) => `${nats} für ${robots}: ${power}-mal glaubhafter`,
+    unlikelier: (nats, robots, power) => `${nats} für ${robots}: ${power}-mal unglaubhafter`,
+    unbounded: (nats, robots) => `${nats} für ${robots}; über *(x, y, θ)* ∞: kein *γ̂*`,
+    area: 'Fläche Ellipse / *ξ*-Umriss',
     areaDetail: (ellipse, exponential) => `darin ${ellipse} und ${exponential}`,
     gaussian: 'Schiefe, die der Gauß in *ξ* vorhersagt',
     rho: 'Korrelation *ρ* von Querlage und Richtung',
     robots: 'Roboter gezeigt, *n* von *N*',
-    exactGain: 'Gewinn des Modells selbst, Nat je Roboter',
-    exactArea: 'Fläche Ellipse durch *ξ*-Umriss, des Modells selbst',
-    shares: 'Roboter innerhalb zweier Abweichungen: Ellipse, *ξ*, jeder Gauß',
-    sharesOf: (ellipse, exponential, gaussian) => `${ellipse}, ${exponential}, ${gaussian}`,
+    exactGain: 'genauer Gewinn, Nat/Roboter',
+    exactArea: 'genaues Verhältnis der Flächen',
+    nominal: 'von jedem Gauß in seiner 2σ-Ellipse',
   },
+  gainIs:
+    'Gewinn: um wie viele Nat glaubhafter die Roboter unter dem Gauß in *ξ* sind als unter dem in *(x, y, θ)*; ein Nat ist ein Faktor *e*. ' +
+    'Am Boden: nach Länge und Drehung des Bogens zu jedem Ort, statt nach *(x, y)*.',
   nOfAll: (n, all) => `${n} von ${all}`,
   robot: 'Roboter',
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',

@@ -45,7 +45,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     command: 'commanded arc',
     ellipse: '2σ Gaussian in (x, y)',
     linearized: 'linearized (EKF) ellipse',
-    additive: '2σ of noise added to the pose, 0.2 m everywhere',
+    additive: '2σ of noise added to the pose, σ = 0.2 m everywhere',
     exponential: '2σ Gaussian in exponential coordinates',
   },
   /** Above the pictures, where there is little room. */
@@ -61,7 +61,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   models: { velocity: 'velocity', odometry: 'odometry' },
   noises: { normal: 'normal', triangular: 'triangular' },
   reverseAware: 'Backing up is no half turn',
-  isolate: 'Isolate one',
+  isolate: 'Isolate one α',
   only: (alpha) => `Only ${alpha}`,
   off: (value) => `${value} off`,
   notes: {
@@ -71,7 +71,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
     circle: 'Some robots turn nearly a full circle. Exponential coordinates end there, and their figures with them.',
     backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
-    line: 'Only one number is noisy: the robots lie on a line, and an outline without area holds no share of them.',
+    line: 'Only one noise is left: the robots lie on a line, and an outline without area holds no share of them.',
   },
   alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
   alphaIsSilent: (alpha, factor, cause, picture) =>
@@ -91,13 +91,12 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   mean: (robots, x, y) => `${robots} robots end around x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standard deviations ${x} m in x and ${y} m in y.`,
   bend: {
-    unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, where the model’s own is ${exactly}.`,
-    hardly: (skew) => `The cloud hardly leans to either side: skew ${skew}.`,
-    neither: (skew) => `The cloud leans to neither side: skew ${skew}, and exactly 0 by symmetry.`,
-    stillBent: (skew, gain) =>
-      `The cloud leans to neither side: skew ${skew}, exactly 0. Yet it is bent: the Gaussian in ξ gains ${gain} nats a robot.`,
-    bothWays: (skew, ratio) =>
-      `The cloud curls to both sides alike, so its skew is 0 (${skew}); yet the ellipse covers ${ratio} times the floor that it needs.`,
+    unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, exactly ${exactly}.`,
+    hardly: (skew, exactly) => `The cloud hardly leans to either side: skew ${skew}, exactly ${exactly}.`,
+    neither: (skew) => `The cloud leans to neither side: skew ${skew}, exactly 0 by symmetry.`,
+    /** After what is said of its lean. */
+    wide: (ratio) => `Yet it is bent: its ellipse covers ${ratio} times the floor of the ξ outline.`,
+    gains: (gain) => `Yet it is bent, with a gain of ${gain} nats a robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `A bow-tie: the turn’s noise α₂ω² spreads v̂ by ${deviation} m/s about ${speed}, so robots end ahead of the start and behind it. Skew ${skew}.`,
@@ -134,26 +133,28 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
     'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*. ' +
-    'At *ω* = 0 the cloud bends to both sides alike: the skew is 0 by symmetry, and the gain is not.',
+    'At *ω* = 0 it is 0 by symmetry, however bent the cloud is: see the gain.',
   chartRemark: 'symmetric, still bent',
   readouts: {
     skew: 'cross-track skew',
-    skewDetail: (exactly) => `exactly ${exactly}; a Gaussian: 0`,
-    gain: 'gain of *ξ*, nats/robot',
+    skewDetail: (exactly) => `exactly ${exactly}`,
+    gain: 'gain of a Gaussian in *ξ*, nats/robot',
     gainOnFloor: 'gain on the floor, nats/robot',
-    likelier: (robots, power) => `all ${robots}: ${power} times likelier`,
-    unlikelier: (robots, power) => `all ${robots}: ${power} times less likely`,
-    unbounded: 'over *(x, y, θ)* unbounded: no *γ̂*',
-    area: 'area of ellipse over *ξ* outline',
+    likelier: (nats, robots, power) => `${nats} for all ${robots}: ${power} times likelier`,
+    unlikelier: (nats, robots, power) => `${nats} for all ${robots}: ${power} times less likely`,
+    unbounded: (nats, robots) => `${nats} for all ${robots}; over *(x, y, θ)* ∞: no *γ̂*`,
+    area: 'area of ellipse / *ξ* outline',
     areaDetail: (ellipse, exponential) => `inside: ${ellipse} and ${exponential}`,
     gaussian: 'skew that the Gaussian in *ξ* predicts',
     rho: 'correlation *ρ* of lateral place and heading',
     robots: 'robots shown, *n* of *N*',
-    exactGain: 'gain of the model itself, nats a robot',
-    exactArea: 'area of ellipse over *ξ* outline, of the model itself',
-    shares: 'robots within two deviations: ellipse, *ξ*, any Gaussian',
-    sharesOf: (ellipse, exponential, gaussian) => `${ellipse}, ${exponential}, ${gaussian}`,
+    exactGain: 'exact gain, nats/robot',
+    exactArea: 'exact area ratio',
+    nominal: 'of any Gaussian inside its 2σ ellipse',
   },
+  gainIs:
+    'Gain: how many nats likelier the robots are under the Gaussian in *ξ* than under the one in *(x, y, θ)*; a nat is a factor of *e*. ' +
+    'On the floor: by length and turn of the arc to each place, instead of *(x, y)*.',
   nOfAll: (n, all) => `${n} of ${all}`,
   robot: 'Robot',
   markHint: 'Point at one in either view to mark it in both.',

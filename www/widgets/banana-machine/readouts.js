@@ -39,7 +39,7 @@ export function readouts({ config, stats, exactSkew, gain }) {
       gain.unbounded ? say.gainOnFloor : say.gain,
       withError(gain.value, gain.error, 3),
       withError(-1, 1, 4),
-      [gainText(gain), say.likelier(all, powerOfE(10 * config.samples))],
+      [gainText(gain), say.likelier(counted(config.samples), all, powerOfE(config.samples))],
     ],
     [
       say.area,
@@ -53,9 +53,10 @@ export function readouts({ config, stats, exactSkew, gain }) {
 /** What the gain means for the whole cloud. @param {Reading['gain']} gain */
 function gainText({ n, unbounded, value }) {
   const { unbounded: without, likelier, unlikelier } = words.banana.readouts;
-  if (unbounded) return without;
   if (Number.isNaN(value)) return NOTHING;
-  return (value < 0 ? unlikelier : likelier)(counted(n), powerOfE(Math.abs(n * value)));
+  const [nats, robots] = [counted(n * value), counted(n)];
+  if (unbounded) return without(nats, robots);
+  return (value < 0 ? unlikelier : likelier)(nats, robots, powerOfE(Math.abs(n * value)));
 }
 
 /** The others. @param {Reading} reading */
@@ -63,14 +64,13 @@ export function otherReadouts({ config, stats, gain, table }) {
   const all = counted(config.samples);
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
-  const shares = say.sharesOf(percent(1), percent(1), percent(NOMINAL));
   return readoutList([
     [say.robots, nOfAll(counted(stats.n), all), nOfAll(all, all)],
     [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
     [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
     [say.exactGain, fixed(gain.exact, 4), fixed(-1, 4)],
     [say.exactArea, fixed(table.exact.areaRatio, 3), fixed(-1, 3)],
-    [say.shares, say.sharesOf(percent(stats.coverage.ellipse), percent(stats.coverage.exponential), percent(NOMINAL)), shares],
+    [say.nominal, percent(NOMINAL)],
   ]);
 }
 

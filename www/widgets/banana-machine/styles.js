@@ -71,6 +71,14 @@ const own = css`
     gap: 0.2rem 1.25rem;
   }
 
+  /* What the gain means for all robots is the longest line. */
+  @container (min-width: 40rem) {
+    .surface .machine > .readouts {
+      grid-template-columns: 16fr 30fr 20fr;
+      column-gap: 1rem;
+    }
+  }
+
   .swatch {
     flex: none;
     width: 1.9rem;

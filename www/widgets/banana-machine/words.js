@@ -22,7 +22,7 @@ export function longestNote() {
   const skew = withError(-1, 1, 4);
   const { velocity, odometry } = settings.alphas.effects;
   const silences = [...velocity.map((_, i) => silenceOf('velocity', i)), ...odometry.map((_, i) => silenceOf('odometry', i))];
-  return longest([...Object.values(notes), ...silences, ...Object.values(bend.bowTie).map((say) => say('−1.00', '1.00', skew)), bend.bothWays(skew, '1.00'), bend.stillBent(skew, '0.00')]);
+  return longest([...Object.values(notes), ...silences, ...Object.values(bend.bowTie).map((say) => say('−1.00', '1.00', skew)), `${bend.neither(skew)} ${bend.wide('1.00')}`]);
 }
 
 /** What is announced after a change has come to rest. @param {Reading} reading */
@@ -73,23 +73,24 @@ const BENT = 0.02;
 const TOO_LARGE = 1.1;
 
 /**
- * What the cloud looks like: to which side it leans is the model's to decide, and the robots' to show.
+ * What the cloud looks like: to which side it leans is the model's to decide, and the robots' to show. Figures are those of
+ * the readouts beside it.
  *
- * @param {Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table'>} reading
+ * @param {Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>} reading
  */
-function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error }, exactSkew, bowTie, table }) {
+function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }) {
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;
-  const [measured, exactly] = [withError(skew, error, 2), fixed(exactSkew, 3)];
+  // No line ends within a number and its error.
+  const unbroken = (/** @type {string} */ number) => number.replaceAll(' ', '\u00a0');
+  const [measured, exactly] = [unbroken(withError(skew, error, 3)), fixed(exactSkew, 3)];
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
-  if (Math.abs(exactSkew) < NO_SKEW) {
-    const { areaRatio, likelihoodGain } = table.exact;
-    if (areaRatio > TOO_LARGE) return say.bothWays(measured, fixed(areaRatio, 2));
-    const gain = likelihoodGain.pose;
-    return gain > BENT && gain < Infinity ? say.stillBent(measured, fixed(gain, 2)) : say.neither(measured);
+  if (Math.abs(exactSkew) < HARDLY) {
+    const lean = Math.abs(exactSkew) < NO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
+    if (Math.min(areaRatio, table.exact.areaRatio) > TOO_LARGE) return `${lean} ${say.wide(fixed(areaRatio, 2))}`;
+    return Math.min(gain.value, gain.exact) > BENT ? `${lean} ${say.gains(unbroken(withError(gain.value, gain.error, 3)))}` : lean;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
-  if (Math.abs(exactSkew) < HARDLY) return say.hardly(measured);
   return exactSkew < 0 ? say.right(measured) : say.left(measured);
 }
 

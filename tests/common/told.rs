@@ -1,0 +1,93 @@
+//! What a page or a document tells the reader, so that a test reads the numbers it computes where they are told.
+
+/// The words of a page or a document, in one line.
+pub struct Told(String);
+
+/// A number as it is told.
+#[derive(Clone, Copy, Debug)]
+pub struct Number {
+    pub value: f64,
+    /// Half a unit of its last digit.
+    pub rounding: f64,
+}
+
+impl Number {
+    /// Told of what was computed, to within `error`.
+    pub fn assert(&self, computed: f64, error: f64) {
+        let off = (computed - self.value).abs();
+        assert!(
+            off <= self.rounding * (1.0 + 1e-9) + error,
+            "{computed} ± {error} is told as {}",
+            self.value
+        );
+    }
+
+    /// Told of a share in per cent.
+    pub fn assert_percent(&self, share: f64, error: f64) {
+        self.assert(100.0 * share, 100.0 * error);
+    }
+}
+
+/// Between the thousands of a number.
+const THIN_SPACE: char = '\u{202f}';
+
+impl Told {
+    /// What a page shows, without its markup.
+    pub fn on_page(html: &str) -> Self {
+        let mut text = String::new();
+        for part in html.split('<') {
+            // The first has no markup before it.
+            text.push_str(part.split_once('>').map_or(part, |(_, text)| text));
+        }
+        for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
+            text = text.replace(entity, character);
+        }
+        Self::in_document(&text)
+    }
+
+    pub fn in_document(text: &str) -> Self {
+        Self(text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
+    }
+
+    /// The numbers that stand in a sentence where it has a `#` here. The sentence stands in the text once.
+    pub fn numbers<const N: usize>(&self, sentence: &str) -> [Number; N] {
+        let parts: Vec<&str> = sentence.split('#').collect();
+        assert_eq!(parts.len(), N + 1, "numbers in: {sentence}");
+        let found: Vec<Vec<Number>> =
+            self.0.match_indices(parts[0]).filter_map(|(at, _)| numbers_in(&self.0[at..], &parts)).collect();
+        assert_eq!(found.len(), 1, "times that the text says: {sentence}");
+        std::array::from_fn(|i| found[0][i])
+    }
+
+    /// The text says so, once.
+    pub fn says(&self, sentence: &str) {
+        let [] = self.numbers(sentence);
+    }
+}
+
+fn is_thousands(word: &str) -> bool {
+    let digits = word.trim_end_matches([',', '.', ':']);
+    digits.len() == 3 && digits.chars().all(|c| c.is_ascii_digit())
+}
+
+/// The numbers between the parts, if the text begins with these.
+fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
+    let mut rest = text.strip_prefix(parts[0])?;
+    parts[1..]
+        .iter()
+        .map(|part| {
+            let in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
+            let mut end = rest.find(|c| !in_number(c)).unwrap_or(rest.len());
+            // Documents have a plain space between thousands.
+            if rest[end..].starts_with(' ') && rest[end + 1..].split(' ').next().is_some_and(is_thousands) {
+                end += 4;
+            }
+            // The end of a sentence is no decimal point.
+            end -= usize::from(rest[..end].ends_with('.'));
+            let digits: String = rest[..end].replace('−', "-").replace([THIN_SPACE, ' '], "");
+            let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
+            rest = rest[end..].strip_prefix(part)?;
+            Some(Number { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimals) })
+        })
+        .collect()
+}

@@ -1,0 +1,25 @@
+// The limits of the pages in doc/model.md: where a picture or a sentence becomes another one.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+
+const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+
+/** Where a constant stands, its name, and what is said of it. @type {[string, string, RegExp][]} */
+const LIMITS = [
+  ['www/widgets/banana-machine/pictures.js', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
+  ['www/widgets/map-squeeze/reading.js', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
+  ['www/widgets/banana-machine/words.js', 'HARDLY', /leans to neither side, below (\S+) hardly/],
+  ['www/widgets/banana-machine/words.js', 'TOO_LARGE', /where the ellipse has more than (\S+) times the area/],
+  ['www/widgets/banana-machine/words.js', 'BENT', /or else the gain is more than (\S+) nats a robot/],
+];
+
+test('doc/model.md has the limits of the pages', () => {
+  const told = read('doc/model.md').replace(/\s+/g, ' ');
+  for (const [file, name, sentence] of LIMITS) {
+    const [, set] = read(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
+    assert.ok(set, `${name} of ${file}`);
+    assert.equal(told.match(sentence)?.[1], set, `${name} of ${file}`);
+  }
+});

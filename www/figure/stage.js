@@ -3,6 +3,7 @@
  * colours that follow the page, the theme and paper.
  */
 
+import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
@@ -88,17 +89,26 @@ export class Stage extends Part {
     return this.host.machine !== undefined && this.#drawn < 2 && this.inSight && !document.hidden;
   }
 
+  /**
+   * What of a figure is not its pictures: it comes with the frame after the first, so that they are seen at once.
+   *
+   * @param {() => unknown} content
+   */
+  later(content) {
+    return this.opening ? nothing : content();
+  }
+
   /** Asks for none any more. */
   rest() {
     sleep(this);
   }
 
-  /** The canvases are about to go. */
+  /** There is nothing to draw any more: the canvases keep their places, and no pixels. */
   clear() {
     this.rest();
     this.#sizes?.disconnect();
+    for (const canvas of this.#canvases) canvas.width = canvas.height = 0;
     this.#drawable = this.#sized = false;
-    this.#drawn = 0;
     this.#palette = undefined;
   }
 

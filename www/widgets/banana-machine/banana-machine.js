@@ -84,7 +84,7 @@ export class BananaMachineElement extends FigureElement {
       // Each model keeps its own.
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configure({ model: other, alphas: alphas[other] });
-      machine.configure({ ...this.settingsOf(state), alphas: alphas[model] });
+      machine.configure({ ...this.settings.declared(state), alphas: alphas[model] });
       machine.grow(shown);
     });
   };
@@ -106,7 +106,7 @@ export class BananaMachineElement extends FigureElement {
     const { config, shown: count } = this.fresh;
     const { poses, twists, executed } = /** @type {Machine} */ (this.machine);
     return {
-      title: this.label,
+      title: this.lettering.name,
       settings: { element: this.localName, ...config },
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
       row: (/** @type {number} */ i) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
@@ -192,14 +192,14 @@ export class BananaMachineElement extends FigureElement {
     const say = words.banana;
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
-      <section class="machine" aria-label=${this.label}>
+      <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
           <div class="stage" part="picture">
             ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}
           </div>
           <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>
-        ${this.later(() => html`
+        ${this.stage.later(() => html`
         <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
           <span>${captionOf(reading)}</span>
         </p>

@@ -71,7 +71,7 @@ export class MapSqueezeElement extends FigureElement {
     if (!state) return machine;
     return orFree(machine, () => {
       if (state.map !== null) applyMap(machine, state.map);
-      machine.configure(this.settingsOf(state));
+      machine.configure(this.settings.declared(state));
       showOnly(machine, state.shown);
     });
   };
@@ -105,7 +105,7 @@ export class MapSqueezeElement extends FigureElement {
   get takeaway() {
     const { config, poses, verdicts } = this.fresh;
     return {
-      title: this.label,
+      title: this.lettering.name,
       settings: { element: this.localName, map: this.map?.name ?? null, ...config },
       columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
       row: (/** @type {number} */ i) => [
@@ -287,7 +287,7 @@ export class MapSqueezeElement extends FigureElement {
     return html`
       <section
         class="machine"
-        aria-label=${this.label}
+        aria-label=${this.lettering.name}
         @dragover=${this.#opener.over}
         @dragleave=${this.#opener.leave}
         @drop=${this.#opener.drop}
@@ -301,10 +301,10 @@ export class MapSqueezeElement extends FigureElement {
             <span>${verdictOf(reading)}</span>
           </p>
           <div class="aside">
-            ${this.later(() => html`${rates(reading)} ${placeControls(this)} ${hasUnknown ? unknownChoice(this) : nothing} ${judgeControls(this)}`)}
+            ${this.stage.later(() => html`${rates(reading)} ${placeControls(this)} ${hasUnknown ? unknownChoice(this) : nothing} ${judgeControls(this)}`)}
           </div>
         </div>
-        ${this.later(() => html`
+        ${this.stage.later(() => html`
         <div class="controls" part="controls">${motionControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
         <div class="folds">
           ${fold(say.keyAndSample, () => html`${viewChoice(this)} ${legend(reading, hasUnknown)} ${markedDraw(this)}`)}

@@ -426,7 +426,7 @@ export class FigureElement extends LitElement {
     speak(this);
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
-      <div class="surface ${this.stage.scheme} ${this.stage.opening ? 'opening' : ''} ${this.presenting.className}" @input=${stop} @change=${stop}>
+      <div class="surface ${this.stage.scheme} ${this.presenting.className}" @input=${stop} @change=${stop}>
         ${this.lettering.title()} ${this.#content()} ${this.lettering.caption()} ${this.presenting.render()}
       </div>
     `;

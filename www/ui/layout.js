@@ -215,7 +215,7 @@ const layout = css`
       }
 
       /* Clear of the shadow. */
-      .stage + .stage {
+      .stage[part='picture'] + * {
         margin-top: 0.7rem;
       }
 

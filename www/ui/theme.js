@@ -108,6 +108,10 @@ export const theme = css`
       position: static !important;
     }
 
+    .machine {
+      min-height: 0 !important;
+    }
+
     :is(button, input, textarea, details, .handle, .effect, .marked, .visually-hidden),
     label:has(input:not(:checked)) {
       display: none !important;

@@ -23,7 +23,7 @@ import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
-import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
+import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, room, vocabulary } from './settings.js';
 import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
 
@@ -41,11 +41,6 @@ const EXECUTED_COLUMNS = {
   odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
 };
 
-/** What the figure takes. @type {Parameters<typeof reserve>[0]} */
-const ROOM = [
-  [0, 51.7, 160], [25, 45.2, 160], [30, 44.6, 40], [35, 42.9, 40], [37, 31, 40], [39, 27, 40], [42.5, 24.1, 40], [56, 24.2, 25], [76, 22.8, 25],
-];
-
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
  *
@@ -58,7 +53,7 @@ const ROOM = [
  * @extends {FigureElement<Machine, Reading>}
  */
 export class BananaMachineElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(ROOM), ...bananaStyles];
+  static styles = [...FigureElement.styles, reserve(room), ...bananaStyles];
 
   static declared = declared;
   static attributes = attributes;

@@ -66,3 +66,9 @@ export const SAMPLERS = /** @type {('endpoint' | 'whole-arc' | 'sub-stepped')[]}
 
 /** Sample counts of the slider. The machine takes more, but they would be slow to follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
+
+/** What the figure takes. @type {import('../../figure/page/reserve.js').Room} */
+export const room = [
+  [0, 53.4, 80], [20.75, 51.5, 80], [22.75, 46.2, 80], [23.4, 43.2, 80], [30, 42.9, 80], [31.25, 40.1, 80], [38, 15.6, 80], [38.5, 41.5, 0],
+  [44.25, 6.5, 80], [50, 43.8, 0], [55.5, 9.5, 62.5], [58, 7.6, 62.5], [60, 40.6, 0], [75.5, 9.7, 41.7],
+];

@@ -50,7 +50,9 @@ for (const name of NAMES) {
 
   test(`${name} fills the window where the screen is not to be had, and nothing behind it has the focus`, async ({ page }) => {
     await page.addInitScript(() => Object.defineProperty(Document.prototype, 'fullscreenEnabled', { value: false }));
-    await show(page, `<${name}></${name}><p><a id="behind" href="#">Behind</a></p>`);
+    await show(page, `<div><${name}></${name}></div><p inert>Out of reach before, and after</p><p><a id="behind" href="#">Behind</a></p><div style="height: 3000px"></div>`, {
+      head: '<style>html { overflow-y: scroll; scrollbar-width: auto } ::-webkit-scrollbar { width: 12px }</style>',
+    });
     const widget = page.locator(name);
     await ready(widget);
     await widget.evaluate((element) => void (Reflect.set(element, 'presentation', true)));
@@ -58,8 +60,16 @@ for (const name of NAMES) {
     expect(await boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
     await page.locator('#behind').focus();
     await expect(page.locator('#behind')).not.toBeFocused();
+    expect(await page.locator('#behind').evaluate((element) => element.closest('[inert]') !== null)).toBe(true);
+    await page.mouse.wheel(0, 500);
+    await frames(page);
+    expect(await page.evaluate(() => scrollY)).toBe(0);
     await page.keyboard.press('Escape');
     await expect(widget).not.toHaveAttribute('presentation');
+    await page.locator('#behind').focus();
+    await expect(page.locator('#behind')).toBeFocused();
+    expect(await page.locator('[inert]').evaluateAll((all) => all.map(({ localName }) => localName))).toEqual(['p']);
+    expect(await page.evaluate(() => document.documentElement.style.overflow)).toBe('');
   });
 }
 

@@ -78,6 +78,11 @@ export const presentationStyles = css`
     background: var(--paper);
   }
 
+  /* Clear of the buttons. */
+  :host([presentation]) .aside {
+    padding-top: 1.6rem;
+  }
+
   .presenting {
     position: fixed;
     top: 0.4rem;

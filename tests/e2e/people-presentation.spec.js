@@ -21,8 +21,11 @@ for (const name of NAMES) {
     // Two thirds of the height, and all of the width between them, less what stands beside them.
     const pictures = await Promise.all((await widget.locator('canvas').all()).map(boxOf));
     for (const { height } of pictures) expect(height).toBeGreaterThan(1080 * 0.6);
+    // As sharp as the screen.
+    const pixels = await widget.locator('canvas').evaluateAll((all) => all.map((each) => /** @type {HTMLCanvasElement} */ (each).width));
+    for (const [i, { width }] of pictures.entries()) expect(Math.abs(pixels[i] - width)).toBeLessThanOrEqual(2);
     expect(pictures.reduce((sum, { width }) => sum + width, 0)).toBeGreaterThan(1920 * 0.65);
-    const zoom = await widget.locator('.surface').evaluate((element) => Number(getComputedStyle(element).zoom));
+    const zoom = await widget.locator('.surface').evaluate((element) => new DOMMatrix(getComputedStyle(element).transform).a);
     const sizes = await widget.locator('canvas, .readouts dt, .readouts dd, [part=caption]').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
     for (const size of sizes) expect(size * zoom).toBeGreaterThanOrEqual(24);
     // Nothing to scroll, and every control behind the key that is named.

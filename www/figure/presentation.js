@@ -21,6 +21,8 @@ export class Presentation extends Part {
   #listening;
   /** How far the page was scrolled. */
   #scrolled = 0;
+  /** How much larger everything is. */
+  zoom = 1;
   /** Brings the page back. */
   #uncover = () => {};
 
@@ -47,7 +49,7 @@ export class Presentation extends Part {
     const { signal } = this.#listening;
     this.#scrolled = scrollY;
     addEventListener('keydown', this.#key, { signal });
-    addEventListener('resize', this.#enlarge, { signal });
+    addEventListener('resize', this.#fit, { signal });
     this.#uncover = cover(host);
     host.addEventListener(
       'fullscreenchange',
@@ -56,7 +58,7 @@ export class Presentation extends Part {
       },
       { signal },
     );
-    this.#enlarge();
+    this.#fit();
     // Where the screen is not to be had, as in most frames and without a key or a press, the window is filled.
     if (document.fullscreenEnabled && navigator.userActivation?.isActive !== false) host.requestFullscreen().catch(() => {});
     host.updateComplete.then(() => this.#focus('.presenting button'));
@@ -69,7 +71,7 @@ export class Presentation extends Part {
     this.#listening = undefined;
     this.#controls = false;
     this.#uncover();
-    host.style.removeProperty('--zoom');
+    this.#enlarge(1);
     this.#restore(host.matches(':fullscreen') ? document.exitFullscreen() : undefined);
   }
 
@@ -91,10 +93,14 @@ export class Presentation extends Part {
     /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector(selector))?.focus({ preventScroll: true });
   }
 
-  #enlarge = () => {
-    const zoom = Math.max(1, Math.min(innerWidth / LAYOUT.width, innerHeight / LAYOUT.height));
+  #fit = () => this.#enlarge(Math.max(1, Math.min(innerWidth / LAYOUT.width, innerHeight / LAYOUT.height)));
+
+  /** @param {number} zoom */
+  #enlarge(zoom) {
+    this.zoom = zoom;
     this.host.style.setProperty('--zoom', String(zoom));
-  };
+    this.host.stage.measure();
+  }
 
   #key = (/** @type {KeyboardEvent} */ event) => {
     const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;

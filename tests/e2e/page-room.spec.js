@@ -74,3 +74,38 @@ for (const width of [375, 480, 640, 700, 760, 1024, 1280, 1920]) {
     expect(await page.evaluate(() => Reflect.get(window, 'shifts'))).toEqual([]);
   });
 }
+
+/** What makes sentences and rows longer, by widget. @type {Record<string, Record<string, unknown>[]>} */
+const STATES = {
+  'banana-machine': ['velocity', 'odometry'].flatMap((model) =>
+    ['straight', 'gentle', 'hard', 'pivot', 'banana', 'worked'].map((preset) => ({ preset, model })),
+  ),
+  'map-squeeze': [null, { name: 'a_map_with_quite_a_long_name', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] }].flatMap((map) =>
+    ['endpoint', 'whole-arc', 'sub-stepped'].flatMap((sampler) => [true, false].map((conditioned) => ({ map, sampler, conditioned }))),
+  ),
+};
+
+for (const name of NAMES) {
+  for (const lang of ['en', 'de']) {
+    test(`${name} is at most 720 px high in the column of a book and on a screen, whatever it shows, in ${lang}`, async ({ page }) => {
+      await page.setViewportSize({ width: 640, height: 720 });
+      await show(page, `<${name} lang="${lang}"></${name}>`, {
+        head: '<style>body { margin: 0 }</style>',
+        script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/de.js"></script>',
+      });
+      const widget = page.locator(name);
+      await ready(widget);
+      await expect(widget.locator('.folds')).toBeVisible();
+      for (const state of STATES[name]) {
+        await widget.evaluate((element, values) => void Object.assign(element, values), state);
+        for (const width of [640, 700, 760, 1280]) {
+          await page.setViewportSize({ width, height: 720 });
+          await frames(page);
+          const { height } = await boxOf(widget);
+          expect(height, `${width} px, ${JSON.stringify(state)}`).toBeLessThanOrEqual(720);
+          expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+        }
+      }
+    });
+  }
+}

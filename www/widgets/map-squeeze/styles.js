@@ -37,6 +37,12 @@ const own = css`
   }
 
   /* Wider, and not higher: all of it is to fit on a screen. */
+  @container (min-width: 45rem) {
+    canvas {
+      aspect-ratio: 4 / 3;
+    }
+  }
+
   @container (min-width: 50rem) {
     canvas {
       aspect-ratio: 8 / 5;

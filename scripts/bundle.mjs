@@ -140,6 +140,7 @@ export async function bundle() {
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
+  write(at('dist/room.css'), await roomOfWidgets());
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts' };
@@ -188,6 +189,17 @@ async function chunks() {
     `export const widgets = {\n${loaders.join('')}};\n\n` +
     `export const vocabularies = ${JSON.stringify(modules.map(({ vocabulary }) => vocabulary))};\n`
   );
+}
+
+/** What keeps the room of the elements before their script is there: nobody else can then. Where scripts are off, nothing is to come. */
+async function roomOfWidgets() {
+  const { roomRules } = await import('../www/figure/page/reserve.js');
+  const rules = WIDGETS.map(async (tag) => {
+    const { room } = await import(`../www/widgets/${tag}/settings.js`);
+    const element = `${tag}:not(:defined)`;
+    return `${element} { display: block; container-type: inline-size }\n${element}::before { content: ''; display: block }\n${roomRules(room, `${element}::before`)}\n`;
+  });
+  return `@media (scripting: enabled) {\n${(await Promise.all(rules)).join('')}}\n`;
 }
 
 /** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */

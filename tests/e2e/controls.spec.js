@@ -138,6 +138,21 @@ test.describe('command', () => {
     await expect(handle).toHaveAttribute('aria-valuetext', `v = ${v.toFixed(2)} m/s, ω = ${omega.toFixed(2)} rad/s`);
   });
 
+  test('the ring says where the sliders end, to the eye and to the ear', async ({ page }) => {
+    const widget = await openWhole(page);
+    const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+    const hint = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
+    await widget.evaluate((element) => void Object.assign(element, { v: 1.49, omega: 0 }));
+    await handle.press('ArrowLeft');
+    await expect(handle).toHaveAttribute('aria-valuetext', /m\/s, ω = −?0\.00 rad\/s$/);
+    expect(await hint()).toBe('none');
+    for (let i = 0; i < 3; i++) await handle.press('ArrowRight');
+    await expect(handle).toHaveAttribute('aria-valuetext', /^v = 1\.50 m\/s, .* rad\/s\. The sliders end here$/);
+    expect(await hint()).toBe('"The sliders end here"');
+    await handle.blur();
+    expect(await hint()).toBe('none');
+  });
+
   test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
     const widget = await openWhole(page);
     const marker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
-import { FRESH, STILL, frames, pictureOf, state, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, pictureOf, state, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -213,6 +213,45 @@ test.describe('moved and removed', () => {
       });
       expect(shown).toBeGreaterThanOrEqual(0);
       await expect.poll(() => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown), { timeout: 20_000 }).toBe(samples);
+    });
+
+    test(`${name} stays as the reader had it over a move and over a removal`, async ({ page }) => {
+      await show(page, `<div id="a"><${name}></${name}></div><div id="b"></div>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      const folds = widget.locator('details');
+      await expect.poll(() => folds.count()).toBeGreaterThan(3);
+      await folds.nth(0).locator('summary').click();
+      await folds.last().locator('summary').click();
+      const open = () => folds.evaluateAll((all) => all.map((each) => /** @type {HTMLDetailsElement} */ (each).open));
+      const before = await open();
+      expect(before.filter(Boolean)).toHaveLength(2);
+      const field = folds.nth(0).locator('input[type=number]');
+      await field.fill('7');
+      await widget.evaluate((element) => document.querySelector('#b')?.append(element));
+      await frames(page);
+      expect(await open()).toEqual(before);
+      const height = (await boxOf(widget)).height;
+      const heights = await widget.evaluate(async (element) => {
+        element.remove();
+        await new Promise(requestAnimationFrame);
+        const again = new Promise((resolve) => element.addEventListener('load', resolve));
+        document.querySelector('#a')?.append(element);
+        const heights = [element.getBoundingClientRect().height];
+        await again;
+        return [...heights, element.getBoundingClientRect().height];
+      });
+      await ready(widget);
+      expect(await open()).toEqual(before);
+      await expect(field).toHaveValue('7');
+      await expect(folds.nth(0).locator('.folded')).not.toBeEmpty();
+      // All the while it takes the room that it took.
+      expect(heights).toEqual([height, height]);
+      // It goes on: what is pressed has its effect.
+      await folds.last().locator('summary').click();
+      await expect.poll(open).toEqual(before.with(-1, false));
+      await widget.getByRole('button', { name: 'Reset' }).click();
+      await expect.poll(() => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown)).toBe(0);
     });
 
     test(`${name}, removed, leaves nothing behind`, async ({ page }) => {

@@ -1,5 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
+import { NAMES, ready, show } from './element-support.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
 import { FRESH, STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test, unfold } from './support.js';
 
@@ -334,3 +335,49 @@ test.describe('theming', () => {
     }
   });
 });
+
+for (const name of NAMES) {
+  test(`${name}: the help of a slider covers no slider of its group, and no outline crosses it`, async ({ page }) => {
+    for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [375, 'de'], [700, 'en'], [700, 'de']])) {
+      await page.setViewportSize({ width, height: 812 });
+      await show(page, `<${name} lang="${lang}"></${name}>`, {
+        script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/de.js"></script>',
+      });
+      const widget = page.locator(name);
+      await ready(widget);
+      await expect(widget.locator('#v')).toBeVisible();
+      const crossed = await widget.evaluate((element) => {
+        const root = /** @type {ShadowRoot} */ (element.shadowRoot);
+        return [...root.querySelectorAll('.slider')].flatMap((row) => {
+          const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
+          slider.focus();
+          const help = /** @type {Element} */ (row.querySelector('.effect')).getBoundingClientRect();
+          // The outline of a thumb is 4 px about it, and a thumb 0.525 rem about its middle.
+          return [.../** @type {Element} */ (row.closest('fieldset')).querySelectorAll('.slider input[type=range]')]
+            .map((each) => each.getBoundingClientRect())
+            .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > help.top && (top + bottom) / 2 < help.bottom)
+            .map(() => slider.id);
+        });
+      });
+      expect(crossed, `${width} px, ${lang}`).toEqual([]);
+    }
+  });
+
+  test(`${name} has on paper what the reader opened, and nothing to press`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const fold = widget.locator('.folds details').nth(1);
+    await expect(fold).toBeVisible();
+    await page.emulateMedia({ media: 'print' });
+    await expect(fold.locator('table').first()).toBeHidden();
+    await page.emulateMedia({ media: 'screen' });
+    await fold.locator('summary').click();
+    await expect(fold.locator('table').first()).toBeVisible();
+    await page.emulateMedia({ media: 'print' });
+    await expect(fold.locator('table').first()).toBeVisible();
+    await expect(widget.locator('.readouts').first()).toBeVisible();
+    await expect(widget.locator('[part=caption]')).toBeVisible();
+    await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);
+  });
+}

@@ -21,8 +21,11 @@ for (const name of NAMES) {
     // Two thirds of the height, and all of the width between them, less what stands beside them.
     const pictures = await Promise.all((await widget.locator('canvas').all()).map(boxOf));
     for (const { height } of pictures) expect(height).toBeGreaterThan(1080 * 0.6);
+    // As sharp as the screen.
+    const pixels = await widget.locator('canvas').evaluateAll((all) => all.map((each) => /** @type {HTMLCanvasElement} */ (each).width));
+    for (const [i, { width }] of pictures.entries()) expect(Math.abs(pixels[i] - width)).toBeLessThanOrEqual(2);
     expect(pictures.reduce((sum, { width }) => sum + width, 0)).toBeGreaterThan(1920 * 0.65);
-    const zoom = await widget.locator('.surface').evaluate((element) => Number(getComputedStyle(element).zoom));
+    const zoom = await widget.locator('.surface').evaluate((element) => new DOMMatrix(getComputedStyle(element).transform).a);
     const sizes = await widget.locator('canvas, .readouts dt, .readouts dd, [part=caption]').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
     for (const size of sizes) expect(size * zoom).toBeGreaterThanOrEqual(24);
     // Nothing to scroll, and every control behind the key that is named.
@@ -50,7 +53,9 @@ for (const name of NAMES) {
 
   test(`${name} fills the window where the screen is not to be had, and nothing behind it has the focus`, async ({ page }) => {
     await page.addInitScript(() => Object.defineProperty(Document.prototype, 'fullscreenEnabled', { value: false }));
-    await show(page, `<${name}></${name}><p><a id="behind" href="#">Behind</a></p>`);
+    await show(page, `<div><${name}></${name}></div><p inert>Out of reach before, and after</p><p><a id="behind" href="#">Behind</a></p><div style="height: 3000px"></div>`, {
+      head: '<style>html { overflow-y: scroll; scrollbar-width: auto } ::-webkit-scrollbar { width: 12px }</style>',
+    });
     const widget = page.locator(name);
     await ready(widget);
     await widget.evaluate((element) => void (Reflect.set(element, 'presentation', true)));
@@ -58,8 +63,16 @@ for (const name of NAMES) {
     expect(await boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
     await page.locator('#behind').focus();
     await expect(page.locator('#behind')).not.toBeFocused();
+    expect(await page.locator('#behind').evaluate((element) => element.closest('[inert]') !== null)).toBe(true);
+    await page.mouse.wheel(0, 500);
+    await frames(page);
+    expect(await page.evaluate(() => scrollY)).toBe(0);
     await page.keyboard.press('Escape');
     await expect(widget).not.toHaveAttribute('presentation');
+    await page.locator('#behind').focus();
+    await expect(page.locator('#behind')).toBeFocused();
+    expect(await page.locator('[inert]').evaluateAll((all) => all.map(({ localName }) => localName))).toEqual(['p']);
+    expect(await page.evaluate(() => document.documentElement.style.overflow)).toBe('');
   });
 }
 

@@ -110,10 +110,13 @@ test.describe('the robot', () => {
     await expect(turn(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
   });
 
-  test('stays inside the map, and says so', async ({ page }) => {
+  test('stays inside the map, and says so to the eye and to the ear', async ({ page }) => {
     const widget = await openSqueeze(page);
     const { x, y } = await centreOf(body(widget));
-    const stop = () => body(widget).evaluate((element) => getComputedStyle(element, '::before').content);
+    const stop = async () => {
+      await frames(page);
+      return body(widget).evaluate((element) => getComputedStyle(element, '::before').content);
+    };
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x - 20, y, { steps: 3 });
@@ -126,6 +129,31 @@ test.describe('the robot', () => {
     await page.mouse.up();
     expect(await stop()).toBe('none');
     expect((await squeezed(widget)).config.start.x).toBe(0);
+
+    // From the keyboard: it is told where it stands, and why no further.
+    const told = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
+    await expect(body(widget)).toHaveAttribute('aria-valuetext', told);
+    await body(widget).press('ArrowRight');
+    await expect(body(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
+    expect(await stop()).toBe('none');
+    for (let i = 0; i < 2; i++) {
+      await body(widget).press('ArrowLeft');
+      await expect(body(widget)).toHaveAttribute('aria-valuetext', told);
+      expect(await stop()).toBe('"The map ends here"');
+    }
+    expect((await squeezed(widget)).config.start.x).toBe(0);
+  });
+
+  test('is told to stand in a wall, where a key led it there', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
+    expect((await squeezed(widget)).startFree).toBe(true);
+    for (let i = 0; i < 2; i++) await body(widget).press('ArrowLeft');
+    expect((await squeezed(widget)).startFree).toBe(false);
+    await expect(widget.getByRole('status').filter({ hasText: 'The robot does not fit where it stands' })).toHaveCount(1);
+    await expect(widget.locator('.verdict')).toContainText('The robot does not fit where it stands');
+    for (let i = 0; i < 2; i++) await body(widget).press('ArrowRight');
+    await expect(widget.locator('.verdict')).not.toContainText('does not fit where it stands');
   });
 
   test('is configured and drawn once a frame, however often the pointer moves', async ({ page }) => {

@@ -66,7 +66,7 @@ const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
 /** Of headings in HTML. */
 export const HEADING_LEVELS = /** @type {const} */ (['1', '2', '3', '4', '5', '6']);
 
-/** What every figure heeds besides. */
+/** What every figure heeds besides. @type {Record<string, { words?: readonly string[], opening?: string, nullable?: true, property?: string }>} */
 export const COMMON = {
   theme: { words: THEMES, opening: 'auto' },
   share: {},

@@ -13,7 +13,9 @@ import { COMMON, HEADING_LEVELS } from './attributes.js';
 import { word } from './checks.js';
 import { Gesture } from './gesture.js';
 import { Link } from './link.js';
+import { Lettering } from './lettering.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
+import { placeholder } from './placeholder.js';
 import { Presentation } from './presentation.js';
 import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
@@ -102,7 +104,7 @@ export class FigureElement extends LitElement {
 
   runtime = new Runtime(this);
   stage = new Stage(this);
-  gesture = new Gesture((name) => this.#done(name));
+  gesture = new Gesture(this);
   settings = new Settings(this);
   state = new State(this, this.kind.own);
   reflection = new Reflection(this, this.kind.attributes, this.kind.basis);
@@ -110,6 +112,7 @@ export class FigureElement extends LitElement {
   announcer = new Announcer();
   copies = new CopyMenu(this);
   typing = new Typing(this);
+  lettering = new Lettering(this);
   presenting = new Presentation(this);
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
   cloud;
@@ -162,15 +165,6 @@ export class FigureElement extends LitElement {
     return nothing;
   }
 
-  /**
-   * What of the content is not the pictures: it comes with the frame after the first, so that the figure is seen at once.
-   *
-   * @param {() => unknown} content
-   */
-  later(content) {
-    return this.stage.opening ? nothing : content();
-  }
-
   /** What there is to take along, with every change so far in effect. @returns {import('./takeaway/export.js').Takeaway} */
   get takeaway() {
     throw new Error('A widget says what is taken along.');
@@ -195,13 +189,7 @@ export class FigureElement extends LitElement {
   /** Everything that a reader can change, as the machine and the element have it. @returns {Values} */
   snapshot() {
     const { config } = /** @type {Machine} */ (this.machine);
-    return { ...this.state.common, ...this.settingsOf(config), ...this.cloud?.snapshot() };
-  }
-
-  /** Those of some values that are declared settings of the machine. @param {Values} values */
-  settingsOf(values) {
-    const keys = this.kind.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
-    return Object.fromEntries(keys.map((key) => [key, values[key]]));
+    return { ...this.state.common, ...this.settings.declared(config), ...this.cloud?.snapshot() };
   }
 
   /**
@@ -215,31 +203,12 @@ export class FigureElement extends LitElement {
     return { ...this.cloud?.completed(present, given), ...given };
   }
 
-  // A machine comes and goes.
-
   get machine() {
     return /** @type {Machine | undefined} */ (this.runtime.machine);
   }
 
   get motion() {
     return /** @type {Motion} */ (this.runtime.motion);
-  }
-
-  machineMade() {
-    this.machineChanged();
-    this.settings.reset();
-    this.state.restore();
-    this.reflection.catchUp();
-    this.link.catchUp();
-    if (this.machine && !this.state.introduced) this.introduce(this.state.kept);
-  }
-
-  /** @param {Values} [state] that the machine is in, if it is not the opening */
-  introduce(state) {
-    this.cloud?.introduce(state);
-    this.refresh();
-    this.reflection.tell();
-    this.settings.show();
   }
 
   // What is wanted, and what is shown.
@@ -307,13 +276,6 @@ export class FigureElement extends LitElement {
     this.stage.wake();
   }
 
-  /** @param {'input' | 'change'} name of what the reader has done */
-  #done(name) {
-    if (name === 'change') this.reflection.tell();
-    this.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
-    if (name === 'change' && this.share) this.link.write();
-  }
-
   // What a page has of every figure.
 
   /**
@@ -361,12 +323,6 @@ export class FigureElement extends LitElement {
   set headingLevel(level) {
     if (level === null) this.removeAttribute('heading-level');
     else this.setAttribute('heading-level', word('headingLevel', String(level), HEADING_LEVELS));
-  }
-
-  /** The figure's name: the title that the page gives it, or the widget's own. */
-  get label() {
-    const title = this.#given('title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
-    return title || /** @type {any} */ (words)[this.kind.vocabulary].title;
   }
 
   /**
@@ -458,79 +414,33 @@ export class FigureElement extends LitElement {
     super.attributeChangedCallback(name, old, text);
     if (old === text) return;
     this.reflection.hear(name, text);
-    if (name === 'theme') {
-      if (text !== null) this.runtime.tolerate(() => word('theme', text, THEMES));
-      this.requestUpdate();
-      this.stage.repaint();
-    } else if (name === 'presentation') {
-      this.presenting.follow();
-    } else if (name === 'heading-level') {
-      if (text !== null) this.runtime.tolerate(() => word('heading-level', text, HEADING_LEVELS));
-      this.requestUpdate();
-    }
-  }
-
-  /** While a machine is made again, what was shown of the former one stays. */
-  shouldUpdate() {
-    return !this.runtime.mending;
+    if (!(name in COMMON)) return;
+    const { words: allowed } = COMMON[name];
+    if (allowed && text !== null) this.runtime.tolerate(() => word(name, text, allowed));
+    this.presenting.follow();
+    this.requestUpdate();
+    this.stage.repaint();
   }
 
   render() {
     speak(this);
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
-      <div class="surface ${this.stage.scheme} ${this.stage.opening ? 'opening' : ''} ${this.presenting.className}" @input=${stop} @change=${stop}>
-        ${this.#slot('title')} ${this.#content()} ${this.#slot('caption')} ${this.presenting.render()}
+      <div class="surface ${this.stage.scheme} ${this.presenting.className}" @input=${stop} @change=${stop}>
+        ${this.lettering.title()} ${this.#content()} ${this.lettering.caption()} ${this.presenting.render()}
       </div>
     `;
   }
 
-  /** What the page has put into a slot. @param {string} name */
-  #given(name) {
-    return [...this.children].filter(({ slot }) => slot === name);
-  }
-
-  /** @param {'title' | 'caption'} name */
-  #slot(name) {
-    const level = name === 'title' ? this.headingLevel : null;
-    return html`<div
-      class="${name}-slot"
-      role=${level ? 'heading' : nothing}
-      aria-level=${level ?? nothing}
-      ?hidden=${this.#given(name).length === 0}
-    >
-      <slot name=${name} @slotchange=${() => this.requestUpdate()}></slot>
-    </div>`;
-  }
-
+  /** What was shown stays while there is no machine: it is made again after a trap, or the element is not on the page. */
   #content() {
     const content = this.machine && this.runtime.attemptOrFail(() => [this.content(this.reading), this.announcer.render()]);
-    const { failure, mending } = this.runtime;
+    const { failure } = this.runtime;
     // Also at once: what asks for an update while there is one is not heard.
     if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-    return content ?? (mending ? noChange : this.#reserved());
+    return content ?? (this.reading ? noChange : placeholder(this));
   }
-
-  /** In the place of a figure that is not there yet: who comes to it from the keyboard comes into the figure. */
-  #reserved() {
-    return html`<div class="reserved" tabindex="0" role="group" aria-label=${this.label} @focus=${this.#reach}></div>`;
-  }
-
-  /** @param {FocusEvent} event */
-  #reach = async ({ relatedTarget }) => {
-    await this.runtime.hasten();
-    const { renderRoot, machine } = this;
-    if (!machine || document.activeElement !== this && document.activeElement !== document.body) return;
-    const stops = [...renderRoot.querySelectorAll(STOPS)].filter((stop) => stop.checkVisibility());
-    // Backwards, if the reader came from what is below.
-    const from = relatedTarget instanceof Node && relatedTarget !== document.body ? relatedTarget : this;
-    const below = this.compareDocumentPosition(from) & Node.DOCUMENT_POSITION_FOLLOWING;
-    /** @type {HTMLElement | undefined} */ (stops.at(below ? -1 : 0))?.focus();
-  };
 }
-
-/** What Tab stops at. */
-const STOPS = ':is(button, input, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
 /** The native controls' own events stay inside: the element has one of its own for each gesture. @param {Event} event */
 function stop(event) {

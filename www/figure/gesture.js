@@ -3,18 +3,14 @@
  * each, however many settings a step changed.
  */
 
-export class Gesture {
-  #tell;
+import { Part } from './part.js';
+
+export class Gesture extends Part {
   #step = false;
   #end = false;
   #queued = false;
   /** Whether a step was told without its end. */
   #open = false;
-
-  /** @param {(name: 'input' | 'change') => void} tell */
-  constructor(tell) {
-    this.#tell = tell;
-  }
 
   /** Something has changed, and it may go on. */
   step() {
@@ -40,7 +36,14 @@ export class Gesture {
       if (step) this.#tell('input');
       if (!end || !this.#open) return;
       this.#open = false;
+      this.host.reflection.tell();
       this.#tell('change');
+      if (this.host.share) this.host.link.write();
     });
+  }
+
+  /** @param {string} name of the event */
+  #tell(name) {
+    this.host.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
   }
 }

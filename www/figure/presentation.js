@@ -21,6 +21,10 @@ export class Presentation extends Part {
   #listening;
   /** How far the page was scrolled. */
   #scrolled = 0;
+  /** How much larger everything is. */
+  zoom = 1;
+  /** Brings the page back. */
+  #uncover = () => {};
 
   hostConnected() {
     this.follow();
@@ -45,9 +49,8 @@ export class Presentation extends Part {
     const { signal } = this.#listening;
     this.#scrolled = scrollY;
     addEventListener('keydown', this.#key, { signal });
-    addEventListener('resize', this.#enlarge, { signal });
-    // Nothing behind the figure takes the focus.
-    document.addEventListener('focusin', (event) => event.composedPath().includes(host) || this.#focus(), { signal });
+    addEventListener('resize', this.#fit, { signal });
+    this.#uncover = cover(host);
     host.addEventListener(
       'fullscreenchange',
       () => {
@@ -55,10 +58,10 @@ export class Presentation extends Part {
       },
       { signal },
     );
-    this.#enlarge();
+    this.#fit();
     // Where the screen is not to be had, as in most frames and without a key or a press, the window is filled.
     if (document.fullscreenEnabled && navigator.userActivation?.isActive !== false) host.requestFullscreen().catch(() => {});
-    host.updateComplete.then(() => this.#focus());
+    host.updateComplete.then(() => this.#focus('.presenting button'));
   }
 
   #end() {
@@ -67,7 +70,8 @@ export class Presentation extends Part {
     this.#listening.abort();
     this.#listening = undefined;
     this.#controls = false;
-    host.style.removeProperty('--zoom');
+    this.#uncover();
+    this.#enlarge(1);
     this.#restore(host.matches(':fullscreen') ? document.exitFullscreen() : undefined);
   }
 
@@ -81,17 +85,22 @@ export class Presentation extends Part {
     await new Promise(requestAnimationFrame);
     if (this.#listening) return;
     scrollTo({ top: this.#scrolled, behavior: 'instant' });
-    /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector('.to-present'))?.focus({ preventScroll: true });
+    this.#focus('.to-present');
   }
 
-  #focus() {
-    /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector('.presenting button'))?.focus();
+  /** @param {string} selector */
+  #focus(selector) {
+    /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector(selector))?.focus({ preventScroll: true });
   }
 
-  #enlarge = () => {
-    const zoom = Math.max(1, Math.min(innerWidth / LAYOUT.width, innerHeight / LAYOUT.height));
+  #fit = () => this.#enlarge(Math.max(1, Math.min(innerWidth / LAYOUT.width, innerHeight / LAYOUT.height)));
+
+  /** @param {number} zoom */
+  #enlarge(zoom) {
+    this.zoom = zoom;
     this.host.style.setProperty('--zoom', String(zoom));
-  };
+    this.host.stage.measure();
+  }
 
   #key = (/** @type {KeyboardEvent} */ event) => {
     const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
@@ -128,4 +137,28 @@ export class Presentation extends Part {
       ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
     </div>`;
   }
+}
+
+/**
+ * Puts all of a page but one element out of reach: it takes no focus, is not read out, and does not scroll.
+ *
+ * @param {Element} element
+ * @returns {() => void} what undoes it
+ */
+function cover(element) {
+  const { style } = document.documentElement;
+  const { overflow } = style;
+  style.overflow = 'hidden';
+  /** @type {HTMLElement[]} */
+  const covered = [];
+  /** @type {any} */
+  let at = element;
+  for (; at; at = at.parentNode ?? at.host) {
+    for (const each of at.parentNode?.children ?? []) if (each !== at && !each.inert) covered.push(each);
+  }
+  for (const each of covered) each.inert = true;
+  return () => {
+    style.overflow = overflow;
+    for (const each of covered) each.inert = false;
+  };
 }

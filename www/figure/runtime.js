@@ -149,7 +149,7 @@ export class Runtime extends Part {
       if (!this.#near) return;
       const machine = this.host.createMachine(motion, this.host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });
-      this.host.machineMade();
+      this.host.state.resume();
       // It may have trapped at once.
       if (this.machine) await this.#show();
     } catch (error) {

@@ -29,6 +29,12 @@ export class Settings extends Part {
     this.#pending = {};
   }
 
+  /** Those of some values that are declared settings of the machine. @param {Values} values */
+  declared(values) {
+    const keys = this.host.kind.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
+    return Object.fromEntries(keys.map((key) => [key, values[key]]));
+  }
+
   /** Those in effect with the changes that wait. @returns {Values} */
   get wanted() {
     return { ...this.host.machine?.config, ...this.#pending };

@@ -3,6 +3,7 @@
  * colours that follow the page, the theme and paper.
  */
 
+import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
@@ -56,14 +57,21 @@ export class Stage extends Part {
     if (!this.host.machine || this.#drawable) return;
     this.#drawable = true;
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
+    this.measure();
+    this.wake();
+  }
+
+  /** Tells what size the canvases have, now and whenever it changes. What enlarges them as they are, has to ask for it. */
+  measure() {
+    const sizes = this.#sizes;
+    if (!sizes) return;
     for (const canvas of this.#canvases) {
       try {
-        this.#sizes.observe(canvas, { box: 'device-pixel-content-box' });
+        sizes.observe(canvas, { box: 'device-pixel-content-box' });
       } catch {
-        this.#sizes.observe(canvas);
+        sizes.observe(canvas);
       }
     }
-    this.wake();
   }
 
   /** @param {boolean} inSight */
@@ -88,17 +96,27 @@ export class Stage extends Part {
     return this.host.machine !== undefined && this.#drawn < 2 && this.inSight && !document.hidden;
   }
 
+  /**
+   * What of a figure is not its pictures: it comes with the frame after the first, so that they are seen at once.
+   *
+   * @param {() => unknown} content
+   */
+  later(content) {
+    return this.opening ? nothing : content();
+  }
+
   /** Asks for none any more. */
   rest() {
     sleep(this);
   }
 
-  /** The canvases are about to go. */
+  /** There is nothing to draw any more: the canvases keep their places, and no pixels. */
   clear() {
     this.rest();
     this.#sizes?.disconnect();
+    this.#sizes = undefined;
+    for (const canvas of this.#canvases) canvas.width = canvas.height = 0;
     this.#drawable = this.#sized = false;
-    this.#drawn = 0;
     this.#palette = undefined;
   }
 
@@ -152,9 +170,9 @@ export class Stage extends Part {
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = /** @type {HTMLCanvasElement} */ (target);
       const exact = devicePixelContentBoxSize?.[0];
-      const ratio = devicePixelRatio * (canvas.currentCSSZoom ?? 1);
-      canvas.width = exact?.inlineSize ?? Math.round(contentRect.width * ratio);
-      canvas.height = exact?.blockSize ?? Math.round(contentRect.height * ratio);
+      const { zoom } = this.host.presenting;
+      canvas.width = Math.round(zoom * (exact?.inlineSize ?? devicePixelRatio * contentRect.width));
+      canvas.height = Math.round(zoom * (exact?.blockSize ?? devicePixelRatio * contentRect.height));
     }
     this.#sized = true;
     // Inside a closed tab, nothing tells of a change of colours.

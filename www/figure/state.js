@@ -25,7 +25,7 @@ export class State extends Part {
   own;
   #owned;
   /** Whether the machine was introduced by a state that came before it was shown. */
-  introduced = false;
+  #introduced = false;
 
   /**
    * @param {Figure} host
@@ -58,10 +58,17 @@ export class State extends Part {
     if (this.host.machine) this.kept = this.host.snapshot();
   }
 
-  /** A machine was made of the last good state: the element takes up its own part of that. */
-  restore() {
-    this.introduced = false;
+  /** A machine was made of the last good state: the figure goes on with it, and with what the page asked for meanwhile. */
+  resume() {
+    const { host } = this;
+    this.#introduced = false;
+    host.machineChanged();
+    host.settings.reset();
     if (this.kept) this.#adopt(this.kept);
+    host.reflection.catchUp();
+    host.link.catchUp();
+    // It may have trapped.
+    if (host.machine && !this.#introduced) this.#introduce(this.kept);
   }
 
   /**
@@ -88,8 +95,17 @@ export class State extends Part {
     host.runtime.replace(machine);
     host.machineChanged();
     host.settings.reset();
-    this.introduced = true;
-    host.introduce(whole);
+    this.#introduced = true;
+    this.#introduce(whole);
+  }
+
+  /** @param {Values} [state] that the machine is in, if it is not the opening */
+  #introduce(state) {
+    const { host } = this;
+    host.cloud?.introduce(state);
+    host.refresh();
+    host.reflection.tell();
+    host.settings.show();
   }
 
   /**

@@ -22,7 +22,7 @@
 export const LONGEST_SIDE = 16_384;
 
 /**
- * A point of the window in an element's own CSS pixels, which a zoom makes larger or smaller.
+ * A point of the window in an element's own CSS pixels, which what is around it may enlarge.
  *
  * @param {Element} element
  * @param {{ clientX: number, clientY: number }} point

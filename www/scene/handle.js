@@ -1,6 +1,6 @@
 /** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
 
-import { html } from 'lit';
+import { html, nothing } from 'lit';
 import { pointOn } from './canvas.js';
 
 /**
@@ -8,8 +8,7 @@ import { pointOn } from './canvas.js';
  * @property {() => import('./view.js').View} view
  * @property {(pointer: number[]) => number[]} [at] x and y of what is held by a pointer that is there; the middle of
  *   the handle where it is left out
- * @property {(x: number, y: number) => string | void} drag what is held is wanted there; a few words on what stops it, if
- *   something does
+ * @property {(x: number, y: number) => void} drag what is held is wanted there
  * @property {(event: KeyboardEvent) => boolean} key whether the key is one that moved it
  * @property {() => void} commit it has come to rest
  *
@@ -20,6 +19,7 @@ import { pointOn } from './canvas.js';
  * @property {number[]} range from and to
  * @property {number} now
  * @property {string} text the value in words
+ * @property {string | false} [stop] a few words on what it has come up against, if it has
  */
 
 /** Where the arrow keys go, y up. @type {Record<string, [x: number, y: number]>} */
@@ -44,9 +44,11 @@ export class Handle {
   }
 
   /** @param {Said} said */
-  element({ name, keys, title, range, now, text }) {
+  element({ name, keys, title, range, now, text, stop }) {
+    // What stops it stands beside it, towards the middle of the picture.
+    const side = 2 * this.#middle[0] > this.#hooks.view().width ? 'right' : '';
     return html`<div
-      class="handle ${this.#part}"
+      class="handle ${this.#part} ${side} ${this.held ? 'held' : ''}"
       role="slider"
       tabindex="0"
       aria-label=${name}
@@ -54,7 +56,8 @@ export class Handle {
       aria-valuemin=${range[0]}
       aria-valuemax=${range[1]}
       aria-valuenow=${now}
-      aria-valuetext=${text}
+      aria-valuetext=${stop ? `${text}. ${stop}` : text}
+      data-stop=${stop || nothing}
       title=${title}
       @pointerdown=${this.#hold}
       @pointermove=${this.#drag}
@@ -109,13 +112,12 @@ export class Handle {
   #drag = (/** @type {PointerEvent} */ event) => {
     if (!this.held) return;
     const [x, y] = this.#pointer(event);
-    stopped(/** @type {HTMLElement} */ (event.currentTarget), this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]));
+    this.#hooks.drag(x + this.#grip[0], y + this.#grip[1]);
   };
 
-  #release = (/** @type {PointerEvent} */ event) => {
+  #release = () => {
     if (!this.held) return;
     this.held = false;
-    stopped(/** @type {HTMLElement} */ (event.currentTarget));
     this.#hooks.commit();
   };
 
@@ -124,21 +126,4 @@ export class Handle {
     event.preventDefault();
     this.#hooks.commit();
   };
-}
-
-/**
- * Says beside a handle what stops it, towards the middle of its picture.
- *
- * @param {HTMLElement} handle
- * @param {string | void} words nothing where nothing stops it
- */
-function stopped(handle, words) {
-  if (!words) {
-    delete handle.dataset.stop;
-    return;
-  }
-  const picture = /** @type {Element} */ (handle.parentElement).getBoundingClientRect();
-  const { left, right } = handle.getBoundingClientRect();
-  handle.dataset.stop = words;
-  handle.classList.toggle('right', left + right > picture.left + picture.right);
 }

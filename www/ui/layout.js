@@ -107,8 +107,8 @@ const layout = css`
     border-radius: 50%;
   }
 
-  /* What stops a handle that is dragged on. */
-  .handle[data-stop]::before {
+  /* What stops a handle, while it is held or moved from the keyboard. */
+  .handle[data-stop]:is(.held, :focus-visible)::before {
     content: attr(data-stop);
     position: absolute;
     top: 50%;
@@ -123,7 +123,7 @@ const layout = css`
     pointer-events: none;
   }
 
-  .handle.right[data-stop]::before {
+  .handle.right[data-stop]:is(.held, :focus-visible)::before {
     right: calc(100% + 0.3rem);
     left: auto;
   }
@@ -215,7 +215,7 @@ const layout = css`
       }
 
       /* Clear of the shadow. */
-      .stage + .stage {
+      .stage[part='picture'] + * {
         margin-top: 0.7rem;
       }
 

@@ -20,11 +20,14 @@ export const presentationStyles = css`
   }
 
   :host([presentation]) .surface {
-    zoom: var(--zoom);
+    /* Not by zoom: browsers disagree about what lengths are inside of one. */
+    transform: scale(var(--zoom));
+    transform-origin: 0 0;
     display: flex;
     flex-direction: column;
     box-sizing: border-box;
-    height: 100%;
+    width: calc(100% / var(--zoom));
+    height: calc(100% / var(--zoom));
     padding: 0.4rem 0.8rem;
     overflow: auto;
     overscroll-behavior: contain;
@@ -76,6 +79,11 @@ export const presentationStyles = css`
     flex: none;
     height: calc(50vh / var(--zoom));
     background: var(--paper);
+  }
+
+  /* Clear of the buttons. */
+  :host([presentation]) .aside {
+    padding-top: 1.6rem;
   }
 
   .presenting {

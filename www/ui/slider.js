@@ -58,13 +58,16 @@ export const sliderStyles = css`
     border-color: var(--muted);
   }
 
+  /* What does not fit into its room covers what stands below, and no slider of its own group. */
   .slider .effect {
     position: absolute;
+    top: calc(100% - 1.3rem);
     right: 0;
-    bottom: 0;
     left: 0;
+    z-index: 1;
     margin: 0;
     visibility: hidden;
+    background: var(--paper);
   }
 
   .slider:focus-within .effect,
@@ -72,13 +75,9 @@ export const sliderStyles = css`
     visibility: visible;
   }
 
-  /* What was refused is said until something else is of interest, also over what stands below. */
+  /* What was refused is said until something else is of interest. */
   .slider.refused .effect {
-    top: calc(100% - 1.3rem);
-    bottom: auto;
-    z-index: 1;
     visibility: visible;
-    background: var(--paper);
     color: var(--accent);
   }
 

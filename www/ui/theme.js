@@ -108,13 +108,21 @@ export const theme = css`
       position: static !important;
     }
 
-    :is(button, input, textarea, details, .handle, .effect, .marked, .visually-hidden),
+    .machine {
+      min-height: 0 !important;
+    }
+
+    :is(button, input, textarea, summary, .handle, .effect, .marked, .visually-hidden),
     label:has(input:not(:checked)) {
       display: none !important;
     }
 
     fieldset {
       display: block !important;
+    }
+
+    .folds {
+      border: 0 !important;
     }
 
     .slider {

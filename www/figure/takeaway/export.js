@@ -29,11 +29,11 @@ const SIZE = { width: 720, height: 432 };
  * @param {number} ratio pixels a CSS pixel
  * @param {(size: { width: number, height: number }) => unknown} makeContext
  */
-function drawOn({ scene, pictures: [picture], stage }, ratio, makeContext) {
+function drawOn({ scene, pictures: [picture], stage, presenting: { zoom } }, ratio, makeContext) {
   const canvas = stage.canvasOf(picture);
   const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
   // Enlarged for an audience or not, it is the same picture.
-  const [clientWidth, height] = [box.width, box.height].map((length) => length / (canvas.currentCSSZoom ?? 1));
+  const [clientWidth, height] = [box.width, box.height].map((length) => length / zoom);
   const { fontFamily, fontSize } = getComputedStyle(canvas);
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const context = /** @type {CanvasRenderingContext2D} */ (makeContext(size));

@@ -23,7 +23,7 @@ import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
-import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
+import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, room, vocabulary } from './settings.js';
 import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
 
@@ -41,11 +41,6 @@ const EXECUTED_COLUMNS = {
   odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
 };
 
-/** What the figure takes. @type {Parameters<typeof reserve>[0]} */
-const ROOM = [
-  [0, 51.7, 160], [25, 45.2, 160], [30, 44.6, 40], [35, 42.9, 40], [37, 31, 40], [39, 27, 40], [42.5, 24.1, 40], [56, 24.2, 25], [76, 22.8, 25],
-];
-
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
  *
@@ -58,7 +53,7 @@ const ROOM = [
  * @extends {FigureElement<Machine, Reading>}
  */
 export class BananaMachineElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(ROOM), ...bananaStyles];
+  static styles = [...FigureElement.styles, reserve(room), ...bananaStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -84,7 +79,7 @@ export class BananaMachineElement extends FigureElement {
       // Each model keeps its own.
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configure({ model: other, alphas: alphas[other] });
-      machine.configure({ ...this.settingsOf(state), alphas: alphas[model] });
+      machine.configure({ ...this.settings.declared(state), alphas: alphas[model] });
       machine.grow(shown);
     });
   };
@@ -106,7 +101,7 @@ export class BananaMachineElement extends FigureElement {
     const { config, shown: count } = this.fresh;
     const { poses, twists, executed } = /** @type {Machine} */ (this.machine);
     return {
-      title: this.label,
+      title: this.lettering.name,
       settings: { element: this.localName, ...config },
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
       row: (/** @type {number} */ i) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
@@ -192,14 +187,14 @@ export class BananaMachineElement extends FigureElement {
     const say = words.banana;
     const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
     return html`
-      <section class="machine" aria-label=${this.label}>
+      <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
           <div class="stage" part="picture">
             ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}
           </div>
           <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>
-        ${this.later(() => html`
+        ${this.stage.later(() => html`
         <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
           <span>${captionOf(reading)}</span>
         </p>

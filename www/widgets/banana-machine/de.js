@@ -122,6 +122,7 @@ export const de = {
   handle: 'Ende des befohlenen Bogens',
   handleKeys: 'Die Pfeiltasten bewegen es über den Boden',
   handleTitle: 'Zieh am Ende des Bogens',
+  slidersEnd: 'Hier enden die Regler',
   chart: 'Exakte Schiefe quer zur Fahrt über dem befohlenen ω, beim jetzigen Rauschen',
   chartAxis: 'Schiefe quer zur Fahrt',
   chartMarker: 'Befohlenes ω im Diagramm',

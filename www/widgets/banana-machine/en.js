@@ -127,6 +127,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   handle: 'End of the commanded arc',
   handleKeys: 'Arrow keys move it over the floor',
   handleTitle: 'Drag the end of the arc',
+  slidersEnd: 'The sliders end here',
   chart: 'Exact cross-track skew against commanded ω, for the present noise',
   chartAxis: 'cross-track skew',
   chartMarker: 'Commanded ω on the chart',

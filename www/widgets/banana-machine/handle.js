@@ -31,6 +31,7 @@ export class ArcHandle extends Handle {
   render({ v, omega }) {
     const say = words.banana;
     const { min, max } = looks.omega;
+    const ends = [v - looks.v.min, looks.v.max - v, omega - min, max - omega].some((left) => left <= 0);
     return this.element({
       name: say.handle,
       keys: say.handleKeys,
@@ -38,6 +39,7 @@ export class ArcHandle extends Handle {
       range: [min, max],
       now: omega,
       text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
+      stop: ends && say.slidersEnd,
     });
   }
 }

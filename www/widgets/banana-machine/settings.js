@@ -57,3 +57,8 @@ export const looks = {
 
 /** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
 export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);
+
+/** What the figure takes. @type {import('../../figure/page/reserve.js').Room} */
+export const room = [
+  [0, 52.6, 160], [25.75, 49.6, 160], [26.25, 46.9, 160], [30, 43.2, 40], [37.5, 29.9, 40], [40, 27.3, 40], [43.75, 24.4, 40], [56, 24.5, 25],
+];

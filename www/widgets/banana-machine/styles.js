@@ -47,6 +47,17 @@ const own = css`
     }
   }
 
+  @container (max-width: 42rem) {
+    .presets {
+      gap: 0.25rem;
+    }
+
+    .presets button {
+      padding-inline: 0.3rem;
+      font-size: 0.84rem;
+    }
+  }
+
   /* The seed shares the line in which the help of N appears. */
   .cloud .buttons {
     margin-bottom: 0.2rem;

@@ -85,7 +85,7 @@ export const de = {
   headingTitle: 'Dreh den Roboter',
   rates: {
     accepted: 'angenommen',
-    ofParts: 'angenommen, von allen gezogenen Teilen',
+    ofParts: 'angenommen, von allen Teilen',
     kept: 'behalten',
     through: 'davon durch eine Wand',
     interval: 'davon durch eine Wand (95-%-Intervall)',

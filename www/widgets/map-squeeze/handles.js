@@ -51,7 +51,7 @@ export class RobotHandles extends Part {
   render() {
     const say = words.squeeze;
     const { x, y, theta } = this.#start;
-    const { 0: left, 2: right } = this.host.picture.plan.bounds;
+    const [left, bottom, right, top] = this.host.picture.plan.bounds;
     return [
       this.#body.element({
         name: say.robot,
@@ -60,6 +60,7 @@ export class RobotHandles extends Part {
         range: [left, right],
         now: x,
         text: say.robotText(fixed(x, 2), fixed(y, 2)),
+        stop: (x <= left || x >= right || y <= bottom || y >= top) && say.mapEnds,
       }),
       this.#turn.element({
         name: say.heading,
@@ -104,14 +105,11 @@ export class RobotHandles extends Part {
   /**
    * @param {number} x metres
    * @param {number} y
-   * @returns {string | undefined} what stops it
    */
   #moveTo(x, y) {
     const [left, bottom, right, top] = this.host.picture.plan.bounds;
     const { theta } = this.#start;
-    const [inX, inY] = [clamp(x, left, right), clamp(y, bottom, top)];
-    this.#want({ x: inX, y: inY, theta });
-    return inX === x && inY === y ? undefined : words.squeeze.mapEnds;
+    this.#want({ x: clamp(x, left, right), y: clamp(y, bottom, top), theta });
   }
 
   /** @param {number} theta radians */

@@ -18,7 +18,7 @@ import { FOLD, MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
 import { costTable, legend, markedDraw, rates, tally } from './readouts.js';
-import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
+import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, room, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
 import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
 
@@ -27,12 +27,6 @@ import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
  * @import { OwnMap } from './maps/files.js'
  * @import { Reading } from './reading.js'
  */
-
-/** What the figure takes. @type {Parameters<typeof reserve>[0]} */
-const ROOM = [
-  [0, 52.7, 80], [22, 49.7, 80], [23, 46.6, 80], [25, 43.1, 80], [33, 40.1, 80], [37, 39, 80], [38, 48.5, 0], [38.5, 42.7, 0], [45, 6.6, 80],
-  [50, 42.7, 0], [53, 9.5, 62.5], [58, 7.6, 62.5], [60, 40.8, 0], [62, 39.4, 0], [71.5, 9.6, 41.7],
-];
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.
@@ -43,7 +37,7 @@ const ROOM = [
  * @extends {FigureElement<Machine, Reading>}
  */
 export class MapSqueezeElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(ROOM), ...squeezeStyles];
+  static styles = [...FigureElement.styles, reserve(room), ...squeezeStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -71,7 +65,7 @@ export class MapSqueezeElement extends FigureElement {
     if (!state) return machine;
     return orFree(machine, () => {
       if (state.map !== null) applyMap(machine, state.map);
-      machine.configure(this.settingsOf(state));
+      machine.configure(this.settings.declared(state));
       showOnly(machine, state.shown);
     });
   };
@@ -105,7 +99,7 @@ export class MapSqueezeElement extends FigureElement {
   get takeaway() {
     const { config, poses, verdicts } = this.fresh;
     return {
-      title: this.label,
+      title: this.lettering.name,
       settings: { element: this.localName, map: this.map?.name ?? null, ...config },
       columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
       row: (/** @type {number} */ i) => [
@@ -287,7 +281,7 @@ export class MapSqueezeElement extends FigureElement {
     return html`
       <section
         class="machine"
-        aria-label=${this.label}
+        aria-label=${this.lettering.name}
         @dragover=${this.#opener.over}
         @dragleave=${this.#opener.leave}
         @drop=${this.#opener.drop}
@@ -297,14 +291,13 @@ export class MapSqueezeElement extends FigureElement {
             ${canvas(this, this.picture, pictureText(reading, map))}
             ${this.#handles.render()}
           </div>
+          ${this.stage.later(() => html`
           <p class="verdict caption roomy ${note && 'note'}" part="caption" data-room=${longestVerdict(config)}>
             <span>${verdictOf(reading)}</span>
           </p>
-          <div class="aside">
-            ${this.later(() => html`${rates(reading)} ${placeControls(this)} ${hasUnknown ? unknownChoice(this) : nothing} ${judgeControls(this)}`)}
-          </div>
+          <div class="aside">${rates(reading)} ${placeControls(this)} ${hasUnknown ? unknownChoice(this) : nothing} ${judgeControls(this)}</div>`)}
         </div>
-        ${this.later(() => html`
+        ${this.stage.later(() => html`
         <div class="controls" part="controls">${motionControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
         <div class="folds">
           ${fold(say.keyAndSample, () => html`${viewChoice(this)} ${legend(reading, hasUnknown)} ${markedDraw(this)}`)}

@@ -66,3 +66,9 @@ export const SAMPLERS = /** @type {('endpoint' | 'whole-arc' | 'sub-stepped')[]}
 
 /** Sample counts of the slider. The machine takes more, but they would be slow to follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
+
+/** What the figure takes. @type {import('../../figure/page/reserve.js').Room} */
+export const room = [
+  [0, 53.2, 80], [21.75, 50.4, 80], [22.75, 46.3, 80], [23.4, 43.2, 80], [30, 43, 80], [31.25, 40.1, 80], [38, 15.6, 80],
+  [38.5, 42.2, 0], [45, 7.3, 75], [50, 11.2, 62.5], [56, 9.3, 62.5], [60, 41.1, 0], [76.5, 9.7, 41.7],
+];

@@ -11,7 +11,8 @@ const own = css`
   /* The picture with the sentence below it, and beside it the figures and what is chosen. */
   @container (min-width: 38rem) {
     .views {
-      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 14.5rem;
+      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 16rem;
+      column-gap: 1rem;
     }
 
     .stage {
@@ -27,7 +28,21 @@ const own = css`
     }
   }
 
+  /* In the column of a book, two places in a row. */
+  @container (width < 50rem) {
+    .aside .buttons button {
+      padding-inline: 0.4rem;
+      font-size: 0.84rem;
+    }
+  }
+
   /* Wider, and not higher: all of it is to fit on a screen. */
+  @container (min-width: 45rem) {
+    canvas {
+      aspect-ratio: 4 / 3;
+    }
+  }
+
   @container (min-width: 50rem) {
     canvas {
       aspect-ratio: 8 / 5;
@@ -41,7 +56,12 @@ const own = css`
   }
 
   .aside .buttons {
-    gap: 0.4rem;
+    gap: 0.35rem;
+    margin-bottom: 0.4rem;
+  }
+
+  .aside .choices {
+    column-gap: 0.6rem;
   }
 
   .aside .readouts {

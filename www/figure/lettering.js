@@ -1,0 +1,42 @@
+/** What the page writes around a figure, in its slots: a title, which names it, and a caption. */
+
+import { html, nothing } from 'lit';
+import { words } from '../messages/registry.js';
+import { Part } from './part.js';
+
+export class Lettering extends Part {
+  /** The figure's name: the title that the page gives it, or the widget's own. */
+  get name() {
+    const title = this.#given('title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
+    return title || /** @type {any} */ (words)[this.host.kind.vocabulary].title;
+  }
+
+  /** A heading where the page says of which level. */
+  title() {
+    return this.#slot('title', this.host.headingLevel);
+  }
+
+  caption() {
+    return this.#slot('caption', null);
+  }
+
+  /** What the page has put into a slot. @param {string} name */
+  #given(name) {
+    return [...this.host.children].filter(({ slot }) => slot === name);
+  }
+
+  /**
+   * @param {string} name
+   * @param {string | null} level
+   */
+  #slot(name, level) {
+    return html`<div
+      class="${name}-slot"
+      role=${level ? 'heading' : nothing}
+      aria-level=${level ?? nothing}
+      ?hidden=${this.#given(name).length === 0}
+    >
+      <slot name=${name} @slotchange=${() => this.host.requestUpdate()}></slot>
+    </div>`;
+  }
+}

@@ -1,0 +1,28 @@
+/** In the place of a figure that is not there yet: who comes to it from the keyboard comes into the figure. */
+
+import { html } from 'lit';
+
+/** @import { Figure } from './figure.js' */
+
+/** What Tab stops at. */
+const STOPS = ':is(button, input, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
+
+/** @param {Figure} figure */
+export function placeholder(figure) {
+  const reach = (/** @type {FocusEvent} */ { relatedTarget }) => void goInto(figure, relatedTarget);
+  return html`<div class="reserved" tabindex="0" role="group" aria-label=${figure.lettering.name} @focus=${reach}></div>`;
+}
+
+/**
+ * @param {Figure} figure
+ * @param {EventTarget | null} origin what had the focus before
+ */
+async function goInto(figure, origin) {
+  await figure.runtime.hasten();
+  if (!figure.machine || (document.activeElement !== figure && document.activeElement !== document.body)) return;
+  const stops = [...figure.renderRoot.querySelectorAll(STOPS)].filter((stop) => stop.checkVisibility());
+  // Backwards, if the reader came from what is below.
+  const from = origin instanceof Node && origin !== document.body ? origin : figure;
+  const below = figure.compareDocumentPosition(from) & Node.DOCUMENT_POSITION_FOLLOWING;
+  /** @type {HTMLElement | undefined} */ (stops.at(below ? -1 : 0))?.focus();
+}

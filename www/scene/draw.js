@@ -166,8 +166,11 @@ function headingTick({ context, view }, x, y, heading, length) {
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
 }
 
-/** The dots of the latest kind: to make a canvas costs as much as to draw hundreds of them. @type {{ kind: string, dot: OffscreenCanvas } | undefined} */
-let latest;
+/** Dots by kind: to make a canvas costs as much as to draw hundreds of them. @type {Map<string, OffscreenCanvas>} */
+const sprites = new Map();
+
+/** Kinds that are kept: a picture has two of them, and there are more where colours or sizes change. */
+const MAX_SPRITES = 20;
 
 /**
  * @param {string} colour
@@ -175,8 +178,12 @@ let latest;
  */
 function sprite(colour, radius) {
   const kind = `${colour} ${radius}`;
-  if (latest?.kind !== kind) latest = { kind, dot: makeSprite(colour, radius) };
-  return latest.dot;
+  let dot = sprites.get(kind);
+  if (!dot) {
+    if (sprites.size === MAX_SPRITES) sprites.clear();
+    sprites.set(kind, (dot = makeSprite(colour, radius)));
+  }
+  return dot;
 }
 
 /**
@@ -248,7 +255,8 @@ export function densityRamp(palette) {
 }
 
 /**
- * An image that covers the inside of the axes.
+ * An image that covers the inside of the axes. Only the part with ink is drawn: of a density most is empty, and to stretch it
+ * costs more than all the rest of a picture.
  *
  * @param {Brush} brush
  * @param {OffscreenCanvas} grid what the pixels go through to be stretched
@@ -259,11 +267,43 @@ export function drawPixels({ context, view }, grid, pixels, columns) {
   const rows = pixels.length / (4 * columns);
   if (grid.width !== columns) grid.width = columns;
   if (grid.height !== rows) grid.height = rows;
+  const inked = inkedPart(pixels, columns, rows);
+  if (!inked) return;
+  const [x, y, width, height] = inked;
   const surface = /** @type {OffscreenCanvasRenderingContext2D} */ (grid.getContext('2d'));
-  surface.putImageData(new ImageData(pixels, columns, rows), 0, 0);
+  surface.putImageData(new ImageData(pixels, columns, rows), 0, 0, x, y, width, height);
   const { left, right, top, bottom } = view.frame;
+  const [across, down] = [(right - left) / columns, (bottom - top) / rows];
   context.imageSmoothingEnabled = true;
-  context.drawImage(grid, left, top, right - left, bottom - top);
+  context.drawImage(grid, x, y, width, height, left + across * x, top + down * y, across * width, down * height);
+}
+
+/**
+ * The box of the pixels with ink and a pixel around it, into which they fade where they are stretched.
+ *
+ * @param {Uint8ClampedArray<ArrayBuffer>} pixels
+ * @param {number} columns
+ * @param {number} rows
+ * @returns {[x: number, y: number, width: number, height: number] | undefined}
+ */
+function inkedPart(pixels, columns, rows) {
+  const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
+  let [left, right, top, bottom] = [columns, -1, -1, -1];
+  for (let row = 0; row < rows; row++) {
+    const [first, end] = [row * columns, (row + 1) * columns];
+    let from = first;
+    while (from < end && cells[from] === 0) from++;
+    if (from === end) continue;
+    let to = end - 1;
+    while (cells[to] === 0) to--;
+    if (top < 0) top = row;
+    bottom = row;
+    left = Math.min(left, from - first);
+    right = Math.max(right, to - first);
+  }
+  if (top < 0) return undefined;
+  const [x, y] = [Math.max(0, left - 1), Math.max(0, top - 1)];
+  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, bottom + 2) - y];
 }
 
 /**

@@ -194,8 +194,7 @@ export class FigureElement extends LitElement {
 
   /** Everything that a reader can change, as the machine and the element have it. @returns {Values} */
   snapshot() {
-    const { config } = /** @type {Machine} */ (this.machine);
-    return { ...this.state.common, ...this.settingsOf(config), ...this.cloud?.snapshot() };
+    return { ...this.state.common, ...this.settingsOf(this.settings.present), ...this.cloud?.snapshot() };
   }
 
   /** Those of some values that are declared settings of the machine. @param {Values} values */

@@ -1,6 +1,6 @@
 /**
  * What pictures are made of: axes, robots, densities, outlines and marks. Every function takes the
- * brush, which knows the view's transform and the colours, and none keeps anything but the latest dot.
+ * brush, which knows the view's transform and the colours, and none keeps anything.
  */
 
 import { ticks } from 'd3-array';
@@ -19,10 +19,10 @@ import { channels } from '../ui/theme.js';
 const TICK_SPACING = { x: 60, y: 48 };
 
 /**
- * Heading ticks that are stroked at once. More is faster; but those of one stroke do not darken
+ * Lines of a crowd that are stroked at once. More is faster; but those of one stroke do not darken
  * where they cross, so many more would flatten the crowd.
  */
-const TICKS_A_STROKE = 25;
+const LINES_A_STROKE = 25;
 
 /**
  * Hairline axes with ticks at the left and the bottom, and a faint grid.
@@ -116,7 +116,7 @@ export function clipped({ context, view }, paint) {
  * @param {{ x: number, y: number, heading: number | null }} layout which of the three numbers are drawn
  */
 export function drawDots(brush, triples, layout) {
-  const { context, view, palette, ratio } = brush;
+  const { context, view, palette } = brush;
   const count = triples.length / 3;
   const few = count < 400;
   // Smaller in a small picture, where as many robots share less room.
@@ -124,31 +124,37 @@ export function drawDots(brush, triples, layout) {
   const radius = size * (few ? 2.4 : 1.8);
   const x = (/** @type {number} */ i) => view.toPixelX(triples[3 * i + layout.x]);
   const y = (/** @type {number} */ i) => view.toPixelY(triples[3 * i + layout.y]);
-  if (layout.heading !== null) {
+  const { heading } = layout;
+  if (heading !== null) {
     const length = size * (few ? 13 : 9);
     context.strokeStyle = palette.cloud;
     context.lineWidth = 1;
     context.globalAlpha = few ? 0.6 : 0.32;
-    for (let i = 0; i < count; i++) {
-      if (i % TICKS_A_STROKE === 0) context.beginPath();
-      headingTick(brush, x(i), y(i), triples[3 * i + layout.heading], length);
-      if (i % TICKS_A_STROKE === TICKS_A_STROKE - 1 || i === count - 1) context.stroke();
-    }
+    strokeCrowd(context, count, (i) => headingTick(brush, x(i), y(i), triples[3 * i + heading], length));
   }
   context.globalAlpha = few ? 0.9 : 0.5;
   context.fillStyle = palette.cloud;
-  const dot = 'vector' in context ? undefined : sprite(palette.cloud, radius * ratio);
   for (let i = 0; i < count; i++) {
-    if (dot) {
-      const side = dot.width / ratio;
-      context.drawImage(dot, x(i) - side / 2, y(i) - side / 2, side, side);
-    } else {
-      context.beginPath();
-      context.arc(x(i), y(i), radius, 0, 2 * Math.PI);
-      context.fill();
-    }
+    context.beginPath();
+    context.arc(x(i), y(i), radius, 0, 2 * Math.PI);
+    context.fill();
   }
   context.globalAlpha = 1;
+}
+
+/**
+ * Strokes many lines that may cross.
+ *
+ * @param {Context} context
+ * @param {number} count
+ * @param {(index: number) => void} add adds one of them to the path
+ */
+export function strokeCrowd(context, count, add) {
+  for (let i = 0; i < count; i++) {
+    if (i % LINES_A_STROKE === 0) context.beginPath();
+    add(i);
+    if (i % LINES_A_STROKE === LINES_A_STROKE - 1 || i === count - 1) context.stroke();
+  }
 }
 
 /**
@@ -164,40 +170,6 @@ function headingTick({ context, view }, x, y, heading, length) {
   const ahead = view.direction(heading);
   context.moveTo(x, y);
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
-}
-
-/** Dots by kind: to make a canvas costs as much as to draw hundreds of them. @type {Map<string, OffscreenCanvas>} */
-const sprites = new Map();
-
-/** Kinds that are kept: a picture has two of them, and there are more where colours or sizes change. */
-const MAX_SPRITES = 20;
-
-/**
- * @param {string} colour
- * @param {number} radius device pixels
- */
-function sprite(colour, radius) {
-  const kind = `${colour} ${radius}`;
-  let dot = sprites.get(kind);
-  if (!dot) {
-    if (sprites.size === MAX_SPRITES) sprites.clear();
-    sprites.set(kind, (dot = makeSprite(colour, radius)));
-  }
-  return dot;
-}
-
-/**
- * @param {string} colour
- * @param {number} radius device pixels
- */
-function makeSprite(colour, radius) {
-  const half = Math.ceil(radius) + 1;
-  const canvas = new OffscreenCanvas(2 * half, 2 * half);
-  const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
-  context.fillStyle = colour;
-  context.arc(half, half, radius, 0, 2 * Math.PI);
-  context.fill();
-  return canvas;
 }
 
 /**
@@ -307,13 +279,12 @@ function inkedPart(pixels, columns, rows) {
 }
 
 /**
- * Makes a polyline through x, y pairs the path.
+ * Adds a polyline through x, y pairs to the path.
  *
  * @param {Brush} brush
  * @param {Float64Array} points
  */
 export function trace({ context, view }, points) {
-  context.beginPath();
   context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
   for (let i = 2; i < points.length; i += 2) {
     context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
@@ -342,12 +313,14 @@ export function drawOutlines(brush, outlines) {
   context.globalAlpha = 0.7;
   context.strokeStyle = palette.paper;
   for (const { points, width } of drawn) {
+    context.beginPath();
     trace(brush, points);
     context.lineWidth = width + 2.5;
     context.stroke();
   }
   context.globalAlpha = 1;
   for (const { points, colour, width, dash } of drawn) {
+    context.beginPath();
     trace(brush, points);
     context.strokeStyle = colour;
     context.lineWidth = width;

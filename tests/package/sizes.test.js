@@ -23,7 +23,7 @@ test('what a page loads does not grow', () => {
   const loaded = loadedByWidgets();
   for (const [tag, paths] of Object.entries(loaded)) within(tag, paths, 123_000);
   const scripts = new Set(Object.values(loaded).flat().filter((path) => path.endsWith('.js')));
-  within('scripts of all widgets', [...scripts], 59_000);
+  within('scripts of all widgets', [...scripts], 60_000);
   within('module', ['dist/motion.wasm'], 77_000);
   within('bundle', ['dist/motion-widgets.js'], 148_000);
   within('classic script', ['dist/motion-widgets.iife.js'], 150_000);

@@ -35,8 +35,7 @@ export class Stage extends Part {
   #canvases;
   /** Whether the canvases have the screen's pixels. */
   #sized = false;
-  /** Whether the first picture has been drawn, and whether its words have come. */
-  #drawn = false;
+  /** Whether the words of the first picture have come. */
   #told = false;
   /** Whether there is something to draw, as soon as it is in sight. */
   #due = false;
@@ -113,7 +112,7 @@ export class Stage extends Part {
   clear() {
     this.rest();
     this.#sizes?.disconnect();
-    this.#sized = this.#drawn = this.#told = false;
+    this.#sized = this.#told = false;
     this.#canvases = this.#palette = this.#owedSince = undefined;
   }
 
@@ -146,13 +145,14 @@ export class Stage extends Part {
     const how = { elapsed, still: host.held, atOnce: isCalm() };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
-    const { opening } = this;
     const now = performance.now();
-    this.#owedSince ??= began;
+    const since = this.#owedSince;
     // With the first picture there comes nothing else.
-    if (opening ? this.#drawn : now - began < QUICK || now - this.#owedSince > LATEST_WORDS) this.#tell();
-    else wake(this);
-    this.#drawn = true;
+    if (this.opening ? since : now - began < QUICK || now - (since ?? now) > LATEST_WORDS) this.#tell();
+    else {
+      this.#owedSince ??= began;
+      wake(this);
+    }
     if (moving.includes(true) || host.cloud?.playing) this.wake();
   }
 

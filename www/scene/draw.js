@@ -19,10 +19,10 @@ import { channels } from '../ui/theme.js';
 const TICK_SPACING = { x: 60, y: 48 };
 
 /**
- * Lines of a crowd that are stroked at once. More is faster; but those of one stroke do not darken
+ * Heading ticks that are stroked at once. More is faster; but those of one stroke do not darken
  * where they cross, so many more would flatten the crowd.
  */
-const LINES_A_STROKE = 25;
+const TICKS_A_STROKE = 25;
 
 /**
  * Hairline axes with ticks at the left and the bottom, and a faint grid.
@@ -130,7 +130,11 @@ export function drawDots(brush, triples, layout) {
     context.strokeStyle = palette.cloud;
     context.lineWidth = 1;
     context.globalAlpha = few ? 0.6 : 0.32;
-    strokeCrowd(context, count, (i) => headingTick(brush, x(i), y(i), triples[3 * i + heading], length));
+    for (let i = 0; i < count; i++) {
+      if (i % TICKS_A_STROKE === 0) context.beginPath();
+      headingTick(brush, x(i), y(i), triples[3 * i + heading], length);
+      if (i % TICKS_A_STROKE === TICKS_A_STROKE - 1 || i === count - 1) context.stroke();
+    }
   }
   context.globalAlpha = few ? 0.9 : 0.5;
   context.fillStyle = palette.cloud;
@@ -140,21 +144,6 @@ export function drawDots(brush, triples, layout) {
     context.fill();
   }
   context.globalAlpha = 1;
-}
-
-/**
- * Strokes many lines that may cross.
- *
- * @param {Context} context
- * @param {number} count
- * @param {(index: number) => void} add adds one of them to the path
- */
-export function strokeCrowd(context, count, add) {
-  for (let i = 0; i < count; i++) {
-    if (i % LINES_A_STROKE === 0) context.beginPath();
-    add(i);
-    if (i % LINES_A_STROKE === LINES_A_STROKE - 1 || i === count - 1) context.stroke();
-  }
 }
 
 /**
@@ -260,22 +249,17 @@ export function drawPixels({ context, view }, grid, pixels, columns) {
  */
 function inkedPart(pixels, columns, rows) {
   const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
-  let [left, right, top, bottom] = [columns, -1, -1, -1];
-  for (let row = 0; row < rows; row++) {
-    const [first, end] = [row * columns, (row + 1) * columns];
-    let from = first;
-    while (from < end && cells[from] === 0) from++;
-    if (from === end) continue;
-    let to = end - 1;
-    while (cells[to] === 0) to--;
-    if (top < 0) top = row;
-    bottom = row;
-    left = Math.min(left, from - first);
-    right = Math.max(right, to - first);
+  let [left, right, first, last] = [columns, 0, -1, -1];
+  for (let i = 0; i < cells.length; i++) {
+    if (cells[i] === 0) continue;
+    if (first < 0) first = i;
+    last = i;
+    left = Math.min(left, i % columns);
+    right = Math.max(right, i % columns);
   }
-  if (top < 0) return undefined;
-  const [x, y] = [Math.max(0, left - 1), Math.max(0, top - 1)];
-  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, bottom + 2) - y];
+  if (first < 0) return undefined;
+  const [x, y] = [Math.max(0, left - 1), Math.max(0, Math.floor(first / columns) - 1)];
+  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, Math.floor(last / columns) + 2) - y];
 }
 
 /**
@@ -288,6 +272,31 @@ export function trace({ context, view }, points) {
   context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
   for (let i = 2; i < points.length; i += 2) {
     context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
+  }
+}
+
+/** Chords of a smooth outline that are drawn as one bend, which browsers stroke in half the time. */
+const CHORDS_A_BEND = 4;
+
+/**
+ * As `trace`, of what is smooth where it has many points: each bend goes through its first point, its middle and its last.
+ *
+ * @param {Brush} brush
+ * @param {Float64Array} points
+ */
+function traceSmooth(brush, points) {
+  const { context, view } = brush;
+  const chords = points.length / 2 - 1;
+  if (chords % CHORDS_A_BEND !== 0) {
+    trace(brush, points);
+    return;
+  }
+  const x = (/** @type {number} */ i) => view.toPixelX(points[2 * i]);
+  const y = (/** @type {number} */ i) => view.toPixelY(points[2 * i + 1]);
+  context.moveTo(x(0), y(0));
+  for (let i = 0; i < chords; i += CHORDS_A_BEND) {
+    const [middle, end] = [i + CHORDS_A_BEND / 2, i + CHORDS_A_BEND];
+    context.quadraticCurveTo(2 * x(middle) - (x(i) + x(end)) / 2, 2 * y(middle) - (y(i) + y(end)) / 2, x(end), y(end));
   }
 }
 
@@ -314,14 +323,14 @@ export function drawOutlines(brush, outlines) {
   context.strokeStyle = palette.paper;
   for (const { points, width } of drawn) {
     context.beginPath();
-    trace(brush, points);
+    traceSmooth(brush, points);
     context.lineWidth = width + 2.5;
     context.stroke();
   }
   context.globalAlpha = 1;
   for (const { points, colour, width, dash } of drawn) {
     context.beginPath();
-    trace(brush, points);
+    traceSmooth(brush, points);
     context.strokeStyle = colour;
     context.lineWidth = width;
     context.setLineDash(dash);

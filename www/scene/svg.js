@@ -73,6 +73,11 @@ export class SvgContext {
     this.#path += `L${short(x)},${short(y)}`;
   };
 
+  /** @type {CanvasPath['quadraticCurveTo']} */
+  quadraticCurveTo = (...points) => {
+    this.#path += `Q${points.map(short).join(',')}`;
+  };
+
   /** @type {CanvasPath['arc']} */
   arc = (x, y, radius, from, to, backwards = false) => {
     const r = short(radius);

@@ -1,6 +1,6 @@
 /** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
 
-import { clipped, densityRamp, drawAxes, drawDots, drawMark, drawOutline, drawPixels, strokeCrowd, trace } from '../../scene/draw.js';
+import { clipped, densityRamp, drawAxes, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer } from '../../scene/walls.js';
@@ -297,7 +297,11 @@ function drawPaths(brush, paths) {
   context.strokeStyle = palette.accent;
   context.lineWidth = 1;
   context.globalAlpha = 0.3;
-  strokeCrowd(context, paths.length, (i) => trace(brush, paths[i]));
+  for (const path of paths) {
+    context.beginPath();
+    trace(brush, path);
+    context.stroke();
+  }
   context.globalAlpha = 1;
 }
 

@@ -1,6 +1,7 @@
 /**
- * What the frame after a step of a drag takes, at the opening sizes and with a processor four times slower: the step's
- * share of JavaScript and WebAssembly, and the browser's of style, layout and paint.
+ * What a step of a drag takes, at the opening sizes and with a processor four times slower: the frame with its picture
+ * (JavaScript, WebAssembly, style, layout and paint), how long until its words are there too, and the frames of a drag that
+ * takes a step in each.
  *
  * @module
  */
@@ -14,7 +15,14 @@ export const THROTTLE = 4;
 const DRAGGED = '.slider input[type=range], .handle';
 
 /**
- * @typedef {{ widget: string, what: string, time: import('./timing.js').Spread }} Drag times in ms
+ * @typedef {import('./timing.js').Spread} Spread
+ *
+ * @typedef {object} Drag times in ms
+ * @property {string} widget
+ * @property {string} what is dragged
+ * @property {Spread} time from the frame after a step to its being handed over with the picture
+ * @property {Spread} words from there to the frame with the words being handed over
+ * @property {Spread} steady from frame to frame where each has a step
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} address of drag.html
@@ -35,8 +43,8 @@ export async function timeDrags(browser, address, steps) {
     const count = await page.locator(widget).locator(DRAGGED).count();
     await session.send('Emulation.setCPUThrottlingRate', { rate: THROTTLE });
     for (let i = 0; i < count; i++) {
-      const { what, times } = await page.evaluate(drag, { widget, selector: DRAGGED, i, steps });
-      if (times.length > 0) drags.push({ widget, what, time: spread(times) });
+      const { what, time, words, steady } = await page.evaluate(drag, { widget, selector: DRAGGED, i, steps });
+      drags.push({ widget, what, time: spread(time), words: spread(words), steady: spread(steady) });
     }
     await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
@@ -50,24 +58,36 @@ export async function timeDrags(browser, address, steps) {
  * @param {{ widget: string, selector: string, i: number, steps: number }} wanted
  */
 async function drag({ widget, selector, i, steps }) {
-  const root = /** @type {ShadowRoot} */ (document.querySelector(widget)?.shadowRoot);
+  const figure = /** @type {any} */ (document.querySelector(widget));
+  const root = /** @type {ShadowRoot} */ (figure.shadowRoot);
   const target = /** @type {HTMLInputElement} */ (root.querySelectorAll(selector)[i]);
-  /** @type {number[]} */
-  const times = [];
   const slider = target.localName === 'input';
   const opening = target.value;
-  // The first steps compile what the others run.
-  for (let step = -5; step < steps; step++) {
-    await new Promise(requestAnimationFrame);
-    const frame = new Promise((resolve) =>
-      requestAnimationFrame(() => {
-        const began = performance.now();
-        // A message is read once the frame that is being made has been handed over.
-        const { port1, port2 } = new MessageChannel();
-        port1.onmessage = () => resolve(performance.now() - began);
-        port2.postMessage(undefined);
-      }),
-    );
+  // Every picture begins with an empty canvas.
+  let pictures = 0;
+  const { clearRect } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+    pictures++;
+    clearRect.apply(this, box);
+  };
+  /** @returns {Promise<number>} when the frame that is being made has been handed over: a message is read then */
+  const handedOver = () =>
+    new Promise((resolve) => {
+      const { port1, port2 } = new MessageChannel();
+      port1.onmessage = () => resolve(performance.now());
+      port2.postMessage(undefined);
+    });
+  /** @returns {Promise<number>} likewise of the next frame with a change of words, of those too that only a screen reader says */
+  const wordsChange = () =>
+    new Promise((resolve) => {
+      const observer = new MutationObserver(() => {
+        observer.disconnect();
+        resolve(handedOver());
+      });
+      const attributeFilter = ['aria-label', 'aria-valuetext'];
+      observer.observe(root, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
+    });
+  const take = (/** @type {number} */ step) => {
     if (slider) {
       if (step % 2) target.stepUp();
       else target.stepDown();
@@ -76,13 +96,43 @@ async function drag({ widget, selector, i, steps }) {
       // Keys move a handle as a pointer does, by steps.
       target.dispatchEvent(new KeyboardEvent('keydown', { key: step % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
-    const time = /** @type {number} */ (await frame);
-    if (step >= 0) times.push(time);
+  };
+  /** @type {{ time: number[], words: number[], steady: number[] }} */
+  const times = { time: [], words: [], steady: [] };
+  // The first steps compile what the others run.
+  for (let step = -6; step < steps; step++) {
+    await new Promise(requestAnimationFrame);
+    const [before, drawn] = [JSON.stringify(figure.machine.config), pictures];
+    let began = 0;
+    const picture = new Promise((resolve) =>
+      requestAnimationFrame(() => {
+        began = performance.now();
+        resolve(handedOver());
+      }),
+    );
+    const words = wordsChange();
+    take(step);
+    const shown = /** @type {number} */ (await picture);
+    if (pictures === drawn || JSON.stringify(figure.machine.config) === before) {
+      throw new Error(`A step of ${target.id || target.className} has no picture in the next frame.`);
+    }
+    const told = await words;
+    if (step < 0) continue;
+    times.time.push(shown - began);
+    times.words.push(Math.max(0, told - shown));
   }
+  let last = 0;
+  for (let step = 0; step <= steps; step++) {
+    const now = /** @type {number} */ (await new Promise(requestAnimationFrame));
+    if (step > 0) times.steady.push(now - last);
+    last = now;
+    take(step);
+  }
+  CanvasRenderingContext2D.prototype.clearRect = clearRect;
   if (slider) {
     target.value = opening;
     for (const name of ['input', 'change']) target.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
     await new Promise(requestAnimationFrame);
   }
-  return { what: target.id || (target.getAttribute('aria-label') ?? ''), times };
+  return { what: target.id || (target.getAttribute('aria-label') ?? ''), ...times };
 }

@@ -150,8 +150,9 @@ function stages({ loads, stages: parts }) {
 
 /** @param {import('./drag.js').Drag[]} drags */
 function dragged(drags) {
-  const rows = drags.map(({ widget, what, time }) => [widget, what, cell(time)]);
-  return `The frame of a step, processor ${THROTTLE} times slower, opening sizes:\n\n${table(['widget', 'dragged', 'ms'], rows)}`;
+  const rows = drags.map(({ widget, what, time, words, steady }) => [widget, what, cell(time), cell(words), cell(steady)]);
+  const head = ['widget', 'dragged', 'the frame with the picture, ms', 'the words after it', 'from frame to frame, a step in each'];
+  return `A step of a drag, processor ${THROTTLE} times slower, opening sizes:\n\n${table(head, rows)}`;
 }
 
 /**

@@ -293,6 +293,9 @@ plain('a browser that cannot run the module shows a sentence and tells the page'
   const sentence = page.locator('banana-machine').first().getByRole('alert');
   await expect(sentence).toBeVisible();
   await expect(sentence).toHaveText('This interactive figure cannot run here. WebAssembly is not available here, and motion-widgets needs it.');
+  const other = page.locator('map-squeeze').first();
+  await other.scrollIntoViewIfNeeded();
+  await expect(other.getByRole('alert')).toBeVisible();
   await frames(page);
   const heard = await page.evaluate(() =>
     Reflect.get(window, 'failures').map((/** @type {ErrorEvent} */ event) => [

@@ -71,7 +71,7 @@ test('a target that is missed is called missed', () => {
   const text = report({
     date: '2026-01-02T03:04:05Z', commit: 'abc', processor: 'P', cores: 2, nodeVersion: '20', chromiumVersion: '1', rustVersion: 'rustc 1',
     quick: false, seconds: 1, node: withWalls(1), chromium: withWalls(3), start: { loads: 1, total: flat(101), stages: [] },
-    drags: [{ widget: 'a', what: 'slow', time: flat(17) }, { widget: 'a', what: 'fast', time: flat(2) }],
+    drags: [17, 2].map((ms) => ({ widget: 'a', what: ms > 10 ? 'slow' : 'fast', time: flat(ms), words: flat(ms), steady: flat(ms) })),
   });
   const verdictOf = (/** @type {string} */ what) => text.split('\n').find((line) => line.startsWith(`| ${what}`))?.split('|').at(-2)?.trim();
   assert.equal(verdictOf('Refresh of 1 000 000 poses'), 'yes');

@@ -47,13 +47,17 @@ export class Cloud extends Part {
 
   /** Whether it will not grow any more. */
   get complete() {
-    const { shown, config } = this.#machine;
-    return shown === config.samples || this.#gaveUp(this.#machine);
+    return this.#machine.shown === this.#samples || this.#gaveUp(this.#machine);
+  }
+
+  /** How many samples there are when all have come. @returns {number} */
+  get #samples() {
+    return this.host.settings.present.samples;
   }
 
   /** How many samples a step adds. */
   get #batch() {
-    return Math.ceil(this.#machine.config.samples / BATCHES);
+    return Math.ceil(this.#samples / BATCHES);
   }
 
   /** Whether it has not been shown yet: it opens with all of its samples on their way. */
@@ -63,7 +67,7 @@ export class Cloud extends Part {
 
   /** How many samples have been asked for so far: all of them where the machine has given up before. */
   get asked() {
-    return this.complete || this.#unopened ? this.#machine.config.samples : this.#machine.shown;
+    return this.complete || this.#unopened ? this.#samples : this.#machine.shown;
   }
 
   /** Whether samples are still to come. */
@@ -81,7 +85,7 @@ export class Cloud extends Part {
     this.playing = state ? state.playing : true;
     if (isCalm() && this.playing) {
       this.playing = false;
-      this.#machine.grow(this.#machine.config.samples);
+      this.#machine.grow(this.#samples);
     }
   }
 
@@ -213,7 +217,7 @@ export class Cloud extends Part {
       ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
       ${button(words.reset, () => this.reset(), { title: say.reset })}
       ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
-      <span class="seed">${words.seed(this.#machine.config.seed)}</span>
+      <span class="seed">${words.seed(this.host.settings.present.seed)}</span>
     </div>`;
   }
 }

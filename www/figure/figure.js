@@ -188,8 +188,7 @@ export class FigureElement extends LitElement {
 
   /** Everything that a reader can change, as the machine and the element have it. @returns {Values} */
   snapshot() {
-    const { config } = /** @type {Machine} */ (this.machine);
-    return { ...this.state.common, ...this.settings.declared(config), ...this.cloud?.snapshot() };
+    return { ...this.state.common, ...this.settings.declared(this.settings.present), ...this.cloud?.snapshot() };
   }
 
   /**

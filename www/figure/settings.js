@@ -35,9 +35,15 @@ export class Settings extends Part {
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
+  /** Those in effect: a machine's copy of them takes long, and is not asked for where nothing has changed since the last. @returns {Values} */
+  get present() {
+    const { machine, reading } = this.host;
+    return this.stale ? machine?.config : reading.config;
+  }
+
   /** Those in effect with the changes that wait. @returns {Values} */
   get wanted() {
-    return { ...this.host.machine?.config, ...this.#pending };
+    return { ...this.present, ...this.#pending };
   }
 
   /**
@@ -98,7 +104,6 @@ export class Settings extends Part {
       machine.configure(values);
     }
     this.stale = true;
-    this.host.reflection.tell();
   }
 
   /** To be called when the machine has begun something that `settle` is to go on with. */

@@ -12,21 +12,36 @@ import { surroundings } from './page/scheme.js';
 import { Part } from './part.js';
 import { LONGEST_WORK } from './settings.js';
 
+/**
+ * A picture that took no longer, milliseconds, has its words in the same frame: to lay them out takes about as long again.
+ * After a longer one they follow in the next frame, so that neither takes longer than one.
+ */
+const QUICK = 5;
+
+/** Longest that words wait while every frame has a picture, milliseconds: what comes later is no answer to the hand. */
+const LATEST_WORDS = 100;
+
+/** @type {MediaQueryList | undefined} */
+let calm;
+
 /** Whether the reader has asked for less motion. */
-export const isCalm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
+export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
 export class Stage extends Part {
   /** Whether the reader can see it. */
   inSight = false;
   /** @type {import('../ui/theme.js').Palette | undefined} */
   #palette;
-  #drawable = false;
+  /** Once there is something to draw. @type {HTMLCanvasElement[] | undefined} */
+  #canvases;
   /** Whether the canvases have the screen's pixels. */
   #sized = false;
-  /** Frames that have been drawn, as far as they matter: the first, and one more. */
-  #drawn = 0;
-  /** Whether there is something to draw when it comes into sight. */
+  /** Whether the words of the first picture have come. */
+  #told = false;
+  /** Whether there is something to draw, as soon as it is in sight. */
   #due = false;
+  /** When the first picture was drawn whose words have not come yet. @type {number | undefined} */
+  #owedSince;
   /** @type {import('./page/scheme.js').Surroundings} */
   #surroundings = '';
   /** @type {ResizeObserver | undefined} */
@@ -53,9 +68,9 @@ export class Stage extends Part {
   }
 
   hostUpdated() {
-    if (!this.#drawable) this.recolour();
-    if (!this.host.machine || this.#drawable) return;
-    this.#drawable = true;
+    if (!this.#canvases) this.recolour();
+    if (!this.host.machine || this.#canvases) return;
+    this.#canvases = [...this.host.renderRoot.querySelectorAll('canvas')];
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
     this.measure();
     this.wake();
@@ -63,20 +78,18 @@ export class Stage extends Part {
 
   /** Tells what size the canvases have, now and whenever it changes. What enlarges them as they are, has to ask for it. */
   measure() {
-    const sizes = this.#sizes;
-    if (!sizes) return;
-    for (const canvas of this.#canvases) {
+    for (const canvas of this.#canvases ?? []) {
       try {
-        sizes.observe(canvas, { box: 'device-pixel-content-box' });
+        this.#sizes?.observe(canvas, { box: 'device-pixel-content-box' });
       } catch {
-        sizes.observe(canvas);
+        this.#sizes?.observe(canvas);
       }
     }
   }
 
   /** @param {boolean} inSight */
   sight(inSight) {
-    if (this.opening && !inSight) this.host.requestUpdate();
+    if (!inSight && (this.opening || this.#owedSince !== undefined)) this.#tell();
     this.inSight = inSight;
     if (!inSight) this.rest();
     else if (this.#due) this.wake();
@@ -93,7 +106,7 @@ export class Stage extends Part {
    * cannot see it.
    */
   get opening() {
-    return this.host.machine !== undefined && this.#drawn < 2 && this.inSight && !document.hidden;
+    return this.host.machine !== undefined && !this.#told && this.inSight && !document.hidden;
   }
 
   /**
@@ -114,14 +127,19 @@ export class Stage extends Part {
   clear() {
     this.rest();
     this.#sizes?.disconnect();
-    this.#sizes = undefined;
-    for (const canvas of this.#canvases) canvas.width = canvas.height = 0;
-    this.#drawable = this.#sized = false;
-    this.#palette = undefined;
+    for (const canvas of this.#canvases ?? []) canvas.width = canvas.height = 0;
+    this.#sized = false;
+    this.#sizes = this.#canvases = this.#palette = this.#owedSince = undefined;
   }
 
   /** @param {number} elapsed milliseconds since the frame before */
   frame(elapsed) {
+    if (this.#due) this.#drawNow(elapsed);
+    else if (this.#owedSince !== undefined) this.#tell();
+  }
+
+  /** @param {number} elapsed milliseconds since the frame before */
+  #drawNow(elapsed) {
     if (!this.host.machine || !this.#sized || !this.#hasSize) return;
     this.#due = false;
     this.host.runtime.attemptOrFail(() => {
@@ -133,6 +151,7 @@ export class Stage extends Part {
   /** @param {number} elapsed */
   #draw(elapsed) {
     const host = this.host;
+    const began = performance.now();
     // A large cloud takes several frames: the former one is shown until then.
     if (!host.settings.settle(LONGEST_WORK) || host.cloud?.grow() === false) {
       this.wake();
@@ -142,25 +161,33 @@ export class Stage extends Part {
     const how = { elapsed, still: host.held, atOnce: isCalm() };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
-    const opening = this.opening;
-    this.#drawn = Math.min(2, this.#drawn + 1);
-    // All else comes with the second frame.
-    if (!opening || this.#drawn === 2) host.requestUpdate();
-    if (opening || moving.includes(true) || host.cloud?.playing) this.wake();
+    const now = performance.now();
+    const since = this.#owedSince;
+    // With the first picture there comes nothing else.
+    if (this.opening ? since : now - began < QUICK || now - (since ?? now) > LATEST_WORDS) this.#tell();
+    else {
+      this.#owedSince ??= began;
+      wake(this);
+    }
+    if (moving.includes(true) || host.cloud?.playing) this.wake();
+  }
+
+  /** Has the words rendered of what was drawn last, and the attributes say it. */
+  #tell() {
+    this.#told = true;
+    this.#owedSince = undefined;
+    this.host.reflection.tell();
+    this.host.requestUpdate();
   }
 
   /** @param {import('../scene/picture.js').Picture<any>} picture */
   canvasOf({ name }) {
-    return /** @type {HTMLCanvasElement} */ (this.host.renderRoot.querySelector(`canvas.${name}`));
-  }
-
-  get #canvases() {
-    return [...this.host.renderRoot.querySelectorAll('canvas')];
+    return /** @type {HTMLCanvasElement} */ (this.#canvases?.find(({ className }) => className === name));
   }
 
   /** Whether there is something to draw on: not inside a closed tab, where everything has size 0. */
   get #hasSize() {
-    return this.#canvases.every(
+    return this.#canvases?.every(
       ({ width, height, clientWidth, clientHeight }) => Math.min(width, height, clientWidth, clientHeight) > 0,
     );
   }
@@ -178,7 +205,7 @@ export class Stage extends Part {
     // Inside a closed tab, nothing tells of a change of colours.
     this.#palette = undefined;
     // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
-    this.frame(0);
+    this.#drawNow(0);
   }
 
   /** The colours as they are now. */
@@ -215,7 +242,8 @@ export class Stage extends Part {
     surface.style.colorScheme = printing ? 'light' : '';
     this.#palette = undefined;
     // At once: the printer waits for no frame.
-    this.frame(0);
+    this.#drawNow(0);
+    this.#tell();
   }
 
   /** @param {string} selector */

@@ -1,6 +1,6 @@
 /**
  * What pictures are made of: axes, robots, densities, outlines and marks. Every function takes the
- * brush, which knows the view's transform and the colours, and none keeps anything but the latest dot.
+ * brush, which knows the view's transform and the colours, and none keeps anything.
  */
 
 import { ticks } from 'd3-array';
@@ -147,7 +147,7 @@ export function clipped({ context, view }, paint) {
  * @param {{ x: number, y: number, heading: number | null }} layout which of the three numbers are drawn
  */
 export function drawDots(brush, triples, layout) {
-  const { context, view, palette, ratio } = brush;
+  const { context, view, palette } = brush;
   const count = triples.length / 3;
   const few = count < 400;
   // Smaller in a small picture, where as many robots share less room.
@@ -155,29 +155,24 @@ export function drawDots(brush, triples, layout) {
   const radius = size * (few ? 2.4 : 1.8);
   const x = (/** @type {number} */ i) => view.toPixelX(triples[3 * i + layout.x]);
   const y = (/** @type {number} */ i) => view.toPixelY(triples[3 * i + layout.y]);
-  if (layout.heading !== null) {
+  const { heading } = layout;
+  if (heading !== null) {
     const length = size * (few ? 13 : 9);
     context.strokeStyle = palette.cloud;
     context.lineWidth = 1;
     context.globalAlpha = few ? 0.6 : 0.32;
     for (let i = 0; i < count; i++) {
       if (i % TICKS_A_STROKE === 0) context.beginPath();
-      headingTick(brush, x(i), y(i), triples[3 * i + layout.heading], length);
+      headingTick(brush, x(i), y(i), triples[3 * i + heading], length);
       if (i % TICKS_A_STROKE === TICKS_A_STROKE - 1 || i === count - 1) context.stroke();
     }
   }
   context.globalAlpha = few ? 0.9 : 0.5;
   context.fillStyle = palette.cloud;
-  const dot = 'vector' in context ? undefined : sprite(palette.cloud, radius * ratio);
   for (let i = 0; i < count; i++) {
-    if (dot) {
-      const side = dot.width / ratio;
-      context.drawImage(dot, x(i) - side / 2, y(i) - side / 2, side, side);
-    } else {
-      context.beginPath();
-      context.arc(x(i), y(i), radius, 0, 2 * Math.PI);
-      context.fill();
-    }
+    context.beginPath();
+    context.arc(x(i), y(i), radius, 0, 2 * Math.PI);
+    context.fill();
   }
   context.globalAlpha = 1;
 }
@@ -195,33 +190,6 @@ function headingTick({ context, view }, x, y, heading, length) {
   const ahead = view.direction(heading);
   context.moveTo(x, y);
   context.lineTo(x + length * ahead.x, y + length * ahead.y);
-}
-
-/** The dots of the latest kind: to make a canvas costs as much as to draw hundreds of them. @type {{ kind: string, dot: OffscreenCanvas } | undefined} */
-let latest;
-
-/**
- * @param {string} colour
- * @param {number} radius device pixels
- */
-function sprite(colour, radius) {
-  const kind = `${colour} ${radius}`;
-  if (latest?.kind !== kind) latest = { kind, dot: makeSprite(colour, radius) };
-  return latest.dot;
-}
-
-/**
- * @param {string} colour
- * @param {number} radius device pixels
- */
-function makeSprite(colour, radius) {
-  const half = Math.ceil(radius) + 1;
-  const canvas = new OffscreenCanvas(2 * half, 2 * half);
-  const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
-  context.fillStyle = colour;
-  context.arc(half, half, radius, 0, 2 * Math.PI);
-  context.fill();
-  return canvas;
 }
 
 /**
@@ -279,7 +247,8 @@ export function densityRamp(palette) {
 }
 
 /**
- * An image that covers the inside of the axes.
+ * An image that covers the inside of the axes. Only the part with ink is drawn: of a density most is empty, and to stretch it
+ * costs more than all the rest of a picture.
  *
  * @param {Brush} brush
  * @param {OffscreenCanvas} grid what the pixels go through to be stretched
@@ -290,24 +259,75 @@ export function drawPixels({ context, view }, grid, pixels, columns) {
   const rows = pixels.length / (4 * columns);
   if (grid.width !== columns) grid.width = columns;
   if (grid.height !== rows) grid.height = rows;
+  const inked = inkedPart(pixels, columns, rows);
+  if (!inked) return;
+  const [x, y, width, height] = inked;
   const surface = /** @type {OffscreenCanvasRenderingContext2D} */ (grid.getContext('2d'));
-  surface.putImageData(new ImageData(pixels, columns, rows), 0, 0);
+  surface.putImageData(new ImageData(pixels, columns, rows), 0, 0, x, y, width, height);
   const { left, right, top, bottom } = view.frame;
+  const [across, down] = [(right - left) / columns, (bottom - top) / rows];
   context.imageSmoothingEnabled = true;
-  context.drawImage(grid, left, top, right - left, bottom - top);
+  context.drawImage(grid, x, y, width, height, left + across * x, top + down * y, across * width, down * height);
 }
 
 /**
- * Makes a polyline through x, y pairs the path.
+ * The box of the pixels with ink and a pixel around it, into which they fade where they are stretched.
+ *
+ * @param {Uint8ClampedArray<ArrayBuffer>} pixels
+ * @param {number} columns
+ * @param {number} rows
+ * @returns {[x: number, y: number, width: number, height: number] | undefined}
+ */
+function inkedPart(pixels, columns, rows) {
+  const cells = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
+  let [left, right, first, last] = [columns, 0, -1, -1];
+  for (let i = 0; i < cells.length; i++) {
+    if (cells[i] === 0) continue;
+    if (first < 0) first = i;
+    last = i;
+    left = Math.min(left, i % columns);
+    right = Math.max(right, i % columns);
+  }
+  if (first < 0) return undefined;
+  const [x, y] = [Math.max(0, left - 1), Math.max(0, Math.floor(first / columns) - 1)];
+  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, Math.floor(last / columns) + 2) - y];
+}
+
+/**
+ * Adds a polyline through x, y pairs to the path.
  *
  * @param {Brush} brush
  * @param {Float64Array} points
  */
 export function trace({ context, view }, points) {
-  context.beginPath();
   context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
   for (let i = 2; i < points.length; i += 2) {
     context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
+  }
+}
+
+/** Chords of a smooth outline that are drawn as one bend, which browsers stroke in half the time. */
+const CHORDS_A_BEND = 4;
+
+/**
+ * As `trace`, of what is smooth where it has many points: each bend goes through its first point, its middle and its last.
+ *
+ * @param {Brush} brush
+ * @param {Float64Array} points
+ */
+function traceSmooth(brush, points) {
+  const { context, view } = brush;
+  const chords = points.length / 2 - 1;
+  if (chords % CHORDS_A_BEND !== 0) {
+    trace(brush, points);
+    return;
+  }
+  const x = (/** @type {number} */ i) => view.toPixelX(points[2 * i]);
+  const y = (/** @type {number} */ i) => view.toPixelY(points[2 * i + 1]);
+  context.moveTo(x(0), y(0));
+  for (let i = 0; i < chords; i += CHORDS_A_BEND) {
+    const [middle, end] = [i + CHORDS_A_BEND / 2, i + CHORDS_A_BEND];
+    context.quadraticCurveTo(2 * x(middle) - (x(i) + x(end)) / 2, 2 * y(middle) - (y(i) + y(end)) / 2, x(end), y(end));
   }
 }
 
@@ -333,13 +353,15 @@ export function drawOutlines(brush, outlines) {
   context.globalAlpha = 0.7;
   context.strokeStyle = palette.paper;
   for (const { points, width } of drawn) {
-    trace(brush, points);
+    context.beginPath();
+    traceSmooth(brush, points);
     context.lineWidth = width + 2.5;
     context.stroke();
   }
   context.globalAlpha = 1;
   for (const { points, colour, width, dash } of drawn) {
-    trace(brush, points);
+    context.beginPath();
+    traceSmooth(brush, points);
     context.strokeStyle = colour;
     context.lineWidth = width;
     context.setLineDash(dash);

@@ -73,6 +73,11 @@ export class SvgContext {
     this.#path += `L${short(x)},${short(y)}`;
   };
 
+  /** @type {CanvasPath['quadraticCurveTo']} */
+  quadraticCurveTo = (...points) => {
+    this.#path += `Q${points.map(short).join(',')}`;
+  };
+
   /** @type {CanvasPath['arc']} */
   arc = (x, y, radius, from, to, backwards = false) => {
     const r = short(radius);
@@ -156,14 +161,15 @@ export class SvgContext {
 
   /**
    * @param {CanvasImageSource & { width: number, height: number }} image
-   * @param {number[]} place x, y, width and height
+   * @param {number[]} place x, y, width and height; before them those of the part of the image, where it is not all of it
    */
   drawImage(image, ...place) {
-    const [x, y, width, height] = place.map(short);
+    const [x, y, width, height] = place.slice(-4).map(short);
+    const [fromX, fromY, columns, rows] = place.length > 4 ? place : [0, 0, image.width, image.height];
     const canvas = document.createElement('canvas');
-    canvas.width = image.width;
-    canvas.height = image.height;
-    /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')).drawImage(image, 0, 0);
+    canvas.width = columns;
+    canvas.height = rows;
+    /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')).drawImage(image, -fromX, -fromY);
     const box = `x="${x}" y="${y}" width="${width}" height="${height}"`;
     this.#marks.push(`<image ${box} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacity()}/>`);
   }

@@ -28,26 +28,17 @@ export class View {
   #target;
   /** Whether a metre is as long in y as in x. */
   #equal;
-  /** Canvas size and the room that axes take of it, CSS pixels. */
+  /** Canvas size, CSS pixels. */
   width = 1;
   height = 1;
+  /** The part of the canvas inside the axes, CSS pixels. */
+  frame = { left: 0, top: 0, right: 1, bottom: 1 };
   #inset;
 
   /** @param {{ equal?: boolean, left?: number, right?: number, top?: number, bottom?: number }} options */
   constructor({ equal = true, left = 42, right = 8, top = 24, bottom = 30 } = {}) {
     this.#equal = equal;
     this.#inset = { left, right, top, bottom };
-  }
-
-  /** The part of the canvas inside the axes, CSS pixels. */
-  get frame() {
-    const { left, right, top, bottom } = this.#inset;
-    return {
-      left,
-      top,
-      right: Math.max(left + 1, this.width - right),
-      bottom: Math.max(top + 1, this.height - bottom),
-    };
   }
 
   /**
@@ -58,6 +49,8 @@ export class View {
     if (width === this.width && height === this.height) return;
     this.width = width;
     this.height = height;
+    const { left, right, top, bottom } = this.#inset;
+    this.frame = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
     this.#target = undefined;
   }
 

@@ -24,6 +24,9 @@ const OUTLINE = 0.75;
 /** Walls that are stroked at once: browsers take far longer for one path of many. */
 const WALLS_A_STROKE = 500;
 
+/** So few are stroked with every picture: to copy a layer takes longer. */
+const FEW_WALLS = 50;
+
 export class WallLayer {
   #plan;
   /** The grid, if its cells are drawn. @type {Grid | undefined} */
@@ -54,7 +57,7 @@ export class WallLayer {
   draw(brush) {
     const { context, view, palette, ratio } = brush;
     const { extent, frame, width, height } = view;
-    if ('vector' in context && !this.#grid) {
+    if (!this.#grid && ('vector' in context || this.#plan.walls.length <= 4 * FEW_WALLS)) {
       this.#outline(brush);
       return;
     }

@@ -52,6 +52,9 @@ const OVERVIEW = { width: 0.34, height: 0.4, margin: 8, padding: 0.05, wall: 1.2
 /** How much further the overview keeps from the end of the commanded way than from its start. */
 const END_WEIGHT = 1.5;
 
+/** How much further from the way another corner must be for the overview to go there: nearly alike, it stays. */
+const MUCH_FURTHER = 1.1;
+
 /** @extends {Picture<Scene>} */
 export class FloorPicture extends Picture {
   plan;
@@ -243,8 +246,7 @@ function freeCorner(view, width, height, commanded) {
       const distance = (/** @type {Float64Array} */ [atX, atY]) =>
         Math.hypot(x + width / 2 - view.toPixelX(atX), y + height / 2 - view.toPixelY(atY));
       const least = Math.min(distance(start), distance(end) / END_WEIGHT);
-      // Rounding does not decide between corners that are alike.
-      if (least > most + 1) [most, corner] = [least, [x, y]];
+      if (least > MUCH_FURTHER * most) [most, corner] = [least, [x, y]];
     }
   }
   return corner;
@@ -347,6 +349,7 @@ function drawPaths(brush, paths) {
   context.lineWidth = 1;
   context.globalAlpha = 0.3;
   for (const path of paths) {
+    context.beginPath();
     trace(brush, path);
     context.stroke();
   }

@@ -135,6 +135,19 @@ test.describe('the menu', () => {
     expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
   });
 
+  test('says that the code to embed is without the own map', async ({ page }) => {
+    await show(page, '<map-squeeze></map-squeeze>');
+    const widget = page.locator('map-squeeze');
+    await ready(widget);
+    await widget.getByText('Share the figure').click();
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect(widget.getByText('Copied.')).toHaveText('Copied.');
+    await widget.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
+    await frames(page);
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect(widget.getByText('Copied.')).toContainText('without your map');
+  });
+
   for (const [script, tag] of [
     ['<script type="module" src="/external.js"></script>', '<script type="module" src="ORIGIN/external.js"></script>'],
     ['<script defer src="/motion-widgets.iife.js"></script>', '<script defer src="ORIGIN/motion-widgets.iife.js"></script>'],

@@ -9,14 +9,17 @@ import { Part } from '../part.js';
 
 /** What was copied last, and where the reader finds it. */
 export class CopyMenu extends Part {
-  /** @type {{ text: string, done: boolean } | undefined} */
+  /** @type {{ text: string, done: boolean, missing: string } | undefined} */
   #copied;
 
-  /** @param {string} text */
-  async #copy(text) {
+  /**
+   * @param {string} text
+   * @param {string} [missing] what of the figure is not in it, in a sentence
+   */
+  async #copy(text, missing = '') {
     // Refused in a frame without the permission, and absent where the page came without encryption.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
-    this.#copied = { text, done: done === true };
+    this.#copied = { text, done: done === true, missing };
     this.host.requestUpdate();
   }
 
@@ -28,9 +31,9 @@ export class CopyMenu extends Part {
       <summary>${say.label}</summary>
       <div class="buttons">
         ${button(say.link, async () => this.#copy(await host.shareLink()), { title: say.linkTitle })}
-        ${button(say.code, () => this.#copy(host.embedCode()), { title: say.codeTitle })}
+        ${button(say.code, () => this.#copy(host.embedCode(), host.takeaway.notInCode), { title: say.codeTitle })}
       </div>
-      <output>${copied ? (copied.done ? say.done : say.byHand) : nothing}</output>
+      <output>${copied ? `${copied.missing} ${copied.done ? say.done : say.byHand}` : nothing}</output>
       ${copied && !copied.done
         ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
         : nothing}

@@ -14,6 +14,7 @@ import { button } from '../../ui/controls.js';
  * @property {string[]} columns of the samples, with their units in their names
  * @property {(i: number) => number[]} row of a sample
  * @property {number} count of the samples
+ * @property {string} [notInCode] what attributes cannot carry, in a sentence
  */
 
 /** Pixels of a PNG image a CSS pixel: as fine as a page in print wants a figure. */

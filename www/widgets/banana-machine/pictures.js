@@ -148,10 +148,12 @@ export class PlanePicture extends CloudPicture {
   }
 
   /** @param {Scene} scene */
-  fit({ contours, table, end }) {
+  fit({ contours, table, end, overlays }) {
     const { mean, cov } = table.exact;
     const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
     const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command];
+    // The only outline that may be much larger than the cloud.
+    if (overlays.additive) points.push(...contours.additive);
     const box = extentOf(points, 0.4);
     // Around the end there is room for a fan of headings, which may be all there is to see.
     const fan = 0.2 * (box.xMax - box.xMin);

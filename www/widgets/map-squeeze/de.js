@@ -37,6 +37,7 @@ export const de = {
   unknown: { free: 'frei', blocked: 'gesperrt' },
   views: { whole: 'ganze Karte', close: 'aus der Nähe' },
   map: 'Karte',
+  mapNotInCode: 'Der Code ist ohne Ihre Karte: Eine Seite gibt sie der Eigenschaft map.',
   condition: 'Auf die Karte bedingen',
   commandAndNoise: 'Fahrbefehl, Rauschen und Teile',
   wedged: (accepted, printed, all, drawn) =>

@@ -38,6 +38,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   unknown: { free: 'free', blocked: 'blocked' },
   views: { whole: 'whole map', close: 'close-up' },
   map: 'Map',
+  mapNotInCode: 'The code is without your map: a page gives that to the property map.',
   condition: 'Condition on the map',
   commandAndNoise: 'Command, noise and parts',
   wedged: (accepted, printed, all, drawn) =>

@@ -107,6 +107,7 @@ export class MapSqueezeElement extends FigureElement {
         ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
       ],
       count: verdicts.length,
+      notInCode: this.map ? words.squeeze.mapNotInCode : '',
     };
   }
 

@@ -104,6 +104,10 @@ export const presentationStyles = css`
       position: sticky;
       top: -0.4rem;
       z-index: 1;
+      /* Also over the edges of what passes behind it. */
+      box-shadow:
+        -0.5rem 0 var(--paper),
+        0.5rem 0 var(--paper);
     }
   }
 

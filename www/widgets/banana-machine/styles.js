@@ -63,7 +63,7 @@ const own = css`
   }
 
   /* Where the buttons leave it no room, the seed shares the line in which the help of N appears. */
-  @container (max-width: 60rem) {
+  @container (max-width: 68.75rem) {
     .cloud .seed {
       position: absolute;
       right: 0;

@@ -1,11 +1,13 @@
 import { expect } from '@playwright/test';
 import {
   STILL,
+  boxOf,
   centreOf,
   detail,
   dragSlider,
   frames,
   inspectFirst,
+  open,
   openWhole,
   pictureOf,
   pixelsOf,
@@ -263,6 +265,19 @@ test.describe('noise', () => {
     expect((await state(widget)).config.noise).toBe('triangular');
     expect(await farthest()).toBeLessThanOrEqual(Math.sqrt(6) + 1e-9);
   });
+});
+
+test('the help of N is one line, and on a screen covers neither the seed nor a fold', async ({ page }) => {
+  await page.setViewportSize({ width: 1280, height: 720 });
+  const widget = await open(page);
+  await widget.locator('#samples').focus();
+  const help = widget.locator('#samples-effect');
+  await expect(help).toBeVisible();
+  const [text, seed, folds] = await Promise.all([help, widget.locator('.seed'), widget.locator('.folds')].map(boxOf));
+  expect(text.height).toBeLessThan(20);
+  await expect(widget.locator('.seed')).toBeVisible();
+  expect(seed.y + seed.height).toBeLessThanOrEqual(text.y);
+  expect(text.y + text.height).toBeLessThanOrEqual(folds.y);
 });
 
 test.describe('Isolate', () => {

@@ -76,6 +76,70 @@ for (const name of NAMES) {
   });
 }
 
+/** What stands on a figure with its controls, each by itself. */
+const GROUPS = ['.stage', '.presenting', '[part=caption]', '[part=readouts]', 'fieldset', '.presets', '.folds'].map((each) => `${each}:not(details *)`).join();
+
+/** The names and boxes of all that is seen of them. @param {import('@playwright/test').Locator} widget */
+const groupsOf = (widget) => widget.locator(GROUPS).evaluateAll((all) =>
+  all.filter((each) => each.checkVisibility()).map((each) => {
+    const { left, top, right, bottom } = each.getBoundingClientRect();
+    return { name: `${each.localName}.${each.className || each.querySelector('legend')?.textContent}`, left, top, right, bottom };
+  }),
+);
+
+/** @param {import('@playwright/test').Locator} widget */
+const scrollTop = (widget) => widget.locator('.surface').evaluate((element) => element.scrollTop);
+
+for (const name of NAMES) {
+  for (const lang of ['en', 'de']) {
+    for (const [width, height] of [[1280, 720], [1920, 1080]]) {
+      test(`${name} shows its controls beside a large picture, ${width} × ${height} px, in ${lang}`, async ({ page }) => {
+        await page.setViewportSize({ width, height });
+        await show(page, `<${name} lang="${lang}" presentation></${name}>`, {
+          script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/de.js"></script>',
+        });
+        const widget = page.locator(name);
+        await ready(widget);
+        await expect(widget.locator('.presenting button').first()).toBeFocused();
+        await page.keyboard.press('c');
+        await expect(widget.locator('.folds')).toBeVisible();
+        await frames(page);
+        const groups = await groupsOf(widget);
+        // Picture, buttons of the presentation, sentence, figures, at least two groups of controls, folds.
+        expect(groups.length).toBeGreaterThanOrEqual(7);
+        /** @type {string[]} */
+        const over = [];
+        for (const [i, one] of groups.entries()) {
+          for (const other of groups.slice(i + 1)) {
+            const apart = one.right <= other.left + 0.5 || other.right <= one.left + 0.5 || one.bottom <= other.top + 0.5 || other.bottom <= one.top + 0.5;
+            // The buttons stand in the margin of a picture, clear of its legend.
+            const margin = one.name.includes('stage') && other.name.includes('presenting');
+            if (!apart && !margin) over.push(`${one.name} and ${other.name}`);
+          }
+        }
+        expect(over).toEqual([]);
+        for (const picture of await widget.locator('canvas').all()) expect((await boxOf(picture)).height).toBeGreaterThanOrEqual(0.4 * height);
+        // All of it is on the screen.
+        for (const each of groups) expect(each.bottom, each.name).toBeLessThanOrEqual(height);
+        expect(await widget.locator('.surface').evaluate((element) => element.scrollWidth <= element.clientWidth)).toBe(true);
+        // What a fold adds is scrolled to, by keys and by wheel, and what leads back out stays.
+        await widget.locator('summary').nth(1).click();
+        await widget.locator('.presenting button').first().focus();
+        await page.keyboard.press('End');
+        await expect.poll(async () => (await boxOf(widget.locator('.folds'))).y + (await boxOf(widget.locator('.folds'))).height).toBeLessThanOrEqual(height + 0.5);
+        expect(await scrollTop(widget)).toBeGreaterThan(0);
+        await expect(widget.locator('.presenting')).toBeInViewport();
+        expect((await boxOf(widget.locator('canvas').first())).y).toBeGreaterThanOrEqual(-1);
+        await page.keyboard.press('Home');
+        await expect.poll(() => scrollTop(widget)).toBe(0);
+        await page.mouse.move(width / 2, height - 20);
+        await page.mouse.wheel(0, 200);
+        await expect.poll(() => scrollTop(widget)).toBeGreaterThan(0);
+      });
+    }
+  }
+}
+
 test('a handle stays under the pointer while the picture is enlarged', async ({ page }) => {
   await show(page, '<banana-machine presentation></banana-machine>');
   const widget = page.locator('banana-machine');

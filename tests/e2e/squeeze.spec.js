@@ -156,6 +156,20 @@ test.describe('the robot', () => {
     await expect(widget.locator('.verdict')).not.toContainText('does not fit where it stands');
   });
 
+  for (const width of [700, 1280]) {
+    test(`moves nothing below it when it is put into a wall, ${width} px wide`, async ({ page }) => {
+      await page.setViewportSize({ width, height: 720 });
+      const widget = await openSqueeze(page);
+      const tops = () => widget.locator('.verdict, .controls, .folds').evaluateAll((all) => all.map((each) => each.getBoundingClientRect().top + scrollY));
+      const before = await tops();
+      await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 3.3, y: 3.8, theta: Math.PI / 2 }));
+      expect((await squeezed(widget)).startFree).toBe(false);
+      // With the sentence on the draws before it: the longest there is.
+      await expect(widget.locator('.verdict')).toHaveText(/went through a wall\. The robot does not fit where it stands/);
+      expect(await tops()).toEqual(before);
+    });
+  }
+
   test('is configured and drawn once a frame, however often the pointer moves', async ({ page }) => {
     const widget = await openSqueeze(page);
     const { x, y } = await centreOf(body(widget));

@@ -14,6 +14,9 @@ const KEY = 'c';
  */
 const LAYOUT = { width: 960, height: 540 };
 
+/** With the controls, the smallest in which all of them stand beside and below a large picture. */
+const WITH_CONTROLS = { width: 1280, height: 720 };
+
 export class Presentation extends Part {
   /** Whether the controls are shown. */
   #controls = false;
@@ -93,7 +96,10 @@ export class Presentation extends Part {
     /** @type {HTMLElement | null} */ (this.host.renderRoot.querySelector(selector))?.focus({ preventScroll: true });
   }
 
-  #fit = () => this.#enlarge(Math.max(1, Math.min(innerWidth / LAYOUT.width, innerHeight / LAYOUT.height)));
+  #fit = () => {
+    const { width, height } = this.#controls ? WITH_CONTROLS : LAYOUT;
+    this.#enlarge(Math.max(1, Math.min(innerWidth / width, innerHeight / height)));
+  };
 
   /** @param {number} zoom */
   #enlarge(zoom) {
@@ -114,6 +120,7 @@ export class Presentation extends Part {
   #toggle() {
     this.#controls = !this.#controls;
     this.host.requestUpdate();
+    this.#fit();
   }
 
   /** What the surface is called meanwhile, for styles. */

@@ -67,18 +67,48 @@ export const presentationStyles = css`
     display: none !important;
   }
 
-  /* What is set below is seen above. */
+  /* All that fits is seen at once, and the pictures take what is left; what does not fit is scrolled to. */
   :host([presentation]) .with-controls .machine {
-    flex: none;
+    flex: 1 0 auto;
   }
 
   :host([presentation]) .with-controls .views {
-    position: sticky;
-    top: 0;
-    z-index: 1;
-    flex: none;
-    height: calc(50vh / var(--zoom));
+    flex: 1 0 auto;
+    grid-template-rows: minmax(calc(42vh / var(--zoom)), 1fr);
+    grid-auto-rows: auto;
+    align-items: stretch;
     background: var(--paper);
+  }
+
+  :host([presentation]) .with-controls .stage {
+    height: auto;
+  }
+
+  /* Never what makes a row higher. */
+  :host([presentation]) .with-controls .stage canvas {
+    position: absolute;
+    inset: 0;
+  }
+
+  :host([presentation]) .with-controls .folds {
+    margin-top: 0;
+  }
+
+  /* What is set in a fold is seen above it. */
+  @media (min-width: 60rem) and (min-height: 37.5rem) {
+    :host([presentation]) .with-controls {
+      scroll-padding-top: calc(66vh / var(--zoom));
+    }
+
+    :host([presentation]) .with-controls .views {
+      position: sticky;
+      top: -0.4rem;
+      z-index: 1;
+      /* Also over the edges of what passes behind it. */
+      box-shadow:
+        -0.5rem 0 var(--paper),
+        0.5rem 0 var(--paper);
+    }
   }
 
   /* Clear of the buttons. */
@@ -86,13 +116,18 @@ export const presentationStyles = css`
     padding-top: 1.6rem;
   }
 
+  /* It takes no room, and stays while what is below is scrolled to. */
   .presenting {
-    position: fixed;
-    top: 0.4rem;
-    right: 0.6rem;
+    position: sticky;
+    top: 0;
     z-index: 2;
+    order: -1;
+    align-self: flex-end;
     display: flex;
+    flex: none;
+    align-items: start;
     gap: 0.4rem;
+    height: 0;
     font-size: 0.75rem;
   }
 

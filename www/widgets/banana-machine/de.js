@@ -29,7 +29,7 @@ export const de = {
         ],
       },
     },
-    samples: { name: 'N, Roboter in der ganzen Wolke', effect: 'Roboter unterwegs: wenige als Punkte mit Richtung, viele als Dichte.' },
+    samples: { name: 'N, Roboter in der ganzen Wolke', effect: 'Roboter: wenige als Punkte, viele als Dichte.' },
   },
   cloud: {
     legend: 'Wolke',

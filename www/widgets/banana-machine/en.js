@@ -31,7 +31,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
         ],
       },
     },
-    samples: { name: 'N, robots in the whole cloud', effect: 'Robots sent: dots with headings while they are few, a density when they are many.' },
+    samples: { name: 'N, robots in the whole cloud', effect: 'Robots sent: few are dots, many a density.' },
   },
   cloud: {
     legend: 'Cloud',

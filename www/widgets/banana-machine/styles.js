@@ -58,21 +58,23 @@ const own = css`
     }
   }
 
-  /* The seed shares the line in which the help of N appears. */
   .cloud .buttons {
     margin-bottom: 0.2rem;
   }
 
-  .cloud .seed {
-    position: absolute;
-    right: 0;
-    bottom: 0;
-    font-size: 0.84rem;
-    line-height: 1.25;
-  }
+  /* Where the buttons leave it no room, the seed shares the line in which the help of N appears. */
+  @container (max-width: 68.75rem) {
+    .cloud .seed {
+      position: absolute;
+      right: 0;
+      bottom: 0;
+      font-size: 0.84rem;
+      line-height: 1.25;
+    }
 
-  .cloud:has(.slider:is(:focus-within, :hover)) .seed {
-    visibility: hidden;
+    .cloud:has(.slider:is(:focus-within, :hover)) .seed {
+      visibility: hidden;
+    }
   }
 
   /* The three that matter, side by side where there is room. */

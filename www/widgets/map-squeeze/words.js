@@ -63,10 +63,10 @@ export function verdictOf({ config, stats, note }) {
   return note ? `${sentence} ${note}` : sentence;
 }
 
-/** The longest verdict under these settings, for its room. @param {Settings} config */
+/** The longest verdict under these settings, for its room: that on a robot which is put where it does not fit. @param {Settings} config */
 export function longestVerdict({ samples }) {
   const all = { accepted: samples, all: samples, throughWall: samples, throughWallRate: 1 };
-  return longest(SAMPLERS.map((sampler) => sentenceOf({ conditioned: true, sampler }, all)));
+  return `${longest(SAMPLERS.map((sampler) => sentenceOf({ conditioned: true, sampler }, all)))} ${words.squeeze.noRoom}`;
 }
 
 /**

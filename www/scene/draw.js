@@ -339,6 +339,9 @@ function traceSmooth(brush, points) {
  * @property {number[]} dash
  */
 
+/** Whether an outline has any length: one of a cloud without area has none. @param {Float64Array} points */
+export const hasPoints = (points) => points.length >= 4;
+
 /**
  * Polylines with halos of paper, so that they read on top of the cloud. The halos are below all of them: where two nearly
  * coincide, both are seen.
@@ -348,7 +351,7 @@ function traceSmooth(brush, points) {
  */
 export function drawOutlines(brush, outlines) {
   const { context, palette } = brush;
-  const drawn = outlines.filter(({ points }) => points.length >= 4);
+  const drawn = outlines.filter(({ points }) => hasPoints(points));
   context.lineJoin = 'round';
   context.globalAlpha = 0.7;
   context.strokeStyle = palette.paper;

@@ -157,6 +157,9 @@ test('figures without meaning are a dash: α₅ alone leaves all robots in one p
   // Of the outlines on at first only the command has a length.
   expect(plane).toContain('Drawn over it: commanded arc.');
   expect(plane + twist).not.toContain('—');
+  const picture = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
+  expect(picture).toContain('>command</text>');
+  expect(picture).not.toContain('>Gaussian in');
 });
 
 test('without γ̂ the gain is unbounded, and said of the floor', async ({ page }) => {

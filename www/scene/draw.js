@@ -339,8 +339,8 @@ function traceSmooth(brush, points) {
  * @property {number[]} dash
  */
 
-/** Whether an outline has any length: one of a cloud without area has none. @param {Float64Array} points */
-export const hasPoints = (points) => points.length >= 4;
+/** Whether an outline has any length: that of robots at one place has none but of rounding. @param {Float64Array} points */
+export const hasLength = (points) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 
 /**
  * Polylines with halos of paper, so that they read on top of the cloud. The halos are below all of them: where two nearly
@@ -351,7 +351,7 @@ export const hasPoints = (points) => points.length >= 4;
  */
 export function drawOutlines(brush, outlines) {
   const { context, palette } = brush;
-  const drawn = outlines.filter(({ points }) => hasPoints(points));
+  const drawn = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
   context.globalAlpha = 0.7;
   context.strokeStyle = palette.paper;

@@ -13,7 +13,7 @@ import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { openingAlphas } from '../../settings.js';
-import { hasPoints } from '../../scene/draw.js';
+import { hasLength } from '../../scene/draw.js';
 import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
@@ -186,7 +186,7 @@ export class BananaMachineElement extends FigureElement {
   content(reading) {
     const { config, note } = reading;
     const say = words.banana;
-    const overlays = OVERLAYS.filter((name) => this.state.own.overlays.includes(name) && hasPoints(reading.contours[name]));
+    const overlays = OVERLAYS.filter((name) => this.state.own.overlays.includes(name) && hasLength(reading.contours[name]));
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">

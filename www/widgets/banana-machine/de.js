@@ -95,7 +95,7 @@ export const de = {
     gains: (gain) => `Doch sie ist krumm, mit einem Gewinn von ${gain} Nat je Roboter.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
-        `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed} ± ${deviation} m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
+        `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
       odometry: (length, deviation, skew) =>
         `Eine Fliege: Das Rauschen der Drehungen, α₄, streut ${length} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
     },

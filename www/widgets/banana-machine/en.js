@@ -100,7 +100,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     gains: (gain) => `Yet it is bent, with a gain of ${gain} nats a robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
-        `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed} ± ${deviation} m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,
+        `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,
       odometry: (length, deviation, skew) =>
         `A bow-tie: the rotations’ noise α₄ spreads a drive of ${length} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
     },

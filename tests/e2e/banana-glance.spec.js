@@ -118,7 +118,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason', as
   const { table, config } = await state(widget);
   const [, a2] = config.alphas;
   const deviation = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
-  await expect(sentence(widget)).toContainText(`α₂ω² spreads v̂ by ${deviation.toFixed(2)} m/s about 0.06`);
+  await expect(sentence(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
   await expect(sentence(widget)).toContainText('ahead of the start and behind it');
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
   const behind = (await state(widget)).poses.filter((x, i) => i % 3 === 0 && x < 0).length;
@@ -146,8 +146,20 @@ test('figures without meaning are a dash: α₅ alone leaves all robots in one p
   await frames(page);
   for (const name of ['cross-track skew', 'gain of a Gaussian', 'area of ellipse', 'predicts', 'exact gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(detail(widget, 'gain of a Gaussian')).toHaveText('—');
-  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly —');
-  await expect(detail(widget, 'area of ellipse')).toHaveText('inside: — and —');
+  await expect(detail(widget, 'cross-track skew')).toHaveText('—');
+  await expect(detail(widget, 'area of ellipse')).toHaveText('—');
+  await widget.getByRole('radio', { name: 'Only α₄' }).check();
+  await widget.locator('#omega').fill('0');
+  await frames(page);
+  const [plane, twist] = await widget.locator('canvas').evaluateAll((canvases) => canvases.map((canvas) => canvas.getAttribute('aria-label') ?? ''));
+  const { shown, end } = await state(widget);
+  expect(plane).toContain(`All ${counted(shown)} end at one place, x ${end[0].toFixed(2)} m, y 0.00 m.`);
+  // Of the outlines on at first only the command has a length.
+  expect(plane).toContain('Drawn over it: commanded arc.');
+  expect(plane + twist).not.toContain('—');
+  const picture = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
+  expect(picture).toContain('>command</text>');
+  expect(picture).not.toContain('>Gaussian in');
 });
 
 test('without γ̂ the gain is unbounded, and said of the floor', async ({ page }) => {
@@ -157,14 +169,14 @@ test('without γ̂ the gain is unbounded, and said of the floor', async ({ page 
   expect(table.exact.likelihoodGain.pose).toBe(Infinity);
   const gain = numberIn(((await readout(widget, 'gain on the floor').textContent()) ?? '').split(' ± ')[0]);
   expect(Math.abs(gain - stats.likelihoodGain.floor)).toBeLessThan(0.001);
-  await expect(detail(widget, 'gain on the floor')).toHaveText(`${counted(stats.n * stats.likelihoodGain.floor)} for all ${counted(stats.n)}; over (x, y, θ) ∞: no γ̂`);
+  await expect(detail(widget, 'gain on the floor')).toHaveText(`${counted(stats.n * stats.likelihoodGain.floor)} for all ${counted(stats.n)}; with θ no bound: no γ̂`);
   await expect(detail(widget, 'cross-track skew')).toHaveText('exactly −0.301');
 });
 
 test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {
   const widget = await openWhole(page);
   const plane = widget.locator('canvas.plane');
-  await expect(widget.getByLabel('Backing up is no half turn')).toHaveCount(0);
+  await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);
   await widget.getByLabel('odometry').check();
   const withReading = await pictureOf(plane);
   await widget.getByRole('checkbox', { name: 'commanded arc' }).uncheck();
@@ -188,7 +200,7 @@ test('the odometry model shows its reading, the hinge noises of a marked robot, 
   await widget.locator('#v').fill('-1');
   await expect(sentence(widget)).toContainText('two half turns');
   const before = (await state(widget)).table.exact.cov[2][2];
-  await widget.getByLabel('Backing up is no half turn').check();
+  await widget.getByLabel('Reverse without half-turn noise').check();
   await expect(sentence(widget)).not.toContainText('two half turns');
   expect((await state(widget)).table.exact.cov[2][2]).toBeLessThan(before / 5);
   expect(await widget.evaluate((element) => [Reflect.get(element, 'reverseAware'), element.getAttribute('reverseaware')])).toEqual([true, 'true']);

@@ -337,6 +337,7 @@ test.describe('Isolate', () => {
     await expect(detail(widget, 'area of ellipse')).toHaveText(/^inside: [\d.]+\u202f% and —$/);
     // A curve on the floor that is straight in ξ: no error of an infinite gain.
     await expect(readout(widget, 'gain on the floor')).toHaveText('∞');
+    await expect(detail(widget, 'gain on the floor')).toHaveText('no bound: in ξ all on one line');
     ({ stats } = await state(widget));
     expect(stats.cartesian.cov[1][1]).toBeGreaterThan(0.01);
     expect(stats.rhoCrossHeading).toBeGreaterThan(0.99);

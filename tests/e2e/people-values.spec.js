@@ -2,7 +2,7 @@ import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { heard, property, ready, show } from './element-support.js';
 import { settings } from '../../www/settings.js';
-import { STILL, frames, test, valueField } from './support.js';
+import { STILL, counted, frames, test, unfold, valueField } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -70,6 +70,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
 for (const [key, text, complaint] of [
   ['alpha1', '-1', 'α₁ is −1; allowed is 0 to 1\u202f000\u202f000.'],
   ['omega', 'quick', 'ω is "quick"; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000.'],
+  ['omega', '1,5', 'ω is "1,5"; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000, with a decimal point.'],
   ['omega', '', 'ω is ""; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000.'],
   ['dt', '0', 'Δt is 0; allowed is 1·10⁻⁶ to 1\u202f000\u202f000.'],
   ['samples', '2.5', 'N is 2.5; allowed is a whole number from 1 to 10\u202f000\u202f000.'],
@@ -96,6 +97,43 @@ for (const [key, text, complaint] of [
     expect(await property(widget, key)).toBe(1);
   });
 }
+
+for (const text of ['2,000', '2\u202f000']) {
+  test(`a value is taken as ${text.includes(',') ? 'English groups' : 'the page prints'} it: ${text}`, async ({ page }) => {
+    const widget = await widgetOf(page, 'banana-machine');
+    await valueField(widget, 'samples').fill(text);
+    await page.keyboard.press('Enter');
+    expect(await property(widget, 'samples')).toBe(2000);
+  });
+}
+
+test('a number that no sample has is refused and kept until it is right or left', async ({ page }) => {
+  for (const [name, id, label] of [['banana-machine', 'robot', 'Robot'], ['map-squeeze', 'sample', 'Sample']]) {
+    const widget = await widgetOf(page, name);
+    await unfold(widget);
+    const field = widget.locator(`#${id}`);
+    const said = widget.locator('.marked [role=alert]');
+    const samples = await property(widget, 'samples');
+    for (const text of ['0', '2.5', '-4', String(samples + 1), '999999999']) {
+      await field.fill('7');
+      await field.fill(text);
+      const given = text.replace('-', '\u2212');
+      await expect(said).toHaveText(`${label} is ${given}; allowed is a whole number from 1 to ${counted(samples)}.`);
+      await expect(field).toHaveValue(text);
+      expect(await property(widget, 'marked')).toBe(6);
+      await field.blur();
+      await expect(field).toHaveValue('7');
+      await expect(said).toHaveCount(0);
+    }
+    await field.fill('0');
+    await expect(said).toHaveCount(1);
+    await field.fill(String(samples));
+    await expect(said).toHaveCount(0);
+    expect(await property(widget, 'marked')).toBe(samples - 1);
+    await field.fill('');
+    expect(await property(widget, 'marked')).toBe(null);
+  }
+});
 
 test('every slider takes the least and the greatest value of the core', async ({ page }) => {
   for (const name of ['banana-machine', 'map-squeeze']) {

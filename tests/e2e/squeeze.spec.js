@@ -250,9 +250,9 @@ test.describe('judging', () => {
     const { stats } = await squeezed(widget);
     expect(stats.throughWall).toBeGreaterThan(150);
     await unfold(widget, 'Counts and costs');
-    await expect(readout(widget, 'with their way drawn')).toHaveText('the first 150');
+    await expect(readout(widget, 'path drawn for')).toHaveText('the first 150');
     await widget.getByLabel('whole arc').check();
-    await expect(readout(widget, 'with their way drawn')).toHaveText('0');
+    await expect(readout(widget, 'path drawn for')).toHaveText('0');
   });
 
   test('sliders set the command, the noise, the clearance, k and the count', async ({ page }) => {
@@ -319,7 +319,13 @@ test.describe('judging', () => {
     expect(stats.gaveUp).toBe(true);
     await expect(note).toContainText('The robot is wedged');
     const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
-    expect(tried).toContain(`${stats.drawn} draws`);
+    // No other sentence counts the same motions in another way.
+    const through = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
+    const ended = `only ${stats.accepted} of ${config.samples} motions came to their end; ${through} went through a wall`;
+    expect(tried.trim()).toBe(`The robot is wedged: in ${stats.drawn} draws of parts ${stats.accepted === 0 ? 'no motion came to its end' : ended}.`);
+    const described = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
+    expect(described).toContain(`${stats.drawn} parts drawn; ${stats.accepted} motions accepted`);
+    expect(described.includes('crosses')).toBe(stats.accepted < stats.attempts);
     const rows = widget.locator('.table tbody tr');
     await expect(rows.nth(2)).toContainText('too few are accepted to time');
 

@@ -4,6 +4,7 @@ import { html } from 'lit';
 import { words } from '../messages/registry.js';
 import { radioGroup, rich, toggle } from '../ui/controls.js';
 import { counted, limit, numberIn, typed } from '../ui/format.js';
+import { markedSample } from '../ui/marked.js';
 import { sliderRow } from '../ui/slider.js';
 import { exportMenu } from './takeaway/export.js';
 
@@ -178,6 +179,32 @@ export function cloudControls(figure, counts) {
     )}
     ${figure.cloud?.buttons(say)}
   </fieldset>`;
+}
+
+/**
+ * The marked sample, by its number.
+ *
+ * @param {Figure & { cloud: import('./cloud.js').Cloud }} figure
+ * @param {Omit<Parameters<typeof markedSample>[0], 'index' | 'type' | 'refusal' | 'forget'>} row
+ * @returns {import('lit').TemplateResult}
+ */
+export function markedField({ cloud, typing }, row) {
+  const { label, shown } = row;
+  return markedSample({
+    ...row,
+    index: cloud.index,
+    type: (text) => {
+      const number = Number(text);
+      if (text && !(Number.isInteger(number) && number >= 1 && number <= shown)) {
+        typing.refuse('marked', words.refused(label, text.replace('-', '\u2212'), '1', counted(shown), true));
+        return;
+      }
+      typing.forget();
+      cloud.mark(number - 1);
+    },
+    refusal: typing.refusalOf('marked'),
+    forget: () => typing.forget(),
+  });
 }
 
 /**

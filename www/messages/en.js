@@ -27,7 +27,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
   },
   sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
   refused: (name, given, least, most, whole) =>
-    `${name} is ${given}; allowed is ${whole ? 'a whole number from ' : ''}${least} to ${most}.`,
+    `${name} is ${given}; allowed is ${whole ? 'a whole number from ' : ''}${least} to ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''}.`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',

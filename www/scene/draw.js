@@ -339,6 +339,9 @@ function traceSmooth(brush, points) {
  * @property {number[]} dash
  */
 
+/** Whether an outline has any length: that of robots at one place has none but of rounding. @param {Float64Array} points */
+export const hasLength = (points) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
+
 /**
  * Polylines with halos of paper, so that they read on top of the cloud. The halos are below all of them: where two nearly
  * coincide, both are seen.
@@ -348,7 +351,7 @@ function traceSmooth(brush, points) {
  */
 export function drawOutlines(brush, outlines) {
   const { context, palette } = brush;
-  const drawn = outlines.filter(({ points }) => points.length >= 4);
+  const drawn = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
   context.globalAlpha = 0.7;
   context.strokeStyle = palette.paper;

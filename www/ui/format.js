@@ -59,7 +59,7 @@ export function typed(value, decimals) {
 /**
  * A number that was typed in the present language, or with a decimal point.
  *
- * @param {string} text "−0,301", "1.5 m/s", "2 000"
+ * @param {string} text "−0,301", "1.5 m/s", "2 000", "2,000"
  * @param {string} [unit] that may follow it
  * @returns {number} NaN where it is none
  */
@@ -67,7 +67,9 @@ export function numberIn(text, unit = '') {
   const plain = text.replace(/\s/g, '').replace(MINUS, '-');
   const bare = unit && plain.endsWith(unit) ? plain.slice(0, -unit.length) : plain;
   const [, decimal] = fixed(0.5, 1);
-  return bare === '' ? NaN : Number(bare.replace(decimal, '.'));
+  // In English a comma stands between whole groups of three, or nowhere.
+  const ungrouped = decimal === '.' && /^-?[1-9]\d{0,2}(,\d{3})+$/.test(bare) ? bare.replaceAll(',', '') : bare;
+  return bare === '' ? NaN : Number(ungrouped.replace(decimal, '.'));
 }
 
 /** @param {number} value @returns {string} "1 000 000"; "1·10⁻⁶" */

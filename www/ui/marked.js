@@ -1,6 +1,6 @@
 /** The sample that is marked, and the way to it from the keyboard. */
 
-import { css, html } from 'lit';
+import { css, html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.js';
 import { counted } from './format.js';
@@ -41,16 +41,20 @@ export const markedStyles = css`
 `;
 
 /**
- * @param {{ index: number, mark: (index: number) => void }} cloud −1 for none
+ * The field keeps what was typed and is refused until it is right or left.
+ *
  * @param {object} marked
+ * @param {number} marked.index −1 for none
  * @param {string} marked.id
  * @param {string} marked.label
  * @param {number} marked.shown samples there are
- * @param {number} marked.beyond the index that a number above them means; −1 for none
+ * @param {(text: string) => void} marked.type takes what was typed
+ * @param {string} [marked.refusal] what is said of it where it was refused
+ * @param {() => void} marked.forget it is left
  * @param {unknown} marked.told what is said of it; nothing where none is marked
  * @param {string} marked.hint said where none is
  */
-export function markedSample(cloud, { id, label, shown, beyond, told, hint }) {
+export function markedSample({ index, id, label, shown, type, refusal, forget, told, hint }) {
   return html`<p class="marked">
     <label>
       ${label}
@@ -61,14 +65,11 @@ export function markedSample(cloud, { id, label, shown, beyond, told, hint }) {
         max=${Math.max(1, shown)}
         placeholder=${shown === 0 ? '' : `1–${counted(shown)}`}
         ?disabled=${shown === 0}
-        .value=${live(cloud.index < 0 ? '' : String(cloud.index + 1))}
-        @input=${(/** @type {Event} */ event) => {
-          const number = inputOf(event).valueAsNumber;
-          const valid = Number.isInteger(number) && number >= 1;
-          cloud.mark(!valid ? -1 : number > shown ? beyond : number - 1);
-        }}
+        .value=${refusal ? noChange : live(index < 0 ? '' : String(index + 1))}
+        @input=${(/** @type {Event} */ event) => type(inputOf(event).value)}
+        @blur=${forget}
       />
     </label>
-    <output for=${id}>${told || html`<span class="hint">${hint}</span>`}</output>
+    <output for=${id} role=${refusal ? 'alert' : nothing}>${refusal || told || html`<span class="hint">${hint}</span>`}</output>
   </p>`;
 }

@@ -13,6 +13,7 @@ import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { openingAlphas } from '../../settings.js';
+import { hasLength } from '../../scene/draw.js';
 import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
@@ -185,12 +186,12 @@ export class BananaMachineElement extends FigureElement {
   content(reading) {
     const { config, note } = reading;
     const say = words.banana;
-    const overlays = this.state.own.overlays.map((/** @type {typeof OVERLAYS[number]} */ name) => say.overlays[name]);
+    const overlays = OVERLAYS.filter((name) => this.state.own.overlays.includes(name) && hasLength(reading.contours[name]));
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
           <div class="stage" part="picture">
-            ${canvas(this, this.#plane, planeText(reading, overlays))} ${this.#handle.render(config.command)}
+            ${canvas(this, this.#plane, planeText(reading, overlays.map((name) => say.overlays[name])))} ${this.#handle.render(config.command)}
           </div>
           <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>

@@ -19,7 +19,7 @@ export const de = {
           ['v² in ω̂', 'fächert die Wolke auf und biegt sie', 'auffächert'],
           ['ω² in ω̂', 'fächert ebenso, aber nur in Kurven', 'auffächert'],
           ['v² in γ̂', 'dreht jeden Roboter, wo er hält', 'auf der Stelle dreht'],
-          ['ω² in γ̂', 'dreht ebenso, aber nur in Kurven', 'in ihren Richtungen verwischt'],
+          ['ω² in γ̂', 'dreht jeden, der hält, wenn ω ≠ 0', 'in ihren Richtungen verwischt'],
         ],
         odometry: [
           ['Drehung in Drehung', 'schwenkt die Wolke um den Start', 'schwenkt'],
@@ -57,7 +57,7 @@ export const de = {
   figures: 'Zahlen',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
-  reverseAware: 'Rückwärts ist keine halbe Drehung',
+  reverseAware: 'Rückwärts ohne halbe Drehungen',
   isolate: 'Nur ein α gelten lassen',
   only: (alpha) => `Nur ${alpha}`,
   off: (value) => `${value} aus`,
@@ -85,6 +85,7 @@ export const de = {
   noRobots: 'Noch keine Roboter.',
   oneRobot: 'Ein Roboter.',
   mean: (robots, x, y) => `${robots} Roboter halten um x ${x} m, y ${y} m.`,
+  onePlace: (robots, x, y) => `Alle ${robots} halten an einer Stelle, x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standardabweichungen ${x} m in x und ${y} m in y.`,
   bend: {
     unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactly}.`,
@@ -94,7 +95,7 @@ export const de = {
     gains: (gain) => `Doch sie ist krumm, mit einem Gewinn von ${gain} Nat je Roboter.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
-        `Eine Fliege: Das Rauschen α₂ω² streut v̂ um ${deviation} m/s um ${speed}, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
+        `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
       odometry: (length, deviation, skew) =>
         `Eine Fliege: Das Rauschen der Drehungen, α₄, streut ${length} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
     },
@@ -115,8 +116,8 @@ export const de = {
   },
   twistAxes: 'ξ längs nach rechts und ξ Richtung nach oben',
   twistMoments: (along, heading, deviationAlong, deviationHeading, share) =>
-    `Mittelwerte ${along} m und ${heading} rad, Standardabweichungen ${deviationAlong} m und ${deviationHeading} rad. ` +
-    `${share} liegen in der 2σ-Ellipse.`,
+    `Mittelwerte ${along} m und ${heading} rad, Standardabweichungen ${deviationAlong} m und ${deviationHeading} rad.` +
+    (share && ` ${share} liegen in der 2σ-Ellipse.`),
   axisAlong: 'ξ längs (m)',
   axisHeading: 'ξ Richtung (rad)',
   handle: 'Ende des befohlenen Bogens',
@@ -138,7 +139,8 @@ export const de = {
     gainOnFloor: 'Gewinn am Boden, Nat/Roboter',
     likelier: (nats, robots, power) => `${nats} für ${robots}: ${power}-mal glaubhafter`,
     unlikelier: (nats, robots, power) => `${nats} für ${robots}: ${power}-mal unglaubhafter`,
-    unbounded: (nats, robots) => `${nats} für ${robots}; über *(x, y, θ)* ∞: kein *γ̂*`,
+    unbounded: (nats, robots) => `${nats} für ${robots}; mit *θ* keine Grenze: kein *γ̂*`,
+    onLine: 'keine Grenze: in *ξ* alle auf einer Linie',
     area: 'Fläche Ellipse / *ξ*-Umriss',
     areaDetail: (ellipse, exponential) => `darin ${ellipse} und ${exponential}`,
     gaussian: 'Schiefe, die der Gauß in *ξ* vorhersagt',
@@ -150,7 +152,7 @@ export const de = {
   },
   gainIs:
     'Gewinn: um wie viele Nat glaubhafter die Roboter unter dem Gauß in *ξ* sind als unter dem in *(x, y, θ)*; ein Nat ist ein Faktor *e*. ' +
-    'Am Boden: nach Länge und Drehung des Bogens zu jedem Ort, statt nach *(x, y)*.',
+    'Gewinn am Boden: ohne *θ*; in Länge und Drehung des Bogens zu jedem Ort, gegen *(x, y)*.',
   nOfAll: (n, all) => `${n} von ${all}`,
   robot: 'Roboter',
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',

@@ -21,7 +21,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
           ['v² into ω̂', 'fans the cloud open and bends it', 'fan'],
           ['ω² into ω̂', 'fans it too, but only in turns', 'fan'],
           ['v² into γ̂', 'turns each robot where it stopped', 'turn in place'],
-          ['ω² into γ̂', 'turns it too, but only in turns', 'blur its headings'],
+          ['ω² into γ̂', 'turns each stopped robot, if ω ≠ 0', 'blur its headings'],
         ],
         odometry: [
           ['rotation into rotation', 'swings the cloud about the start', 'swing'],
@@ -60,7 +60,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   figures: 'Figures',
   models: { velocity: 'velocity', odometry: 'odometry' },
   noises: { normal: 'normal', triangular: 'triangular' },
-  reverseAware: 'Backing up is no half turn',
+  reverseAware: 'Reverse without half-turn noise',
   isolate: 'Isolate one α',
   only: (alpha) => `Only ${alpha}`,
   off: (value) => `${value} off`,
@@ -89,6 +89,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   noRobots: 'No robots yet.',
   oneRobot: 'One robot.',
   mean: (robots, x, y) => `${robots} robots end around x ${x} m, y ${y} m.`,
+  onePlace: (robots, x, y) => `All ${robots} end at one place, x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standard deviations ${x} m in x and ${y} m in y.`,
   bend: {
     unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, exactly ${exactly}.`,
@@ -99,7 +100,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     gains: (gain) => `Yet it is bent, with a gain of ${gain} nats a robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
-        `A bow-tie: the turn’s noise α₂ω² spreads v̂ by ${deviation} m/s about ${speed}, so robots end ahead of the start and behind it. Skew ${skew}.`,
+        `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,
       odometry: (length, deviation, skew) =>
         `A bow-tie: the rotations’ noise α₄ spreads a drive of ${length} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
     },
@@ -120,8 +121,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   },
   twistAxes: 'ξ along to the right and ξ heading up',
   twistMoments: (along, heading, deviationAlong, deviationHeading, share) =>
-    `Mean ${along} m and ${heading} rad, standard deviations ${deviationAlong} m and ${deviationHeading} rad. ` +
-    `${share} lie inside the 2σ ellipse.`,
+    `Mean ${along} m and ${heading} rad, standard deviations ${deviationAlong} m and ${deviationHeading} rad.` +
+    (share && ` ${share} lie inside the 2σ ellipse.`),
   axisAlong: 'ξ along (m)',
   axisHeading: 'ξ heading (rad)',
   handle: 'End of the commanded arc',
@@ -143,7 +144,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     gainOnFloor: 'gain on the floor, nats/robot',
     likelier: (nats, robots, power) => `${nats} for all ${robots}: ${power} times likelier`,
     unlikelier: (nats, robots, power) => `${nats} for all ${robots}: ${power} times less likely`,
-    unbounded: (nats, robots) => `${nats} for all ${robots}; over *(x, y, θ)* ∞: no *γ̂*`,
+    unbounded: (nats, robots) => `${nats} for all ${robots}; with *θ* no bound: no *γ̂*`,
+    onLine: 'no bound: in *ξ* all on one line',
     area: 'area of ellipse / *ξ* outline',
     areaDetail: (ellipse, exponential) => `inside: ${ellipse} and ${exponential}`,
     gaussian: 'skew that the Gaussian in *ξ* predicts',
@@ -155,7 +157,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   },
   gainIs:
     'Gain: how many nats likelier the robots are under the Gaussian in *ξ* than under the one in *(x, y, θ)*; a nat is a factor of *e*. ' +
-    'On the floor: by length and turn of the arc to each place, instead of *(x, y)*.',
+    'Gain on the floor: without *θ*; in length and turn of the arc to each place, against *(x, y)*.',
   nOfAll: (n, all) => `${n} of ${all}`,
   robot: 'Robot',
   markHint: 'Point at one in either view to mark it in both.',

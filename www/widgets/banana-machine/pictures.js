@@ -12,6 +12,7 @@ import {
   drawOutlines,
   drawPixels,
   drawRobot,
+  hasLength,
 } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
@@ -166,7 +167,7 @@ export class PlanePicture extends CloudPicture {
     const { view, palette } = brush;
     const { machine, contours, overlays, table, marked, end } = scene;
     const styles = outlineStyles(palette);
-    const drawn = (/** @type {OutlineName} */ name) => overlays[name];
+    const drawn = (/** @type {OutlineName} */ name) => overlays[name] && hasLength(contours[name]);
     const key = NAMED.filter(drawn).map((name) => keyEntry(brush, name, styles[name]));
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     clipped(brush, () => {
@@ -329,7 +330,7 @@ export class TwistPicture extends CloudPicture {
     const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
     const { exponential } = outlineStyles(palette);
-    const key = overlays.exponential ? [keyEntry(brush, 'exponential', exponential)] : [];
+    const key = overlays.exponential && hasLength(contours.twistEllipse) ? [keyEntry(brush, 'exponential', exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, key);
     clipped(brush, () => {
       const [{ cov }] = twistMoments(scene);

@@ -127,7 +127,7 @@ export function deviation(variance) {
  * @param {Table} table
  * @returns {'point' | 'headings' | 'cloud'} one pose; one place but many headings; or a spread
  */
-function spreadOf({ exact: { cov } }) {
+export function spreadOf({ exact: { cov } }) {
   if (deviation(Math.max(cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
   return deviation(cov[2][2]) > NO_SPREAD ? 'headings' : 'point';
 }

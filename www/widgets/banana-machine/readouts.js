@@ -1,10 +1,10 @@
 /** The Banana Machine's readouts: the statistics of the cloud, the marked robot, and the tables of moments. */
 
 import { html } from 'lit';
+import { markedField } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { rich } from '../../ui/controls.js';
 import { NOTHING, counted, fixed, percent, powerOfE, significant, withError } from '../../ui/format.js';
-import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 
 /**
@@ -33,7 +33,7 @@ export function readouts({ config, stats, exactSkew, gain }) {
       say.skew,
       withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
       longestSkew(),
-      [say.skewDetail(fixed(exactSkew, 3)), say.skewDetail(fixed(-1, 3))],
+      [Number.isNaN(exactSkew) ? NOTHING : say.skewDetail(fixed(exactSkew, 3)), say.skewDetail(fixed(-1, 3))],
     ],
     [
       gain.unbounded ? say.gainOnFloor : say.gain,
@@ -45,15 +45,19 @@ export function readouts({ config, stats, exactSkew, gain }) {
       say.area,
       fixed(areaRatio, 2),
       fixed(-1, 2),
-      [say.areaDetail(percent(coverage.ellipse), percent(coverage.exponential)), say.areaDetail(percent(1), percent(1))],
+      [
+        [coverage.ellipse, coverage.exponential].every(Number.isNaN) ? NOTHING : say.areaDetail(percent(coverage.ellipse), percent(coverage.exponential)),
+        say.areaDetail(percent(1), percent(1)),
+      ],
     ],
   ]);
 }
 
 /** What the gain means for the whole cloud. @param {Reading['gain']} gain */
 function gainText({ n, unbounded, value }) {
-  const { unbounded: without, likelier, unlikelier } = words.banana.readouts;
+  const { unbounded: without, onLine, likelier, unlikelier } = words.banana.readouts;
   if (Number.isNaN(value)) return NOTHING;
+  if (value === Infinity) return onLine;
   const [nats, robots] = [counted(n * value), counted(n)];
   if (unbounded) return without(nats, robots);
   return (value < 0 ? unlikelier : likelier)(nats, robots, powerOfE(Math.abs(n * value)));
@@ -79,6 +83,7 @@ export function otherReadouts({ config, stats, gain, table }) {
  *
  * @param {import('./banana-machine.js').BananaMachineElement} figure
  * @param {Inspection | undefined} inspection of it, if there is one
+ * @returns {import('lit').TemplateResult}
  */
 export function markedRobot(figure, inspection) {
   const { robot, markHint } = words.banana;
@@ -92,7 +97,7 @@ export function markedRobot(figure, inspection) {
         quantity('ω̂', inspection.omegaHat, 'rad/s'),
         quantity('γ̂', inspection.gammaHat, 'rad/s'),
       ]);
-  return markedSample(figure.cloud, { id: 'robot', label: robot, hint: markHint, shown, beyond: shown - 1, told });
+  return markedField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
 }
 
 /**

@@ -8,7 +8,7 @@ import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent, withError } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
-import { deviation, silenceOf } from './reading.js';
+import { deviation, silenceOf, spreadOf } from './reading.js';
 
 /**
  * @import { Reading } from './reading.js'
@@ -41,13 +41,13 @@ export function announcementOf({ config, stats, note }) {
  * @param {string[]} overlays names of the outlines that are shown
  */
 export function planeText(reading, overlays) {
-  const { config, stats, note } = reading;
-  const { plane, noRobots, mean, spread, drawnOver } = words.banana;
+  const { config, stats, table, note } = reading;
+  const { plane, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
   const sentences = [plane(commandText(config.command))];
   if (stats.n === 0) sentences.push(noRobots);
   else {
     const { mean: centre, cov } = stats.cartesian;
-    sentences.push(mean(counted(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
+    sentences.push((spreadOf(table) === 'cloud' ? mean : onePlace)(counted(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
     if (note) sentences.push(note);
     else sentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(reading));
   }
@@ -127,5 +127,6 @@ export function twistText({ stats: { n, exponential, coverage } }) {
   if (n < 2) return `${start} ${n === 0 ? noRobots : oneRobot}`;
   const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
   const [ofAlong, ofHeading] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
-  return `${start} ${twistMoments(along, heading, ofAlong, ofHeading, percent(coverage.exponential))}`;
+  const share = Number.isNaN(coverage.exponential) ? '' : percent(coverage.exponential);
+  return `${start} ${twistMoments(along, heading, ofAlong, ofHeading, share)}`;
 }

@@ -40,8 +40,8 @@ export const de = {
   mapNotInCode: 'Der Code ist ohne Ihre Karte: Eine Seite gibt sie der Eigenschaft map.',
   condition: 'Auf die Karte bedingen',
   commandAndNoise: 'Fahrbefehl, Rauschen und Teile',
-  wedged: (accepted, printed, all, drawn) =>
-    `Der Roboter sitzt fest: ${accepted === 0 ? 'keine Bewegung kam' : `nur ${printed} von ${all} Bewegungen kamen`} zu einem Ende in den ${drawn} Zügen bis zum Aufgeben.`,
+  wedged: (drawn, accepted, printed, all, through) =>
+    `Der Roboter sitzt fest: In ${drawn} Zügen von Teilen ${accepted === 0 ? 'kam keine Bewegung ans Ende' : `kamen nur ${printed} von ${all} Bewegungen ans Ende; ${through}`}.`,
   nothing: (count, drawn, wholeArc) =>
     `Nichts wurde angenommen: Von ${drawn} ${count === 1 ? 'versuchten Zug' : 'versuchten Zügen'} ${wholeArc ? 'blieb unterwegs keiner ohne Berührung einer Wand' : 'endet keiner, wo der Roboter Platz hat'}.`,
   noRoom: 'Der Roboter hat keinen Platz, wo er steht; so beginnt jeder Weg von hier in einer Wand.',
@@ -73,9 +73,9 @@ export const de = {
   picture: (map) => `Grundriss von oben, x nach rechts und y nach oben. ${map}.`,
   robotAt: (x, y, theta, command) =>
     `Der Roboter steht bei x ${x} m, y ${y} m, Richtung ${theta} rad. Befohlen: ${command}.`,
-  outcome: (drawn, accepted, kept, through, ofThem) =>
-    `${drawn} gezogen; ${accepted} ${kept}, als Punkte; davon ${through} ${ofThem}, mit Ring.`,
-  rest: 'Der Rest ist verworfen, als Kreuze.',
+  outcome: (drawn, parts, accepted, kept, through, ofThem, density) =>
+    `${drawn} ${parts ? 'Teile ' : ''}gezogen; ${accepted} ${parts ? 'Bewegungen ' : ''}${kept}, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} ${ofThem}${density ? '' : ', mit Ring'}.`,
+  rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
   robot: 'Roboter',
   robotKeys: 'Die Pfeiltasten bewegen ihn; [ und ] oder Umschalt mit einer Pfeiltaste drehen ihn',
   robotTitle: 'Zieh den Roboter',
@@ -103,7 +103,7 @@ export const de = {
   tally: {
     drawn: 'gezogen',
     draws: (kept) => `Züge für eine (${kept})`,
-    paths: 'davon mit Weg gezeichnet',
+    paths: 'davon Weg gezeichnet für',
     first: (count) => `die ersten ${count}`,
     tests: (kept) => `berechnete Abstände von Wänden für eine (${kept})`,
   },

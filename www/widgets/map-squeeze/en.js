@@ -41,8 +41,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   mapNotInCode: 'The code is without your map: a page gives that to the property map.',
   condition: 'Condition on the map',
   commandAndNoise: 'Command, noise and parts',
-  wedged: (accepted, printed, all, drawn) =>
-    `The robot is wedged: ${accepted === 0 ? 'no motion' : `only ${printed} of ${all} motions`} came to an end in the ${drawn} draws that were tried before giving up.`,
+  wedged: (drawn, accepted, printed, all, through) =>
+    `The robot is wedged: in ${drawn} draws of parts ${accepted === 0 ? 'no motion came to its end' : `only ${printed} of ${all} motions came to their end; ${through}`}.`,
   nothing: (count, drawn, wholeArc) =>
     `Nothing was accepted: of the ${drawn} ${plural(count, 'draw')} that ${count === 1 ? 'was' : 'were'} tried, none ${wholeArc ? 'touches no wall on its way' : 'ends where the robot fits'}.`,
   noRoom: 'The robot does not fit where it stands, so that every way from here begins in a wall.',
@@ -75,9 +75,9 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   picture: (map) => `Floor plan from above, x to the right and y up. ${map}.`,
   robotAt: (x, y, theta, command) =>
     `The robot stands at x ${x} m, y ${y} m, heading ${theta} rad. Commanded: ${command}.`,
-  outcome: (drawn, accepted, kept, through, ofThem) =>
-    `${drawn} drawn; ${accepted} ${kept}, as dots; ${through} of those ${ofThem}, ringed.`,
-  rest: 'The rest is rejected, as crosses.',
+  outcome: (drawn, parts, accepted, kept, through, ofThem, density) =>
+    `${drawn} ${parts ? 'parts ' : ''}drawn; ${accepted} ${parts ? 'motions ' : ''}${kept}, as ${density ? 'a density' : 'dots'}; ${through} of those ${ofThem}${density ? '' : ', ringed'}.`,
+  rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
   robot: 'Robot',
   robotKeys: 'Arrow keys move it; [ and ], or Shift with an arrow key, turn it',
   robotTitle: 'Drag the robot',
@@ -105,7 +105,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   tally: {
     drawn: 'drawn',
     draws: (kept) => `draws needed for one ${kept}`,
-    paths: 'of these, with their way drawn',
+    paths: 'of these, path drawn for',
     first: (count) => `the first ${count}`,
     tests: (kept) => `wall distances computed for one ${kept}`,
   },

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { counted } from '../../ui/format.js';
+import { counted, percent } from '../../ui/format.js';
 
 /** @import { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts' */
 
@@ -66,6 +66,11 @@ function kindOf(verdict) {
   return (verdict & bits.pathFree) === 0 ? 2 : 1;
 }
 
+/** How many of the accepted went through a wall. @param {Pick<SqueezeStats, 'throughWall' | 'throughWallRate'>} stats */
+export function throughText({ throughWall, throughWallRate }) {
+  return words.squeeze.throughOf(throughWall, counted(throughWall), percent(throughWallRate));
+}
+
 /**
  * A sentence on a robot that gets nowhere.
  *
@@ -76,8 +81,9 @@ function kindOf(verdict) {
  */
 function noteOn(config, stats, startFree) {
   const { wedged, nothing, noRoom } = words.squeeze;
+  const { accepted } = stats;
   const drawn = counted(stats.drawn);
-  if (stats.gaveUp) return wedged(stats.accepted, counted(stats.accepted), counted(config.samples), drawn);
-  if (stats.drawn > 0 && stats.accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
+  if (stats.gaveUp) return wedged(drawn, accepted, counted(accepted), counted(config.samples), throughText(stats));
+  if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
   return startFree ? '' : noRoom;
 }

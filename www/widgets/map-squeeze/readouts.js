@@ -4,9 +4,9 @@
  */
 
 import { html, nothing } from 'lit';
+import { markedField } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { counted, fixed, percent, rounded } from '../../ui/format.js';
-import { markedSample } from '../../ui/marked.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 import { DEMAND } from './cost.js';
 import { SAMPLERS } from './settings.js';
@@ -91,11 +91,17 @@ export function tally({ stats, config, paths: { length: paths } }) {
   ]);
 }
 
-/** The marked draw, with the verdict on it. @param {import('./map-squeeze.js').MapSqueezeElement} figure */
-export function markedDraw({ cloud, reading: { config, stats, verdicts } }) {
+/**
+ * The marked draw, with the verdict on it.
+ *
+ * @param {import('./map-squeeze.js').MapSqueezeElement} figure
+ * @returns {import('lit').TemplateResult}
+ */
+export function markedDraw(figure) {
+  const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
   const told = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
-  return markedSample(cloud, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, beyond: -1, told });
+  return markedField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, told });
 }
 
 /**

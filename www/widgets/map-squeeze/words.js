@@ -9,6 +9,7 @@ import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
+import { throughText } from './reading.js';
 import { SAMPLERS } from './settings.js';
 
 /**
@@ -56,8 +57,9 @@ export function shareOf({ throughWallRate, throughWallInterval: [low, high], gav
 
 /** What the picture shows, in one sentence; and what keeps the robot from moving, if something does. @param {Reading} reading */
 export function verdictOf({ config, stats, note }) {
-  const { accepted, attempts } = stats;
-  if (note && accepted === 0) return note;
+  const { accepted, attempts, gaveUp } = stats;
+  // Of one that is wedged the note counts all there is.
+  if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return words.squeeze.noneYet;
   const sentence = sentenceOf(config, { ...stats, all: attempts });
   return note ? `${sentence} ${note}` : sentence;
@@ -73,10 +75,10 @@ export function longestVerdict({ samples }) {
  * @param {Pick<Settings, 'conditioned' | 'sampler'>} config
  * @param {Pick<Stats, 'accepted' | 'throughWall' | 'throughWallRate'> & { all: number }} counts
  */
-function sentenceOf({ conditioned, sampler }, { accepted, all, throughWall, throughWallRate }) {
+function sentenceOf({ conditioned, sampler }, { accepted, all, ...stats }) {
   const say = words.squeeze;
   const tested = say.tested[conditioned ? sampler : 'off'](counted(accepted), counted(all));
-  return say.verdictOf(tested, say.throughOf(throughWall, counted(throughWall), percent(throughWallRate)));
+  return say.verdictOf(tested, throughText(stats));
 }
 
 /**
@@ -97,16 +99,17 @@ export function mapText(name, { bounds, walls }) {
  * @param {Reading} reading
  * @param {string} map as `mapText` has it
  */
-export function pictureText({ config, stats, note }, map) {
+export function pictureText({ config, stats, sorted, note }, map) {
   const { x, y, theta } = config.start;
-  const { accepted, drawn, throughWall } = stats;
+  const { attempts, accepted, drawn, throughWall } = stats;
   const { kept, ofThem } = keptWords(config);
   const say = words.squeeze;
+  const parts = config.conditioned && config.sampler === 'sub-stepped';
   return [
     say.picture(map),
     say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(counted(drawn), counted(accepted), kept, counted(throughWall), ofThem),
-    config.conditioned ? say.rest : '',
+    say.outcome(counted(drawn), parts, counted(accepted), kept, counted(throughWall), ofThem, !sorted),
+    accepted < attempts && config.conditioned ? say.rest(!sorted) : '',
     note,
   ].filter(Boolean).join(' ');
 }

@@ -313,19 +313,21 @@ test.describe('judging', () => {
     await widget.getByRole('button', { name: 'Facing a wall' }).click();
     await widget.getByLabel('sub-stepped').check();
     const steps = widget.getByRole('slider', { name: 'k, parts' });
-    await steps.fill('32');
-    const { stats, config } = await squeezed(widget);
-    expect(config.steps).toBe(32);
-    expect(stats.gaveUp).toBe(true);
-    await expect(note).toContainText('The robot is wedged');
-    const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
-    // No other sentence counts the same motions in another way.
-    const through = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
-    const ended = `only ${stats.accepted} of ${config.samples} motions came to their end; ${through} went through a wall`;
-    expect(tried.trim()).toBe(`The robot is wedged: in ${stats.drawn} draws of parts ${stats.accepted === 0 ? 'no motion came to its end' : ended}.`);
-    const described = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
-    expect(described).toContain(`${stats.drawn} parts drawn; ${stats.accepted} motions accepted`);
-    expect(described.includes('crosses')).toBe(stats.accepted < stats.attempts);
+    for (const parts of [16, 32]) {
+      await steps.fill(String(parts));
+      const { stats, config } = await squeezed(widget);
+      expect(config.steps).toBe(parts);
+      expect(stats.gaveUp).toBe(true);
+      await expect(note).toContainText('The robot is wedged');
+      const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
+      // No other sentence counts the same motions in another way.
+      const through = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
+      const ended = `only ${stats.accepted} of ${config.samples} motions came to their end; ${through} went through a wall`;
+      expect(tried.trim()).toBe(`The robot is wedged: in ${stats.drawn} draws of parts ${stats.accepted === 0 ? 'no motion came to its end' : ended}.`);
+      const described = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
+      expect(described).toContain(`${stats.drawn} parts drawn; ${stats.accepted} motions accepted`);
+      expect(described.includes('crosses')).toBe(stats.accepted < stats.attempts);
+    }
     const rows = widget.locator('.table tbody tr');
     await expect(rows.nth(2)).toContainText('too few are accepted to time');
 
@@ -429,6 +431,17 @@ test.describe('judging', () => {
     const { throughWall } = (await squeezed(widget)).stats;
     await expect(status).toContainText(`Without the map all 600 motions are kept; ${throughWall} of them, `);
     await expect(canvas).toHaveAttribute('aria-label', new RegExp(`600 kept, as dots; ${throughWall} of those with a way that is not free, ringed\\.$`));
+    // A density has no marks to name.
+    await widget.getByLabel('Condition on the map').check();
+    await widget.locator('.cloud .typed').fill('2000');
+    await page.keyboard.press('Enter');
+    const many = (await squeezed(widget)).stats;
+    expect(many.accepted).toBeLessThan(2000);
+    const dense = `2\u202f000 drawn; ${many.accepted.toLocaleString('en').replace(',', '\u202f')} accepted, as a density; 0 of those through a wall. The rest is rejected.`;
+    await expect(canvas).toHaveAttribute('aria-label', new RegExp(`${dense.replaceAll('.', '\\.')}$`));
+    await widget.locator('.cloud .typed').fill('600');
+    await page.keyboard.press('Enter');
+    await widget.getByLabel('Condition on the map').uncheck();
     await unfold(widget, 'Counts and costs');
     await unfold(widget, 'What is drawn');
     await expect(readout(widget, 'kept, way not free')).toHaveText(String(throughWall));

@@ -199,8 +199,10 @@ test('the marked robot and Step follow the size of the cloud', async ({ page }) 
   await expect(field).toHaveValue('');
   await expect(widget.locator('.marked output')).toContainText('Point at one');
   await field.fill('500');
-  await frames(page);
-  await expect(field).toHaveValue('100');
+  await expect(widget.getByRole('alert')).toHaveText('Robot is 500; allowed is a whole number from 1 to 100.');
+  await field.fill('100');
+  await expect(widget.getByRole('alert')).toHaveCount(0);
+  await expect(widget.locator('.marked output')).toContainText('m/s');
   await widget.getByRole('button', { name: 'Reset' }).click();
   await expect(field).toBeDisabled();
   await expect(step).toBeEnabled();

@@ -49,8 +49,10 @@ export function verdictText(verdict, config) {
  * @returns {{ text: string, interval: boolean }} "32.7 % (28.8–36.9 %)"
  */
 export function shareOf({ throughWallRate, throughWallInterval: [low, high], gaveUp }, { conditioned, sampler }) {
-  if (Number.isNaN(throughWallRate)) return { text: percent(NaN), interval: false };
-  if (conditioned && sampler === 'whole-arc') return { text: words.squeeze.byConstruction, interval: false };
+  const certain = conditioned && sampler === 'whole-arc';
+  // Before the first sample it is called what it will be.
+  if (Number.isNaN(throughWallRate)) return { text: percent(NaN), interval: !certain && !gaveUp };
+  if (certain) return { text: words.squeeze.byConstruction, interval: false };
   if (gaveUp) return { text: percent(throughWallRate), interval: false };
   return { text: `${percent(throughWallRate)} (${fixed(100 * low, 1)}–${percent(high)})`, interval: true };
 }

@@ -7,9 +7,9 @@
 mod common;
 
 use common::told::{Number, Told};
-use common::{SIGMAS, mean, variance, winds_around};
+use common::{SIGMAS, mean, preset, variance, winds_around};
 use motion::geom::se2::SE2;
-use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Settings};
+use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 use motion::stats::{ExponentialMoments, cross_track_skew, predicted_cross_track_skew};
 use nalgebra::Vector2;
 
@@ -19,17 +19,6 @@ fn machine(settings: Settings) -> BananaMachine {
 
 fn document() -> Told {
     Told::in_document(include_str!("../doc/model.md"))
-}
-
-/// What an opening with a preset is.
-fn preset(name: &str) -> Settings {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    let opening = Settings::default();
-    Settings {
-        command: preset.command,
-        velocity_alphas: preset.alphas.unwrap_or(opening.velocity_alphas),
-        ..opening
-    }
 }
 
 #[test]

@@ -7,20 +7,9 @@
 mod common;
 
 use common::told::Told;
-use common::{SIGMAS, winds_around};
+use common::{SIGMAS, preset, winds_around};
 use motion::VelocityCmd;
-use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Settings};
-
-/// What its opening and its presets are.
-fn preset(name: &str) -> Settings {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    let opening = Settings::default();
-    Settings {
-        command: preset.command,
-        velocity_alphas: preset.alphas.unwrap_or(opening.velocity_alphas),
-        ..opening
-    }
-}
+use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
 fn machine(settings: Settings) -> BananaMachine {
     BananaMachine::new(settings).expect("a valid setting")

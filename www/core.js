@@ -12,8 +12,8 @@ import carried from '../build/motion_bg.wasm';
 let wanted;
 /** Modules, by what carries them. @type {Map<() => Source, Promise<WebAssembly.Module>>} */
 const compiling = new Map();
-/** Tags of widgets that the page has met, in external.js. @type {Set<string>} */
-const expected = new Set();
+/** Tags of widgets that the page has met: external.js adds them. @type {Set<string>} */
+export const expected = new Set();
 /** @type {Promise<import('./types.d.ts').Motion> | undefined} */
 let loading;
 
@@ -44,28 +44,16 @@ export function load(source) {
  */
 export function instantiate(source) {
   wanted ??= source;
-  return made('motion');
+  return instantiateFor('motion');
 }
 
 /**
  * As `instantiate`, for a widget. In external.js its module has no other's machine, as long as the page has met no other.
  *
- * @param {string} tag
- */
-export function instantiateFor(tag) {
-  return made(tag);
-}
-
-/** @param {string} tag of a widget that the page has met */
-export function expect(tag) {
-  expected.add(tag);
-}
-
-/**
- * @param {string} name
+ * @param {string} name of the widget, its tag
  * @returns {Promise<import('./types.d.ts').Motion>}
  */
-async function made(name) {
+export async function instantiateFor(name) {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }

@@ -4,7 +4,7 @@
  */
 
 import { vocabularies, widgets } from '../build/widgets.js';
-import { expect } from './core.js';
+import { expected } from './core.js';
 import { en } from './messages/en.js';
 import { addEnglish } from './messages/registry.js';
 
@@ -23,7 +23,7 @@ function meet(root) {
     if (!(element instanceof Element)) continue;
     const { localName } = element;
     if (waiting.delete(localName)) {
-      expect(localName);
+      expected.add(localName);
       widgets[localName]();
     }
     // What a widget shows has no widget in it.

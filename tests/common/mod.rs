@@ -8,6 +8,7 @@ pub mod told;
 
 use motion::NoiseKind;
 use motion::geom::se2::SE2;
+use motion::sim::banana::{PRESETS, Settings};
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -39,6 +40,17 @@ pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
 pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     let turn = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
+}
+
+/// The Banana Machine as it opens with one of its presets.
+pub fn preset(name: &str) -> Settings {
+    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
+    let opening = Settings::default();
+    Settings {
+        command: preset.command,
+        velocity_alphas: preset.alphas.unwrap_or(opening.velocity_alphas),
+        ..opening
+    }
 }
 
 /// Whether a closed outline winds around a point.

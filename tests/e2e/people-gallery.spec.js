@@ -64,3 +64,15 @@ test('its examples start when they are opened, and are what their code says', as
     await example.locator('summary').first().click();
   }
 });
+
+test('in a window as wide as the column of a book, both figures of the page are at most 720 px high', async ({ page }) => {
+  await page.setViewportSize({ width: 700, height: 720 });
+  await page.goto('/');
+  for (const name of ['banana-machine', 'map-squeeze']) {
+    const widget = page.locator(name).first();
+    await widget.scrollIntoViewIfNeeded();
+    await expect(widget.locator('.folds')).toBeVisible();
+    const { height } = await widget.evaluate((element) => element.getBoundingClientRect());
+    expect(height, name).toBeLessThanOrEqual(720);
+  }
+});

@@ -124,6 +124,7 @@ for (const name of NAMES) {
         expect(await widget.locator('.surface').evaluate((element) => element.scrollWidth <= element.clientWidth)).toBe(true);
         // What a fold adds is scrolled to, by keys and by wheel, and what leads back out stays.
         await widget.locator('summary').nth(1).click();
+        await frames(page);
         await widget.locator('.presenting button').first().focus();
         await page.keyboard.press('End');
         await expect.poll(async () => (await boxOf(widget.locator('.folds'))).y + (await boxOf(widget.locator('.folds'))).height).toBeLessThanOrEqual(height + 0.5);

@@ -12,8 +12,11 @@ import { asLightAsThePage, cloudPixels, lightness, shifts, textOf, watchShifts }
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */
 
-/** Milliseconds: a development server compiles a page when it is asked for it. */
-const PATIENCE = 60_000;
+/** Milliseconds. */
+const PATIENCE = 20_000;
+
+/** Milliseconds: a development server compiles a page when it is first asked for it. */
+const PATIENCE_AT_FIRST = 90_000;
 
 /** What readers see of a page that moves while it loads, at most. */
 const MOST_SHIFT = 0.02;
@@ -39,12 +42,12 @@ export async function check(browser, site) {
   /**
    * @param {string} name
    * @param {(page: Page) => Promise<void>} work
-   * @param {{ viewport?: typeof DESKTOP, colorScheme?: 'light' | 'dark' }} [system]
+   * @param {{ viewport?: typeof DESKTOP, colorScheme?: 'light' | 'dark', patience?: number }} [options]
    */
-  const attempt = async (name, work, { viewport = DESKTOP, colorScheme = 'light' } = {}) => {
+  const attempt = async (name, work, { viewport = DESKTOP, colorScheme = 'light', patience = PATIENCE } = {}) => {
     const context = await browser.newContext({ viewport, colorScheme });
     const page = await context.newPage();
-    page.setDefaultTimeout(PATIENCE);
+    page.setDefaultTimeout(patience);
     listen(page, messages);
     try {
       await work(page);
@@ -56,7 +59,9 @@ export async function check(browser, site) {
     await context.close();
   };
 
-  await attempt('first load', (page) => firstLoad(page, site));
+  await attempt('first load', (page) => firstLoad(page, site), { patience: PATIENCE_AT_FIRST });
+  // All else begins with it.
+  if (failures.length > 0) return { passed, failures: [...failures, ...new Set(messages)] };
   await attempt('three navigations and back', (page) => navigations(page, site));
   await attempt('from a page without figures', (page) => fromElsewhere(page, site));
   await attempt('text of the page', (page) => text(page, site));

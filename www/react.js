@@ -56,6 +56,7 @@ class Figure {
     const { props: before } = this;
     Object.assign(this, { element, props });
     for (const type of EVENTS) element.addEventListener(type, this);
+    if (!before && element.stats) this.catchUp(element, props);
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
       // What the server has sent stands at first: the reader may have gone on from there.
@@ -64,10 +65,22 @@ class Figure {
       else element.setAttribute(attribute, text);
     }
     for (const name of this.names.properties) if (differ(before?.[name], props[name])) element[name] = props[name];
-    // One that the server has sent may be there before React has come to it.
-    if (before || !element.stats) return;
+  }
+
+  /**
+   * The server has sent the element, and it was there before React came to it: nobody has heard of it yet.
+   *
+   * @param {any} element
+   * @param {Props} props
+   */
+  catchUp(element, props) {
     element.dispatchEvent(new Event('load'));
     element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
+    for (const [name, attribute] of Object.entries(this.names.attributes)) {
+      const text = this.text(name, props);
+      // What was refused as an attribute still stands there, and is refused once more.
+      if (text !== null && element.getAttribute(attribute) === text) element[name] = props[name];
+    }
   }
 
   /** @param {Event} event */

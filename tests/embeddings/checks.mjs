@@ -12,8 +12,11 @@ import { cloudPixels, lightness, shifts, textOf, watchShifts } from './looking.m
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: string, url: string }} Site */
 
-/** Milliseconds: a development server compiles a page when it is asked for it. */
-const PATIENCE = 60_000;
+/** Milliseconds. */
+const PATIENCE = 20_000;
+
+/** Milliseconds: a development server compiles a page when it is first asked for it. */
+const PATIENCE_AT_FIRST = 90_000;
 
 /** What readers see of a page that moves while it loads, at most. */
 const MOST_SHIFT = 0.02;
@@ -39,12 +42,12 @@ export async function check(browser, site) {
   /**
    * @param {string} name
    * @param {(page: Page) => Promise<void>} work
-   * @param {{ width: number, height: number }} [viewport]
+   * @param {{ viewport?: { width: number, height: number }, patience?: number }} [options]
    */
-  const attempt = async (name, work, viewport = DESKTOP) => {
+  const attempt = async (name, work, { viewport = DESKTOP, patience = PATIENCE } = {}) => {
     const context = await browser.newContext({ viewport, colorScheme: 'light' });
     const page = await context.newPage();
-    page.setDefaultTimeout(PATIENCE);
+    page.setDefaultTimeout(patience);
     listen(page, messages);
     try {
       await work(page);
@@ -56,13 +59,15 @@ export async function check(browser, site) {
     await context.close();
   };
 
-  await attempt('first load', (page) => firstLoad(page, site));
+  await attempt('first load', (page) => firstLoad(page, site), { patience: PATIENCE_AT_FIRST });
+  // All else begins with it.
+  if (failures.length > 0) return { passed, failures: [...failures, ...new Set(messages)] };
   await attempt('three navigations and back', (page) => navigations(page, site));
   await attempt('from a page without figures', (page) => fromElsewhere(page, site));
   await attempt('text of the page', (page) => text(page, site));
   if (definition.dark !== undefined) await attempt('dark mode', (page) => darkMode(page, site));
   if (serving !== 'development') {
-    for (const viewport of [DESKTOP, PHONE]) await attempt(`nothing moves at ${viewport.width} px`, (page) => still(page, site), viewport);
+    for (const viewport of [DESKTOP, PHONE]) await attempt(`nothing moves at ${viewport.width} px`, (page) => still(page, site), { viewport });
   }
   if (serving === definition.servings[0].name) await attempt('pictures', (page) => pictures(page, site));
 

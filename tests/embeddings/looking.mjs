@@ -13,8 +13,8 @@ export async function cloudPixels(canvas) {
   const picture = /** @type {HTMLCanvasElement} */ (canvas);
   const shadow = /** @type {ShadowRoot} */ (picture.getRootNode());
   const host = /** @type {any} */ (shadow.host);
-  /** Of the machine: an attempt of one widget is a sample of the other. */
-  const counted = () => host.stats?.n ?? host.stats?.accepted ?? 0;
+  // What one widget calls a sample is an attempt of the other.
+  const counted = () => host.stats?.n ?? host.stats?.attempts ?? 0;
   const colour = (/** @type {string} */ role) => {
     const probe = document.createElement('span');
     probe.style.color = `var(--${role})`;
@@ -27,7 +27,7 @@ export async function cloudPixels(canvas) {
   };
   const distance = (/** @type {Uint8ClampedArray} */ data, /** @type {number} */ at, /** @type {Uint8ClampedArray} */ to) =>
     Math.hypot(data[at] - to[0], data[at + 1] - to[1], data[at + 2] - to[2]);
-  const end = performance.now() + 30_000;
+  const end = performance.now() + 15_000;
   for (;;) {
     await new Promise(requestAnimationFrame);
     const samples = host.samples;

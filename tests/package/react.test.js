@@ -68,7 +68,7 @@ const CLIENT = `
 
 before(async () => {
   project = installed();
-  for (const name of ['react', 'react-dom', 'scheduler', 'csstype', '@types/react', '@types/react-dom']) {
+  for (const name of ['react-dom', 'scheduler', 'csstype', '@types/react', '@types/react-dom']) {
     cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
   }
   mkdirSync(join(project.directory, 'react'));

@@ -4,16 +4,12 @@ import { npmInstall, pinned } from './project.mjs';
 import { files, program } from './serving.mjs';
 
 /**
- * By Next's own server, which is asked for what it builds by itself, or by the other bundler that it has.
+ * By Next's own server.
  *
  * @param {string} command
  * @param {string[]} args
  */
 const next = (command, ...args) => program((port) => ['npx', ['next', command, '--port', port, ...args]]);
-
-/**
- * @param {() => Promise<unknown>} prepare
- */
 
 /** @type {import('./project.mjs').Engine} */
 export default {

@@ -1,5 +1,18 @@
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { npmInstall, pinned } from './project.mjs';
 import { files, program } from './serving.mjs';
+
+/** The same sources with the version before, which bears another name beside this one. @type {import('./project.mjs').Serving['serve']} */
+async function before(directory, tools) {
+  const versions = ['react', 'react-dom'].map((name) => `${name}-18@npm:${name}@18.3.1`);
+  await tools.run('npm', ['install', '--no-save', '--legacy-peer-deps', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', ...versions]);
+  const path = join(directory, 'vite.config.ts');
+  const alias = "resolve: { alias: { 'react-dom': 'react-dom-18', react: 'react-18' } },";
+  writeFileSync(path, readFileSync(path, 'utf8').replace("base: '/book/',", `$& ${alias}`));
+  await tools.run('npx', ['vite', 'build', '--outDir', 'dist-18']);
+  return files('dist-18', '/book/')(directory, tools);
+}
 
 /** @type {import('./project.mjs').Engine} */
 export default {
@@ -10,6 +23,7 @@ export default {
   servings: [
     { name: 'production', serve: files('dist', '/book/') },
     { name: 'development', serve: program((port) => ['npm', ['run', 'dev', '--', '--port', port, '--strictPort']], '/book/') },
+    { name: 'React 18', serve: before },
   ],
   pages: { first: '/#motion', second: '/#sensors' },
   go: (page, path) => page.locator(`nav a[href="${path.slice(1)}"]`).click(),

@@ -1,6 +1,6 @@
 import type { Metadata } from 'next';
 import Link from 'next/link';
-import 'motion-widgets/room.css';
+import 'motion-widgets/motion-widgets.css';
 import './globals.css';
 
 export const metadata: Metadata = {

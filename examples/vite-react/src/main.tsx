@@ -1,6 +1,6 @@
 import { StrictMode } from 'react'
 import { createRoot } from 'react-dom/client'
-import 'motion-widgets/room.css'
+import 'motion-widgets/motion-widgets.css'
 import './index.css'
 import App from './App.tsx'
 

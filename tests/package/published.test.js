@@ -1,0 +1,44 @@
+// What others' checks say of the package as npm would publish it.
+
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { publint } from 'publint';
+import { formatMessage } from 'publint/utils';
+import { ROOT } from '../../scripts/process.mjs';
+
+const manifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+
+/** @type {string} */
+let directory;
+/** @type {string} */
+let tarball;
+
+before(() => {
+  directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
+  // What is packed has been built already.
+  const packed = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--json', '--pack-destination', directory], { encoding: 'utf8' });
+  tarball = join(directory, JSON.parse(packed)[0].filename);
+});
+
+after(() => rmSync(directory, { recursive: true, force: true }));
+
+test('publint finds nothing', async () => {
+  const { buffer } = readFileSync(tarball);
+  const { messages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (buffer) }, strict: true });
+  assert.deepEqual(messages.map((message) => formatMessage(message, manifest)), []);
+});
+
+test('Are the types wrong? finds nothing', () => {
+  // What is no script has no types.
+  const others = Object.keys(manifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
+  const cli = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
+  // All of it is modules: `require` is not promised, nor what resolved packages before they had `exports`.
+  const args = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...others];
+  const { status, stdout } = spawnSync(process.execPath, args, { encoding: 'utf8' });
+  assert.equal(status, 0, stdout);
+  assert.match(stdout, /"motion-widgets\/core"/);
+});

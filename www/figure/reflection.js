@@ -222,6 +222,19 @@ export class Reflection extends Part {
 }
 
 /**
+ * Whether a value is, part for part, as it was given.
+ *
+ * @param {any} present
+ * @param {any} given
+ * @returns {boolean}
+ */
+export function has(present, given) {
+  if (Object.is(present, given)) return true;
+  if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
+  return Object.keys(given).every((key) => has(present[key], given[key]));
+}
+
+/**
  * Gives a widget's class the properties of its settings, and of what is the element's own and has an attribute, and
  * defines it, unless the page has it already: it may carry the script twice.
  *

@@ -50,6 +50,7 @@ function render({ model, el }) {
 
   const traits = traitsOf(element);
   let telling = false;
+  let writing = false;
   /** After all that the model changed at once. */
   const tell = () => {
     if (telling) return;
@@ -60,7 +61,9 @@ function render({ model, el }) {
       if (!element.machine) return;
       const told = traits.filter(([, property]) => !GLOBAL.includes(property)).map(([trait, property]) => [trait, plain(element[property])]);
       // What is none follows from the others, where another view hears of both.
+      writing = true;
       for (const none of [false, true]) for (const [trait, value] of told) if ((value === null) === none) put(trait, value);
+      writing = false;
       save();
     });
   };
@@ -84,6 +87,7 @@ function render({ model, el }) {
 
   const heard = traits.map(([trait, property]) => {
     const take = () => {
+      if (writing) return;
       put('error', '');
       element[property] = model.get(trait);
       tell();

@@ -59,7 +59,7 @@ function moduleOf(tag) {
 /** Which characters of an inlined module stand higher, so that whoever bundles or shortens it once more has no way to spoil it. */
 const SHIFTED = {
   /** All that are ever written with a backslash. */
-  utf8: /[\0-\x1f"$'\\`\x7f]/g,
+  utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
   /** Digits after a zero, with which some make an octal escape of it. All others too would make the script twice as long. */
   ascii: /(?<=\0)\d/g,
 };

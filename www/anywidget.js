@@ -38,13 +38,18 @@ function render({ model, el }) {
   // Digits and letters that are typed in a figure are no shortcuts of JupyterLab, by which it would change the cell.
   element.dataset.lmSuppressShortcuts = 'true';
 
+  let unsaved = false;
   const put = (/** @type {string} */ trait, /** @type {unknown} */ value) => {
     const present = model.get(trait);
-    if (present !== undefined && !has(present, value)) model.set(trait, value);
+    if (present === undefined || has(present, value)) return;
+    unsaved = true;
+    model.set(trait, value);
   };
   const save = () => {
+    if (!unsaved) return;
     // What a kernel has asked for meanwhile is later than what it is told.
     put('_heard', model.get('_asked'));
+    unsaved = false;
     withoutKernel(() => model.save_changes());
   };
 

@@ -139,9 +139,14 @@ async function streamed(source) {
     );
   });
   if (!response.ok) throw new Error(`load: ${response.url} answers ${response.status}.`);
-  const type = response.headers.get('content-type') ?? '';
-  if (/^application\/wasm\s*$/i.test(type)) return WebAssembly.compileStreaming(response);
-  return WebAssembly.compile(await response.arrayBuffer());
+  const type = response.headers.get('content-type') ?? 'something without a type';
+  try {
+    if (/^application\/wasm\s*$/i.test(type)) return await WebAssembly.compileStreaming(response);
+    return await WebAssembly.compile(await response.arrayBuffer());
+  } catch (error) {
+    const reason = /** @type {Error} */ (error).message;
+    throw new Error(`load: ${response.url} answers with ${type}, which is no WebAssembly module: ${reason}`, { cause: error });
+  }
 }
 
 /**

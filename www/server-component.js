@@ -6,5 +6,3 @@ throw new Error(
   "motion-widgets is imported by a server component, and no browser would get it: import the elements from 'motion-widgets/react', " +
     "or import 'motion-widgets' in a file that begins with 'use client'.",
 );
-
-export {};

@@ -179,7 +179,7 @@ test.describe('properties', () => {
     await widget.getByRole('button', { name: 'Reset' }).click();
     await frames(page);
     expect(await property(widget, 'marked')).toBe(null);
-    expect(await heard(page, ['error'])).toEqual([]);
+    expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['marked is 2000; allowed is a whole number from 0 to 1999']);
   });
 
   test('and a part of a state, before the figure is there, leave all else as it opens', async ({ page }) => {
@@ -197,7 +197,7 @@ test.describe('properties', () => {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
-  test('take effect at once and reflect; those out of range throw and change nothing', async ({ page }) => {
+  test('take effect at once and reflect; those out of range are reported and change nothing', async ({ page }) => {
     await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
     const [banana, squeeze] = NAMES.map((name) => page.locator(name));
     await ready(banana);
@@ -209,6 +209,7 @@ test.describe('properties', () => {
     await ready(squeeze);
     for (const [widget, name, value, message] of /** @type {const} */ ([
       [banana, 'v', 'fast', 'TypeError: command.v is "fast"; allowed is a number'],
+      [banana, 'omega', NaN, 'RangeError: command.omega is NaN; allowed is a number from -1000000 to 1000000'],
       [banana, 'v', 1e7, 'RangeError: command.v is 10000000; allowed is a number from -1000000 to 1000000'],
       [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot" or "banana" or "worked"'],
       [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
@@ -227,6 +228,105 @@ test.describe('properties', () => {
     expect(await assign(banana, 'model', 'odometry')).toBe('');
     expect(await property(banana, 'alpha5')).toBe(null);
     expect(await assign(banana, 'alpha5', 0.1)).toContain('alpha5 is 0.1; allowed is none');
+  });
+
+  test('take what the attribute takes, before the element is one and after', async ({ page }) => {
+    const values = {
+      v: '2', omega: '0.8', samples: '20000', model: 'odometry', alpha4: '0.125', isolate: '3', overlays: 'ellipse command', theme: 'dark',
+      share: '', 'heading-level': '3',
+    };
+    const asAttributes = Object.entries(values).map(([name, text]) => `${name}="${text}"`).join(' ');
+    await show(page, `<banana-machine ${asAttributes}></banana-machine><banana-machine></banana-machine>`, { script: '' });
+    const states = await page.evaluate(async (given) => {
+      const { 'heading-level': headingLevel, ...rest } = given;
+      const [told, early] = /** @type {NodeListOf<any>} */ (document.querySelectorAll('banana-machine'));
+      Object.assign(early, { ...rest, headingLevel });
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+      const late = /** @type {any} */ (document.createElement('banana-machine'));
+      early.after(late);
+      for (const each of [told, early, late]) {
+        each.scrollIntoView();
+        if (!each.machine) await new Promise((resolve) => each.addEventListener('load', resolve, { once: true }));
+      }
+      Object.assign(late, { ...rest, headingLevel });
+      return [told, early, late].map((each) => {
+        const { theme, share, headingLevel: level } = each;
+        // Not those that have only begun to grow.
+        return { ...each.getState(), shown: 0, playing: true, theme, share, headingLevel: level };
+      });
+    }, values);
+    expect(states[0]).toMatchObject({ command: { v: 2, omega: 0.8 }, samples: 20000, model: 'odometry', isolate: 3, overlays: ['command', 'ellipse'], theme: 'dark', share: true, headingLevel: '3' });
+    expect(states[1]).toEqual(states[0]);
+    expect(states[2]).toEqual(states[0]);
     expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  test('that are null or undefined are as the figure opens', async ({ page }) => {
+    await show(page, '<banana-machine v="2" alpha1="0.2" overlays="ellipse" isolate="2" theme="dark"></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const opening = { v: 1, alpha1: 0.05, overlays: ['command', 'ellipse', 'exponential'], isolate: null, theme: 'auto', alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] };
+    for (const none of [null, undefined]) {
+      await widget.evaluate((element) => Object.assign(element, { v: 3, alphas: Array(6).fill(0.1), overlays: ['ellipse'], isolate: 2, theme: 'light' }));
+      const values = await widget.evaluate((element, [names, value]) => {
+        for (const name of names) Reflect.set(element, name, value);
+        return Object.fromEntries(names.map((name) => [name, Reflect.get(element, name)]));
+      }, /** @type {[string[], null | undefined]} */ ([Object.keys(opening), none]));
+      expect(values).toEqual(opening);
+    }
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  test('that are given once more do nothing: no sample is driven, and what the reader holds stays in their hand', async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
+    const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+    await squeeze.scrollIntoViewIfNeeded();
+    await ready(squeeze);
+    const map = { bounds: [0, 0, 8, 6], walls: [[2, 0, 2, 6]], name: 'mine' };
+    await squeeze.evaluate((element, given) => Object.assign(element, { map: given }), map);
+    await banana.scrollIntoViewIfNeeded();
+    await ready(banana);
+    await heard(page);
+    for (const [widget, values] of /** @type {const} */ ([
+      [banana, { alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], command: { dt: 1, v: 1 }, omega: '0.5', overlays: ['command', 'ellipse', 'exponential'], isolate: undefined, samples: 50000, marked: null }],
+      [squeeze, { map, conditioned: '', view: 'close', start: { x: 4 } }],
+    ])) {
+      await widget.evaluate((element, given) => {
+        if ('start' in given) given.start.x = /** @type {any} */ (element).start.x;
+        Object.assign(element, given);
+      }, /** @type {any} */ (values));
+      expect(await heard(page, ['stats', 'error'])).toEqual([]);
+    }
+    // As a framework does that sets every list anew whenever there are statistics.
+    await banana.evaluate((element) => {
+      const { alphas } = /** @type {any} */ (element);
+      element.addEventListener('stats', () => Object.assign(element, { alphas: [...alphas] }));
+    });
+    await banana.locator('#v').fill('0.4');
+    await frames(page);
+    expect(await property(banana, 'v')).toBe(0.4);
+    expect((await heard(page, ['stats'])).length).toBe(1);
+  });
+
+  test('that are refused are told by an error event that stays on the element, and by the console where nobody minds', async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const told = await widget.evaluate((element) => {
+      const at = /** @type {string[]} */ ([]);
+      for (const target of [window, document, document.body]) target.addEventListener('error', () => at.push('above'));
+      element.addEventListener('error', (event) => at.push(/** @type {ErrorEvent} */ (event).message));
+      Object.assign(element, { omega: NaN });
+      return at;
+    });
+    expect(told).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
+    // One where nobody listens.
+    const other = await page.context().newPage();
+    await other.goto('/embed.html?widget=banana-machine');
+    const unheard = other.waitForEvent('console', (message) => message.type() === 'warning');
+    await other.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
+    const message = await unheard;
+    await other.close();
+    expect(message.text()).toBe('<banana-machine> theme is "sepia"; allowed is "auto" or "light" or "dark"');
   });
 });

@@ -14,19 +14,18 @@ test('a drag tells of its steps by input and of its end by one change, composed,
     root.innerHTML = '<banana-machine></banana-machine>';
     const all = /** @type {unknown[]} */ ([]);
     Object.assign(window, { all });
-    for (const name of ['input', 'change', 'load', 'stats', 'error']) {
+    for (const name of ['input', 'change', 'load', 'stats']) {
       document.addEventListener(name, (event) => {
         const [origin] = event.composedPath();
         all.push([name, /** @type {Element} */ (origin).localName, Reflect.get(origin, 'v'), event.bubbles, event.composed]);
       });
     }
-    root.querySelector('banana-machine')?.setAttribute('v', 'wrong');
   });
   const widget = page.locator('banana-machine');
   await ready(widget);
   const take = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
   const opening = await take();
-  expect(opening.map(([name]) => name).sort()).toEqual(['error', 'load', 'stats']);
+  expect(opening.map(([name]) => name).sort()).toEqual(['load', 'stats']);
   await dragSlider(widget.locator('#v'), 0.75);
   await frames(page);
   const all = await take();
@@ -120,4 +119,37 @@ test('what the page does itself is told by stats alone, also out of sight', asyn
   );
   expect(/** @type {number[]} */ (means)[0]).toBe(/** @type {number[]} */ (means)[1]);
   expect(/** @type {number[]} */ (means)[0]).toBeGreaterThan(1.2);
+});
+
+test('a key that was used goes no further; any other does', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
+  const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+  await ready(banana);
+  await unfold(banana);
+  await page.evaluate(() => {
+    const keys = /** @type {string[]} */ ([]);
+    Object.assign(window, { keys });
+    addEventListener('keydown', ({ key }) => keys.push(key));
+  });
+  const passed = () => page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
+  for (const part of ['.handle', '.chart-marker', '#omega', 'input[type=radio] >> nth=0']) {
+    await banana.locator(part).focus();
+    for (const key of ['ArrowRight', 'ArrowLeft']) await page.keyboard.press(key);
+    expect(await passed(), part).toEqual([]);
+    for (const key of ['s', '/', 'Escape']) await page.keyboard.press(key);
+    expect(await passed(), part).toEqual(['s', '/', 'Escape']);
+  }
+  // What is typed into a field is nobody else's.
+  await banana.locator('#omega').focus();
+  await page.keyboard.type('0.7s/');
+  expect(await passed()).toEqual([]);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Control+ArrowRight');
+  expect(await passed()).toEqual(['Control', 'ArrowRight']);
+  await banana.getByRole('button', { name: 'Reset' }).press('ArrowRight');
+  expect(await passed()).toEqual(['ArrowRight']);
+  await squeeze.scrollIntoViewIfNeeded();
+  await ready(squeeze);
+  await squeeze.locator('.handle.body').press('ArrowUp');
+  expect(await passed()).toEqual([]);
 });

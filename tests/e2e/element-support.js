@@ -32,9 +32,12 @@ export async function show(page, body, { head = '', fragment = '', script = '<sc
         const target = /** @type {Element} */ (event.target);
         if (!(target instanceof Element) || !target.localName.includes('-')) return;
         const { message = '' } = /** @type {ErrorEvent} */ (event);
+        // It is attended to, and nothing for the console.
+        event.preventDefault();
         const value = /** @type {AnyElement} */ (target).v;
         heard.push({ name, target: target.localName, message, path: event.composedPath().length, value });
-      });
+        // Errors do not bubble.
+      }, { capture: name === 'error' });
     }
   });
   await page.route('**/bare.html', (route) =>
@@ -81,17 +84,17 @@ export function property(widget, name) {
  * @param {Locator} widget
  * @param {string} name
  * @param {unknown} value
- * @returns {Promise<string>} what it throws; empty where it does not
+ * @returns {Promise<string>} what it refuses by an error event; empty where it does not
  */
 export function assign(widget, name, value) {
   return widget.evaluate(
     (element, [key, to]) => {
-      try {
-        Reflect.set(element, /** @type {string} */ (key), to);
-        return '';
-      } catch (error) {
-        return String(error);
-      }
+      let refused = '';
+      const listen = (/** @type {Event} */ event) => void (refused = String(/** @type {ErrorEvent} */ (event).error));
+      element.addEventListener('error', listen);
+      Reflect.set(element, /** @type {string} */ (key), to);
+      element.removeEventListener('error', listen);
+      return refused;
     },
     [name, value],
   );

@@ -1,7 +1,7 @@
 // What the entries of the package promise to who imports them: Node, TypeScript, and pages that have several.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -53,7 +53,16 @@ test('every script of the package can be imported in Node, and leaves no names b
   assert.deepEqual(JSON.parse(printed).filter((/** @type {string} */ name) => !ofLit.includes(name)), []);
 });
 
-test('the elements in Node bring the core along', () => {
+test('the elements with everything inside bring the core along in Node', () => {
+  const printed = inNode(`
+    import { load } from 'motion-widgets/inlined';
+    const { BananaMachine } = await load();
+    console.log(new BananaMachine({ samples: 100 }).poses.length);
+  `);
+  assert.equal(printed, '300\n');
+});
+
+test('with the module outside they find it', () => {
   const printed = inNode(`
     import { load } from 'motion-widgets';
     const { BananaMachine } = await load();
@@ -62,13 +71,14 @@ test('the elements in Node bring the core along', () => {
   assert.equal(printed, '300\n');
 });
 
-test('external.js finds its module in Node too', () => {
-  const printed = inNode(`
-    import { load } from 'motion-widgets/external';
-    const { BananaMachine } = await load();
-    console.log(new BananaMachine({ samples: 100 }).poses.length);
-  `);
-  assert.equal(printed, '300\n');
+test('a server component is told that no browser would get the elements', () => {
+  const path = join(project.directory, 'server.mjs');
+  writeFileSync(path, "import 'motion-widgets';");
+  const { stderr } = spawnSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' });
+  assert.match(stderr, /Error: motion-widgets is imported by a server component.*'motion-widgets\/react'/);
+  // The simulations run anywhere.
+  writeFileSync(path, "import { load } from 'motion-widgets/core'; console.log(typeof load);");
+  assert.equal(execFileSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' }), 'function\n');
 });
 
 test('TypeScript knows the elements and the core, however it resolves', () => {
@@ -258,4 +268,19 @@ test('the address of the external module can be set by the script that imports i
   );
   assert.deepEqual(complaints, []);
   assert.deepEqual(requests.filter((url) => url.includes('.wasm')), [new URL(address, server.address).href]);
+});
+
+test('what answers for the module and is none is named with its address and type', async () => {
+  // As servers answer that send their own page for whatever they do not have.
+  for (const contentType of ['text/html', 'application/wasm']) {
+    const page = await browser.newPage();
+    await page.route('**/*.wasm', (route) => route.fulfill({ contentType, body: '<!doctype html>' }));
+    const body = `<!doctype html><link rel="icon" href="data:,">${script('external.js')}<banana-machine></banana-machine>`;
+    await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+    await page.goto(`${server.address}page.html`);
+    const sentence = await page.getByRole('alert').innerText();
+    const named = new RegExp(`${server.address}\\S+/banana-machine-\\w+\\.wasm answers with ${contentType}, which is no WebAssembly module`);
+    assert.match(sentence, named);
+    await page.close();
+  }
 });

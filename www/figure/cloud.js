@@ -263,10 +263,7 @@ export const cloudProperties = {
       return this.state.own.marked;
     },
     set(marked) {
-      this.reflection.whenReady('marked', marked, () => {
-        this.state.assign('marked', marked);
-        this.stage.wake();
-      });
+      this.reflection.give('marked', marked, (/** @type {unknown} */ given) => this.state.assign('marked', given));
     },
   },
   poses: {

@@ -12,6 +12,7 @@ import { Announcer } from './announcer.js';
 import { COMMON, HEADING_LEVELS } from './attributes.js';
 import { word } from './checks.js';
 import { Gesture } from './gesture.js';
+import { keepUsed, stop } from './inside.js';
 import { Link } from './link.js';
 import { Lettering } from './lettering.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
@@ -39,9 +40,9 @@ addEnglish(en);
  * A figure over one simulation object of a core. A widget says how its machine is made, what is asked of
  * it, what pictures and HTML show that, and what a reader may take along.
  *
- * Attributes and properties say what the figure shows, whoever has changed it. What is out of range is
- * refused with a TypeError or RangeError that names the field, the value and what is allowed: a property
- * throws it, an attribute reports it by `error`, and the last good value stays.
+ * Attributes and properties say what the figure shows, whoever has changed it, and take the same: a property takes texts too.
+ * What is out of range is refused by an `error` event that names the field, the value and what is allowed, and the last good
+ * value stays; `setState` throws.
  *
  * @attr theme - Colours for a light page or a dark one; auto is as the surroundings are.
  * @attr share - Keeps the state in the fragment of the page’s address. A state that it carries is opened in any case.
@@ -54,7 +55,7 @@ addEnglish(en);
  *
  * @fires load - The figure is ready.
  * @fires {ErrorEvent} error - Something was refused, or the core failed and was started again, or the figure cannot run;
- *   `message` says why.
+ *   `message` says why. It does not bubble; where nothing prevents its default, the console says it too.
  * @fires input - The reader has changed something, and may go on.
  * @fires change - What the reader changed has come to rest.
  * @fires {CustomEvent} stats - There are fresh statistics; `detail` has them.
@@ -293,7 +294,7 @@ export class FigureElement extends LitElement {
   }
 
   set theme(theme) {
-    this.setAttribute('theme', word('theme', theme, THEMES));
+    this.#say('theme', theme);
   }
 
   /** Whether the page's address carries the state. */
@@ -301,8 +302,9 @@ export class FigureElement extends LitElement {
     return this.hasAttribute('share');
   }
 
+  /** @param {boolean | ''} share */
   set share(share) {
-    this.toggleAttribute('share', Boolean(share));
+    this.toggleAttribute('share', share === '' || Boolean(share));
   }
 
   /** Whether it is shown to an audience. */
@@ -310,8 +312,9 @@ export class FigureElement extends LitElement {
     return this.hasAttribute('presentation');
   }
 
+  /** @param {boolean | ''} presentation */
   set presentation(presentation) {
-    this.toggleAttribute('presentation', Boolean(presentation));
+    this.toggleAttribute('presentation', presentation === '' || Boolean(presentation));
   }
 
   /** The level of the heading that the title is; null where it is none. */
@@ -320,8 +323,17 @@ export class FigureElement extends LitElement {
   }
 
   set headingLevel(level) {
-    if (level === null) this.removeAttribute('heading-level');
-    else this.setAttribute('heading-level', word('headingLevel', String(level), HEADING_LEVELS));
+    this.#say('heading-level', level);
+  }
+
+  /**
+   * @param {string} name of an attribute
+   * @param {unknown} value of its property; none for no attribute
+   */
+  #say(name, value) {
+    const { words: allowed = [], property = name } = COMMON[name];
+    if (value === null || value === undefined) this.removeAttribute(name);
+    else this.runtime.tolerate(() => this.setAttribute(name, word(property, typeof value === 'number' ? String(value) : value, allowed)));
   }
 
   /**
@@ -343,7 +355,7 @@ export class FigureElement extends LitElement {
    * @param {Partial<Values> & FigureState} state
    */
   setState(state) {
-    this.reflection.whenReady('state', state, () => this.state.enter(state));
+    this.reflection.whenReady(() => this.state.enter(state));
   }
 
   /**
@@ -425,7 +437,7 @@ export class FigureElement extends LitElement {
     speak(this);
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
-      <div class="surface ${this.stage.scheme} ${this.presenting.className}" @input=${stop} @change=${stop}>
+      <div class="surface ${this.stage.scheme} ${this.presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
         ${this.lettering.title()} ${this.#content()} ${this.lettering.caption()} ${this.presenting.render()}
       </div>
     `;
@@ -439,9 +451,4 @@ export class FigureElement extends LitElement {
     if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
     return content ?? (this.reading ? noChange : placeholder(this));
   }
-}
-
-/** The native controls' own events stay inside: the element has one of its own for each gesture. @param {Event} event */
-function stop(event) {
-  event.stopPropagation();
 }

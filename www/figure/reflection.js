@@ -13,12 +13,14 @@ import { Part } from './part.js';
 
 export class Reflection extends Part {
   #attributes;
+  /** With the settings that have no attribute. @type {Attributes} */
+  #entries;
   /** The settings whose values decide what others open with. */
   #basis;
   /** What the page asked for before there was a machine, first by attributes. @type {Map<string, string | null>} */
   #early = new Map();
-  /** @type {{ property: string, value: unknown, take: () => void }[]} */
-  #wishes = [];
+  /** By their properties; whole states under keys of their own. @type {Map<unknown, { value?: unknown, take: () => void }>} */
+  #wishes = new Map();
   /** Whether the attributes are being written, and a change of one is no news. */
   #writing = false;
   /** The attribute that is being read: what it says is not written over. @type {string | undefined} */
@@ -34,6 +36,7 @@ export class Reflection extends Part {
   constructor(host, attributes, basis) {
     super(host);
     this.#attributes = attributes;
+    this.#entries = { ...groupsOf(host.kind.declared), ...attributes };
     this.#basis = basis;
   }
 
@@ -59,28 +62,49 @@ export class Reflection extends Part {
       if (text !== undefined) this.#take(name, text);
     }
     this.#early.clear();
-    for (const { take } of this.#wishes.splice(0)) this.host.runtime.tolerate(take);
+    const wishes = [...this.#wishes.values()];
+    this.#wishes.clear();
+    for (const { take } of wishes) this.host.runtime.tolerate(take);
+  }
+
+  /** Enters a state, now or as soon as there is a machine. @param {() => void} enter */
+  whenReady(enter) {
+    if (this.host.machine) this.host.runtime.attempt(enter);
+    else this.#wishes.set({}, { take: enter });
   }
 
   /**
-   * Does something with the machine, now or as soon as there is one.
+   * The page gives a property a value, as a text too where an attribute says it; null or undefined for what the figure opens
+   * with. What it has already changes nothing, so that a page may give it again and again. What is refused is reported, and
+   * the last good value stays.
    *
-   * @param {string} property
-   * @param {unknown} value
-   * @param {() => void} take
+   * @param {string} name
+   * @param {any} value
+   * @param {(value: any) => void} take
    */
-  whenReady(property, value, take) {
-    if (this.host.machine) this.host.runtime.attempt(take);
-    else this.#wishes.push({ property, value, take });
+  give(name, value, take) {
+    const entry = this.#entries[name];
+    const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
+    const taken = () => {
+      const wanted = given ?? this.#usual(name);
+      if (!has(entry && isSetting(entry) ? entry.get(this.#present) : Reflect.get(this.host, name), wanted)) take(wanted);
+    };
+    if (this.host.machine) {
+      this.host.runtime.tolerate(taken);
+    } else {
+      // The latest is the last: what others depend on may have been given meanwhile.
+      this.#wishes.delete(name);
+      this.#wishes.set(name, { value: given, take: taken });
+    }
   }
 
   /**
-   * What a property will be that was set before there was a machine; undefined if it was not.
+   * What a property will be that was given before there was a machine; undefined if it was not.
    *
-   * @param {string} property
+   * @param {string} name
    */
-  wished(property) {
-    return this.#wishes.findLast((wish) => wish.property === property)?.value;
+  wished(name) {
+    return this.#wishes.get(name)?.value;
   }
 
   /**
@@ -101,15 +125,8 @@ export class Reflection extends Part {
    * @param {string | null} text
    */
   #take(name, text) {
-    const { machine } = this.host;
-    if (!machine) return;
-    const entry = this.#attributes[name];
-    const given = text === null ? undefined : entry.kind.parse(text);
     this.#hearing = name;
-    this.host.runtime.tolerate(() => {
-      if (!isSetting(entry)) Reflect.set(this.host, name, text === null ? this.#usual(name) : given);
-      else this.assign(name, entry, text === null ? this.#opening((opening) => entry.get(opening)) : given);
-    });
+    Reflect.set(this.host, name, text);
     this.#hearing = undefined;
   }
 
@@ -134,10 +151,11 @@ export class Reflection extends Part {
     return { config: this.host.settings.wanted, machine: this.host.machine };
   }
 
-  /** What something of the element's own is when the widget opens. @param {string} name */
+  /** What a property is when the widget opens. @param {string} name */
   #usual(name) {
-    const entry = this.#attributes[name];
-    return isSetting(entry) ? undefined : (entry.opening ?? this.host.state.opening(name));
+    const entry = this.#entries[name];
+    if (entry && isSetting(entry)) return this.#opening((opening) => entry.get(opening));
+    return entry?.opening ?? this.host.state.opening(name);
   }
 
   /**
@@ -254,18 +272,16 @@ export function define(tag, Widget) {
           return this.ask((/** @type {any} */ machine) => entry.get({ config: machine.config, machine }));
         },
         set(value) {
-          this.reflection.whenReady(name, value, () => this.reflection.assign(name, entry, value));
+          this.reflection.give(name, value, (/** @type {unknown} */ given) => this.reflection.assign(name, entry, given));
         },
       });
     } else if (name in own) {
       property(name, {
         get() {
-          return this.state.copy(name);
+          return this.reflection.wished(name) ?? this.state.copy(name);
         },
         set(value) {
-          this.state.assign(name, value);
-          this.reflection.tell();
-          this.stage.wake();
+          this.reflection.give(name, value, (/** @type {unknown} */ given) => this.state.assign(name, given));
         },
       });
     }

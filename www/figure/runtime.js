@@ -101,10 +101,11 @@ export class Runtime extends Part {
     this.#crashes = 0;
   }
 
-  /** Tells the page of what went wrong. @param {unknown} error */
+  /** Tells the page of what went wrong; the console too, where no listener takes care of it. @param {unknown} error */
   report(error) {
     const message = messageOf(error);
-    this.host.dispatchEvent(new ErrorEvent('error', { error, message, bubbles: true, composed: true }));
+    const unattended = this.host.dispatchEvent(new ErrorEvent('error', { error, message, cancelable: true }));
+    if (unattended) console.warn(`<${this.host.localName}> ${message}`);
   }
 
   /** Shows a sentence in the figure's place and tells the page. @param {unknown} error */

@@ -115,8 +115,10 @@ export class State extends Part {
    * @param {unknown} value
    */
   assign(name, value) {
-    const { machine, cloud } = this.host;
+    const { machine, cloud, reflection, stage } = this.host;
     this.own[name] = this.#owned[name].check(name, value, machine, cloud?.growing ?? false);
+    reflection.tell();
+    stage.wake();
   }
 
   /** @param {Values} state */

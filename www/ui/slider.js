@@ -305,6 +305,7 @@ function leadIntoField(event) {
   const { key, ctrlKey, altKey, metaKey } = event;
   if (ctrlKey || altKey || metaKey || (key !== 'Enter' && !BEGINS_A_NUMBER.test(key))) return;
   if (key === 'Enter') event.preventDefault();
+  event.stopPropagation();
   const row = /** @type {Element} */ (inputOf(event).closest('.slider'));
   /** @type {HTMLInputElement} */ (row.querySelector('.typed')).focus();
 }

@@ -131,8 +131,8 @@ export class MapSqueezeElement extends FigureElement {
   }
 
   set preset(name) {
-    this.reflection.whenReady('preset', name, () => {
-      const { start } = presetNamed(name);
+    this.reflection.give('preset', name, (given) => {
+      const { start } = presetNamed(given);
       this.#leave();
       this.settings.assign({ start });
     });
@@ -149,11 +149,11 @@ export class MapSqueezeElement extends FigureElement {
   }
 
   set map(map) {
-    this.reflection.whenReady('map', map, () => {
-      if (map === null) {
+    this.reflection.give('map', map, (given) => {
+      if (given === null) {
         this.#leave();
         this.#findRoom();
-      } else this.#enter({ name: map?.name ?? '', apply: (machine) => applyMap(machine, map) });
+      } else this.#enter({ name: given.name ?? '', apply: (machine) => applyMap(machine, given) });
       this.reflection.tell();
       this.settings.show();
     });

@@ -128,7 +128,7 @@ test('traits become what the figure shows, by whichever of their names, and thos
   assert.equal(traits.v, 1);
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
-  await page.getByRole('button', { name: 'Neuer Startwert' }).waitFor();
+  await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
   assert.deepEqual(complaints, []);
   await page.close();
 });
@@ -169,7 +169,7 @@ test('a change of the model reaches the figure, what follows of it the model, an
 
   await change(page, { command: { dt: 1.4, omega: 0.2, v: 0.5 } });
   const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log);
-  assert.deepEqual(log, [['command', { dt: 1.4, omega: 0.2, v: 0.5 }], 'saved']);
+  assert.deepEqual(log, [['command', { dt: 1.4, omega: 0.2, v: 0.5 }]]);
   assert.deepEqual(complaints, []);
   await page.close();
 });

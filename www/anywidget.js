@@ -47,8 +47,6 @@ function render({ model, el }) {
   };
   const save = () => {
     if (!unsaved) return;
-    // What a kernel has asked for meanwhile is later than what it is told.
-    put('_heard', model.get('_asked'));
     unsaved = false;
     withoutKernel(() => model.save_changes());
   };
@@ -69,6 +67,8 @@ function render({ model, el }) {
       writing = true;
       for (const none of [false, true]) for (const [trait, value] of told) if ((value === null) === none) put(trait, value);
       writing = false;
+      // Of one moment, and of which: what a kernel has asked for since is later, however long this is on its way.
+      put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(told.filter(([trait]) => model.get(trait) !== undefined)) });
       save();
     });
   };

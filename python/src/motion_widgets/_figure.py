@@ -30,9 +30,9 @@ class Figure(anywidget.AnyWidget):
         "", read_only=True, help="Why the figure refused the last change, in a sentence; empty where it did not."
     ).tag(sync=True)
 
-    # How many things Python has asked for, and how many of them the figure had heard of when it told something.
+    # How many things Python has asked for; and what the figure shows since it had heard of so many of them.
     _asked = t.Int(0).tag(sync=True)
-    _heard = t.Int(0).tag(sync=True)
+    _shown = t.Dict({"heard": 0, "settings": {}}).tag(sync=True)
 
     def __init__(self, **settings: Any) -> None:
         strangers = sorted(set(settings) - set(self.trait_names()))
@@ -46,8 +46,8 @@ class Figure(anywidget.AnyWidget):
 
     def notify_change(self, change: Any) -> None:
         """Counts what Python asks for, and sends the number with it."""
-        name, value = change["name"], change["new"]
-        if not isinstance(getattr(type(self), name, None), Setting) or (name in self._told and self._told[name] == value):
+        name = change["name"]
+        if not _is_setting(self, name) or (name in self._told and self._told[name] == change["new"]):
             super().notify_change(change)
             return
         with self.hold_sync():
@@ -56,10 +56,18 @@ class Figure(anywidget.AnyWidget):
             super().notify_change(change)
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Takes what the figure tells, but for what Python has asked for since: the figure is about to hear of that."""
-        heard = sync_data.get("_heard", self._heard)
-        self._told = {name: value for name, value in sync_data.items() if self._asked_at.get(name, 0) <= heard}
+        """Takes what the figure tells, but for what Python has asked for since: the figure is about to hear of that.
+
+        Settings come all at once, in ``_shown``. One by one they may be of different moments.
+        """
+        shown = sync_data.get("_shown", {"heard": 0, "settings": {}})
+        self._told = {name: value for name, value in shown["settings"].items() if self._asked_at.get(name, 0) <= shown["heard"]}
+        others = {name: value for name, value in sync_data.items() if not _is_setting(self, name)}
         try:
-            super().set_state(self._told)
+            super().set_state({**others, **self._told})
         finally:
             self._told = {}
+
+
+def _is_setting(figure: Figure, name: str) -> bool:
+    return isinstance(getattr(type(figure), name, None), Setting)

@@ -99,10 +99,8 @@ function widestOf(set) {
 function encoded(picture, most) {
   const { width, height, pixels } = picture;
   const sets = setsOf(coloursOf(picture), most);
-  const palette = sets.flatMap((set) => {
-    const weight = set.reduce((sum, each) => sum + each.weight, 0);
-    return [0, 1, 2].map((channel) => Math.round(set.reduce((sum, each) => sum + each.weight * each.value[channel], 0) / weight));
-  });
+  // Not their mean: white stays white.
+  const palette = sets.flatMap((set) => set.reduce((most, each) => (each.weight > most.weight ? each : most)).value);
   const numbers = new Map(sets.flatMap((set, number) => set.map(({ key }) => [key, number])));
   // Each row begins with its filter, which is none.
   const rows = Buffer.alloc(height * (width + 1));

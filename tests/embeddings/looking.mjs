@@ -145,5 +145,5 @@ export async function asLightAsThePage(page, figure) {
     const margin = await page.screenshot({ clip: { x: x - 6, y: Math.max(0, y) + 1, width: 5, height: Math.min(height, 40) } });
     const [around, inside] = [await lightness(page, margin), await lightness(page, await canvas.screenshot())];
     assert.ok(Math.abs(inside - around) < 0.2, `The page has a lightness of ${around.toFixed(2)}, and the picture of ${inside.toFixed(2)}.`);
-  }).toPass({ timeout: 5000 });
+  }).toPass({ timeout: 20_000 });
 }

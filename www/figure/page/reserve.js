@@ -4,8 +4,10 @@ import { css, unsafeCSS } from 'lit';
 
 /**
  * @typedef {[width: number, height: number, share: number][]} Room how high a figure is at least from a width of its own on,
- *   em, and by how many hundredths of its width more, as pictures grow with it; widths ascending from 0. A test holds it to
- *   the truth: nothing is higher as it opens, nor more than a few lines lower.
+ *   em, and by how many hundredths of its width more, as pictures grow with it; widths ascending from 0. Lines break where the
+ *   letters say, so it is the most that a usual serif, a usual sans-serif and, from 30 em on, a wide one need: a test holds it
+ *   to the truth, that nothing is higher as it opens, nor many lines lower. On a phone a wide font is higher by a few lines,
+ *   below what is in sight.
  */
 
 /** Narrower than this, em, pictures have at most a share of the screen: see the phone's rules in ui/layout.js. */

@@ -202,7 +202,8 @@ async function navigations(page, site) {
   await go(page, site, 'first');
   await live(page, site);
   await go(page, site, 'second');
-  await page.goBack();
+  // A page that was kept as it was is not loaded once more.
+  await page.goBack({ waitUntil: 'commit' });
   await arrived(page, site.definition, 'first');
   await live(page, site);
 }

@@ -63,7 +63,8 @@ async function test(wanted) {
   await build();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
-  const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS });
+  // Readers who go back come to a page that was kept as they left it.
+  const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'] });
   /** @type {Outcome[]} */
   const outcomes = [];
   try {

@@ -2,7 +2,7 @@ import js from '@eslint/js';
 import globals from 'globals';
 
 export default [
-  { ignores: ['build/', 'dist/', 'target/', 'test-results/'] },
+  { ignores: ['build/', 'dist/', 'target/', 'test-results/', 'python/'] },
   js.configs.recommended,
   {
     rules: {
@@ -18,5 +18,5 @@ export default [
   { files: ['benches/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
   { files: ['scripts/**', 'tests/node/**', '*.config.js', 'examples/**/*.config.js'], languageOptions: { globals: globals.node } },
   // Browser tests run in Node and pass functions into the page.
-  { files: ['tests/e2e/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
+  { files: ['tests/e2e/**', 'tests/embeddings/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 ];

@@ -132,12 +132,13 @@ function hasEnded(group) {
 /**
  * @typedef {object} RunOptions
  * @property {Record<string, string>} [env] added to the present environment
+ * @property {string} [cwd] the directory to run it in, instead of the repository's root
  * @property {number} [seconds] the time after which the program and all its children are killed
  * @property {boolean} [quiet] shows nothing
  */
 
 /**
- * Runs a program from the repository's root, showing its output as it comes.
+ * Runs a program, showing its output as it comes.
  *
  * @param {string} command
  * @param {string[]} args
@@ -145,11 +146,11 @@ function hasEnded(group) {
  * @returns {Promise<{ ok: boolean, timedOut: boolean, stdout: string, output: string }>} `output` is stdout and
  *   stderr in order of arrival; a program that cannot be started is not ok
  */
-export function run(command, args, { env = {}, seconds, quiet = false } = {}) {
+export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = false } = {}) {
   return new Promise((resolve) => {
     // A program with a time limit leads its own process group, so that its children can be ended with it.
     const child = spawn(command, args, {
-      cwd: ROOT,
+      cwd,
       env: { ...process.env, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
       detached: seconds !== undefined,
@@ -184,6 +185,42 @@ export function run(command, args, { env = {}, seconds, quiet = false } = {}) {
     child.on('error', () => finish(false));
     child.on('close', (code) => finish(code === 0));
   });
+}
+
+/**
+ * Starts a program that goes on, as servers do, and ends it with all its children at the latest with this process.
+ *
+ * @param {string} command
+ * @param {string[]} args
+ * @param {{ env?: Record<string, string>, cwd?: string }} [options]
+ * @returns {{ output: () => string, ended: Promise<void>, stop: () => Promise<void> }} `output` is what it has printed
+ *   so far; both promises are resolved when it is no more
+ */
+export function start(command, args, { env = {}, cwd = ROOT } = {}) {
+  const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
+  const group = child.pid;
+  if (group !== undefined) endWithUs(group);
+  let output = '';
+  for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8').on('data', (text) => (output += text));
+  /** @type {Promise<void>} */
+  const ended = new Promise((resolve) => {
+    child.on('error', (error) => {
+      output += error.message;
+      resolve();
+    });
+    child.on('close', () => {
+      if (group !== undefined) hasEnded(group);
+      resolve();
+    });
+  });
+  return {
+    output: () => output,
+    ended,
+    stop() {
+      if (group !== undefined) end(group);
+      return ended;
+    },
+  };
 }
 
 /**

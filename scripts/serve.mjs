@@ -14,6 +14,7 @@ const TYPES = /** @type {Record<string, string>} */ ({
   '.js': 'text/javascript; charset=utf-8',
   '.json': 'application/json',
   '.map': 'application/json',
+  '.mjs': 'text/javascript; charset=utf-8',
   '.png': 'image/png',
   '.svg': 'image/svg+xml',
   '.wasm': 'application/wasm',
@@ -22,12 +23,15 @@ const TYPES = /** @type {Record<string, string>} */ ({
 
 /**
  * @param {string} directory
+ * @param {string} base the path that it is served under
  * @param {string} address the path and query of a request
  * @returns {{ path: string, size: number } | undefined} the file meant, never one outside the directory
  */
-function fileAt(directory, address) {
+function fileAt(directory, base, address) {
   try {
-    let path = normalize(join(directory, decodeURIComponent(new URL(address, 'http://localhost').pathname)));
+    const { pathname } = new URL(address, 'http://localhost');
+    if (!pathname.startsWith(base)) return undefined;
+    let path = normalize(join(directory, decodeURIComponent(pathname.slice(base.length - 1))));
     if (!path.startsWith(directory + sep)) return undefined;
     if (statSync(path).isDirectory()) path = join(path, 'index.html');
     const { size } = statSync(path);
@@ -41,12 +45,13 @@ function fileAt(directory, address) {
  * @param {string} directory
  * @param {object} [options]
  * @param {number} [options.port] the one to take; without it the first free one from 4173 on
+ * @param {string} [options.base] the path that the directory is served under, with a slash at both ends
  * @param {Record<string, string>} [options.headers] sent with every file
  * @returns {Promise<{ address: string, close: () => void }>}
  */
-export function serve(directory, { port, headers = {} } = {}) {
+export function serve(directory, { port, base = '/', headers = {} } = {}) {
   const server = createServer((request, response) => {
-    const file = fileAt(directory, request.url ?? '/');
+    const file = fileAt(directory, base, request.url ?? '/');
     if (request.method !== 'GET' && request.method !== 'HEAD') {
       response.writeHead(405, { allow: 'GET, HEAD' }).end();
     } else if (file === undefined) {
@@ -76,7 +81,7 @@ export function serve(directory, { port, headers = {} } = {}) {
     server.on('listening', () => {
       const address = server.address();
       if (address === null || typeof address === 'string') return;
-      resolve({ address: `http://localhost:${address.port}/`, close: () => server.close().closeAllConnections() });
+      resolve({ address: `http://localhost:${address.port}${base}`, close: () => server.close().closeAllConnections() });
     });
     server.listen(candidate, 'localhost');
   });

@@ -1,0 +1,15 @@
+// @ts-check
+import { defineConfig } from 'astro/config';
+import starlight from '@astrojs/starlight';
+
+// https://astro.build/config
+export default defineConfig({
+	base: '/book',
+	integrations: [
+		starlight({
+			title: 'Probable Motion',
+			sidebar: ['motion', 'sensors'],
+			components: { Head: './src/Head.astro' },
+		}),
+	],
+});

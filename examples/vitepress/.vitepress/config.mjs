@@ -1,0 +1,22 @@
+import { defineConfig } from 'vitepress'
+
+export default defineConfig({
+  title: 'Probable Motion',
+  base: '/book/',
+  vue: {
+    template: {
+      compilerOptions: {
+        isCustomElement: (tag) => tag === 'banana-machine' || tag === 'map-squeeze',
+      },
+    },
+  },
+  vite: {
+    optimizeDeps: { exclude: ['motion-widgets'] },
+  },
+  themeConfig: {
+    sidebar: [
+      { text: 'Motion', link: '/motion' },
+      { text: 'Sensors', link: '/sensors' },
+    ],
+  },
+})

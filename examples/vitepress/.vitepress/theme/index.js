@@ -1,0 +1,4 @@
+import DefaultTheme from 'vitepress/theme'
+import 'motion-widgets'
+
+export default DefaultTheme

@@ -1,0 +1,140 @@
+/**
+ * What there is to see on a page. All but the last two run in it.
+ *
+ * @module
+ */
+
+import assert from 'node:assert/strict';
+import { expect } from '@playwright/test';
+
+/**
+ * @param {Element} canvas of a figure
+ * @returns {Promise<{ drawn: number, stats: number, samples: number }>} when the cloud has all of its samples: pixels
+ *   nearer to the cloud's colour than to the ground, how many samples the statistics are of, and how many were asked for
+ */
+export async function cloudPixels(canvas) {
+  const picture = /** @type {HTMLCanvasElement} */ (canvas);
+  const shadow = /** @type {ShadowRoot} */ (picture.getRootNode());
+  const host = /** @type {any} */ (shadow.host);
+  // What one widget calls a sample is an attempt of the other.
+  const counted = () => host.stats?.n ?? host.stats?.attempts ?? 0;
+  const colour = (/** @type {string} */ role) => {
+    const probe = document.createElement('span');
+    probe.style.color = `var(--${role})`;
+    (picture.parentElement ?? shadow).append(probe);
+    const context = /** @type {CanvasRenderingContext2D} */ (document.createElement('canvas').getContext('2d'));
+    context.fillStyle = getComputedStyle(probe).color;
+    probe.remove();
+    context.fillRect(0, 0, 1, 1);
+    return context.getImageData(0, 0, 1, 1).data;
+  };
+  const distance = (/** @type {Uint8ClampedArray} */ data, /** @type {number} */ at, /** @type {Uint8ClampedArray} */ to) =>
+    Math.hypot(data[at] - to[0], data[at + 1] - to[1], data[at + 2] - to[2]);
+  const end = performance.now() + 15_000;
+  for (;;) {
+    await new Promise(requestAnimationFrame);
+    const samples = host.samples;
+    const over = performance.now() > end;
+    if (counted() !== samples && !over) continue;
+    const ground = colour('paper');
+    const cloud = colour('cloud');
+    const copy = Object.assign(document.createElement('canvas'), { width: picture.width, height: picture.height });
+    if (copy.width === 0 || copy.height === 0) continue;
+    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+    context.fillStyle = `rgb(${ground.slice(0, 3).join(' ')})`;
+    context.fillRect(0, 0, copy.width, copy.height);
+    context.drawImage(picture, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    let drawn = 0;
+    for (let i = 0; i < data.length; i += 4) if (distance(data, i, cloud) < 0.5 * distance(data, i, ground)) drawn++;
+    if (drawn > 200 || over) return { drawn, stats: counted(), samples };
+  }
+}
+
+/**
+ * Type around a figure and in it, sizes in px. `median` is the size that half of the figure's letters have at least.
+ *
+ * @param {Element} figure
+ */
+export function textOf(figure) {
+  const type = (/** @type {Element} */ element) => {
+    const { fontFamily, fontSize } = getComputedStyle(element);
+    return { family: fontFamily, size: Number.parseFloat(fontSize) };
+  };
+  /** @type {{ size: number, letters: number }[]} */
+  const found = [];
+  const walker = document.createTreeWalker(/** @type {ShadowRoot} */ (figure.shadowRoot), NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const parent = node.parentElement;
+    const letters = node.nodeValue?.trim().length ?? 0;
+    if (parent === null || letters === 0 || parent instanceof SVGElement || parent.localName === 'style' || !parent.checkVisibility()) continue;
+    found.push({ size: type(parent).size, letters });
+  }
+  found.sort((a, b) => a.size - b.size);
+  let left = found.reduce((sum, { letters }) => sum + letters, 0) / 2;
+  const median = found.find(({ letters }) => (left -= letters) <= 0)?.size ?? 0;
+  const surface = /** @type {ShadowRoot} */ (figure.shadowRoot).querySelector('p, button, summary');
+  return {
+    page: type(/** @type {Element} */ (figure.parentElement)),
+    figure: { ...type(figure), family: type(surface ?? figure).family },
+    median,
+  };
+}
+
+/** From before there is anything that could move. */
+export function watchShifts() {
+  const list = Object.assign(globalThis, { shifts: /** @type {any[]} */ ([]) }).shifts;
+  const observer = new PerformanceObserver((entries) => {
+    for (const entry of entries.getEntries()) list.push(entry);
+  });
+  observer.observe({ type: 'layout-shift', buffered: true });
+}
+
+/** @returns {{ total: number, sources: string[] }} what has moved, where nobody has touched anything, and what it was */
+export function shifts() {
+  const entries = /** @type {any} */ (globalThis).shifts.filter((/** @type {any} */ entry) => !entry.hadRecentInput);
+  const name = (/** @type {any} */ { node, previousRect, currentRect }) =>
+    `${node?.localName ?? node?.nodeName}.${node?.className ?? ''} ${previousRect.y}→${currentRect.y}`;
+  return {
+    total: entries.reduce((/** @type {number} */ sum, /** @type {any} */ entry) => sum + entry.value, 0),
+    sources: entries.flatMap((/** @type {any} */ entry) => entry.sources.map(name)),
+  };
+}
+
+/**
+ * @param {import('@playwright/test').Page} page
+ * @param {Buffer} screenshot
+ * @returns {Promise<number>} its mean, from 0, black, to 1
+ */
+export async function lightness(page, screenshot) {
+  const blank = await page.context().newPage();
+  const mean = await blank.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) sum += 0.2126 * data[i] + 0.7152 * data[i + 1] + 0.0722 * data[i + 2];
+    return sum / (data.length / 4) / 255;
+  }, screenshot.toString('base64'));
+  await blank.close();
+  return mean;
+}
+
+/**
+ * @param {import('@playwright/test').Page} page
+ * @param {import('@playwright/test').Locator} figure
+ * @returns {Promise<void>} when the ground of its picture is nearly as light as the page beside it
+ */
+export async function asLightAsThePage(page, figure) {
+  const canvas = figure.locator('canvas').first();
+  await canvas.scrollIntoViewIfNeeded();
+  await expect(async () => {
+    const { x, y, height } = /** @type {NonNullable<Awaited<ReturnType<typeof figure.boundingBox>>>} */ (await figure.boundingBox());
+    const margin = await page.screenshot({ clip: { x: x - 6, y: Math.max(0, y) + 1, width: 5, height: Math.min(height, 40) } });
+    const [around, inside] = [await lightness(page, margin), await lightness(page, await canvas.screenshot())];
+    assert.ok(Math.abs(inside - around) < 0.2, `The page has a lightness of ${around.toFixed(2)}, and the picture of ${inside.toFixed(2)}.`);
+  }).toPass({ timeout: 5000 });
+}

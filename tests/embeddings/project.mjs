@@ -1,0 +1,213 @@
+/**
+ * The package as its registries would have it, and a copy of each example outside of this repository, where nothing of
+ * it can be found by accident. Copies are kept between runs, with what was installed into them.
+ *
+ * @module
+ */
+
+import { createHash } from 'node:crypto';
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { basename, delimiter, join } from 'node:path';
+import { ROOT, mustRun, once, progress, start } from '../../scripts/process.mjs';
+import { CACHE } from '../../scripts/toolchain.mjs';
+
+/**
+ * What is particular to an engine: the default export of a file beside this one.
+ *
+ * @typedef {object} Engine
+ * @property {string} heading of its section in doc/embedding.md, and its name in the table there
+ * @property {() => string} versions for the table, as the files of the example pin them
+ * @property {boolean} [python] whether it takes the Python package
+ * @property {number} [node] the major version of Node that it needs, where the package needs less
+ * @property {(directory: string, tools: Tools & Packed) => Promise<unknown>} install in a fresh copy of the example
+ * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
+ * @property {Serving[]} servings the first is what readers of the site get
+ * @property {{ first: string, second: string }} pages paths; the first has the figures
+ * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} go by the engine's own link
+ * @property {boolean} [wholePages] whether its links load another document
+ * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] by the engine's own
+ *   switch; undefined where there is none
+ * @property {Expected[]} expected as written in the example
+ * @property {Record<string, (page: import('@playwright/test').Page) => Promise<void>>} [also] what only this engine can
+ *   break, by what it is called; the page is the first one, with its figures drawn
+ * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that are the engine's own
+ *
+ * @typedef {object} Serving
+ * @property {string} name `development` where readers never get it: nothing is kept from moving there
+ * @property {(directory: string, tools: Tools) => Promise<Served>} serve
+ * @property {Engine['dark']} [dark] where only some of them have a switch
+ *
+ * @typedef {{ url: string, stop: () => unknown }} Served
+ * @typedef {{ selector: string, properties: Record<string, unknown> }} Expected a figure, and what is asked of it
+ * @typedef {{ tarball: string, wheel: string }} Packed paths; the wheel's is empty for an engine that takes none
+ * @typedef {object} Tools
+ * @property {(command: string, args: string[], env?: Record<string, string>) => Promise<string>} run runs a program in
+ *   the copy, which has to succeed; resolved with what it printed
+ * @property {(command: string, args: string[], env?: Record<string, string>) => ReturnType<typeof import('../../scripts/process.mjs').start>} start
+ *   a program in the copy that goes on
+ */
+
+/** No engine asks its reader, or tells its makers, anything. */
+const SILENT = {
+  ASTRO_TELEMETRY_DISABLED: '1',
+  NEXT_TELEMETRY_DISABLED: '1',
+  DO_NOT_TRACK: '1',
+  NO_UPDATE_NOTIFIER: '1',
+  CI: '1',
+  NO_COLOR: '1',
+  FORCE_COLOR: '0',
+};
+
+/** Of this clone alone: others may run at the same time. */
+const SCRATCH = join(CACHE, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
+
+/** @returns {string[]} the engines that there are */
+export function engines() {
+  return readdirSync(join(ROOT, 'tests/embeddings')).flatMap((name) => name.match(/^(.+)\.js$/)?.slice(1) ?? []);
+}
+
+/**
+ * @param {string} name
+ * @returns {Promise<Engine>}
+ */
+export async function engine(name) {
+  return (await import(`./${name}.js`)).default;
+}
+
+/**
+ * @param {string} example
+ * @param {string[]} packages
+ * @returns {string} their names and versions, as the example pins them
+ */
+export function pinned(example, ...packages) {
+  const directory = join(ROOT, 'examples', example);
+  const read = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
+  const { dependencies = {}, devDependencies = {} } = JSON.parse(read('package.json') || '{}');
+  const versions = new Map(Object.entries({ ...dependencies, ...devDependencies }));
+  for (const [, name, version] of read('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versions.set(name, version);
+  return packages
+    .map((name) => {
+      const version = versions.get(name);
+      if (!/^\d+\.\d+[\w.]*$/.test(version ?? '')) throw new Error(`examples/${example}: ${name} is ${version}, and must be one version.`);
+      return `${name} ${version}`;
+    })
+    .join(', ');
+}
+
+/**
+ * For engines that are npm packages.
+ *
+ * @param {string} _directory
+ * @param {Tools & Packed} tools
+ */
+export async function npmInstall(_directory, { run, tarball }) {
+  await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
+}
+
+/** The npm package, packed from what is built. */
+const tarball = once(async () => {
+  const { stdout } = await pack('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', emptied('npm')]);
+  return join(SCRATCH, 'packed/npm', stdout.trim());
+});
+
+/** The Python package. */
+const wheel = once(async () => {
+  const directory = emptied('python');
+  await pack('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
+  return join(directory, readdirSync(directory)[0]);
+});
+
+/**
+ * @param {string} registry
+ * @returns {string} a directory for what it would have
+ */
+function emptied(registry) {
+  const directory = join(SCRATCH, 'packed', registry);
+  rmSync(directory, { recursive: true, force: true });
+  mkdirSync(directory, { recursive: true });
+  return directory;
+}
+
+/**
+ * @param {string} command
+ * @param {string[]} args
+ */
+const pack = (command, args) => mustRun(`${command} cannot pack the package: see above.`, command, args, { quiet: true, seconds: 300 });
+
+/**
+ * @param {string} directory
+ * @param {Record<string, string>} env
+ * @returns {Tools}
+ */
+function toolsIn(directory, env) {
+  return {
+    async run(command, args, more) {
+      const sentence = `\`${[command, ...args].join(' ')}\` fails: see above.`;
+      const options = { cwd: directory, env: { ...env, ...more }, quiet: true, seconds: 900 };
+      return (await mustRun(sentence, command, args, options)).output;
+    },
+    start: (command, args, more) => start(command, args, { cwd: directory, env: { ...env, ...more } }),
+  };
+}
+
+/** What stays between runs. */
+const INSTALLED = ['node_modules', '.venv', '.installed'];
+
+/**
+ * A fresh copy of an engine's example, with the package installed. What is installed is kept until the example's pins, or
+ * the package, change.
+ *
+ * @param {string} name
+ * @param {Engine} definition
+ * @returns {Promise<{ directory: string, tools: Tools }>}
+ */
+export async function prepared(name, definition) {
+  const source = join(ROOT, 'examples', name);
+  const directory = join(SCRATCH, name);
+  const tools = toolsIn(directory, { ...SILENT, ...(await nodeFor(definition)) });
+  mkdirSync(directory, { recursive: true });
+  for (const entry of readdirSync(directory)) {
+    if (!INSTALLED.includes(entry)) rmSync(join(directory, entry), { recursive: true });
+  }
+  cpSync(source, directory, { recursive: true, filter: (path) => !INSTALLED.includes(basename(path)) });
+  const packed = { tarball: await tarball(), wheel: definition.python ? await wheel() : '' };
+  const pins = ['package.json', 'requirements.txt'].map((file) => join(source, file)).filter((path) => existsSync(path));
+  const hash = createHash('sha256');
+  for (const path of [...pins, ...Object.values(packed).filter((path) => path !== '')]) hash.update(readFileSync(path));
+  const stamp = join(directory, '.installed');
+  const current = hash.digest('hex');
+  if (existsSync(stamp) && readFileSync(stamp, 'utf8') === current) return { directory, tools };
+  rmSync(stamp, { force: true });
+  forget(join(directory, 'node_modules'));
+  progress(`${name}: installing`);
+  await definition.install(directory, { ...tools, ...packed });
+  writeFileSync(stamp, current);
+  return { directory, tools };
+}
+
+/**
+ * The package has another content under the same version, which neither npm nor what bundlers keep there expects.
+ *
+ * @param {string} modules
+ */
+function forget(modules) {
+  if (!existsSync(modules)) return;
+  for (const name of readdirSync(modules)) {
+    if (name === 'motion-widgets' || (name.startsWith('.') && name !== '.bin')) rmSync(join(modules, name), { recursive: true });
+  }
+}
+
+/**
+ * @param {Engine} definition
+ * @returns {Promise<Record<string, string>>} an environment with the Node that it needs, installed where this is older
+ */
+async function nodeFor({ node = 0 }) {
+  if (Number.parseInt(process.versions.node) >= node) return {};
+  const directory = join(SCRATCH, `node-${node}`);
+  const bin = join(directory, 'node_modules/node/bin');
+  if (!existsSync(bin)) {
+    const sentence = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
+    await mustRun(sentence, 'npm', ['install', '--prefix', directory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
+  }
+  return { PATH: [bin, process.env.PATH].join(delimiter) };
+}

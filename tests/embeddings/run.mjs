@@ -1,0 +1,95 @@
+/**
+ * `npm run test:embeddings`: builds, packs, and opens each example as its engine serves it. `npm run test:embeddings -- ENGINE…`
+ * takes some of them. Pictures of the pages are in test-results/embeddings.
+ *
+ * @module
+ */
+
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { chromium } from '@playwright/test';
+import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
+import { build } from '../../scripts/build.mjs';
+import { Missing, ROOT, progress, runAsScript } from '../../scripts/process.mjs';
+import { check } from './checks.mjs';
+import { engine, engines, prepared } from './project.mjs';
+
+/** @typedef {{ name: string, serving: string, passed: number, failures: string[], seconds: number }} Outcome */
+
+/**
+ * @param {import('@playwright/test').Browser} browser
+ * @param {string} name
+ * @returns {Promise<Outcome[]>} one a serving; one alone where it comes to none
+ */
+async function outcomesOf(browser, name) {
+  const definition = await engine(name);
+  /** @type {Outcome[]} */
+  const outcomes = [];
+  let begin = Date.now();
+  const outcome = (/** @type {string} */ serving, /** @type {number} */ passed, /** @type {string[]} */ failures) => {
+    outcomes.push({ name, serving, passed, failures, seconds: (Date.now() - begin) / 1000 });
+    begin = Date.now();
+  };
+  let serving = 'build';
+  try {
+    const { directory, tools } = await prepared(name, definition);
+    progress(`${name}: building`);
+    await definition.build?.(directory, tools);
+    for (const each of definition.servings) {
+      serving = each.name;
+      progress(`${name}: ${serving}`);
+      const { url, stop } = await each.serve(directory, tools);
+      try {
+        const { passed, failures } = await check(browser, { name, definition, serving: each, url });
+        outcome(serving, passed, failures);
+      } finally {
+        await stop();
+      }
+    }
+  } catch (error) {
+    outcome(serving, 0, [error instanceof Missing ? error.message : String(error instanceof Error ? error.stack : error)]);
+  }
+  return outcomes;
+}
+
+/**
+ * @param {string[]} wanted the engines to try; all where there are none
+ * @returns {Promise<boolean>} whether all is well
+ */
+async function test(wanted) {
+  const known = engines();
+  const unknown = wanted.find((name) => !known.includes(name));
+  if (unknown !== undefined) throw new Missing(`"${unknown}" is no engine that is tried; allowed are ${known.join(', ')}.`);
+  await build();
+  const { chrome, version } = await ensureBrowser();
+  mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
+  const browser = await chromium.launch({ executablePath: chrome, args: CHROME_ARGUMENTS });
+  /** @type {Outcome[]} */
+  const outcomes = [];
+  try {
+    for (const name of wanted.length > 0 ? wanted : known) outcomes.push(...(await outcomesOf(browser, name)));
+  } finally {
+    await browser.close();
+  }
+  await summarize(outcomes, version);
+  return outcomes.every(({ failures }) => failures.length === 0);
+}
+
+/**
+ * @param {Outcome[]} outcomes
+ * @param {string} version of the browser
+ */
+async function summarize(outcomes, version) {
+  progress(`Versions: Node ${process.versions.node}, Chromium ${version}`);
+  for (const name of new Set(outcomes.map((outcome) => outcome.name))) console.log(`${name.padEnd(16)} ${(await engine(name)).versions()}`);
+  progress('Summary');
+  for (const { name, serving, passed, failures, seconds } of outcomes) {
+    const counts = `${passed} passed, ${failures.length} failed`;
+    console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${serving.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${counts}`);
+    for (const failure of failures) console.log(`       ${failure.replaceAll('\n', '\n       ')}`);
+  }
+}
+
+await runAsScript(import.meta.url, async () => {
+  if (!(await test(process.argv.slice(2)))) process.exitCode = 1;
+});

@@ -1,0 +1,75 @@
+/**
+ * Servers for the engines: of files, and the engines' own.
+ *
+ * @module
+ */
+
+import { createServer } from 'node:net';
+import { join } from 'node:path';
+import { serve } from '../../scripts/serve.mjs';
+
+/** Seconds that a server may take until it answers. */
+const PATIENCE = 120;
+
+/**
+ * What a build has written, by a server that knows nothing but files.
+ *
+ * @param {string} output its directory, from the copy of the example
+ * @param {string} [base] the path that the site is told to have, with a slash at both ends
+ * @returns {import('./project.mjs').Serving['serve']}
+ */
+export const files = (output, base) => async (directory) => {
+  const { address, close } = await serve(join(directory, output), { port: 0, base });
+  return { url: address, stop: close };
+};
+
+/**
+ * An engine's own server.
+ *
+ * @param {(port: string) => [command: string, args: string[], env?: Record<string, string>]} command that starts it
+ * @param {string} [base] the path of the site, with a slash at both ends
+ * @returns {import('./project.mjs').Serving['serve']}
+ */
+export const program = (command, base = '/') => async (_directory, { start }) => {
+  const port = await freePort();
+  const url = `http://localhost:${port}${base}`;
+  const server = start(...command(`${port}`));
+  const ended = server.ended.then(() => {
+    throw new Error(`The server has ended:\n${server.output()}`);
+  });
+  try {
+    await Promise.race([answered(url), ended]);
+  } catch (error) {
+    await server.stop();
+    throw error;
+  }
+  // From here on it ends when it is told to.
+  ended.catch(() => {});
+  return { url, stop: server.stop };
+};
+
+/** @returns {Promise<number>} a port that nobody listens to */
+function freePort() {
+  return new Promise((resolve, reject) => {
+    const server = createServer().on('error', reject);
+    server.listen(0, 'localhost', () => {
+      const address = server.address();
+      server.close(() => (address === null || typeof address === 'string' ? reject(new Error('There is no port.')) : resolve(address.port)));
+    });
+  });
+}
+
+/**
+ * @param {string} url
+ * @returns {Promise<void>} resolved when it is a page
+ */
+async function answered(url) {
+  const last = Date.now() + PATIENCE * 1000;
+  for (;;) {
+    const status = await fetch(url, { signal: AbortSignal.timeout(PATIENCE * 1000) }).then(({ status }) => status, String);
+    if (status === 200) return;
+    if (Date.now() > last) throw new Error(`${url} has not answered for ${PATIENCE} s; the last was ${status}.`);
+    // Nobody tells when a port is listened to.
+    await new Promise((resolve) => setTimeout(resolve, 200));
+  }
+}

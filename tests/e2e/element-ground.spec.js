@@ -104,7 +104,7 @@ test('the ground is the nearest, through shadow roots and what is half transpare
   await ready(widget);
   expect(await paperOf(widget)).toBe('#643219');
   await page.locator('#card').evaluate((card) => {
-    /** @type {HTMLElement} */ (card.shadowRoot?.querySelector('section')).style.cssText = 'background: #eee; color: #111';
+    card.shadowRoot?.querySelector('section')?.setAttribute('style', 'background: #eee; color: #111');
   });
   await expect.poll(() => paperOf(widget)).toBe('#eeeeee');
 });

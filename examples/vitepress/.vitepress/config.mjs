@@ -10,6 +10,9 @@ export default defineConfig({
       },
     },
   },
+  vite: {
+    optimizeDeps: { exclude: ['motion-widgets'] },
+  },
   themeConfig: {
     sidebar: [
       { text: 'Motion', link: '/motion' },

@@ -1,7 +1,7 @@
 // www/ to dist/: what a page, a bundler, an iframe, a disk and Node each take. doc/embedding.md says which is for whom.
 
 import { createHash } from 'node:crypto';
-import { mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { appendFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
 import { pascal, widgets } from './declarations.mjs';
@@ -153,7 +153,7 @@ export async function bundle() {
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
-  write(at('dist/room.css'), await roomOfWidgets());
+  appendFileSync(at('dist/motion-widgets.css'), await heights());
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts' };
@@ -215,15 +215,27 @@ async function chunks() {
   );
 }
 
-/** What keeps the room of the elements before their script is there: nobody else can then. Where scripts are off, nothing is to come. */
-async function roomOfWidgets() {
-  const { roomRules } = await import('../www/figure/page/reserve.js');
+/**
+ * The heights of the elements before their script is there: nobody but the page can keep room for them then. Where scripts
+ * are off, nothing is to come, and what stands between the tags is shown.
+ */
+async function heights() {
+  const { HIGH, roomLength } = await import('../www/figure/page/reserve.js');
+  const { likedWidth } = await import('../www/ui/theme.js');
+  const waiting = `:is(${WIDGETS}):not(:defined)`;
   const rules = WIDGETS.map(async (tag) => {
     const { room } = await import(`../www/widgets/${tag}/settings.js`);
-    const element = `${tag}:not(:defined)`;
-    return `${element} { display: block; container-type: inline-size }\n${element}::before { content: ''; display: block }\n${roomRules(room, `${element}::before`)}\n`;
+    const rule = (/** @type {boolean} */ high) =>
+      `${tag}:not(:defined)::before { padding-top: ${roomLength(room, (share) => `${share}%`, high)} }\n`;
+    return `${rule(false)}@media ${HIGH} {\n${rule(true)}}\n`;
   });
-  return `@media (scripting: enabled) {\n${(await Promise.all(rules)).join('')}}\n`;
+  return `
+@media (scripting: enabled) {
+${waiting} { display: block; position: relative; min-width: 0; max-width: 100% }
+${waiting}::before { ${likedWidth} }
+${waiting} > :not([slot]) { position: absolute; top: 0; margin: 0 }
+${(await Promise.all(rules)).join('')}}
+`;
 }
 
 /** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */

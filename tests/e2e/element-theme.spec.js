@@ -10,8 +10,11 @@ test.use(STILL);
 async function lookOf(widget) {
   await frames(widget.page());
   return widget.evaluate((element) => {
-    const surface = /** @type {Element} */ (element.shadowRoot?.querySelector('.surface'));
-    const [red] = (getComputedStyle(surface).backgroundColor.match(/[\d.]+/g) ?? []).map(Number);
+    const swatch = document.createElement('span');
+    swatch.style.color = 'var(--paper)';
+    element.shadowRoot?.querySelector('.surface')?.append(swatch);
+    const [red] = (getComputedStyle(swatch).color.match(/[\d.]+/g) ?? []).map(Number);
+    swatch.remove();
     return red > 128 ? 'light' : 'dark';
   });
 }

@@ -38,7 +38,7 @@ for (const name of NAMES) {
 }
 
 for (const width of [375, 480, 640, 700, 760, 1024, 1280, 1920]) {
-  test(`nothing moves on a page with room.css, ${width} px wide, from before the script until all is there`, FRESH, async ({ page }) => {
+  test(`nothing moves on a page with motion-widgets.css, ${width} px wide, from before the script until all is there`, FRESH, async ({ page }) => {
     // As high as needed for all of the page to be in sight: what moves out of sight does not count.
     await page.setViewportSize({ width, height: 4000 });
     await page.addInitScript(() => {
@@ -56,7 +56,7 @@ for (const width of [375, 480, 640, 700, 760, 1024, 1280, 1920]) {
       await route.continue();
     });
     const loaded = show(page, NAMES.map((name) => `<p>Before</p><${name}></${name}><p>After</p>`).join(''), {
-      head: '<link rel="stylesheet" href="/room.css">',
+      head: '<link rel="stylesheet" href="/motion-widgets.css">',
     });
     await page.waitForFunction(() => [...document.querySelectorAll('body > p')].length === 4);
     await frames(page);

@@ -34,7 +34,7 @@ test('the page documents every attribute, method, part and custom property, and 
     const roots = [...document.querySelectorAll('banana-machine, map-squeeze')].map((element) => element.shadowRoot);
     const parts = roots.flatMap((root) => [...(root?.querySelectorAll('[part]') ?? [])].map((each) => each.getAttribute('part')));
     const styles = roots.flatMap((root) => (root?.adoptedStyleSheets ?? []).flatMap((sheet) => [...sheet.cssRules].map(({ cssText }) => cssText)));
-    return [[...new Set(parts)].sort(), [...new Set(styles.join('').match(/--motion-[a-z]+/g))].sort()];
+    return [[...new Set(parts)].sort(), [...new Set(styles.join('').match(/--motion-[a-z-]+/g))].sort()];
   });
   expect(await documented(page, 'part')).toEqual(parts);
   expect(await documented(page, 'property')).toEqual(properties);

@@ -72,8 +72,8 @@ addEnglish(en);
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.
  *
- * @cssprop --motion-paper - The ground of everything.
- * @cssprop --motion-ink - Text, and curves of charts.
+ * @cssprop --motion-paper - The ground of everything; without it, that of what is around the figure.
+ * @cssprop --motion-ink - Text, and curves of charts; without it, the colour of the text around.
  * @cssprop --motion-muted - What explains: captions, axes, tracks.
  * @cssprop --motion-rule - Hairlines and grids.
  * @cssprop --motion-prior - What was commanded.
@@ -82,7 +82,9 @@ addEnglish(en);
  * @cssprop --motion-truth - What is so, apart from any model: walls, the robot at its start.
  * @cssprop --motion-posterior - What exponential coordinates, or the map, make of it.
  * @cssprop --motion-accent - What is marked or noted, and the focus.
- * @cssprop --motion-font - The family of all text.
+ * @cssprop --motion-font - The family of all text; without it, that of the text around.
+ * @cssprop --motion-sticky-top - How much of the window’s top a header of the site covers: the picture that stays in sight on
+ *   a phone keeps clear of it.
  *
  * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void }} Machine
  * @template {{ config: Values }} Reading
@@ -430,14 +432,14 @@ export class FigureElement extends LitElement {
     if (allowed && text !== null) this.runtime.tolerate(() => word(name, text, allowed));
     this.presenting.follow();
     this.requestUpdate();
-    this.stage.repaint();
+    this.stage.recolour();
   }
 
   render() {
     speak(this);
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
-      <div class="surface ${this.stage.scheme} ${this.presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
+      <div class="surface ${this.presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
         ${this.lettering.title()} ${this.#content()} ${this.lettering.caption()} ${this.presenting.render()}
       </div>
     `;

@@ -8,7 +8,7 @@ import { onLanguage } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
 import { onPrint } from './page/print.js';
-import { surroundings } from './page/scheme.js';
+import { ancestors, surroundings } from './page/scheme.js';
 import { Part } from './part.js';
 import { LONGEST_WORK } from './settings.js';
 
@@ -42,8 +42,7 @@ export class Stage extends Part {
   #due = false;
   /** When the first picture was drawn whose words have not come yet. @type {number | undefined} */
   #owedSince;
-  /** @type {import('./page/scheme.js').Surroundings} */
-  #surroundings = '';
+  #printing = false;
   /** @type {ResizeObserver | undefined} */
   #sizes;
   /** Ends listening for the printer and for other words. */
@@ -54,6 +53,11 @@ export class Stage extends Part {
     const { signal } = this.#listening;
     onPrint((printing) => this.#print(printing), signal);
     onLanguage(this.host, () => this.#speakAgain(), signal);
+    // What the text around says at once, a background that fades says when it has arrived.
+    const faded = (/** @type {TransitionEvent} */ { target, propertyName }) => {
+      if (propertyName === 'background-color' && ancestors(this.host).includes(/** @type {Element} */ (target))) this.recolour();
+    };
+    document.addEventListener('transitionend', faded, { signal });
   }
 
   hostDisconnected() {
@@ -213,41 +217,36 @@ export class Stage extends Part {
     return (this.#palette ??= resolvePalette(this.#probe('.surface')));
   }
 
-  /** The class of the surface: light, dark, or empty where the page's `color-scheme` decides. */
-  get scheme() {
-    return this.host.theme === 'auto' ? this.#surroundings : this.host.theme;
-  }
-
-  /** The page's colours may be others. */
+  /** The page's colours may be others, or the figure is to have other ones. */
   recolour() {
-    const now = surroundings(this.#probe('.scheme-probe'));
-    if (now !== this.#surroundings) {
-      this.#surroundings = now;
-      this.host.requestUpdate();
-    }
-    this.repaint();
+    this.#colour();
+    this.wake();
   }
 
-  /** Takes the colours anew, once what is about to be rendered is there. */
-  async repaint() {
-    await this.host.updateComplete;
+  /** Paper and ink of the surroundings, or the figure's own where it is to be light and they are not, or dark. */
+  #colour() {
+    const style = this.#probe('.surface')?.style;
+    if (!style) return;
+    const { scheme, ...around } = surroundings(this.#probe('.scheme-probe'));
+    const { theme } = this.host;
+    style.colorScheme = this.#printing ? 'light' : theme === 'auto' ? scheme : theme;
+    const own = this.#printing || style.colorScheme !== scheme;
+    for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, own ? '' : colour);
+    style.setProperty('--back', own ? 'var(--paper)' : '');
     this.#palette = undefined;
-    this.wake();
   }
 
   /** Paper is light, whatever the screen is. @param {boolean} printing */
   #print(printing) {
-    const surface = this.#probe('.surface');
-    if (!surface) return;
-    surface.style.colorScheme = printing ? 'light' : '';
-    this.#palette = undefined;
+    this.#printing = printing;
+    this.#colour();
     // At once: the printer waits for no frame.
     this.#drawNow(0);
     this.#tell();
   }
 
-  /** @param {string} selector */
+  /** @param {string} selector of what is there once the figure was rendered */
   #probe(selector) {
-    return /** @type {HTMLElement} */ (this.host.renderRoot.querySelector(selector));
+    return /** @type {HTMLElement} */ (this.host.renderRoot?.querySelector(selector));
   }
 }

@@ -7,29 +7,37 @@
  * @property {number} width pixels
  * @property {number} height
  * @property {number} clientWidth CSS pixels
- * @property {string} [font] its own; that of its style for an element
+ * @property {{ fontFamily: string, fontSize: string }} letters those of its style for an element
  * @property {(kind: '2d') => CanvasRenderingContext2D | null} getContext
  *
- * @typedef {object} Brush what a picture is painted with, in CSS pixels
+ * @typedef {object} Brush what a picture is painted with, in the view's pixels: CSS pixels where the letters have 13 of them,
+ *   and more in proportion, so that everything grows with the letters
  * @property {CanvasRenderingContext2D} context
  * @property {import('./view.js').View} view
  * @property {import('../ui/theme.js').Palette} palette
- * @property {number} ratio device pixels a CSS pixel
+ * @property {number} ratio device pixels a pixel of the view
  * @property {string} font of the canvas's style
  */
+
+/** Height of a picture's letters, pixels of its view; those of the figure have 16: see the style of canvases. */
+const LETTERS = 13;
+
+/** A length in the figure's own style. @param {number} pixels of a view */
+export const length = (pixels) => `${pixels / 16}em`;
 
 /** Longest side of a canvas in every browser. */
 export const LONGEST_SIDE = 16_384;
 
 /**
- * A point of the window in an element's own CSS pixels, which what is around it may enlarge.
+ * A point of the window in the pixels of a view, which what is around it may enlarge.
  *
- * @param {Element} element
+ * @param {Element} element as wide as the view
+ * @param {import('./view.js').View} view
  * @param {{ clientX: number, clientY: number }} point
  */
-export function pointOn(element, { clientX, clientY }) {
+export function pointOn(element, view, { clientX, clientY }) {
   const { left, top, width } = element.getBoundingClientRect();
-  const zoom = width / Math.max(1, element.clientWidth);
+  const zoom = width / view.width;
   return [(clientX - left) / zoom, (clientY - top) / zoom];
 }
 
@@ -41,13 +49,11 @@ export function pointOn(element, { clientX, clientY }) {
  * @param {import('../ui/theme.js').Palette} palette
  */
 export function brushOn(canvas, view, palette) {
-  const ratio = canvas.width / Math.max(1, canvas.clientWidth);
+  const { fontFamily, fontSize } = canvas instanceof HTMLElement ? getComputedStyle(canvas) : canvas.letters;
+  const ratio = ((canvas.width / Math.max(1, canvas.clientWidth)) * parseFloat(fontSize)) / LETTERS;
   view.resize(canvas.width / ratio, canvas.height / ratio);
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
-  const brush = { context, view, palette, ratio };
-  if (!(canvas instanceof HTMLElement)) return { ...brush, font: canvas.font ?? context.font };
-  const { fontFamily, fontSize } = getComputedStyle(canvas);
-  return { ...brush, font: `${fontSize} ${fontFamily}` };
+  return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}` };
 }

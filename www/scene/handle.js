@@ -1,7 +1,7 @@
 /** Something in a picture under the reader's hand: dragged by pointer, moved from the keyboard. */
 
 import { html, nothing } from 'lit';
-import { pointOn } from './canvas.js';
+import { length, pointOn } from './canvas.js';
 
 /**
  * @typedef {object} Hooks what a handle acts on; lengths in metres
@@ -31,7 +31,7 @@ export class Handle {
   #hooks;
   /** From the pointer to what is held, metres: taken by its edge it does not jump. */
   #grip = [0, 0];
-  /** Where its middle was placed, CSS pixels: on the screen it is rounded. */
+  /** Where its middle was placed, pixels of the view: on the screen it is rounded. */
   #middle = [0, 0];
 
   /**
@@ -69,20 +69,20 @@ export class Handle {
 
   /**
    * @param {ParentNode} root that it was rendered into
-   * @param {number} x of its middle, CSS pixels: its style has that at 0
+   * @param {number} x of its middle, pixels of the view: its style has that at 0
    * @param {number} y
-   * @param {number} [size] its width and height, CSS pixels; that of its style where it is left out
+   * @param {number} [size] its width and height; that of its style where it is left out
    */
   place(root, x, y, size) {
     const handle = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${this.#part}`));
     if (!handle) return;
     this.#middle = [x, y];
-    if (size !== undefined) handle.style.width = handle.style.height = `${size}px`;
-    handle.style.translate = `${x}px ${y}px`;
+    if (size !== undefined) handle.style.width = handle.style.height = length(size);
+    handle.style.translate = `${length(x)} ${length(y)}`;
   }
 
   /**
-   * @param {number[]} point CSS pixels of the picture
+   * @param {number[]} point pixels of the view
    * @returns {number[]} the same in metres
    */
   #world([x, y]) {
@@ -96,7 +96,7 @@ export class Handle {
    */
   #pointer(event) {
     const { parentElement } = /** @type {Element} */ (event.currentTarget);
-    return this.#world(pointOn(/** @type {Element} */ (parentElement), event));
+    return this.#world(pointOn(/** @type {Element} */ (parentElement), this.#hooks.view(), event));
   }
 
   #hold = (/** @type {PointerEvent} */ event) => {

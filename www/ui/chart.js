@@ -35,7 +35,7 @@ export const chartStyles = css`
   .chart {
     display: block;
     width: 100%;
-    max-width: 34rem;
+    max-width: 34em;
     cursor: crosshair;
     touch-action: pan-y;
   }

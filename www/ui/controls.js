@@ -7,8 +7,8 @@ export const controlStyles = css`
   /* The sliders of a group share their columns, each as wide as its widest text in whatever font. */
   fieldset {
     display: grid;
-    grid-template-columns: auto minmax(4rem, 1fr) auto;
-    column-gap: 0.6rem;
+    grid-template-columns: auto minmax(4em, 1fr) auto;
+    column-gap: 0.6em;
     min-width: 0;
     margin: 0;
     padding: 0;
@@ -22,7 +22,7 @@ export const controlStyles = css`
 
   .effect {
     color: var(--muted);
-    font-size: 0.84rem;
+    font-size: 0.84em;
     line-height: 1.25;
   }
 
@@ -33,7 +33,7 @@ export const controlStyles = css`
 
   summary {
     width: fit-content;
-    min-height: 1.75rem;
+    min-height: 1.75em;
     cursor: pointer;
   }
 
@@ -45,11 +45,19 @@ export const controlStyles = css`
     color: var(--ink);
   }
 
+  /* A browser gives controls letters of a size of its own. */
+  input {
+    font-size: inherit;
+  }
+
+  /* As high and as wide about its letters, however small these are. */
   button,
   ::file-selector-button {
-    min-height: 2rem;
-    padding: 0.15rem 0.65rem 0.25rem;
+    --size: 1;
+    min-height: calc(2em / var(--size));
+    padding: calc(0.15em / var(--size)) calc(var(--beside, 0.65em) / var(--size)) calc(0.25em / var(--size));
     font: inherit;
+    font-size: calc(1em * var(--size));
     cursor: pointer;
   }
 
@@ -94,19 +102,19 @@ export const controlStyles = css`
 
   legend {
     width: 100%;
-    margin-bottom: 0.5rem;
-    padding: 0 0 0.2rem;
+    margin-bottom: 0.48em;
+    padding: 0 0 0.19em;
     border-bottom: 1px solid var(--rule);
     font-style: italic;
-    font-size: 1.05rem;
+    font-size: 1.05em;
   }
 
   .choice,
   .toggle {
     display: inline-flex;
     align-items: center;
-    gap: 0.45rem;
-    min-height: 1.75rem;
+    gap: 0.45em;
+    min-height: 1.75em;
     cursor: pointer;
   }
 
@@ -114,11 +122,11 @@ export const controlStyles = css`
   .options {
     display: flex;
     flex-wrap: wrap;
-    column-gap: 1rem;
+    column-gap: 1em;
   }
 
   .choices > span {
-    flex: 0 0 var(--name, 6.5rem);
+    flex: 0 0 var(--name, 6.5em);
     align-self: center;
   }
 
@@ -134,9 +142,9 @@ export const controlStyles = css`
 
   input:is([type='radio'], [type='checkbox']) {
     flex: none;
-    width: 1rem;
-    height: 1rem;
-    margin: 0.25rem;
+    width: 1em;
+    height: 1em;
+    margin: 0.25em;
     accent-color: var(--ink);
     cursor: pointer;
   }

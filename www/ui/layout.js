@@ -13,18 +13,18 @@ const layout = css`
   .views,
   .controls {
     display: grid;
-    gap: 0.25rem 2rem;
+    gap: 0.25em 2em;
     align-items: start;
   }
 
   .controls {
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr));
-    gap: 0 2.5rem;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 1fr));
+    gap: 0 2.5em;
   }
 
-  @container (min-width: 56rem) {
+  @container (min-width: 56em) {
     .controls {
-      column-gap: 5rem;
+      column-gap: 5em;
     }
   }
 
@@ -33,9 +33,9 @@ const layout = css`
     display: flex;
     flex-wrap: wrap;
     align-items: start;
-    gap: 0.1rem 1.2rem;
-    margin-top: 0.4rem;
-    padding-top: 0.3rem;
+    gap: 0.1em 1.2em;
+    margin-top: 0.4em;
+    padding-top: 0.3em;
     border-top: 1px solid var(--rule);
   }
 
@@ -45,23 +45,23 @@ const layout = css`
 
   .folds > details[open] {
     flex: 1 0 100%;
-    padding-bottom: 0.8rem;
+    padding-bottom: 0.8em;
   }
 
   .begin button {
-    min-height: 1.75rem;
-    padding: 0 0.5rem 0.1rem;
+    min-height: 1.75em;
+    padding: 0 0.5em 0.1em;
   }
 
   .folded {
-    padding-top: 0.4rem;
+    padding-top: 0.4em;
   }
 
   .figures {
     display: grid;
-    gap: 1rem 2.75rem;
+    gap: 1em 2.75em;
     align-items: start;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20em), 1fr));
   }
 
   figure,
@@ -77,7 +77,8 @@ const layout = css`
     display: block;
     width: 100%;
     touch-action: pan-y pinch-zoom;
-    font-size: 13px;
+    /* The pictures' own unit: what they are drawn in, too, is in proportion to the letters. See scene/canvas.js. */
+    font-size: 0.8125em;
     cursor: crosshair;
   }
 
@@ -85,8 +86,8 @@ const layout = css`
     position: absolute;
     top: 0;
     left: 0;
-    width: 2.25rem;
-    height: 2.25rem;
+    width: 2.25em;
+    height: 2.25em;
     transform: translate(-50%, -50%);
     border-radius: 50%;
     cursor: grab;
@@ -100,7 +101,7 @@ const layout = css`
   .handle::after {
     content: '';
     position: absolute;
-    inset: 0.55rem;
+    inset: 0.55em;
     box-sizing: border-box;
     background: var(--paper);
     border: 3px solid var(--prior);
@@ -112,19 +113,19 @@ const layout = css`
     content: attr(data-stop);
     position: absolute;
     top: 50%;
-    left: calc(100% + 0.3rem);
+    left: calc(100% + 0.35em);
     translate: 0 -50%;
-    padding: 0.1rem 0.5rem;
+    padding: 0.12em 0.6em;
     background: var(--ink);
     border-radius: 3px;
     color: var(--paper);
-    font-size: 0.85rem;
+    font-size: 0.85em;
     white-space: nowrap;
     pointer-events: none;
   }
 
   .handle.right[data-stop]:is(.held, :focus-visible)::before {
-    right: calc(100% + 0.3rem);
+    right: calc(100% + 0.35em);
     left: auto;
   }
 
@@ -135,7 +136,7 @@ const layout = css`
   .caption {
     display: grid;
     margin: 0;
-    padding: 0.25rem 0;
+    padding: 0.25em 0;
   }
 
   .caption > * {
@@ -146,7 +147,7 @@ const layout = css`
   .caption::after {
     grid-area: 1 / 1;
     height: auto;
-    padding-left: calc(0.8rem + 3px);
+    padding-left: calc(0.8em + 3px);
   }
 
   .caption.note::after {
@@ -154,8 +155,8 @@ const layout = css`
   }
 
   .note {
-    margin: 0.5rem 0;
-    padding-left: 0.8rem;
+    margin: 0.5em 0;
+    padding-left: 0.8em;
     border-left: 3px solid var(--accent);
   }
 
@@ -163,26 +164,26 @@ const layout = css`
     margin: 0;
   }
 
-  @container (max-width: 34rem) {
+  @container (max-width: 34em) {
     .caption {
-      font-size: 0.95rem;
+      font-size: 0.95em;
       line-height: 1.25;
     }
   }
 
   .legend {
     display: grid;
-    grid-template-columns: repeat(auto-fill, minmax(min(100%, 20rem), 1fr));
-    gap: 0 2.5rem;
-    margin-top: 0.4rem;
+    grid-template-columns: repeat(auto-fill, minmax(min(100%, 20em), 1fr));
+    gap: 0 2.5em;
+    margin-top: 0.4em;
   }
 
   .buttons {
     display: flex;
     flex-wrap: wrap;
     align-items: center;
-    gap: 0.5rem;
-    margin-bottom: 0.7rem;
+    gap: 0.5em;
+    margin-bottom: 0.7em;
   }
 
   .seed {
@@ -191,23 +192,23 @@ const layout = css`
   }
 
   figcaption {
-    margin: 0.4rem 0 1.25rem;
+    margin: 0.43em 0 1.36em;
     color: var(--muted);
-    font-size: 0.92rem;
+    font-size: 0.92em;
   }
 
   /* On a phone the floor stays in sight while the controls below it are used. */
-  @container (width < 30rem) {
-    @media (min-height: 37.5rem) {
+  @container (width < 30em) {
+    @media (min-height: 37.5em) {
       .stage[part='picture'] {
         position: sticky;
-        top: 0;
+        top: var(--top);
         z-index: 1;
         background: var(--paper);
         box-shadow:
-          -0.5rem 0 var(--paper),
-          0.5rem 0 var(--paper),
-          0 0.5rem 0.5rem var(--paper);
+          -0.5em 0 var(--paper),
+          0.5em 0 var(--paper),
+          0 0.5em 0.5em var(--paper);
       }
 
       .views {
@@ -216,7 +217,7 @@ const layout = css`
 
       /* Clear of the shadow. */
       .stage[part='picture'] + * {
-        margin-top: 0.7rem;
+        margin-top: 0.7em;
       }
 
       .stage canvas {
@@ -225,7 +226,7 @@ const layout = css`
 
       /* What has the focus stays clear of the floor above it. */
       :is(button, input, summary, textarea, .chart-marker) {
-        scroll-margin-top: calc(38svh + 2rem);
+        scroll-margin-top: calc(38svh + 2em + var(--top));
       }
     }
   }

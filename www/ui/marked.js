@@ -10,15 +10,15 @@ export const markedStyles = css`
     display: flex;
     flex-wrap: wrap;
     align-items: center;
-    gap: 0.1rem 1.1rem;
-    min-height: 2.2rem;
-    margin: 0.3rem 0 0;
+    gap: 0.1em 1.1em;
+    min-height: 2.2em;
+    margin: 0.3em 0 0;
   }
 
   .marked output {
     display: inline-flex;
     flex-wrap: wrap;
-    gap: 0.1rem 1.1rem;
+    gap: 0.1em 1.1em;
   }
 
   .marked label {
@@ -26,10 +26,10 @@ export const markedStyles = css`
   }
 
   .marked input {
-    width: 8rem;
-    min-height: 1.75rem;
-    margin-left: 0.3rem;
-    padding: 0 0.3rem;
+    width: 8em;
+    min-height: 1.75em;
+    margin-left: 0.3em;
+    padding: 0 0.3em;
     font: inherit;
     font-variant-numeric: inherit;
   }

@@ -17,18 +17,21 @@ export const presentationStyles = css`
     padding: 0 !important;
     border: 0 !important;
     overflow: hidden !important;
+    font-size: 16px !important;
   }
 
   :host([presentation]) .surface {
     /* Not by zoom: browsers disagree about what lengths are inside of one. */
     transform: scale(var(--zoom));
     transform-origin: 0 0;
+    --top: 0px;
+    background: var(--paper);
     display: flex;
     flex-direction: column;
     box-sizing: border-box;
     width: calc(100% / var(--zoom));
     height: calc(100% / var(--zoom));
-    padding: 0.4rem 0.8rem;
+    padding: 0.4em 0.8em;
     overflow: auto;
     overscroll-behavior: contain;
   }
@@ -95,25 +98,25 @@ export const presentationStyles = css`
   }
 
   /* What is set in a fold is seen above it. */
-  @media (min-width: 60rem) and (min-height: 37.5rem) {
+  @media (min-width: 60em) and (min-height: 37.5em) {
     :host([presentation]) .with-controls {
       scroll-padding-top: calc(66vh / var(--zoom));
     }
 
     :host([presentation]) .with-controls .views {
       position: sticky;
-      top: -0.4rem;
+      top: -0.4em;
       z-index: 1;
       /* Also over the edges of what passes behind it. */
       box-shadow:
-        -0.5rem 0 var(--paper),
-        0.5rem 0 var(--paper);
+        -0.5em 0 var(--paper),
+        0.5em 0 var(--paper);
     }
   }
 
   /* Clear of the buttons. */
   :host([presentation]) .aside {
-    padding-top: 1.6rem;
+    padding-top: 1.6em;
   }
 
   /* It takes no room, and stays while what is below is scrolled to. */
@@ -126,14 +129,14 @@ export const presentationStyles = css`
     display: flex;
     flex: none;
     align-items: start;
-    gap: 0.4rem;
+    gap: 0.53em;
     height: 0;
-    font-size: 0.75rem;
+    font-size: 0.75em;
   }
 
   .presenting button {
     min-height: 0;
-    padding: 0 0.4rem;
+    padding: 0 0.53em;
     background: var(--paper);
   }
 

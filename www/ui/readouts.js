@@ -8,26 +8,26 @@ export const readoutStyles = css`
   .readouts {
     display: flex;
     flex-wrap: wrap;
-    gap: 0.2rem 2rem;
-    margin: 0.1rem 0 0.5rem;
+    gap: 0.2em 2em;
+    margin: 0.1em 0 0.5em;
   }
 
   .readouts dt {
     color: var(--muted);
-    font-size: 0.84rem;
+    font-size: 0.84em;
     line-height: 1.25;
   }
 
   .readouts dd {
     margin: 0;
-    font-size: 1.1rem;
+    font-size: 1.1em;
     line-height: 1.25;
     white-space: nowrap;
   }
 
   .readouts .detail {
     color: var(--muted);
-    font-size: 0.84rem;
+    font-size: 0.84em;
     white-space: normal;
   }
 
@@ -37,16 +37,16 @@ export const readoutStyles = css`
 
   table {
     width: 100%;
-    max-width: 34rem;
-    margin-bottom: 1.25rem;
+    max-width: 37em;
+    margin-bottom: 1.36em;
     border-collapse: collapse;
-    font-size: 0.92rem;
+    font-size: 0.92em;
     border-block: 1.5px solid var(--ink);
   }
 
   caption {
     caption-side: bottom;
-    padding-top: 0.5rem;
+    padding-top: 0.54em;
     text-align: left;
     color: var(--muted);
   }
@@ -61,7 +61,7 @@ export const readoutStyles = css`
   }
 
   :is(th, td) {
-    padding: 0.14rem 0 0.14rem 0.5rem;
+    padding: 0.15em 0 0.15em 0.54em;
   }
 
   :is(th, td):first-child {
@@ -74,9 +74,9 @@ export const readoutStyles = css`
   }
 
   /* The name of a row above its numbers, which have the whole width then. */
-  @container (width < 26rem) {
+  @container (width < 26em) {
     table {
-      font-size: 0.82rem;
+      font-size: 0.82em;
     }
 
     table :is(caption, thead, tbody) {
@@ -91,7 +91,7 @@ export const readoutStyles = css`
     tr > :is(th, td) {
       flex: 1;
       min-width: 0;
-      padding-left: 0.3rem;
+      padding: 0.17em 0 0.17em 0.37em;
       overflow-wrap: anywhere;
     }
 

@@ -8,11 +8,11 @@ import { finger } from './finger.js';
 export const sliderStyles = css`
   /* Room for the line of help of the row that has the focus or the pointer. */
   fieldset:has(.slider) {
-    padding-bottom: 1.35rem;
+    padding-bottom: 1.35em;
   }
 
   fieldset:has(.picking) {
-    grid-template-columns: auto auto minmax(4rem, 1fr) auto;
+    grid-template-columns: auto auto minmax(4em, 1fr) auto;
   }
 
   .slider {
@@ -21,9 +21,9 @@ export const sliderStyles = css`
     align-items: center;
   }
 
-  .slider label {
-    min-width: 1.6rem;
-    font-size: 1.1rem;
+  .slider > [for] {
+    min-width: 1.45em;
+    font-size: 1.1em;
     line-height: 1;
   }
 
@@ -40,10 +40,10 @@ export const sliderStyles = css`
 
   .typed {
     position: absolute;
-    inset: -0.2rem 0 auto auto;
+    inset: -0.2em 0 auto auto;
     box-sizing: border-box;
-    width: calc(100% + 0.4rem);
-    padding: 0.1rem 0.1rem 0.1rem 0.2rem;
+    width: calc(100% + 0.4em);
+    padding: 0.1em 0.1em 0.1em 0.2em;
     background: none;
     border: 1px solid transparent;
     border-radius: 3px;
@@ -61,7 +61,7 @@ export const sliderStyles = css`
   /* What does not fit into its room covers what stands below, and no slider of its own group. */
   .slider .effect {
     position: absolute;
-    top: calc(100% - 1.3rem);
+    top: calc(100% - 1.55em);
     right: 0;
     left: 0;
     z-index: 1;
@@ -98,7 +98,7 @@ export const sliderStyles = css`
     --thumb-edge: var(--thumb);
     appearance: none;
     width: 100%;
-    height: 1.75rem;
+    height: 1.75em;
     margin: 0;
     background: none;
     cursor: pointer;
@@ -119,9 +119,9 @@ export const sliderStyles = css`
 
   input[type='range']::-webkit-slider-thumb {
     appearance: none;
-    width: 1.05rem;
-    height: 1.05rem;
-    margin-top: calc(1px - 0.525rem);
+    width: 1.05em;
+    height: 1.05em;
+    margin-top: calc(1px - 0.525em);
     background: var(--thumb);
     border: 2px solid var(--thumb-edge);
     border-radius: var(--thumb-round, 50%);
@@ -131,8 +131,8 @@ export const sliderStyles = css`
 
   input[type='range']::-moz-range-thumb {
     box-sizing: border-box;
-    width: 1.05rem;
-    height: 1.05rem;
+    width: 1.05em;
+    height: 1.05em;
     background: var(--thumb);
     border: 2px solid var(--thumb-edge);
     border-radius: var(--thumb-round, 50%);

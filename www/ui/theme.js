@@ -1,12 +1,12 @@
 /**
- * The palette: one colour a role, the same in every view, for light and dark paper. The hues are
- * Okabe and Ito's, with lightness spread so that the roles stay apart under every common form of
- * colour blindness; each role also has a dash or a shape of its own. Text on the paper keeps a
- * contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
+ * The palette: one colour a role, the same in every view, for light and dark paper. Paper and ink are those of the
+ * surroundings, and what explains is between them; the hues are Okabe and Ito's, with lightness spread so that the roles
+ * stay apart under every common form of colour blindness; each role also has a dash or a shape of its own. Text on the
+ * paper keeps a contrast of at least 4.5, and lines at least 3. A page may give each role a colour of its own, by a
  * custom property that begins with --motion.
  */
 
-import { css } from 'lit';
+import { css, unsafeCSS } from 'lit';
 
 /**
  * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
@@ -18,29 +18,42 @@ const ROLES = /** @type {const} */ (
 
 /** @typedef {Record<(typeof ROLES)[number], string>} Palette resolved CSS colours */
 
+/**
+ * What a figure would like where a box is as wide as its contents: the column of a book, from where on each row of buttons is
+ * one line. Two dots with so much between them, where the line breaks if there is less.
+ */
+export const likedWidth =
+  "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";
+
 export const theme = css`
   :host {
-    --paper: var(--motion-paper, light-dark(#fffefb, #16181b));
-    --ink: var(--motion-ink, light-dark(#1f1e1b, #ebe9e3));
-    --muted: var(--motion-muted, light-dark(#5e5b54, #a8a59c));
-    --rule: var(--motion-rule, light-dark(#d9d5cb, #3a3d42));
+    display: block;
+    min-width: 0;
+    max-width: 100%;
+    font-family: var(--motion-font, inherit);
+    line-height: 1.4;
+    font-variant-numeric: lining-nums tabular-nums;
+    text-align: start;
+  }
+
+  :host::before {
+    ${unsafeCSS(likedWidth)}
+  }
+
+  /* --ground and --text are what is found around the figure: see Stage. */
+  .scheme-probe,
+  .surface {
+    --paper: var(--motion-paper, var(--ground, light-dark(#fffefb, #16181b)));
+    --ink: var(--motion-ink, var(--text, light-dark(#1f1e1b, #ebe9e3)));
+    --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) 75%, var(--paper))));
+    --rule: var(--motion-rule, var(--mw-rule, color-mix(in srgb, var(--ink) 18%, var(--paper))));
     --prior: var(--motion-prior, light-dark(#0b61b0, #5a9ff0));
     --prediction: var(--motion-prediction, light-dark(#b85300, #f0963a));
     --cloud: var(--motion-cloud, light-dark(#dd6f00, #f0963a));
     --truth: var(--motion-truth, light-dark(#8a8a8a, #8e8e8e));
     --posterior: var(--motion-posterior, light-dark(#00694a, #4fe3b0));
     --accent: var(--motion-accent, light-dark(#7a1560, #fbb4e0));
-    display: block;
-    container-type: inline-size;
-    font-family: var(
-      --motion-font,
-      'Iowan Old Style', 'Palatino Linotype', Palatino, 'URW Palladio L', 'Source Serif 4',
-      'Times New Roman', serif
-    );
-    font-size: 1rem;
-    line-height: 1.4;
-    font-variant-numeric: lining-nums tabular-nums;
-    text-align: start;
+    --top: var(--motion-sticky-top, var(--mw-top, 0px));
   }
 
   :host([hidden]) {
@@ -49,7 +62,8 @@ export const theme = css`
 
   /* Paper and ink are the reader's own then, and the roles keep their hues on it. */
   @media (forced-colors: active) {
-    :host {
+    .scheme-probe,
+    .surface {
       --paper: Canvas;
       --ink: CanvasText;
       --muted: CanvasText;
@@ -59,7 +73,9 @@ export const theme = css`
 
   /* A change of any role is an event: see schemeStyles. */
   .scheme-probe {
-    border-color: var(--paper) var(--ink) var(--muted) var(--rule);
+    background: var(--motion-paper, transparent);
+    color: var(--motion-ink);
+    border-color: Canvas var(--muted) var(--rule);
     caret-color: var(--truth);
     column-rule-color: var(--cloud);
     fill: var(--posterior);
@@ -69,23 +85,25 @@ export const theme = css`
   }
 
   .surface {
-    background: var(--paper);
+    display: flow-root;
+    container-type: inline-size;
+    background: var(--motion-paper, var(--back));
     color: var(--ink);
   }
 
   .title-slot {
-    margin: 0 0 0.3rem;
-    font-size: 1.1rem;
+    margin: 0 0 0.27em;
+    font-size: 1.1em;
   }
 
   .caption-slot {
-    margin: 0.5rem 0 0;
-    font-size: 0.95rem;
+    margin: 0.53em 0 0;
+    font-size: 0.95em;
   }
 
   .failure {
     margin: 0;
-    padding: 1rem 0;
+    padding: 1em 0;
     border-block: 1px solid var(--rule);
   }
 
@@ -127,8 +145,8 @@ export const theme = css`
 
     .slider {
       display: inline-flex !important;
-      gap: 0.4rem;
-      margin: 0 1.5rem 0 0 !important;
+      gap: 0.4em;
+      margin: 0 1.5em 0 0 !important;
     }
 
     .printed {
@@ -174,19 +192,21 @@ export function resolvePalette(surface) {
 let pixel;
 
 /**
- * @param {string} colour in any form that the browser knows: a page may have named it
+ * @param {string[]} colours in any form that the browser knows, a page may have named them; each covers those before
  * @returns {[number, number, number]} red, green, blue, 0 to 255
  */
-export function channels(colour) {
+export function channels(...colours) {
   // As browsers hand most colours out.
-  const plain = colour.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
+  const plain = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
   if (plain) return [Number(plain[1]), Number(plain[2]), Number(plain[3])];
   const context = (pixel ??= /** @type {OffscreenCanvasRenderingContext2D} */ (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })
   ));
   context.clearRect(0, 0, 1, 1);
-  context.fillStyle = colour;
-  context.fillRect(0, 0, 1, 1);
+  for (const colour of colours) {
+    context.fillStyle = colour;
+    context.fillRect(0, 0, 1, 1);
+  }
   const [red, green, blue] = context.getImageData(0, 0, 1, 1).data;
   return [red, green, blue];
 }

@@ -3,7 +3,7 @@
 import { css } from 'lit';
 import { channels } from '../../ui/theme.js';
 
-/** @typedef {"light" | "dark" | ""} Surroundings empty where `color-scheme` says it */
+/** @typedef {{ ground: string, text: string, scheme: 'light' | 'dark' }} Surroundings */
 
 export const THEMES = /** @type {const} */ (['auto', 'light', 'dark']);
 
@@ -16,38 +16,42 @@ export const schemeStyles = css`
     position: absolute;
     visibility: hidden;
     forced-color-adjust: none;
-    background-color: light-dark(#ffffff, #000000);
     transition: 1ms;
-  }
-
-  .surface.light {
-    color-scheme: light;
-  }
-
-  .surface.dark {
-    color-scheme: dark;
   }
 `;
 
+/** Of text on a page that paints no ground, as where it is an image, and says nothing by `color-scheme`. */
+const DARK = '#121212';
+
+/** @param {Node} node @returns {Element[]} itself and what is around it, across shadow roots, the nearest first */
+export function ancestors(node) {
+  const all = [];
+  /** @type {any} */
+  let at = node;
+  for (; at; at = at.assignedSlot ?? at.parentNode ?? at.host) if (at instanceof Element) all.push(at);
+  return all;
+}
+
 /**
- * What the surroundings are where they do not say so by `color-scheme`: dark where their text is light.
- * So it is with a page whose own switch changes colours alone.
+ * The ground on which the figure stands, with the text there. They are dark where the ground is darker than the text:
+ * so it is also with a page whose own switch changes colours alone.
  *
  * @param {Element} probe
  * @returns {Surroundings}
  */
 export function surroundings(probe) {
-  const { color, colorScheme } = getComputedStyle(probe);
-  if (colorScheme !== 'normal') return '';
-  return lightness(color) > 0.5 ? 'dark' : 'light';
+  const { color: text, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
+  const unsaid = colorScheme === 'normal' && lightness(channels(text)) > 0.5;
+  const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
+  const ground = channels(...[...grounds, unsaid ? DARK : canvas].reverse());
+  return { ground: `rgb(${ground})`, text, scheme: lightness(ground) < lightness(channels(text)) ? 'dark' : 'light' };
 }
 
 /**
- * @param {string} colour in whatever notation
+ * @param {number[]} colour
  * @returns {number} from 0, black, to 1
  */
-function lightness(colour) {
-  const [red, green, blue] = channels(colour);
+function lightness([red, green, blue]) {
   // Rec. 709 weights.
   return (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
 }

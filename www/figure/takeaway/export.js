@@ -35,12 +35,11 @@ function drawOn({ scene, pictures: [picture], stage, presenting: { zoom } }, rat
   const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
   // Enlarged for an audience or not, it is the same picture.
   const [clientWidth, height] = [box.width, box.height].map((length) => length / zoom);
-  const { fontFamily, fontSize } = getComputedStyle(canvas);
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const context = /** @type {CanvasRenderingContext2D} */ (makeContext(size));
-  const surface = { ...size, clientWidth, font: `${fontSize} ${fontFamily}`, getContext: () => context };
+  const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), getContext: () => context };
   picture.draw(surface, scene, stage.palette, { atOnce: true });
-  return { canvas, context, ...size };
+  return { canvas, context, view: picture.view, ...size };
 }
 
 /**
@@ -75,9 +74,9 @@ export function svgOf(element) {
   const { settings, title } = element.takeaway;
   const name = `figure-${hash(JSON.stringify(settings))}`;
   const svg = new SvgContext(name);
-  const { canvas, width, height } = drawOn(element, 1, () => svg);
+  const { canvas, view, width, height } = drawOn(element, 1, () => svg);
   const description = canvas.getAttribute('aria-label') ?? '';
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-labelledby="${name}-title ${name}-text">
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${view.width} ${view.height}" role="img" aria-labelledby="${name}-title ${name}-text">
 <title id="${name}-title">${escaped(title)}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
 <rect width="100%" height="100%" fill="${element.stage.palette.paper}"/>

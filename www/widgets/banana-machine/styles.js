@@ -9,66 +9,66 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
-  @container (min-width: 30rem) {
+  @container (min-width: 30em) {
     .views {
       grid-template-columns: 1fr 1fr;
-      gap: 1rem;
+      gap: 1em;
     }
   }
 
-  @container (min-width: 56rem) {
+  @container (min-width: 56em) {
     canvas {
       aspect-ratio: 2;
     }
   }
 
   /* In the column of a book the rows of buttons are one line each. */
-  @container (max-width: 48rem) {
+  @container (max-width: 48em) {
     .controls {
-      column-gap: 1.5rem;
+      column-gap: 1.5em;
     }
 
     .cloud .buttons {
-      gap: 0.25rem;
+      gap: 0.25em;
     }
 
     .cloud .buttons button {
-      padding-inline: 0.25rem;
-      font-size: 0.84rem;
+      --size: 0.84;
+      --beside: 0.25em;
     }
 
     .buttons {
-      gap: 0.35rem;
+      gap: 0.35em;
     }
 
     .presets button {
-      padding-inline: 0.4rem;
-      font-size: 0.92rem;
+      --size: 0.92;
+      --beside: 0.4em;
     }
   }
 
-  @container (max-width: 42rem) {
+  @container (max-width: 42em) {
     .presets {
-      gap: 0.25rem;
+      gap: 0.25em;
     }
 
     .presets button {
-      padding-inline: 0.3rem;
-      font-size: 0.84rem;
+      --size: 0.84;
+      --beside: 0.3em;
     }
   }
 
   .cloud .buttons {
-    margin-bottom: 0.2rem;
+    margin-bottom: 0.2em;
   }
 
   /* Where the buttons leave it no room, the seed shares the line in which the help of N appears. */
-  @container (max-width: 68.75rem) {
+  @container (max-width: 68.75em) {
     .cloud .seed {
       position: absolute;
       right: 0;
       bottom: 0;
-      font-size: 0.84rem;
+      font-size: 0.84em;
       line-height: 1.25;
     }
 
@@ -80,22 +80,22 @@ const own = css`
   /* The three that matter, side by side where there is room. */
   .surface .machine > .readouts {
     display: grid;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12.5rem), 1fr));
-    gap: 0.2rem 1.25rem;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12.5em), 1fr));
+    gap: 0.2em 1.25em;
   }
 
   /* What the gain means for all robots is the longest line. */
-  @container (min-width: 40rem) {
+  @container (min-width: 40em) {
     .surface .machine > .readouts {
       grid-template-columns: 16fr 30fr 20fr;
-      column-gap: 1rem;
+      column-gap: 1em;
     }
   }
 
   .swatch {
     flex: none;
-    width: 1.9rem;
-    height: 0.5rem;
+    width: 1.9em;
+    height: 0.5em;
     stroke: var(--role);
   }
 

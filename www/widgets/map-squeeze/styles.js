@@ -9,10 +9,10 @@ const own = css`
   }
 
   /* The picture with the sentence below it, and beside it the figures and what is chosen. */
-  @container (min-width: 38rem) {
+  @container (min-width: 38em) {
     .views {
-      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 16rem;
-      column-gap: 1rem;
+      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 16em;
+      column-gap: 1em;
     }
 
     .stage {
@@ -29,39 +29,39 @@ const own = css`
   }
 
   /* In the column of a book, two places in a row. */
-  @container (width < 50rem) {
+  @container (width < 50em) {
     .aside .buttons button {
-      padding-inline: 0.4rem;
-      font-size: 0.84rem;
+      --size: 0.84;
+      --beside: 0.4em;
     }
   }
 
   /* Wider, and not higher: all of it is to fit on a screen. */
-  @container (min-width: 45rem) {
+  @container (min-width: 45em) {
     canvas {
       aspect-ratio: 4 / 3;
     }
   }
 
-  @container (min-width: 50rem) {
+  @container (min-width: 50em) {
     canvas {
       aspect-ratio: 8 / 5;
     }
   }
 
-  @container (min-width: 60rem) {
+  @container (min-width: 60em) {
     canvas {
       aspect-ratio: 12 / 5;
     }
   }
 
   .aside .buttons {
-    gap: 0.35rem;
-    margin-bottom: 0.4rem;
+    gap: 0.35em;
+    margin-bottom: 0.4em;
   }
 
   .aside .choices {
-    column-gap: 0.6rem;
+    column-gap: 0.6em;
   }
 
   .aside .readouts {
@@ -74,13 +74,13 @@ const own = css`
 
   .about {
     color: var(--muted);
-    margin: 0 0 0.7rem;
+    margin: 0 0 0.7em;
   }
 
   .own-map {
     display: grid;
-    gap: 0.5rem 2.75rem;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr));
+    gap: 0.5em 2.75em;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20em), 1fr));
     margin: 0;
   }
 
@@ -98,18 +98,18 @@ const own = css`
   }
 
   .handle.turn {
-    width: 1.75rem;
-    height: 1.75rem;
+    width: 1.75em;
+    height: 1.75em;
   }
 
   .handle.turn::after {
-    inset: 0.45rem;
+    inset: 0.45em;
     border-width: 2.5px;
   }
 
   .key {
-    row-gap: 0.15rem;
-    margin: 0.5rem 0 0.7rem;
+    row-gap: 0.15em;
+    margin: 0.5em 0 0.7em;
     padding: 0;
     list-style: none;
   }
@@ -117,13 +117,13 @@ const own = css`
   .key li {
     display: flex;
     align-items: center;
-    gap: 0.6rem;
+    gap: 0.6em;
   }
 
   .key svg {
     flex: none;
-    width: 2.2rem;
-    height: 1.2rem;
+    width: 2.2em;
+    height: 1.2em;
     fill: none;
     stroke-width: 1.5;
   }
@@ -161,7 +161,7 @@ const own = css`
 
 
   .choices {
-    --name: 3rem;
+    --name: 3em;
   }
 
   table.outdated tbody {
@@ -169,13 +169,13 @@ const own = css`
   }
 
   .own-map p {
-    margin: 0 0 0.6rem;
+    margin: 0 0 0.6em;
   }
 
   .own-map .note {
-    margin: 0.7rem 0;
+    margin: 0.7em 0;
     /* Scrolled to, it brings along which map is there. */
-    scroll-margin: 4rem;
+    scroll-margin: 4em;
     overflow-wrap: anywhere;
   }
 
@@ -189,23 +189,23 @@ const own = css`
 
   input[type='file'] {
     max-width: 100%;
-    margin: 0.3rem 0 0.6rem;
-    min-height: 2rem;
+    margin: 0.3em 0 0.6em;
+    min-height: 2em;
     color: inherit;
     font: inherit;
   }
 
   ::file-selector-button {
-    margin-right: 0.6rem;
+    margin-right: 0.6em;
   }
 
   textarea {
     box-sizing: border-box;
     display: block;
     width: 100%;
-    margin: 0.3rem 0 0.6rem;
-    padding: 0.4rem 0.5rem;
-    font-size: 0.85rem;
+    margin: 0.35em 0 0.7em;
+    padding: 0.47em 0.59em;
+    font-size: 0.85em;
     line-height: 1.35;
     resize: vertical;
   }

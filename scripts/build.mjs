@@ -11,7 +11,7 @@ import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
-const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
 
 /** Brings dist/ up to date with the sources. */
 export async function build() {

@@ -7,6 +7,7 @@ import * as declared from '../www/settings.js';
 import { pascal, widgets } from './declarations.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
+import { writeComponents } from './react.mjs';
 import { withTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
 
@@ -81,6 +82,7 @@ export declare function setMessages(lang: string, messages: object): void;
 export async function bundle() {
   progress('Bundling the pages');
   await writeTypes();
+  await writeComponents();
   writeFileSync(at('build/widgets.js'), await chunks());
   const wasm = readFileSync(at('build/motion_bg.wasm'));
   const { build, transformSync } = await import('esbuild');
@@ -131,6 +133,7 @@ export async function bundle() {
     bundled({ 'motion-widgets': 'motion-widgets.js' }, 'inlined', {}),
     bundled({ external: 'external.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
+    bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundled({ de: 'de.js', 'server-component': 'server-component.js' }, 'inlined', { inject: [] }),
     bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
@@ -156,7 +159,7 @@ export async function bundle() {
   appendFileSync(at('dist/motion-widgets.css'), await heights());
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
-  const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts' };
+  const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
   for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
   for (const name of ['de', 'motion-widgets.iife']) write(at(`dist/${name}.d.ts`), 'export {};\n');

@@ -6,7 +6,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { chromium } from '@playwright/test';
@@ -27,6 +27,9 @@ export function installed() {
   assert.ok(tarball, 'npm pack makes a tarball');
   writeFileSync(join(directory, 'package.json'), '{ "private": true }');
   npm('install', '--ignore-scripts', '--offline', '--no-audit', '--no-fund', '--silent', `./${tarball}`);
+  // What a page brings along.
+  const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+  for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(directory, 'node_modules', name), { recursive: true });
   cpSync(join(ROOT, 'examples'), directory, { recursive: true });
   for (const entry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
     if (entry.isDirectory()) cpSync(join(directory, 'node_modules'), join(directory, entry.name, 'node_modules'), { recursive: true });

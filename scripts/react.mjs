@@ -1,0 +1,101 @@
+// The elements as components for React, and their tags in its JSX, as they follow from what is declared: build/react.js and
+// build/react.d.ts. What all of them have in common is in www/react.js, and here in types.
+
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { union, widgets } from './declarations.mjs';
+import { ROOT } from './process.mjs';
+
+/** @typedef {import('./declarations.mjs').Widget} Widget */
+
+const HEAD = '// Generated from the declarations: not to be edited.\n';
+
+/** Writes both. */
+export async function writeComponents() {
+  const all = await widgets();
+  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEAD}\nimport { component } from '../www/react.js';\n\n${all.map(componentOf).join('')}`);
+  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEAD, imported(all), COMMON, ...all.map(typesOf), tagsIn(all)].join('\n'));
+}
+
+/** @param {Widget} widget */
+function componentOf({ tag, machine, attributes, properties }) {
+  const names = {
+    attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
+    // The others say which of both they are, and open with one of them.
+    flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
+    properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
+  };
+  return `export const ${machine} = component('${machine}', '${tag}', ${JSON.stringify(names)});\n`;
+}
+
+/** @param {Widget[]} all */
+function imported(all) {
+  const elements = all.map(({ machine }) => `${machine}Element`);
+  return (
+    "import type { ClassAttributes, ForwardRefExoticComponent, HTMLAttributes, RefAttributes } from 'react';\n" +
+    `import type { ${[...elements, 'FigureElement'].sort().join(', ')} } from '../www/types.d.ts';\n`
+  );
+}
+
+const COMMON = `/** What a prop takes: numbers and lists of words as text too, as attributes have them. */
+type Given<Value> = Value extends number
+  ? Value | \`\${number}\`
+  : Value extends string[]
+    ? readonly Value[number][] | string
+    : Value extends (infer Item)[]
+      ? readonly Item[]
+      : Value;
+
+type Settings<Element, Names extends keyof Element> = { [Name in keyof Pick<Element, Names>]?: Given<Element[Name]> };
+
+/** An event, heard on its element. */
+type Heard<Element, Its extends Event> = Its & { readonly currentTarget: Element };
+
+type Events<Element extends FigureElement<any, any>> = {
+  /** The figure is ready. */
+  load: Heard<Element, Event>;
+  /** Something was refused, or the core failed and was started again, or the figure cannot run; \`message\` says why. */
+  error: Heard<Element, ErrorEvent>;
+  /** The reader has changed something, and may go on. */
+  input: Heard<Element, Event>;
+  /** What the reader changed has come to rest. */
+  change: Heard<Element, Event>;
+  /** There are fresh statistics; \`detail\` has them. */
+  stats: Heard<Element, CustomEvent<NonNullable<Element['stats']>>>;
+};
+
+type Handlers<Element extends FigureElement<any, any>> = {
+  [Name in keyof Events<Element> as \`on\${Capitalize<Name>}\`]?: (event: Events<Element>[Name]) => void;
+};
+
+type OwnProps<Element extends FigureElement<any, any>, Names extends keyof Element> = Settings<Element, Names> & Handlers<Element>;
+
+/** Props of a component: the element's own, and what every element of HTML takes. */
+type Props<Element extends FigureElement<any, any>, Names extends keyof Element> = OwnProps<Element, Names> &
+  Omit<HTMLAttributes<Element>, keyof OwnProps<Element, Names>>;
+
+/** What is written in a tag; React 19 listens to events by their names. */
+type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> = Settings<Element, Exclude<Names, 'headingLevel'>> & {
+  'heading-level'?: Given<Element['headingLevel']>;
+  class?: string;
+} & { [Name in keyof Events<Element> as \`on\${Name}\`]?: (event: Events<Element>[Name]) => void } & ClassAttributes<Element> &
+  Omit<HTMLAttributes<Element>, Names | keyof Handlers<Element>>;
+`;
+
+/** @param {Widget} widget */
+function typesOf({ tag, machine, attributes, properties }) {
+  const names = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
+  return (
+    `type ${machine}Names = ${union(names)};\n\n` +
+    `/** Props of \`<${machine}>\`. */\n` +
+    `export type ${machine}Props = Props<${machine}Element, ${machine}Names>;\n\n` +
+    `/** \`<${tag}>\` as a component. */\n` +
+    `export declare const ${machine}: ForwardRefExoticComponent<${machine}Props & RefAttributes<${machine}Element>>;\n`
+  );
+}
+
+/** @param {Widget[]} all */
+function tagsIn(all) {
+  const tags = all.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Names>;\n`);
+  return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tags.join('')}    }\n  }\n}\n`;
+}

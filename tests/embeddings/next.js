@@ -1,0 +1,51 @@
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { npmInstall, pinned } from './project.mjs';
+import { files, program } from './serving.mjs';
+
+/**
+ * By Next's own server.
+ *
+ * @param {string} command
+ * @param {string[]} args
+ */
+const next = (command, ...args) => program((port) => ['npx', ['next', command, '--port', port, ...args]]);
+
+/** @type {import('./project.mjs').Engine} */
+export default {
+  heading: 'Next',
+  versions: () => pinned('next', 'next', 'react'),
+  install: npmInstall,
+  build: (_directory, { run }) => run('npm', ['run', 'build']),
+  servings: [
+    { name: 'production', serve: next('start') },
+    { name: 'development', serve: next('dev') },
+    {
+      name: 'production by webpack',
+      async serve(directory, tools) {
+        await tools.run('npx', ['next', 'build', '--webpack']);
+        return next('start')(directory, tools);
+      },
+    },
+    { name: 'development', serve: next('dev', '--webpack') },
+    {
+      name: 'static export',
+      async serve(directory, tools) {
+        const path = join(directory, 'next.config.ts');
+        const exporting = readFileSync(path, 'utf8').replace('= {', "= {\n  output: 'export',\n  basePath: '/book',");
+        writeFileSync(path, exporting);
+        await tools.run('npm', ['run', 'build']);
+        return files('out', '/book/')(directory, tools);
+      },
+    },
+  ],
+  pages: { first: '/', second: '/sensors' },
+  go: (page, path) => page.locator(`nav a[href$="${path === '/' ? '/' : path}"]`).click(),
+  dark: (page, on) => page.emulateMedia({ colorScheme: on ? 'dark' : 'light' }),
+  // Next keeps pages that were left in the document, out of sight.
+  expected: [
+    { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
+    { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0.5, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },
+    { selector: 'main:visible map-squeeze', properties: { noise: 0.2, start: { x: 2.05, y: 2.6, theta: 1.5 } } },
+  ],
+};

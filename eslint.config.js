@@ -2,7 +2,7 @@ import js from '@eslint/js';
 import globals from 'globals';
 
 export default [
-  { ignores: ['build/', 'dist/', 'target/', 'test-results/'] },
+  { ignores: ['build/', 'dist/', 'target/', 'test-results/', 'python/'] },
   js.configs.recommended,
   {
     rules: {

@@ -11,7 +11,7 @@ import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
-const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
 
 /** Brings dist/ up to date with the sources. */
 export async function build() {
@@ -19,7 +19,7 @@ export async function build() {
   const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts'];
   await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
   const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
-  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html'], bundle);
+  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], bundle);
 }
 
 /**

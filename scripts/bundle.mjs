@@ -7,6 +7,7 @@ import * as declared from '../www/settings.js';
 import { pascal, widgets } from './declarations.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
+import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { withTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
@@ -78,6 +79,12 @@ const DECLARATIONS = `export * from './core.js';
 export declare function setMessages(lang: string, messages: object): void;
 `;
 
+/** What notebooks import. */
+const ANYWIDGET = `/** As anywidget has it: shows the figure that the traits of a model describe. */
+declare const widget: { render(view: { model: object; el: HTMLElement }): (() => void) | undefined };
+export default widget;
+`;
+
 /** Bundles everything anew. */
 export async function bundle() {
   progress('Bundling the pages');
@@ -131,6 +138,8 @@ export async function bundle() {
   const results = await Promise.all([
     bundled({ core: 'core.js' }, 'inlined', { inject: [] }),
     bundled({ 'motion-widgets': 'motion-widgets.js' }, 'inlined', {}),
+    // It travels as a text, without what would stand beside it.
+    bundled({ anywidget: 'anywidget.js' }, 'inlined', { sourcemap: false }),
     bundled({ external: 'external.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
@@ -163,11 +172,13 @@ export async function bundle() {
   for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
   for (const name of ['de', 'motion-widgets.iife']) write(at(`dist/${name}.d.ts`), 'export {};\n');
+  write(at('dist/anywidget.d.ts'), ANYWIDGET);
   write(at('dist/classroom.html'), inOneFile('index.html'));
   write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);
   // What weighs how much: read by scripts/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
+  await writePython();
 }
 
 /**

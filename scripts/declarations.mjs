@@ -77,7 +77,8 @@ export function comments() {
 async function analyze() {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  const argv = ['analyze', '--litelement', '--quiet', '--globs', 'www/figure/figure.js', 'www/widgets/*/*.js'];
+  // It writes nothing but, into package.json, where the manifest is: in dist.
+  const argv = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.js', 'www/widgets/*/*.js'];
   const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
   /** @type {any[]} */
   const declarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);

@@ -5,11 +5,7 @@
  */
 
 import './de.js';
-import { settings } from './settings.js';
-
-const WIDGETS = Object.keys(settings);
-/** What every element of HTML has, and a widget may heed. */
-const GLOBAL = ['dir', 'lang'];
+import { GLOBAL, elementNamed, sorry } from './named.js';
 
 /**
  * The widget that a query describes.
@@ -18,12 +14,9 @@ const GLOBAL = ['dir', 'lang'];
  * @throws {Error} with a sentence that names the parameter and what is allowed
  */
 function widgetOf(query) {
-  const name = query.get('widget');
-  if (name === null || !WIDGETS.includes(name)) {
-    throw new Error(`widget is ${name === null ? 'missing' : `"${name}"`}; allowed is ${WIDGETS.join(' or ')}`);
-  }
-  const known = [.../** @type {any} */ (customElements.get(name)).observedAttributes, ...GLOBAL];
-  const widget = document.createElement(name);
+  const widget = elementNamed(query.get('widget'));
+  const name = widget.localName;
+  const known = [.../** @type {any} */ (widget.constructor).observedAttributes, ...GLOBAL];
   for (const [key, value] of query) {
     if (key === 'widget') continue;
     if (!known.includes(key)) {
@@ -44,9 +37,6 @@ function tellHeight() {
 try {
   document.body.append(widgetOf(new URLSearchParams(location.search)));
 } catch (error) {
-  const sentence = document.createElement('p');
-  sentence.setAttribute('role', 'alert');
-  sentence.textContent = `This address shows no figure: ${/** @type {Error} */ (error).message}.`;
-  document.body.append(sentence);
+  document.body.append(sorry('This address', error));
 }
 new ResizeObserver(tellHeight).observe(document.body);

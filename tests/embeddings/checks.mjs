@@ -7,10 +7,10 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
-import { cloudPixels, lightness, shifts, textOf, watchShifts } from './looking.mjs';
+import { asLightAsThePage, cloudPixels, lightness, shifts, textOf, watchShifts } from './looking.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
-/** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: string, url: string }} Site */
+/** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */
 
 /** Milliseconds. */
 const PATIENCE = 20_000;
@@ -42,10 +42,10 @@ export async function check(browser, site) {
   /**
    * @param {string} name
    * @param {(page: Page) => Promise<void>} work
-   * @param {{ viewport?: { width: number, height: number }, patience?: number }} [options]
+   * @param {{ viewport?: typeof DESKTOP, colorScheme?: 'light' | 'dark', patience?: number }} [options]
    */
-  const attempt = async (name, work, { viewport = DESKTOP, patience = PATIENCE } = {}) => {
-    const context = await browser.newContext({ viewport, colorScheme: 'light' });
+  const attempt = async (name, work, { viewport = DESKTOP, colorScheme = 'light', patience = PATIENCE } = {}) => {
+    const context = await browser.newContext({ viewport, colorScheme });
     const page = await context.newPage();
     page.setDefaultTimeout(patience);
     listen(page, messages);
@@ -65,11 +65,18 @@ export async function check(browser, site) {
   await attempt('three navigations and back', (page) => navigations(page, site));
   await attempt('from a page without figures', (page) => fromElsewhere(page, site));
   await attempt('text of the page', (page) => text(page, site));
-  if (definition.dark !== undefined) await attempt('dark mode', (page) => darkMode(page, site));
-  if (serving !== 'development') {
-    for (const viewport of [DESKTOP, PHONE]) await attempt(`nothing moves at ${viewport.width} px`, (page) => still(page, site), { viewport });
+  if (switchOf(site) !== undefined) await attempt('dark mode', (page) => darkMode(page, site));
+  await attempt('a dark system', (page) => darkSystem(page, site), { colorScheme: 'dark' });
+  for (const [what, work] of Object.entries(definition.also ?? {})) {
+    await attempt(what, async (page) => {
+      await firstLoad(page, site);
+      await work(page);
+    });
   }
-  if (serving === definition.servings[0].name) await attempt('pictures', (page) => pictures(page, site));
+  if (serving.name !== 'development') {
+    for (const viewport of [DESKTOP, PHONE]) await attempt(`nothing moves at ${viewport.width} px`, (page) => still(page, site), { viewport });
+    await attempt('pictures', (page) => pictures(page, site));
+  }
 
   const own = definition.allowed ?? [];
   const unexplained = [...new Set(messages)].filter((message) => !own.some((each) => each.message.test(message)));
@@ -111,7 +118,13 @@ const address = ({ definition, url }, which) => new URL(definition.pages[which].
  * @param {Site} site
  * @param {string} what
  */
-const picture = ({ name }, what) => join(ROOT, `test-results/embeddings/${name}-${what}.png`);
+const picture = ({ name, definition, serving }, what) => {
+  const which = serving === definition.servings[0] ? '' : `-${serving.name.replaceAll(' ', '-')}`;
+  return join(ROOT, `test-results/embeddings/${name}${which}-${what}.png`);
+};
+
+/** @param {Site} site */
+const switchOf = ({ definition, serving }) => serving.dark ?? definition.dark;
 
 /**
  * Waits until every figure is drawn as it was asked for.
@@ -217,7 +230,7 @@ async function text(page, site) {
 
 /** @type {(page: Page, site: Site) => Promise<void>} */
 async function darkMode(page, site) {
-  const { dark } = site.definition;
+  const dark = switchOf(site);
   assert.ok(dark);
   await firstLoad(page, site);
   const figure = page.locator(site.definition.expected[0].selector);
@@ -230,6 +243,12 @@ async function darkMode(page, site) {
     const light = await lightness(page, await figure.locator('canvas').first().screenshot());
     assert.ok(on ? light < 0.35 : light > 0.75, `${on ? 'Dark' : 'Light'} was chosen, and the picture has a lightness of ${light.toFixed(2)}.`);
   }
+}
+
+/** A page that follows the system has figures that do, and one that stays light has light ones. @type {(page: Page, site: Site) => Promise<void>} */
+async function darkSystem(page, site) {
+  await firstLoad(page, site);
+  await asLightAsThePage(page, page.locator(site.definition.expected[0].selector));
 }
 
 /** @param {Page} page */
@@ -256,7 +275,7 @@ async function still(page, site) {
 
 /** @type {(page: Page, site: Site) => Promise<void>} */
 async function pictures(page, site) {
-  const { definition } = site;
+  const dark = switchOf(site);
   const take = async (/** @type {string} */ what, fullPage = false) => {
     await page.evaluate(() => scrollTo(0, 0));
     await settled(page);
@@ -271,9 +290,9 @@ async function pictures(page, site) {
     assert.ok(wide <= 0, `At ${width} px the page scrolls sideways by ${wide} px.`);
     await take(`${width}`, true);
   }
-  if (definition.dark === undefined) return;
+  if (dark === undefined) return;
   await page.setViewportSize(DESKTOP);
-  await definition.dark(page, true);
+  await dark(page, true);
   await live(page, site);
   await take('dark');
 }

@@ -1,8 +1,11 @@
 /**
- * What there is to see on a page. All but `lightness` runs in it.
+ * What there is to see on a page. All but the last two run in it.
  *
  * @module
  */
+
+import assert from 'node:assert/strict';
+import { expect } from '@playwright/test';
 
 /**
  * @param {Element} canvas of a figure
@@ -118,4 +121,20 @@ export async function lightness(page, screenshot) {
   }, screenshot.toString('base64'));
   await blank.close();
   return mean;
+}
+
+/**
+ * @param {import('@playwright/test').Page} page
+ * @param {import('@playwright/test').Locator} figure
+ * @returns {Promise<void>} when the ground of its picture is nearly as light as the page beside it
+ */
+export async function asLightAsThePage(page, figure) {
+  const canvas = figure.locator('canvas').first();
+  await canvas.scrollIntoViewIfNeeded();
+  await expect(async () => {
+    const { x, y, height } = /** @type {NonNullable<Awaited<ReturnType<typeof figure.boundingBox>>>} */ (await figure.boundingBox());
+    const margin = await page.screenshot({ clip: { x: x - 6, y: Math.max(0, y) + 1, width: 5, height: Math.min(height, 40) } });
+    const [around, inside] = [await lightness(page, margin), await lightness(page, await canvas.screenshot())];
+    assert.ok(Math.abs(inside - around) < 0.2, `The page has a lightness of ${around.toFixed(2)}, and the picture of ${inside.toFixed(2)}.`);
+  }).toPass({ timeout: 5000 });
 }

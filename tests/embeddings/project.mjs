@@ -28,11 +28,14 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] by the engine's own
  *   switch; undefined where there is none
  * @property {Expected[]} expected as written in the example
+ * @property {Record<string, (page: import('@playwright/test').Page) => Promise<void>>} [also] what only this engine can
+ *   break, by what it is called; the page is the first one, with its figures drawn
  * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that are the engine's own
  *
  * @typedef {object} Serving
  * @property {string} name `development` where readers never get it: nothing is kept from moving there
  * @property {(directory: string, tools: Tools) => Promise<Served>} serve
+ * @property {Engine['dark']} [dark] where only some of them have a switch
  *
  * @typedef {{ url: string, stop: () => unknown }} Served
  * @typedef {{ selector: string, properties: Record<string, unknown> }} Expected a figure, and what is asked of it

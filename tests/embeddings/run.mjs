@@ -40,7 +40,7 @@ async function outcomesOf(browser, name) {
       progress(`${name}: ${serving}`);
       const { url, stop } = await each.serve(directory, tools);
       try {
-        const { passed, failures } = await check(browser, { name, definition, serving, url });
+        const { passed, failures } = await check(browser, { name, definition, serving: each, url });
         outcome(serving, passed, failures);
       } finally {
         await stop();

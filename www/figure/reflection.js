@@ -246,7 +246,7 @@ export class Reflection extends Part {
  * @param {any} given
  * @returns {boolean}
  */
-function has(present, given) {
+export function has(present, given) {
   if (Object.is(present, given)) return true;
   if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
   return Object.keys(given).every((key) => has(present[key], given[key]));

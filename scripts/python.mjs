@@ -1,0 +1,105 @@
+// What `pip` takes of the bundles: python/src/motion_widgets gets the script, and a class for each element, whose traits
+// follow from what is declared.
+
+import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { settings } from '../www/settings.js';
+import { comments, oneLine, widgets } from './declarations.mjs';
+import { ROOT } from './process.mjs';
+
+/**
+ * @typedef {import('../www/settings.js').Declaration} Declaration
+ * @typedef {import('./declarations.mjs').Named} Named
+ */
+
+const PYTHON = join(ROOT, 'python');
+
+/** Writes what is generated, and copies the rest: pip looks nowhere but in its own directory. */
+export async function writePython() {
+  const sources = join(PYTHON, 'src/motion_widgets');
+  writeFileSync(join(sources, '_elements.py'), await elements());
+  copyFileSync(join(ROOT, 'dist/anywidget.js'), join(sources, 'anywidget.js'));
+  for (const license of readdirSync(ROOT).filter((name) => name.startsWith('LICENSE'))) {
+    copyFileSync(join(ROOT, license), join(PYTHON, license));
+  }
+}
+
+/** @returns {Promise<string>} a module of Python */
+export async function elements() {
+  const { GLOBAL } = await import('../www/named.js');
+  const { classes } = await comments();
+  const all = (await widgets()).map(({ tag, machine, attributes, properties }) => {
+    const told = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
+    const traits = told.filter(({ readonly }) => !readonly).map((each) => ({ ...each, trait: traitOf(each, tag) }));
+    const global = GLOBAL.map((name) => ({ name, trait: 'Text()', description: `As the attribute \`${name}\` of HTML.` }));
+    return { machine, tag, sentence: oneLine(classes.get(`${machine}Element`).description), traits: [...traits, ...global] };
+  });
+  const lines = [
+    '# Generated from the declarations by `npm run build`: not to be edited.',
+    '',
+    'from __future__ import annotations',
+    '',
+    'import traitlets as t',
+    '',
+    'from ._figure import Figure',
+    'from ._traits import Data, Group, Number, Numbers, Text, Truth, Whole, Word, Words',
+    '',
+    `__all__ = [${all.map(({ machine }) => text(machine)).join(', ')}]`,
+  ];
+  for (const { machine, tag, sentence, traits } of all) {
+    lines.push('', '', '@t.signature_has_traits', `class ${machine}(Figure):`, `    """${sentence}`, '');
+    for (const { name, description } of traits) lines.push(`    ${snake(name)}:`, `        ${inPython(description)}`);
+    lines.push('    """', '', `    widget = t.Unicode(${text(tag)}, read_only=True).tag(sync=True)`);
+    for (const { name, trait } of traits) lines.push(`    ${snake(name)} = ${trait}`);
+  }
+  return `${lines.join('\n')}\n`;
+}
+
+/**
+ * The call that makes a trait.
+ *
+ * @param {Named} named
+ * @param {string} tag
+ */
+function traitOf({ name, type }, tag) {
+  const declaration = settings[tag].find(({ key }) => key === name);
+  if (declaration) return settingOf(declaration, tag);
+  const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => text(word)).join(', ');
+  if (type.includes('[]')) return `Words(${words})`;
+  if (words) return `Word(${words})`;
+  const kind = { boolean: 'Truth()', number: 'Whole(0)' }[type.replace(' | null', '')];
+  return kind ?? 'Data()';
+}
+
+/**
+ * @param {Declaration} declaration
+ * @param {string} tag
+ * @returns {string}
+ */
+function settingOf({ key, type, words = [], fields = [], min, max }, tag) {
+  const range = `${min}, ${max}`;
+  switch (type) {
+    case 'number': return `Number(${range})`;
+    case 'whole': return `Whole(${range})`;
+    case 'numbers': return `Numbers(${range})`;
+    case 'boolean': return 'Truth()';
+    case 'word': return `Word(${words.map(text).join(', ')})`;
+    case 'group': {
+      const parts = settings[tag].filter((part) => part.in === key && fields.includes(part.key));
+      return `Group({${parts.map((part) => `${text(part.key)}: ${settingOf(part, tag)}`).join(', ')}})`;
+    }
+  }
+}
+
+/** @param {string} name */
+const snake = (name) => name.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+
+/** What is called otherwise in Python. @type {Record<string, string>} */
+const WORDS = { null: 'None', true: 'True', false: 'False' };
+
+/** @param {string} description in which what stands between backticks may be a property */
+const inPython = (description) =>
+  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${snake(name)}\``).replaceAll(/\b(null|true|false)\b/g, (word) => WORDS[word]);
+
+/** @param {string} value */
+const text = (value) => JSON.stringify(value);

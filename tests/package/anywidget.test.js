@@ -1,0 +1,259 @@
+// The module for notebooks, with models that notebooks and books give it, and the classes of the Python package.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { elements } from '../../scripts/python.mjs';
+import { ROOT } from '../../scripts/process.mjs';
+import { serve } from '../../scripts/serve.mjs';
+import { launch } from './support.js';
+
+/** @type {import('@playwright/test').Browser} */
+let browser;
+/** @type {Awaited<ReturnType<typeof serve>>} */
+let server;
+
+before(async () => {
+  browser = await launch();
+  server = await serve(join(ROOT, 'dist'), { port: 0 });
+});
+
+after(async () => {
+  server?.close();
+  await browser?.close();
+});
+
+/**
+ * A page on which a model is shown. In it, `view` has what happened: `log` of what was set and saved, `end` what takes the
+ * figure away, `state` the traits.
+ *
+ * @param {Record<string, unknown>} state
+ * @param {'notebook' | 'book'} kind a book's model throws what MyST's does, and stands in a shadow root
+ */
+async function shown(state, kind) {
+  const page = await browser.newPage();
+  /** @type {string[]} */
+  const complaints = [];
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  const body = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+  await page.goto(`${server.address}page.html`);
+  await page.evaluate(render, { state, inBook: kind === 'book' });
+  return { page, complaints };
+}
+
+/**
+ * Runs in the page.
+ *
+ * @param {{ state: Record<string, unknown>, inBook: boolean }} given
+ */
+async function render({ state, inBook }) {
+  const heard = new Map();
+  const log = /** @type {unknown[]} */ ([]);
+  const missing = (/** @type {string} */ name) => {
+    throw new Error(`${name} not implemented yet.`);
+  };
+  const model = {
+    get: (/** @type {string} */ name) => state[name],
+    set(/** @type {string} */ name, /** @type {unknown} */ value) {
+      log.push([name, value]);
+      state[name] = value;
+      for (const listener of heard.get(`change:${name}`) ?? []) listener();
+    },
+    on: (/** @type {string} */ name, /** @type {() => void} */ listener) => heard.set(name, (heard.get(name) ?? new Set()).add(listener)),
+    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? missing('off') : heard.get(name)?.delete(listener)),
+    save_changes: () => (inBook ? missing('save_changes') : log.push('saved')),
+  };
+  const cell = /** @type {HTMLElement} */ (document.querySelector('#cell'));
+  const el = inBook ? cell.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cell;
+  const address = '/anywidget.js';
+  const { default: widget } = await import(address);
+  const end = widget.render({ model, el });
+  Object.assign(globalThis, { view: { model, state, log, el, end, heard } });
+}
+
+/** Runs in the page, with `view` in it. @param {import('@playwright/test').Page} page */
+async function complete(page) {
+  await page.locator('canvas').first().waitFor();
+  await page.waitForFunction(() => {
+    const { el } = /** @type {any} */ (globalThis).view;
+    const { stats, samples } = el.firstElementChild;
+    return (stats?.n ?? stats?.attempts) === samples;
+  });
+  await frames(page);
+}
+
+/** @param {import('@playwright/test').Page} page */
+const frames = (page) =>
+  page.evaluate(async () => {
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+  });
+
+/**
+ * @param {import('@playwright/test').Page} page
+ * @param {string[]} names
+ * @returns {Promise<{ traits: Record<string, unknown>, figure: Record<string, unknown> }>}
+ */
+const saidOf = (page, names) =>
+  page.evaluate((wanted) => {
+    const { el, state } = /** @type {any} */ (globalThis).view;
+    const pick = (/** @type {any} */ of) => Object.fromEntries(wanted.map((name) => [name, of[name]]));
+    return { traits: pick(state), figure: pick(el.firstElementChild) };
+  }, names);
+
+/** @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
+const change = async (page, changes) => {
+  await page.evaluate((given) => {
+    const { model, log } = /** @type {any} */ (globalThis).view;
+    log.length = 0;
+    for (const [name, value] of Object.entries(given)) model.set(name, value);
+  }, changes);
+  await frames(page);
+};
+
+/** What stands in a notebook's model besides: all traits of a class are there, most of them none. */
+const KERNEL = { stats: null, error: '', _asked: 0, _shown: {} };
+
+test('traits become what the figure shows, by whichever of their names, and those without a value what it shows', async () => {
+  const state = { ...KERNEL, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
+  const { page, complaints } = await shown(state, 'notebook');
+  await complete(page);
+  const { figure, traits } = await saidOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
+  assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], lang: 'de' });
+  assert.equal(traits.v, 1);
+  assert.equal(traits.samples, 2000);
+  assert.deepEqual(traits.alphas, figure.alphas);
+  await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('statistics come as JSON has it', async () => {
+  // Without noise no skew is defined.
+  const { page } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 10, alphas: [0, 0, 0, 0, 0, 0] }, 'notebook');
+  await complete(page);
+  const stats = await page.evaluate(() => /** @type {any} */ (globalThis).view.state.stats);
+  assert.equal(stats.n, 10);
+  assert.equal(stats.cartesian.mean.length, 3);
+  assert.equal(stats.crossTrackSkew, null);
+  assert.deepEqual(JSON.parse(JSON.stringify(stats)), stats);
+  const saved = await page.evaluate(() => /** @type {any} */ (globalThis).view.log.at(-1));
+  assert.equal(saved, 'saved');
+  await page.close();
+});
+
+test('a change of the model reaches the figure, what follows of it the model, and an equal value nobody', async () => {
+  const { page, complaints } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
+  await complete(page);
+  await change(page, { _asked: 1, preset: 'hard' });
+  const { traits, figure } = await saidOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
+  assert.deepEqual(figure, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
+  assert.deepEqual(traits, figure);
+  const { traits: { _shown } } = await saidOf(page, ['_shown']);
+  assert.deepEqual(_shown, { heard: 1, settings: { ...traits, samples: 100, isolate: null } });
+
+  // Several at once, as a kernel that holds them back sends them: none is told back as it was before.
+  await page.evaluate(() => {
+    const { state, heard } = /** @type {any} */ (globalThis).view;
+    Object.assign(state, { omega: 0.2, v: 0.5 });
+    for (const name of ['omega', 'v']) for (const listener of heard.get(`change:${name}`)) listener();
+  });
+  await frames(page);
+  const both = await saidOf(page, ['preset', 'v', 'omega']);
+  assert.deepEqual(both.figure, { preset: null, v: 0.5, omega: 0.2 });
+  assert.deepEqual(both.traits, both.figure);
+
+  await change(page, { command: { dt: 1.4, omega: 0.2, v: 0.5 } });
+  const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log);
+  assert.deepEqual(log, [['command', { dt: 1.4, omega: 0.2, v: 0.5 }]]);
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('what is refused is said by the trait error, and the trait has the last good value again', async () => {
+  const { page, complaints } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
+  await complete(page);
+  const { traits: { alphas } } = await saidOf(page, ['alphas']);
+  await change(page, { alphas: [1, 2, 3] });
+  const { traits } = await saidOf(page, ['alphas', 'error']);
+  assert.match(String(traits.error), /^alphas .*allowed/);
+  assert.deepEqual(traits.alphas, alphas);
+  await change(page, { samples: 200 });
+  assert.deepEqual((await saidOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('what the reader changes comes back', async () => {
+  const { page } = await shown({ ...KERNEL, widget: 'map-squeeze', samples: 100, sampler: null, clearance: null }, 'notebook');
+  await complete(page);
+  await page.evaluate(() => (/** @type {any} */ (globalThis).view.log.length = 0));
+  const slider = page.getByRole('slider', { name: /clearance/ });
+  await slider.focus();
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('Tab');
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).view.state.clearance === 0.14);
+  /** @type {[string, unknown][]} */
+  const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log.filter((/** @type {any} */ entry) => entry !== 'saved' && entry[0] !== 'stats'));
+  assert.deepEqual(log.filter(([name]) => name !== '_shown'), [['clearance', 0.14]]);
+  await page.close();
+});
+
+test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing', async () => {
+  for (const kind of /** @type {const} */ (['book', 'notebook'])) {
+    const { page, complaints } = await shown({ widget: 'map-squeeze', preset: 'corridor', samples: '300', 'sampler': 'whole-arc' }, kind);
+    await complete(page);
+    const { figure, traits } = await saidOf(page, ['preset', 'samples', 'sampler']);
+    assert.deepEqual(figure, { preset: 'corridor', samples: 300, sampler: 'whole-arc' });
+    await page.getByRole('slider', { name: /clearance/ }).focus();
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('Tab');
+    await frames(page);
+    // It has no traits but those that it was given.
+    assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'sampler', 'samples', 'widget']);
+    assert.equal(traits.preset, 'corridor');
+    const left = await page.evaluate(() => {
+      const { el, end, heard } = /** @type {any} */ (globalThis).view;
+      end();
+      return { html: el.innerHTML, listeners: [...heard.values()].reduce((sum, { size }) => sum + size, 0) };
+    });
+    assert.equal(left.html, '');
+    if (kind === 'notebook') assert.equal(left.listeners, 0);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  }
+});
+
+test('a model of no widget says what is allowed in the place of the figure', async () => {
+  for (const [widget, said] of [[undefined, 'missing'], ['banana', '"banana"']]) {
+    const { page } = await shown({ widget }, 'book');
+    await page.getByText(`This cell shows no figure: widget is ${said}; allowed is banana-machine or map-squeeze.`).waitFor();
+    await page.close();
+  }
+});
+
+const SOURCES = join(ROOT, 'python/src/motion_widgets');
+const read = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
+
+test('the Python package has the classes of the declarations, the built module and the version of the others', async () => {
+  const generated = readFileSync(join(SOURCES, '_elements.py'), 'utf8');
+  assert.equal(generated, await elements());
+  assert.match(generated, /^class MapSqueeze\(Figure\):$/m);
+  assert.match(generated, /^ {4}steps = Whole\(1, 1000\)$/m);
+  assert.match(generated, /^ {4}reverse_aware = Truth\(\)$/m);
+  assert.equal(readFileSync(join(SOURCES, 'anywidget.js'), 'utf8'), read('dist/anywidget.js'));
+  const { version } = JSON.parse(read('package.json'));
+  assert.equal(read('python/pyproject.toml').match(/^version = "(.+)"$/m)?.[1], version);
+});
+
+test('what git does not have of the Python package is what its build asks for', () => {
+  const ignored = execFileSync('git', ['-C', ROOT, 'ls-files', '--others', '--ignored', '--exclude-standard', 'python'], { encoding: 'utf8' });
+  const made = read('python/hatch_build.py').match(/^MADE = (\[.*\])$/m)?.[1] ?? '[]';
+  const here = ignored.split('\n').filter((path) => path && !/__pycache__|^python\/dist\//.test(path)).map((path) => path.replace('python/', ''));
+  assert.deepEqual(JSON.parse(made).sort(), here.sort());
+});

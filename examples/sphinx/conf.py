@@ -1,6 +1,7 @@
 project = 'Motion models'
 author = 'The author'
 copyright = '2026, The author'
+html_title = 'Motion models'
 
 exclude_patterns = ['_build']
 

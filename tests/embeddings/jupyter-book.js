@@ -19,4 +19,8 @@ export default {
   wholePages: true,
   dark: nextScheme('.theme-switch-button'),
   expected,
+  allowed: [
+    { message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme says so to readers who have chosen none' },
+    { message: /^SyntaxError: Identifier 'THEBE_JS_URL' has already been declared$/, reason: 'sphinx-thebe puts its script there twice' },
+  ],
 };

@@ -26,4 +26,5 @@ export default {
   go: follow,
   wholePages: true,
   expected,
+  allowed: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme says so to readers who have chosen none' }],
 };

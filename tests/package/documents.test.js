@@ -44,7 +44,8 @@ function named(document) {
 }
 
 /** Something of an author's own site has the name that it has in an example. */
-const inAnExample = (/** @type {string} */ name) => readdirSync(join(root, 'examples')).some((example) => packed(join('examples', example, name)));
+const inAnExample = (/** @type {string} */ name) =>
+  readdirSync(join(root, 'examples'), { recursive: true, encoding: 'utf8' }).some((path) => path.endsWith(`/${name}`));
 
 /** @returns {Record<string, unknown>} */
 const entries = () => JSON.parse(read('package.json')).exports;

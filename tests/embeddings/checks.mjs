@@ -19,7 +19,7 @@ const PATIENCE = 20_000;
 const PATIENCE_AT_FIRST = 90_000;
 
 /** What readers see of a page that moves while it loads, at most. */
-const MOST_SHIFT = 0.02;
+export const MOST_SHIFT = 0.02;
 
 /** Milliseconds that scripts come late, so that the page stands before they do, as it does on the network. */
 const LATE = 400;
@@ -260,13 +260,18 @@ function settled(page) {
   });
 }
 
-/** @type {(page: Page, site: Site) => Promise<void>} */
-async function still(page, site) {
-  await page.addInitScript(watchShifts);
-  await page.route(/\.m?js(\?|$)/, async (route) => {
+/** Scripts do, as on the network. @param {Page} page */
+export function comeLate(page) {
+  return page.route(/\.m?js(\?|$)/, async (route) => {
     await new Promise((resolve) => setTimeout(resolve, LATE));
     await route.continue();
   });
+}
+
+/** @type {(page: Page, site: Site) => Promise<void>} */
+async function still(page, site) {
+  await page.addInitScript(watchShifts);
+  await comeLate(page);
   await firstLoad(page, site);
   await settled(page);
   const { total, sources } = await page.evaluate(shifts);

@@ -98,7 +98,8 @@ export function watchShifts() {
  */
 export function shifts() {
   const figure = document.querySelector('banana-machine, map-squeeze');
-  const isBefore = (/** @type {any} */ { node }) => node?.compareDocumentPosition(figure) === Node.DOCUMENT_POSITION_FOLLOWING;
+  const isBefore = (/** @type {any} */ { node }) =>
+    figure !== null && node?.compareDocumentPosition(figure) === Node.DOCUMENT_POSITION_FOLLOWING;
   const entries = /** @type {any} */ (globalThis).shifts.filter(
     (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !sources.some(isBefore),
   );

@@ -129,14 +129,18 @@ const CHECKS = {
     const { page: around, figure } = await machine(page).evaluate(textOf);
     assert.deepEqual(figure, around);
   },
-  async 'dark with JupyterLab'(page, site) {
+  async 'light and dark with JupyterLab'(page, site) {
     await run(page, site);
     for (const [theme, dark] of /** @type {const} */ ([['JupyterLab Dark', true], ['JupyterLab Light', false]])) {
       await choose(page, 'Settings', 'Theme', theme);
       await page.locator(`body[data-jp-theme-light="${!dark}"]`).waitFor({ state: 'attached' });
+      await machine(page).scrollIntoViewIfNeeded();
       await settled(page);
       const light = await lightness(page, await machine(page).locator('canvas').first().screenshot());
       assert.ok(dark ? light < 0.35 : light > 0.75, `${theme}: the picture has a lightness of ${light.toFixed(2)}.`);
+      const ink = await machine(page).locator('p').first().evaluate((element) => getComputedStyle(element).color);
+      const [red] = ink.match(/[\d.]+/g) ?? [];
+      assert.ok(dark ? Number(red) > 200 : Number(red) < 80, `${theme}: the text is ${ink}.`);
       if (dark) await page.screenshot({ path: picture(site, 'dark') });
     }
     await page.screenshot({ path: picture(site, 'light') });

@@ -33,7 +33,7 @@ function imported(all) {
   const elements = all.map(({ machine }) => `${machine}Element`);
   return (
     "import type { ClassAttributes, ForwardRefExoticComponent, HTMLAttributes, RefAttributes } from 'react';\n" +
-    `import type { ${[...elements, 'FigureElement'].sort().join(', ')} } from '../www/types.d.ts';\n`
+    `import type { ${[...elements, 'FigureElement', 'FigureEvents'].sort().join(', ')} } from '../www/types.d.ts';\n`
   );
 }
 
@@ -48,24 +48,13 @@ type Given<Value> = Value extends number
 
 type Settings<Element, Names extends keyof Element> = { [Name in keyof Pick<Element, Names>]?: Given<Element[Name]> };
 
-/** An event, heard on its element. */
-type Heard<Element, Its extends Event> = Its & { readonly currentTarget: Element };
+type Events<Element extends FigureElement<any, any>> = FigureEvents<NonNullable<Element['stats']>>;
 
-type Events<Element extends FigureElement<any, any>> = {
-  /** The figure is ready. */
-  load: Heard<Element, Event>;
-  /** Something was refused, or the core failed and was started again, or the figure cannot run; \`message\` says why. */
-  error: Heard<Element, ErrorEvent>;
-  /** The reader has changed something, and may go on. */
-  input: Heard<Element, Event>;
-  /** What the reader changed has come to rest. */
-  change: Heard<Element, Event>;
-  /** There are fresh statistics; \`detail\` has them. */
-  stats: Heard<Element, CustomEvent<NonNullable<Element['stats']>>>;
-};
+/** Takes an event of its element. */
+type Handler<Element, Its> = (event: Its & { readonly currentTarget: Element }) => void;
 
 type Handlers<Element extends FigureElement<any, any>> = {
-  [Name in keyof Events<Element> as \`on\${Capitalize<Name>}\`]?: (event: Events<Element>[Name]) => void;
+  [Name in keyof Events<Element> as \`on\${Capitalize<Name>}\`]?: Handler<Element, Events<Element>[Name]>;
 };
 
 type OwnProps<Element extends FigureElement<any, any>, Names extends keyof Element> = Settings<Element, Names> & Handlers<Element>;
@@ -74,21 +63,31 @@ type OwnProps<Element extends FigureElement<any, any>, Names extends keyof Eleme
 type Props<Element extends FigureElement<any, any>, Names extends keyof Element> = OwnProps<Element, Names> &
   Omit<HTMLAttributes<Element>, keyof OwnProps<Element, Names>>;
 
-/** What is written in a tag; React 19 listens to events by their names. */
-type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> = Settings<Element, Exclude<Names, 'headingLevel'>> & {
-  'heading-level'?: Given<Element['headingLevel']>;
-  class?: string;
-} & { [Name in keyof Events<Element> as \`on\${Name}\`]?: (event: Events<Element>[Name]) => void } & ClassAttributes<Element> &
+/** What an attribute says. React gives a tag properties only where its element is defined already, which nobody knows. */
+type Said<Value> = Value extends boolean
+  ? true | \`\${Value}\`
+  : Value extends number
+    ? Value | \`\${number}\`
+    : Value extends string[]
+      ? string
+      : Exclude<Value, null>;
+
+type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> = {
+  [Name in keyof Pick<Element, Exclude<Names, 'headingLevel'>>]?: Said<Element[Name]>;
+} & { 'heading-level'?: Said<Element['headingLevel']>; class?: string } & {
+  [Name in keyof Events<Element> as \`on\${Name}\`]?: Handler<Element, Events<Element>[Name]>;
+} & ClassAttributes<Element> &
   Omit<HTMLAttributes<Element>, Names | keyof Handlers<Element>>;
 `;
 
 /** @param {Widget} widget */
 function typesOf({ tag, machine, attributes, properties }) {
-  const names = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
+  const own = union(attributes.map(({ name, property = name }) => property));
+  const others = union(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
   return (
-    `type ${machine}Names = ${union(names)};\n\n` +
+    `type ${machine}Attributes = ${own};\n\n` +
     `/** Props of \`<${machine}>\`. */\n` +
-    `export type ${machine}Props = Props<${machine}Element, ${machine}Names>;\n\n` +
+    `export type ${machine}Props = Props<${machine}Element, ${machine}Attributes | ${others}>;\n\n` +
     `/** \`<${tag}>\` as a component. */\n` +
     `export declare const ${machine}: ForwardRefExoticComponent<${machine}Props & RefAttributes<${machine}Element>>;\n`
   );
@@ -96,6 +95,6 @@ function typesOf({ tag, machine, attributes, properties }) {
 
 /** @param {Widget[]} all */
 function tagsIn(all) {
-  const tags = all.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Names>;\n`);
+  const tags = all.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Attributes>;\n`);
   return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tags.join('')}    }\n  }\n}\n`;
 }

@@ -78,11 +78,25 @@ async function figureType([{ attributes }]) {
     return { name: kind === 'method' ? `${name}(${given.join(', ')})` : name, type: typeIn(result), description: oneLine(description), readonly };
   });
   const common = attributes.filter(({ name }) => name in COMMON).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
+  const events = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
+    const text = type?.text ?? 'Event';
+    return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: oneLine(description) };
+  });
   return (
-    '/** What every element has; `Stats` are those of its machine. */\n' +
-    asInterface('FigureElement<State extends FigureState, Stats>', [...common, ...fields], 'HTMLElement')
+    `/** What an element tells, by \`addEventListener\`; \`Stats\` are those of its machine. */\n${asInterface('FigureEvents<Stats>', events)}\n` +
+    '/** What every element has. */\n' +
+    asInterface('FigureElement<State extends FigureState, Stats>', [...common, ...fields, ...LISTENERS], 'HTMLElement')
   );
 }
+
+/** Listeners get the events of a figure, and those that every element has. @type {Named[]} */
+const LISTENERS = ['add', 'remove'].flatMap((verb) => {
+  const options = `options?: boolean | ${verb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
+  const typed = (/** @type {string} */ events) =>
+    `${verb}EventListener<Type extends keyof ${events}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${events}[Type]) => unknown, ${options})`;
+  const names = [typed('FigureEvents<Stats>'), typed('HTMLElementEventMap'), `${verb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${options})`];
+  return names.map((name) => ({ name, type: 'void', description: '' }));
+});
 
 /** @param {import('./declarations.mjs').Widget} widget */
 async function elementTypes({ tag, machine, attributes, properties, state }) {

@@ -9,6 +9,7 @@ export default defineConfig({
 		starlight({
 			title: 'Probable Motion',
 			sidebar: ['motion', 'sensors'],
+			customCss: ['motion-widgets/motion-widgets.css'],
 			components: { Head: './src/Head.astro' },
 		}),
 	],

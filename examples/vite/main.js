@@ -1,1 +1,1 @@
-import 'motion-widgets/external';
+import 'motion-widgets';

@@ -1,2 +1,2 @@
-import 'motion-widgets/external';
+import 'motion-widgets';
 import './index.html';

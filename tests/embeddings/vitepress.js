@@ -15,7 +15,7 @@ export default {
   go: (page, path) => page.locator(`.VPSidebar a[href$="${path}"]`).click(),
   async dark(page, on) {
     const html = page.locator('html');
-    if ((await html.getAttribute('class'))?.includes('dark') !== on) await page.locator('.VPNavBar .VPSwitchAppearance').click();
+    if ((await html.getAttribute('class'))?.includes('dark') !== on) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
   },
   expected: [
     { selector: 'banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000 } },

@@ -91,6 +91,10 @@ test('TypeScript knows the elements and the core, however it resolves', () => {
      document.createElement('map-squeeze').sampler = 'whole-arc';
      const stats: Stats = new (await load()).BananaMachine({ samples: 10 }).stats;
      await loadExternal('/motion.wasm');
+     document.createElement('banana-machine').addEventListener('stats', ({ detail }) => detail.crossTrackSkew.toFixed(2));
+     document.createElement('map-squeeze').addEventListener('pointermove', ({ clientX }) => clientX);
+     // @ts-expect-error
+     document.createElement('map-squeeze').addEventListener('stats', ({ detail }) => detail.crossTrackSkew);
      // @ts-expect-error
      document.createElement('banana-machine').omega = 'fast';
      export { omega, stats };`,

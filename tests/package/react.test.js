@@ -174,6 +174,7 @@ test('TypeScript knows components, their events, and the tags', () => {
           </BananaMachine>
           <MapSqueeze sampler="whole-arc" start={{ x: 0, y: 0, theta: 0 }} onStats={({ detail }) => detail.accepted} key="map" />
           <banana-machine omega="0.8" samples={20000} heading-level="3" class="wide" onstats={({ detail }) => detail.n} />
+          <map-squeeze share conditioned="false" />
           <p>{skew}</p>
           {/* @ts-expect-error */}
           <BananaMachine omega="fast" />
@@ -185,6 +186,8 @@ test('TypeScript knows components, their events, and the tags', () => {
           <MapSqueeze sampler="half-arc" />
           {/* @ts-expect-error */}
           <banana-machine model="walking" />
+          {/* @ts-expect-error */}
+          <banana-machine alphas={[0.1, 0.1, 0.1, 0.1, 0, 0]} />
         </>
       );
     }

@@ -1,1 +1,2 @@
 import 'motion-widgets';
+import 'motion-widgets/motion-widgets.css';

@@ -12,8 +12,8 @@ function Motion() {
         alphas={[0.1, 0.05, 0.05, 0.1, 0.01, 0.01]}
         onStats={({ detail }) => setSkew(detail.crossTrackSkew)}
       />
-      <p>The skew across the track is {skew.toFixed(2)}.</p>
       <MapSqueeze noise={0.2} start={{ x: 2.05, y: 2.6, theta: 1.5 }} />
+      <p>The skew across the track is {skew.toFixed(2)}.</p>
     </>
   )
 }

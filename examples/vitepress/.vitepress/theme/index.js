@@ -1,4 +1,5 @@
 import DefaultTheme from 'vitepress/theme'
 import 'motion-widgets'
+import 'motion-widgets/motion-widgets.css'
 
 export default DefaultTheme

@@ -41,7 +41,7 @@ function named(document) {
   // What has gone is named beside what took its place.
   const present = prose(document).replaceAll(/\b(?:instead|the place) of `[^`]+`/g, '');
   const names = [...present.matchAll(/`([^`\s]+)`/g)].map(([, name]) => name);
-  const isPath = (/** @type {string} */ name) => (name.includes('/') || FILE.test(name)) && !/^(?:<|https?:|application\/|\/)/.test(name);
+  const isPath = (/** @type {string} */ name) => (name.includes('/') || FILE.test(name)) && !/^(?:<|@|https?:|application\/|\/)/.test(name);
   return [...new Set(names.filter(isPath))];
 }
 

@@ -66,8 +66,8 @@ async function python(page, code) {
   const output = page.locator('.jp-CodeCell').nth(count - 1).locator('.jp-OutputArea-output', { hasText: /^(=|.*Error)/s });
   await output.waitFor();
   await page.locator('.jp-CodeCell').nth(count).waitFor();
-  const text = await output.textContent();
-  assert.ok(text?.startsWith('='), String(text));
+  const text = (await output.textContent()) ?? '';
+  assert.ok(text.startsWith('='), text);
   return JSON.parse(text.slice(1));
 }
 

@@ -64,7 +64,8 @@ function render({ model, el }) {
       telling = false;
       // It is on no page: what it showed last was told.
       if (!element.machine) return;
-      const told = traits.filter(([, property]) => !GLOBAL.includes(property)).map(([trait, property]) => [trait, plain(element[property])]);
+      const ours = traits.filter(([, property]) => !GLOBAL.includes(property));
+      const told = ours.map(([trait, property]) => /** @type {[string, unknown]} */ ([trait, plain(element[property])]));
       // What is none follows from the others, where another view hears of both.
       writing = true;
       for (const none of [false, true]) for (const [trait, value] of told) if ((value === null) === none) put(trait, value);
@@ -96,7 +97,8 @@ function render({ model, el }) {
     const take = () => {
       if (writing) return;
       put('error', '');
-      element[property] = model.get(trait);
+      // What every element has is a text, and none is the empty one.
+      element[property] = model.get(trait) ?? (GLOBAL.includes(property) ? '' : null);
       tell();
     };
     const value = model.get(trait);
@@ -134,6 +136,7 @@ function withoutKernel(work) {
  */
 function traitsOf(element) {
   const { attributes, declared, own } = element.constructor;
+  /** @type {Record<string, { property?: string }>} */
   const names = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
   return Object.entries(names).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];

@@ -39,6 +39,11 @@ async function choose(page, menu, ...path) {
 async function run(page, site) {
   await page.goto(new URL('lab/tree/motion.ipynb?reset', site.url).href);
   await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor();
+  // It says so also before there is a kernel.
+  await page.waitForFunction(async () => {
+    const sessions = await (await fetch('/api/sessions')).json();
+    return sessions.some((/** @type {any} */ { kernel }) => kernel.connections > 0 && kernel.execution_state === 'idle');
+  });
   await choose(page, 'Kernel', 'Restart Kernel and Run All Cells…');
   await page.locator('.jp-Dialog .jp-mod-accept').click();
   // It is numbered when it is done.
@@ -66,8 +71,8 @@ async function python(page, code) {
   const output = page.locator('.jp-CodeCell').nth(count - 1).locator('.jp-OutputArea-output', { hasText: /^(=|.*Error)/s });
   await output.waitFor();
   await page.locator('.jp-CodeCell').nth(count).waitFor();
-  const text = await output.textContent();
-  assert.ok(text?.startsWith('='), String(text));
+  const text = (await output.textContent()) ?? '';
+  assert.ok(text.startsWith('='), text);
   return JSON.parse(text.slice(1));
 }
 
@@ -136,11 +141,13 @@ const CHECKS = {
       await page.locator(`body[data-jp-theme-light="${!dark}"]`).waitFor({ state: 'attached' });
       await machine(page).scrollIntoViewIfNeeded();
       await settled(page);
+      await page.waitForFunction((dark) => {
+        const text = /** @type {ShadowRoot} */ (document.querySelector('banana-machine')?.shadowRoot).querySelector('p');
+        const [red] = getComputedStyle(/** @type {Element} */ (text)).color.match(/[\d.]+/g) ?? [];
+        return dark ? Number(red) > 200 : Number(red) < 80;
+      }, dark);
       const light = await lightness(page, await machine(page).locator('canvas').first().screenshot());
       assert.ok(dark ? light < 0.35 : light > 0.75, `${theme}: the picture has a lightness of ${light.toFixed(2)}.`);
-      const ink = await machine(page).locator('p').first().evaluate((element) => getComputedStyle(element).color);
-      const [red] = ink.match(/[\d.]+/g) ?? [];
-      assert.ok(dark ? Number(red) > 200 : Number(red) < 80, `${theme}: the text is ${ink}.`);
       if (dark) await page.screenshot({ path: picture(site, 'dark') });
     }
     await page.screenshot({ path: picture(site, 'light') });

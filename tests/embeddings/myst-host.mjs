@@ -5,13 +5,15 @@
 
 import { createElement, useState } from 'react';
 import { createRoot } from 'react-dom/client';
+// @ts-expect-error It is in the copy of the example alone, as is the next.
 import { ANY_RENDERERS } from '@myst-theme/anywidget';
+// @ts-expect-error
 import nodes from './nodes.json';
 
 function Chapter() {
   const [here, setHere] = useState(true);
   const turn = createElement('button', { onClick: () => setHere(!here) }, here ? 'Next chapter' : 'Back');
-  const figures = nodes.map((node) => createElement(ANY_RENDERERS.anywidget, { key: node.id, node }));
+  const figures = nodes.map((/** @type {{ id: string }} */ node) => createElement(ANY_RENDERERS.anywidget, { key: node.id, node }));
   return createElement('main', {}, turn, here ? figures : createElement('p', {}, 'Another chapter'));
 }
 

@@ -11,7 +11,7 @@ import { settings } from '../../www/settings.js';
 const FLOORS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
 
 const { metafile } = await build({
-  entryPoints: ['www/motion-widgets.js', 'www/external.js', 'www/de.js', 'www/embed.js'],
+  entryPoints: ['www/motion-widgets.js', 'www/external.js', 'www/de.js', 'www/embed.js', 'www/anywidget.js'],
   absWorkingDir: new URL('../..', import.meta.url).pathname,
   bundle: true,
   write: false,

@@ -129,6 +129,9 @@ test('traits become what the figure shows, by whichever of their names, and thos
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
   await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
+  await change(page, { lang: null, omega: null });
+  assert.deepEqual((await saidOf(page, ['omega', 'lang'])).figure, { omega: 0.5, lang: '' });
+  await page.getByRole('button', { name: 'New seed' }).waitFor();
   assert.deepEqual(complaints, []);
   await page.close();
 });

@@ -437,8 +437,9 @@ export class FigureElement extends LitElement {
 
   render() {
     speak(this);
+    const recolour = () => this.stage.recolour();
     return html`
-      <span class="scheme-probe" aria-hidden="true" @transitionend=${() => this.stage.recolour()}></span>
+      <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
       <div class="surface ${this.presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
         ${this.lettering.title()} ${this.#content()} ${this.lettering.caption()} ${this.presenting.render()}
       </div>

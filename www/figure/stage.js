@@ -96,7 +96,8 @@ export class Stage extends Part {
     if (!inSight && (this.opening || this.#owedSince !== undefined)) this.#tell();
     this.inSight = inSight;
     if (!inSight) this.rest();
-    else if (this.#due) this.wake();
+    // Of what was skipped nothing tells that its colours changed.
+    else if (this.#canvases) this.recolour();
   }
 
   /** Asks for one drawing in the next frame, when there is somebody to see it. */
@@ -206,8 +207,8 @@ export class Stage extends Part {
       canvas.height = Math.round(zoom * (exact?.blockSize ?? devicePixelRatio * contentRect.height));
     }
     this.#sized = true;
-    // Inside a closed tab, nothing tells of a change of colours.
-    this.#palette = undefined;
+    // Inside a closed tab neither.
+    this.#colour();
     // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
     this.#drawNow(0);
   }

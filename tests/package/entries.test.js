@@ -197,7 +197,7 @@ test('custom-elements.json says what the elements have', async () => {
       await frames();
       const parts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('[part]')];
       const styles = [...new Set(Class.elementStyles.map(String))].join('');
-      const properties = [...new Set(styles.match(/--motion-[a-z]+/g))];
+      const properties = [...new Set(styles.match(/--motion-[a-z-]+/g))];
       return { attributes: [...Class.observedAttributes], parts: parts.flatMap(({ part }) => [...part]), properties };
     }, tagName);
     const names = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();

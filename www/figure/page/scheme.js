@@ -49,8 +49,9 @@ export function surroundings(probe) {
   const ground = channels(...[...grounds, unsaid ? DARK : canvas].reverse());
   const light = lightness(ground);
   const scheme = light < lightness(channels(text)) ? 'dark' : 'light';
-  // By luminance, of which a light of 0.5 has some 0.5 ** 2.2.
-  return { ground: `rgb(${ground})`, text, shade: scheme === 'light' ? `${100 * (1 - light ** 2.2)}%` : '', scheme };
+  // By luminance, of which a light of 0.5 has some 0.5 ** 2.2. What is nearly white needs none.
+  const shade = scheme === 'light' && light < 0.97 ? `${100 * (1 - light ** 2.2)}%` : '';
+  return { ground: `rgb(${ground})`, text, shade, scheme };
 }
 
 /**

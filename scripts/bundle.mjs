@@ -165,7 +165,7 @@ export async function bundle() {
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
-  appendFileSync(at('dist/motion-widgets.css'), await heights());
+  appendFileSync(at('dist/motion-widgets.css'), `\n${await heights()}\n`);
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
@@ -215,7 +215,7 @@ export function filesOf(path) {
 }
 
 /**
- * What external.js loads when it meets a tag, and the keys of the messages that come with it.
+ * What external.js loads when it meets a tag, the keys of the messages that come with it, and the room that is kept till then.
  *
  * @returns {Promise<string>} a module
  */
@@ -225,31 +225,32 @@ async function chunks() {
   return (
     '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
     `export const widgets = {\n${loaders.join('')}};\n\n` +
-    `export const vocabularies = ${JSON.stringify(modules.map(({ vocabulary }) => vocabulary))};\n`
+    `export const vocabularies = ${JSON.stringify(modules.map(({ vocabulary }) => vocabulary))};\n\n` +
+    `export const heights = ${JSON.stringify((await heights()).replaceAll('\n', ''))};\n`
   );
 }
 
 /**
- * The heights of the elements before their script is there: nobody but the page can keep room for them then. Where scripts
- * are off, nothing is to come, and what stands between the tags is shown.
+ * The heights of the elements before their script is there. Where scripts are off, nothing is to come, and what stands
+ * between the tags is shown.
  */
 async function heights() {
-  const { HIGH, roomLength } = await import('../www/figure/page/reserve.js');
+  const { highScreen, roomLength } = await import('../www/figure/page/reserve.js');
   const { likedWidth } = await import('../www/ui/theme.js');
-  const waiting = `:is(${WIDGETS}):not(:defined)`;
-  const rules = WIDGETS.map(async (tag) => {
+  const waiting = (/** @type {string | string[]} */ tags) => `:is(${tags}):not(:defined)`;
+  const rooms = WIDGETS.map(async (tag) => {
     const { room } = await import(`../www/widgets/${tag}/settings.js`);
-    const rule = (/** @type {boolean} */ high) =>
-      `${tag}:not(:defined)::before { padding-top: ${roomLength(room, (share) => `${share}%`, high)} }\n`;
-    return `${rule(false)}@media ${HIGH} {\n${rule(true)}}\n`;
+    return `${waiting(tag)}::before{padding-top:${roomLength(room, '%')}}`;
   });
-  return `
-@media (scripting: enabled) {
-${waiting} { display: block; position: relative; min-width: 0; max-width: 100% }
-${waiting}::before { ${likedWidth} }
-${waiting} > :not([slot]) { position: absolute; top: 0; margin: 0 }
-${(await Promise.all(rules)).join('')}}
-`;
+  return [
+    '@media (scripting:enabled){',
+    `${waiting(WIDGETS)}{display:block;position:relative;min-width:0;max-width:100%}`,
+    `${waiting(WIDGETS)}::before{${likedWidth}}`,
+    `${waiting(WIDGETS)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    ...(await Promise.all(rooms)),
+    highScreen(waiting(WIDGETS)),
+    '}',
+  ].join('\n');
 }
 
 /** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */

@@ -37,6 +37,8 @@ function render({ model, el }) {
   }
   // Digits and letters that are typed in a figure are no shortcuts of JupyterLab, by which it would change the cell.
   element.dataset.lmSuppressShortcuts = 'true';
+  // Around what a cell puts out JupyterLab's themes change the ground and leave black text; the colour that they mean is here.
+  element.style.color = 'var(--jp-content-font-color1, inherit)';
 
   let unsaved = false;
   const put = (/** @type {string} */ trait, /** @type {unknown} */ value) => {

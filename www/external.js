@@ -3,7 +3,7 @@
  * loaded when its tag is met: in the document, or in an open shadow root.
  */
 
-import { vocabularies, widgets } from '../build/widgets.js';
+import { heights, vocabularies, widgets } from '../build/widgets.js';
 import { expected } from './core.js';
 import { en } from './messages/en.js';
 import { addEnglish } from './messages/registry.js';
@@ -56,4 +56,10 @@ function watch(root) {
 }
 
 // Where there is no DOM, as in Node, no tag is met.
-if (observer) watch(document);
+if (observer) {
+  // Nothing is to move when they come.
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(heights);
+  document.adoptedStyleSheets.push(sheet);
+  watch(document);
+}

@@ -173,17 +173,21 @@ export async function pixelsOf(canvas, role) {
     // In forced colours too, the roles keep their hues.
     probe.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
     target.after(probe);
-    const wanted = (getComputedStyle(probe).color.match(/\d+/g) ?? []).map(Number);
-    probe.remove();
     const copy = document.createElement('canvas');
     copy.width = target.width;
     copy.height = target.height;
     const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+    // In whatever notation it is told.
+    context.fillStyle = getComputedStyle(probe).color;
+    probe.remove();
+    context.fillRect(0, 0, 1, 1);
+    const wanted = context.getImageData(0, 0, 1, 1).data.slice(0, 3);
+    context.clearRect(0, 0, 1, 1);
     context.drawImage(target, 0, 0);
     const { data } = context.getImageData(0, 0, copy.width, copy.height);
     let count = 0;
     for (let i = 0; i < data.length; i += 4) {
-      const off = Math.max(...wanted.map((channel, k) => Math.abs(channel - data[i + k])));
+      const off = Math.max(...[...wanted].map((channel, k) => Math.abs(channel - data[i + k])));
       if (data[i + 3] > 250 && off < 8) count++;
     }
     return count;

@@ -12,7 +12,7 @@ import { join } from 'node:path';
 const COPIED = ['motion-widgets.iife.js', 'motion-widgets.css'];
 
 /** @param {string} directory of the book */
-const beside = (directory) => `${directory}.tools`;
+export const beside = (directory) => `${directory}.tools`;
 
 /**
  * @param {string} directory

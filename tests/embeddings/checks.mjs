@@ -19,7 +19,7 @@ const PATIENCE = 20_000;
 const PATIENCE_AT_FIRST = 90_000;
 
 /** What readers see of a page that moves while it loads, at most. */
-const MOST_SHIFT = 0.02;
+export const MOST_SHIFT = 0.02;
 
 /** Milliseconds that scripts come late, so that the page stands before they do, as it does on the network. */
 const LATE = 400;
@@ -59,9 +59,29 @@ export async function check(browser, site) {
     await context.close();
   };
 
+  if (serving.checks) {
+    for (const [what, work] of Object.entries(serving.checks)) await attempt(what, (page) => work(page, site), { patience: PATIENCE_AT_FIRST });
+  } else {
+    await ofSite(attempt, site, failures);
+  }
+
+  const own = definition.allowed ?? [];
+  const unexplained = [...new Set(messages)].filter((message) => !own.some((each) => each.message.test(message)));
+  if (unexplained.length > 0) failures.push(`console: ${unexplained.join('\n')}`);
+  else passed++;
+  return { passed, failures };
+}
+
+/**
+ * @param {(name: string, work: (page: Page) => Promise<void>, options?: { viewport?: typeof DESKTOP, colorScheme?: 'light' | 'dark', patience?: number }) => Promise<void>} attempt
+ * @param {Site} site
+ * @param {string[]} failures so far
+ */
+async function ofSite(attempt, site, failures) {
+  const { definition, serving } = site;
   await attempt('first load', (page) => firstLoad(page, site), { patience: PATIENCE_AT_FIRST });
   // All else begins with it.
-  if (failures.length > 0) return { passed, failures: [...failures, ...new Set(messages)] };
+  if (failures.length > 0) return;
   await attempt('three navigations and back', (page) => navigations(page, site));
   await attempt('from a page without figures', (page) => fromElsewhere(page, site));
   await attempt('text of the page', (page) => text(page, site));
@@ -77,12 +97,6 @@ export async function check(browser, site) {
     for (const viewport of [DESKTOP, PHONE]) await attempt(`nothing moves at ${viewport.width} px`, (page) => still(page, site), { viewport });
     await attempt('pictures', (page) => pictures(page, site));
   }
-
-  const own = definition.allowed ?? [];
-  const unexplained = [...new Set(messages)].filter((message) => !own.some((each) => each.message.test(message)));
-  if (unexplained.length > 0) failures.push(`console: ${unexplained.join('\n')}`);
-  else passed++;
-  return { passed, failures };
 }
 
 /**
@@ -118,7 +132,7 @@ const address = ({ definition, url }, which) => new URL(definition.pages[which].
  * @param {Site} site
  * @param {string} what
  */
-const picture = ({ name, definition, serving }, what) => {
+export const picture = ({ name, definition, serving }, what) => {
   const which = serving === definition.servings[0] ? '' : `-${serving.name.replaceAll(' ', '-')}`;
   return join(ROOT, `test-results/embeddings/${name}${which}-${what}.png`);
 };
@@ -132,7 +146,7 @@ const switchOf = ({ definition, serving }) => serving.dark ?? definition.dark;
  * @param {Page} page
  * @param {Site} site
  */
-async function live(page, { definition }) {
+export async function live(page, { definition }) {
   assert.ok(definition.expected.length > 0, 'No figure is expected.');
   for (const { selector, properties } of definition.expected) {
     const figure = page.locator(selector);
@@ -252,7 +266,7 @@ async function darkSystem(page, site) {
 }
 
 /** @param {Page} page */
-function settled(page) {
+export function settled(page) {
   return page.evaluate(async () => {
     for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
     await Promise.allSettled(document.getAnimations().filter(({ effect }) => effect?.getTiming().iterations !== Infinity).map(({ finished }) => finished));
@@ -260,13 +274,18 @@ function settled(page) {
   });
 }
 
-/** @type {(page: Page, site: Site) => Promise<void>} */
-async function still(page, site) {
-  await page.addInitScript(watchShifts);
-  await page.route(/\.m?js(\?|$)/, async (route) => {
+/** Scripts do, as on the network. @param {Page} page */
+export function comeLate(page) {
+  return page.route(/\.m?js(\?|$)/, async (route) => {
     await new Promise((resolve) => setTimeout(resolve, LATE));
     await route.continue();
   });
+}
+
+/** @type {(page: Page, site: Site) => Promise<void>} */
+async function still(page, site) {
+  await page.addInitScript(watchShifts);
+  await comeLate(page);
   await firstLoad(page, site);
   await settled(page);
   const { total, sources } = await page.evaluate(shifts);

@@ -1,5 +1,15 @@
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { npmInstall, pinned } from './project.mjs';
 import { files, program } from './serving.mjs';
+
+/** The bundler of sites that are older than the present template. @type {import('./project.mjs').Serving['serve']} */
+async function byWebpack(directory, tools) {
+  const config = "import config from './docusaurus.config.js';\nexport default { ...config, future: { ...config.future, faster: false } };\n";
+  writeFileSync(join(directory, 'webpack.docusaurus.config.mjs'), config);
+  await tools.run('npm', ['run', 'build', '--', '--config', 'webpack.docusaurus.config.mjs', '--out-dir', 'build-webpack']);
+  return files('build-webpack', '/book/')(directory, tools);
+}
 
 /** @type {import('./project.mjs').Engine} */
 export default {
@@ -9,6 +19,7 @@ export default {
   build: (_directory, { run }) => run('npm', ['run', 'build']),
   servings: [
     { name: 'production', serve: files('build', '/book/') },
+    { name: 'webpack', serve: byWebpack },
     { name: 'development', serve: program((port) => ['npm', ['run', 'start', '--', '--port', port, '--no-open']], '/book/') },
   ],
   pages: { first: '/motion', second: '/sensors' },

@@ -39,7 +39,10 @@ async function decoded(page, path) {
   return { width, height, pixels: Buffer.from(text, 'base64') };
 }
 
-/** @typedef {{ value: number[], weight: number, key: number }} Colour */
+/** @typedef {{ value: number[], count: number, weight: number, key: number }} Colour */
+
+/** A colour that this share of a picture has is flat ground, and stays what it is. */
+const FLAT = 0.002;
 
 /**
  * @param {Picture} picture
@@ -52,7 +55,7 @@ function coloursOf({ pixels }) {
     const key = keyAt(pixels, i);
     counts.set(key, (counts.get(key) ?? 0) + 1);
   }
-  return [...counts].map(([key, count]) => ({ key, value: [key >> 16, (key >> 8) & 255, key & 255], weight: Math.sqrt(count) }));
+  return [...counts].map(([key, count]) => ({ key, count, value: [key >> 16, (key >> 8) & 255, key & 255], weight: Math.sqrt(count) }));
 }
 
 const keyAt = (/** @type {Uint8Array} */ pixels, /** @type {number} */ i) => (pixels[i] << 16) | (pixels[i + 1] << 8) | pixels[i + 2];
@@ -98,9 +101,13 @@ function widestOf(set) {
  */
 function encoded(picture, most) {
   const { width, height, pixels } = picture;
-  const sets = setsOf(coloursOf(picture), most);
-  // Not their mean: white stays white.
-  const palette = sets.flatMap((set) => set.reduce((most, each) => (each.weight > most.weight ? each : most)).value);
+  const colours = coloursOf(picture).sort((a, b) => b.count - a.count);
+  const flat = colours.filter(({ count }) => count > FLAT * width * height).slice(0, most / 2);
+  const sets = [...flat.map((colour) => [colour]), ...setsOf(colours.slice(flat.length), most - flat.length)];
+  const palette = sets.flatMap((set) => {
+    const weight = set.reduce((sum, each) => sum + each.weight, 0);
+    return [0, 1, 2].map((channel) => Math.round(set.reduce((sum, each) => sum + each.weight * each.value[channel], 0) / weight));
+  });
   const numbers = new Map(sets.flatMap((set, number) => set.map(({ key }) => [key, number])));
   // Each row begins with its filter, which is none.
   const rows = Buffer.alloc(height * (width + 1));

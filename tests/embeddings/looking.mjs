@@ -30,7 +30,7 @@ export async function cloudPixels(canvas) {
   };
   const distance = (/** @type {Uint8ClampedArray} */ data, /** @type {number} */ at, /** @type {Uint8ClampedArray} */ to) =>
     Math.hypot(data[at] - to[0], data[at + 1] - to[1], data[at + 2] - to[2]);
-  const end = performance.now() + 15_000;
+  const end = performance.now() + 60_000;
   for (;;) {
     await new Promise(requestAnimationFrame);
     const samples = host.samples;
@@ -98,7 +98,8 @@ export function watchShifts() {
  */
 export function shifts() {
   const figure = document.querySelector('banana-machine, map-squeeze');
-  const isBefore = (/** @type {any} */ { node }) => node?.compareDocumentPosition(figure) === Node.DOCUMENT_POSITION_FOLLOWING;
+  const isBefore = (/** @type {any} */ { node }) =>
+    figure !== null && node?.compareDocumentPosition(figure) === Node.DOCUMENT_POSITION_FOLLOWING;
   const entries = /** @type {any} */ (globalThis).shifts.filter(
     (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !sources.some(isBefore),
   );

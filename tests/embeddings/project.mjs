@@ -35,6 +35,8 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  * @typedef {object} Serving
  * @property {string} name `development` where readers never get it: nothing is kept from moving there
  * @property {(directory: string, tools: Tools) => Promise<Served>} serve
+ * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] of
+ *   what is no site, in place of those that a site goes through
  * @property {Engine['dark']} [dark] where only some of them have a switch
  *
  * @typedef {{ url: string, stop: () => unknown }} Served

@@ -28,6 +28,7 @@ async function outcomesOf(browser, name) {
   let begin = Date.now();
   const outcome = (/** @type {string} */ serving, /** @type {number} */ passed, /** @type {string[]} */ failures) => {
     outcomes.push({ name, serving, passed, failures, seconds: (Date.now() - begin) / 1000 });
+    for (const failure of failures) console.log(`FAILED ${failure}`);
     begin = Date.now();
   };
   let serving = 'build';
@@ -86,7 +87,6 @@ async function summarize(outcomes, version) {
   for (const { name, serving, passed, failures, seconds } of outcomes) {
     const counts = `${passed} passed, ${failures.length} failed`;
     console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${serving.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${counts}`);
-    for (const failure of failures) console.log(`       ${failure.replaceAll('\n', '\n       ')}`);
   }
 }
 

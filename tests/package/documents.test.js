@@ -1,7 +1,7 @@
 // Whatever the package's documents name, the package has.
 
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
@@ -38,7 +38,9 @@ const prose = (document) => document.replaceAll(/^```.*?^```/gms, '');
  * @returns {string[]} what it names in the type of code, where that is a file, a directory or one of the package's entries
  */
 function named(document) {
-  const names = [...prose(document).matchAll(/`([^`\s]+)`/g)].map(([, name]) => name);
+  // What has gone is named beside what took its place.
+  const present = prose(document).replaceAll(/\b(?:instead|the place) of `[^`]+`/g, '');
+  const names = [...present.matchAll(/`([^`\s]+)`/g)].map(([, name]) => name);
   const isPath = (/** @type {string} */ name) => (name.includes('/') || FILE.test(name)) && !/^(?:<|https?:|application\/|\/)/.test(name);
   return [...new Set(names.filter(isPath))];
 }
@@ -94,4 +96,10 @@ test('package.json names no file that the package leaves out', () => {
   const all = [...paths(exports), main, types, unpkg, jsdelivr, customElements];
   assert.ok(all.length > 10, all.join(' '));
   assert.deepEqual(all.filter((path) => !packed(path)), []);
+});
+
+test('a picture of doc/embedding.md has at most 60 kB', () => {
+  const sizes = readdirSync(join(root, 'doc/embedding')).map((name) => ({ name, bytes: statSync(join(root, 'doc/embedding', name)).size }));
+  assert.ok(sizes.length > 0);
+  assert.deepEqual(sizes.filter(({ bytes }) => bytes > 60_000), []);
 });

@@ -34,7 +34,10 @@ function blocksOf(section) {
  */
 function textsOf(name) {
   const paths = filesOf(join('examples', name)).filter((path) => !/\/(?:node_modules|\.venv)\//.test(path));
-  return paths.map((path) => lines(readFileSync(join(ROOT, path), 'utf8')));
+  return paths.flatMap((path) => {
+    const text = readFileSync(join(ROOT, path), 'utf8');
+    return path.endsWith('.ipynb') ? JSON.parse(text).cells.map((/** @type {{ source: string[] }} */ { source }) => lines(source.join(''))) : [lines(text)];
+  });
 }
 
 /**

@@ -7,6 +7,8 @@ import { pathToFileURL } from 'node:url';
 import { build as viteBuild, createServer as viteServer } from 'vite';
 import webpack from 'webpack';
 import { serve } from '../../scripts/serve.mjs';
+import { MOST_SHIFT, comeLate } from '../embeddings/checks.mjs';
+import { shifts, textOf, watchShifts } from '../embeddings/looking.mjs';
 import { installed, launch, openWithCloud } from './support.js';
 
 /** @type {ReturnType<typeof installed>} */
@@ -33,8 +35,8 @@ const wasmIn = (requests) => requests.filter((address) => address.includes('.was
 
 test('a page with a module script', async () => {
   const { page, requests } = await openWithCloud(browser, `${server.address}plain/`);
-  // Everything is inside: the page and one script.
-  assert.equal(requests.length, 2, requests.join(' '));
+  // Everything is inside: the page, a stylesheet and one script.
+  assert.equal(requests.length, 3, requests.join(' '));
   await page.close();
 });
 
@@ -78,8 +80,27 @@ test('a classic script, from a server and from a disk', async () => {
   const fromDisk = pathToFileURL(join(project.directory, 'classic-script/index.html')).href;
   for (const address of [`${server.address}classic-script/`, fromDisk]) {
     const { page, requests } = await openWithCloud(browser, address);
-    assert.equal(requests.length, 2, requests.join(' '));
+    assert.equal(requests.length, 3, requests.join(' '));
     await page.close();
+  }
+});
+
+test('nothing on a page moves when its figure comes, and the figure has its letters', async () => {
+  for (const example of ['plain', 'classic-script', 'iframe']) {
+    for (const viewport of [{ width: 1280, height: 800 }, { width: 375, height: 812 }]) {
+      const { page } = await openWithCloud(browser, `${server.address}${example}/`, async (page) => {
+        await page.setViewportSize(viewport);
+        await page.addInitScript(watchShifts);
+        await comeLate(page);
+      });
+      const { total, sources } = await page.evaluate(shifts);
+      assert.ok(total < MOST_SHIFT, `${example} at ${viewport.width} px: things moved by ${total}: ${sources.join('; ')}`);
+      if (example !== 'iframe') {
+        const { page: around, figure } = await page.locator('banana-machine').evaluate(textOf);
+        assert.deepEqual(figure, around, example);
+      }
+      await page.close();
+    }
   }
 });
 

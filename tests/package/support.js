@@ -46,10 +46,12 @@ export function launch() {
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} address
+ * @param {(page: import('@playwright/test').Page) => Promise<unknown>} [prepare] before the page is opened
  * @returns {Promise<{ page: import('@playwright/test').Page, requests: string[] }>}
  */
-export async function openWithCloud(browser, address) {
+export async function openWithCloud(browser, address, prepare) {
   const page = await browser.newPage();
+  await prepare?.(page);
   /** @type {string[]} */
   const complaints = [];
   /** @type {string[]} */

@@ -7,7 +7,7 @@
 export const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
 /** @param {number} length CSS pixels: a hundredth of one is finer than any printer */
-const short = (length) => String(Math.round(100 * length) / 100);
+export const short = (length) => String(Math.round(100 * length) / 100);
 
 /** Moves a text down from where the canvas has its baseline, in its own height. */
 const BASELINES = /** @type {Record<string, string>} */ ({ top: '0.8em', middle: '0.33em' });

@@ -40,19 +40,19 @@ export const theme = css`
     ${unsafeCSS(likedWidth)}
   }
 
-  /* --ground and --text are what is found around the figure: see Stage. */
+  /* --ground and --text are what is found around the figure, and --shade how far the ground is from white: see Stage. */
   .scheme-probe,
   .surface {
     --paper: var(--motion-paper, var(--ground, light-dark(#fffefb, #16181b)));
     --ink: var(--motion-ink, var(--text, light-dark(#1f1e1b, #ebe9e3)));
     --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) 75%, var(--paper))));
     --rule: var(--motion-rule, var(--mw-rule, color-mix(in srgb, var(--ink) 18%, var(--paper))));
-    --prior: var(--motion-prior, light-dark(#0b61b0, #5a9ff0));
-    --prediction: var(--motion-prediction, light-dark(#b85300, #f0963a));
-    --cloud: var(--motion-cloud, light-dark(#dd6f00, #f0963a));
-    --truth: var(--motion-truth, light-dark(#8a8a8a, #8e8e8e));
-    --posterior: var(--motion-posterior, light-dark(#00694a, #4fe3b0));
-    --accent: var(--motion-accent, light-dark(#7a1560, #fbb4e0));
+    --prior: var(--motion-prior, color-mix(in srgb-linear, light-dark(#0b61b0, #5a9ff0), black var(--shade, 0%)));
+    --prediction: var(--motion-prediction, color-mix(in srgb-linear, light-dark(#b85300, #f0963a), black var(--shade, 0%)));
+    --cloud: var(--motion-cloud, color-mix(in srgb-linear, light-dark(#dd6f00, #f0963a), black var(--shade, 0%)));
+    --truth: var(--motion-truth, color-mix(in srgb-linear, light-dark(#8a8a8a, #8e8e8e), black var(--shade, 0%)));
+    --posterior: var(--motion-posterior, color-mix(in srgb-linear, light-dark(#00694a, #4fe3b0), black var(--shade, 0%)));
+    --accent: var(--motion-accent, color-mix(in srgb-linear, light-dark(#7a1560, #fbb4e0), black var(--shade, 0%)));
     --top: var(--motion-sticky-top, var(--mw-top, 0px));
   }
 
@@ -183,7 +183,11 @@ export function resolvePalette(surface) {
     return swatch;
   });
   surface.append(...swatches);
-  const colours = swatches.map((swatch, i) => [ROLES[i], getComputedStyle(swatch).color]);
+  const colours = swatches.map((swatch, i) => {
+    const { color } = getComputedStyle(swatch);
+    // Mixed ones are told in notations that few programs read.
+    return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${channels(color)})`];
+  });
   for (const swatch of swatches) swatch.remove();
   return /** @type {Palette} */ (Object.fromEntries(colours));
 }

@@ -3,7 +3,10 @@
 import { css } from 'lit';
 import { channels } from '../../ui/theme.js';
 
-/** @typedef {{ ground: string, text: string, scheme: 'light' | 'dark' }} Surroundings */
+/**
+ * @typedef {{ ground: string, text: string, shade: string, scheme: 'light' | 'dark' }} Surroundings `shade` is the share of black
+ *   that colours for white paper need on the ground: on a darker one they stand out as far as on white
+ */
 
 export const THEMES = /** @type {const} */ (['auto', 'light', 'dark']);
 
@@ -44,7 +47,10 @@ export function surroundings(probe) {
   const unsaid = colorScheme === 'normal' && lightness(channels(text)) > 0.5;
   const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
   const ground = channels(...[...grounds, unsaid ? DARK : canvas].reverse());
-  return { ground: `rgb(${ground})`, text, scheme: lightness(ground) < lightness(channels(text)) ? 'dark' : 'light' };
+  const light = lightness(ground);
+  const scheme = light < lightness(channels(text)) ? 'dark' : 'light';
+  // By luminance, of which a light of 0.5 has some 0.5 ** 2.2.
+  return { ground: `rgb(${ground})`, text, shade: scheme === 'light' ? `${100 * (1 - light ** 2.2)}%` : '', scheme };
 }
 
 /**

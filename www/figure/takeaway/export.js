@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';
-import { SvgContext, escaped } from '../../scene/svg.js';
+import { SvgContext, escaped, short } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
 
 /**
@@ -76,7 +76,7 @@ export function svgOf(element) {
   const svg = new SvgContext(name);
   const { canvas, view, width, height } = drawOn(element, 1, () => svg);
   const description = canvas.getAttribute('aria-label') ?? '';
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${view.width} ${view.height}" role="img" aria-labelledby="${name}-title ${name}-text">
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" role="img" aria-labelledby="${name}-title ${name}-text">
 <title id="${name}-title">${escaped(title)}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
 <rect width="100%" height="100%" fill="${element.stage.palette.paper}"/>

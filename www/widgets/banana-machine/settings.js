@@ -58,8 +58,8 @@ export const looks = {
 /** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
 export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);
 
-/** What the figure takes. @type {import('../../figure/page/reserve.js').Room} */
+/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
 export const room = [
-  [0, 53.8, 160], [21, 52.6, 160], [25.5, 51.4, 160], [26, 49.6, 160], [26.5, 48, 160], [30, 44.7, 40], [30.5, 43.6, 40],
-  [34.5, 43.2, 40], [37.5, 31.3, 40], [40, 27.7, 40], [41, 26.3, 40], [44, 24.4, 40], [56, 24.5, 25], [77.5, 23.2, 25],
+  [0, 53.8, 160], [21.75, 51.4, 160], [23.1, 49.5, 160], [26.6, 44.6, 160], [30, 44.4, 40], [33.75, 43.1, 40], [37.5, 31.1, 40], [40, 27.4, 40],
+  [42.75, 24.2, 40], [56, 24.4, 25],
 ];

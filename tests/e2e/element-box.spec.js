@@ -1,0 +1,140 @@
+import { expect } from '@playwright/test';
+import { NAMES, ready, show } from './element-support.js';
+import { FRESH, STILL, boxOf, frames, test } from './support.js';
+
+/** @typedef {import('@playwright/test').Page} Page */
+
+test.use(STILL);
+
+/** What a figure would like, CSS pixels: see `likedWidth`. */
+const LIKED = 44 * 16;
+
+/** Boxes that are as wide as what is in them, around an X; those that give all there is have none of it. @type {Record<string, string>} */
+const BOXES = {
+  block: 'X',
+  'flex with auto margins': '<div style="display: flex"><X style="margin: auto"></X></div>',
+  'flex row': '<div style="display: flex"><X></X></div>',
+  'flex column, centred': '<div style="display: flex; flex-direction: column; align-items: center"><X></X></div>',
+  'inline-block': '<X style="display: inline-block"></X>',
+  'in an inline-block': '<div style="display: inline-block"><X></X></div>',
+  'table cell': '<table style="border-spacing: 0"><tr><td style="padding: 0"><X></X></td></tr></table>',
+  'auto track of a grid': '<div style="display: grid; grid-template-columns: auto 1fr"><X></X><i></i></div>',
+  'start of a grid': '<div style="display: grid; justify-items: start"><X></X></div>',
+  float: '<X style="float: left"></X>',
+  'in a float': '<div style="float: left"><X></X></div>',
+  'fit-content': '<X style="width: fit-content"></X>',
+  'in fit-content': '<div style="width: fit-content"><X></X></div>',
+  'in max-content, at most all': '<div style="width: max-content; max-width: 100%"><X></X></div>',
+  'positioned absolutely': '<div style="position: relative; height: 9000px"><X style="position: absolute"></X></div>',
+};
+
+for (const name of NAMES) {
+  test(`${name} is as wide as it likes, or as there is room, in every kind of box, and so it was before its script came`, FRESH, async ({ page }) => {
+    test.slow();
+    const cases = Object.entries(BOXES).map(([box, html]) => {
+      const whole = html === 'X' ? '<X></X>' : html;
+      return `<section data-box="${box}" style="display: flow-root">${whole.replace('<X', `<${name}`).replace('</X>', `</${name}>`)}</section>`;
+    });
+    const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
+    /** @param {number} width */
+    const wrong = async (width) => {
+      await page.setViewportSize({ width, height: 900 });
+      await frames(page);
+      const widths = await page.locator(name).evaluateAll((all) => all.map((each) => [/** @type {HTMLElement} */ (each.closest('section')).dataset.box ?? '', each.getBoundingClientRect().width]));
+      expect(widths).toHaveLength(cases.length);
+      return widths.filter(([, each]) => Number(each) > width + 0.5 || Number(each) < Math.min(LIKED, width) - 0.5);
+    };
+    for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
+      await show(page, cases.join(''), { head, script });
+      if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, name);
+      for (const width of [320, 375, 600, 900, 1280]) expect(await wrong(width), `${script ? 'defined' : 'not defined'}, ${width} px`).toEqual([]);
+    }
+  });
+}
+
+/**
+ * Where everything of a figure stands, in its own em.
+ *
+ * @param {Page} page
+ * @param {string} name
+ * @param {number} em CSS pixels
+ */
+const boxesOf = (page, name, em) =>
+  page.locator(name).evaluate(
+    (element, size) => {
+      const origin = element.getBoundingClientRect();
+      return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((each) => {
+        const { left, top, width, height } = each.getBoundingClientRect();
+        const numbers = [left - origin.left, top - origin.top, width, height].map((pixels) => pixels / size);
+        return { part: `${each.localName}.${each.getAttribute('class')}`, numbers };
+      });
+    },
+    em,
+  );
+
+for (const name of NAMES) {
+  test(`${name} is in proportion to the letters around it, whatever the page's root has`, async ({ page }) => {
+    const looks = [];
+    for (const [root, em] of [['100%', 16], ['62.5%', 16], ['100%', 20], ['62.5%', 24]]) {
+      await page.setViewportSize({ width: 1400, height: 2400 });
+      await show(page, `<div style="width: 43.75em"><${name}></${name}></div>`, {
+        head: `<style>html { font-size: ${root} } body { margin: 0; font: ${em}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
+      });
+      await ready(page.locator(name));
+      await expect(page.locator(name).locator('.folds')).toBeVisible();
+      await frames(page);
+      looks.push({ root, em, boxes: await boxesOf(page, name, Number(em)) });
+    }
+    const [first, ...others] = looks;
+    for (const { root, em, boxes } of others) {
+      expect(boxes.map(({ part }) => part)).toEqual(first.boxes.map(({ part }) => part));
+      // Browsers round letters to pixels.
+      const off = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
+      expect(off, `${em} px, root ${root}`).toEqual([]);
+    }
+  });
+}
+
+test('a handle is held where it is shown, also with large letters', async ({ page }) => {
+  await show(page, '<banana-machine style="font-size: 24px"></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const from = await boxOf(handle);
+  await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(from.x + from.width / 2 + 40, from.y + from.height / 2 - 30, { steps: 4 });
+  await frames(page);
+  const to = await boxOf(handle);
+  expect(Math.hypot(to.x - from.x - 40, to.y - from.y + 30)).toBeLessThan(2);
+  await page.mouse.up();
+});
+
+test('no length of the elements is one of the page: nothing is in rem', async ({ page }) => {
+  await show(page, NAMES.map((name) => `<${name}></${name}>`).join(''), { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  for (const name of NAMES) {
+    await ready(page.locator(name));
+    const styles = await page.locator(name).evaluate((element) => (element.shadowRoot?.adoptedStyleSheets ?? []).flatMap((sheet) => [...sheet.cssRules].map(({ cssText }) => cssText)).join('\n'));
+    expect(styles).toContain('em');
+    expect(styles.match(/.*\drem\b.*/g)).toBe(null);
+  }
+  const stylesheet = await page.request.get('/motion-widgets.css');
+  expect((await stylesheet.text()).match(/.*\drem\b.*/g)).toBe(null);
+});
+
+for (const name of NAMES) {
+  test(`on a phone the picture of ${name} stays in sight below the site's header, and so does what has the focus`, async ({ page }) => {
+    await page.setViewportSize({ width: 375, height: 812 });
+    await show(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${name}></${name}><div style="height: 2000px"></div>`, {
+      head: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
+    });
+    const widget = page.locator(name);
+    await ready(widget);
+    const picture = widget.locator('[part=picture]').first();
+    await widget.locator('.slider input[type=range]').nth(2).evaluate((element) => element.scrollIntoView({ block: 'start' }));
+    await frames(page);
+    const { y, height } = await boxOf(picture);
+    expect(y).toBeCloseTo(56, 0);
+    expect((await boxOf(widget.locator('.slider input[type=range]').nth(2))).y).toBeGreaterThanOrEqual(y + height);
+  });
+}

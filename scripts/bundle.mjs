@@ -244,7 +244,7 @@ async function heights() {
   });
   return [
     '@media (scripting:enabled){',
-    `${waiting(WIDGETS)}{display:block;position:relative;min-width:0;max-width:100%}`,
+    `${waiting(WIDGETS)}{display:block;position:relative;margin-block:1em;min-width:0;max-width:100%}`,
     `${waiting(WIDGETS)}::before{${likedWidth}}`,
     `${waiting(WIDGETS)}>:not([slot]){position:absolute;top:0;margin:0}`,
     ...(await Promise.all(rooms)),

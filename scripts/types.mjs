@@ -11,11 +11,14 @@ import { ROOT } from './process.mjs';
 
 const HEAD = '// Generated from the declarations: not to be edited.\n';
 
+/** What frees a machine has a name that not every project has been told of. */
+const DISPOSABLE = '/// <reference lib="esnext.disposable" />\n';
+
 /** Writes both. */
 export async function writeTypes() {
   const all = await widgets();
   const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
-  writeFileSync(join(ROOT, 'build/machines.d.ts'), [HEAD, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
+  writeFileSync(join(ROOT, 'build/machines.d.ts'), [DISPOSABLE, HEAD, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), await figureType(all), ...(await Promise.all(all.map(elementTypes))), tagNames(all)].join('\n'));
 }
 

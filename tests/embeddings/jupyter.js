@@ -142,7 +142,7 @@ const CHECKS = {
       await machine(page).scrollIntoViewIfNeeded();
       await settled(page);
       await page.waitForFunction((dark) => {
-        const text = /** @type {ShadowRoot} */ (document.querySelector('banana-machine')?.shadowRoot).querySelector('p');
+        const text = document.querySelector('banana-machine')?.shadowRoot?.querySelector('p');
         const [red] = getComputedStyle(/** @type {Element} */ (text)).color.match(/[\d.]+/g) ?? [];
         return dark ? Number(red) > 200 : Number(red) < 80;
       }, dark);

@@ -91,17 +91,18 @@ export function watchShifts() {
 }
 
 /**
- * What has moved, where nobody has touched anything, and what it was. A figure moves nothing that stands before it: that is
- * the page's own, whose letters change when its fonts come.
+ * What has moved, where nobody has touched anything, and what it was.
  *
+ * @param {boolean} ownFonts whether what stands before the figure may move, which does not on account of the figure, and all
+ *   that moves with it
  * @returns {{ total: number, sources: string[] }}
  */
-export function shifts() {
+export function shifts(ownFonts) {
   const figure = document.querySelector('banana-machine, map-squeeze');
   const isBefore = (/** @type {any} */ { node }) =>
     figure !== null && node?.compareDocumentPosition(figure) === Node.DOCUMENT_POSITION_FOLLOWING;
   const entries = /** @type {any} */ (globalThis).shifts.filter(
-    (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !sources.some(isBefore),
+    (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !(ownFonts && sources.some(isBefore)),
   );
   const name = (/** @type {any} */ { node, previousRect, currentRect }) =>
     `${node?.localName ?? node?.nodeName}.${node?.className ?? ''} ${previousRect.y}→${currentRect.y}`;

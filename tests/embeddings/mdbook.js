@@ -48,6 +48,7 @@ export default {
   pages: PAGES,
   go: follow,
   wholePages: true,
+  ownFonts: true,
   dark: (page, on) => choose(page, on ? 'navy' : 'light'),
   expected,
   also: {

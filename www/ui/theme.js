@@ -30,6 +30,7 @@ export const theme = css`
     display: block;
     min-width: 0;
     max-width: 100%;
+    margin-block: 1em;
     font-family: var(--motion-font, inherit);
     line-height: 1.4;
     font-variant-numeric: lining-nums tabular-nums;

@@ -93,7 +93,7 @@ test('nothing on a page moves when its figure comes, and the figure has its lett
         await page.addInitScript(watchShifts);
         await comeLate(page);
       });
-      const { total, sources } = await page.evaluate(shifts);
+      const { total, sources } = await page.evaluate(shifts, false);
       assert.ok(total < MOST_SHIFT, `${example} at ${viewport.width} px: things moved by ${total}: ${sources.join('; ')}`);
       if (example !== 'iframe') {
         const { page: around, figure } = await page.locator('banana-machine').evaluate(textOf);

@@ -165,7 +165,8 @@ export async function bundle() {
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
-  appendFileSync(at('dist/motion-widgets.css'), `\n${await heights()}\n`);
+  // Before and after: a page that takes all margins away takes this too.
+  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${await heights()}\n`);
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
@@ -244,7 +245,7 @@ async function heights() {
   });
   return [
     '@media (scripting:enabled){',
-    `${waiting(WIDGETS)}{display:block;position:relative;margin-block:1em;min-width:0;max-width:100%}`,
+    `${waiting(WIDGETS)}{display:block;position:relative;min-width:0;max-width:100%}`,
     `${waiting(WIDGETS)}::before{${likedWidth}}`,
     `${waiting(WIDGETS)}>:not([slot]){position:absolute;top:0;margin:0}`,
     ...(await Promise.all(rooms)),

@@ -48,7 +48,7 @@ export async function elements() {
   ];
   for (const { machine, tag, sentence, traits } of all) {
     lines.push('', '', '@t.signature_has_traits', `class ${machine}(Figure):`, `    """${sentence}`, '');
-    for (const { name, description } of traits) lines.push(`    ${snake(name)}:`, `        ${inPython(description)}`);
+    for (const { name, description, trait } of traits) lines.push(`    ${snake(name)}:`, `        ${inPython(description)}${wordsOf(trait)}`);
     lines.push('    """', '', `    widget = t.Unicode(${text(tag)}, read_only=True).tag(sync=True)`);
     for (const { name, trait } of traits) lines.push(`    ${snake(name)} = ${trait}`);
   }
@@ -89,6 +89,12 @@ function settingOf({ key, type, words = [], fields = [], min, max }, tag) {
       return `Group({${parts.map((part) => `${text(part.key)}: ${settingOf(part, tag)}`).join(', ')}})`;
     }
   }
+}
+
+/** What a trait of words takes, as a sentence. @param {string} trait */
+function wordsOf(trait) {
+  const words = trait.match(/^(Words?)\((.+)\)$/);
+  return words ? ` ${words[1] === 'Word' ? 'One' : 'Some'} of ${words[2]}.` : '';
 }
 
 /** @param {string} name */

@@ -122,12 +122,17 @@ test('a ground that fades arrives where the page does, also where the text has c
 });
 
 test('a theme that its surroundings have not gives a figure paper and ink of its own', async ({ page }) => {
-  await show(page, '<banana-machine theme="dark"></banana-machine>', { head: '<style>body { background: #fff; color: #333 }</style>' });
+  const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
+  await show(page, '<banana-machine theme="dark"></banana-machine>', { head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   const widget = page.locator('banana-machine');
   await ready(widget);
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
+  // Neither do the page's other colours fit that paper.
+  const ofPage = ['#112233', '#445566'];
+  for (const colour of (await coloursOf(widget, ['muted', 'rule'])).map(hex)) expect(ofPage).not.toContain(colour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
   await expect.poll(() => surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
+  expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(ofPage);
 });
 
 test('what a page says by --motion- counts, on :root and on the element, also beside the stylesheet', async ({ page }) => {

@@ -46,8 +46,11 @@ for (const name of NAMES) for (const [font, from, size] of FONTS) {
   });
 }
 
-for (const width of [375, 480, 640, 700, 760, 1024, 1280, 1920]) {
-  test(`nothing moves on a page with motion-widgets.css, ${width} px wide, from before the script until all is there`, FRESH, async ({ page }) => {
+/** What pages take away from all elements, or give to those that follow others. */
+const RESET = '* { margin: 0; padding: 0; box-sizing: border-box } * + * { margin-top: 0.5em }';
+
+for (const [width, more = ''] of /** @type {[number, string?][]} */ ([[375], [480], [640], [700], [760], [1024], [1280], [1920], [1280, RESET]])) {
+  test(`nothing moves on a page with motion-widgets.css, ${width} px wide${more && ', and rules for all elements'}, from before the script until all is there`, FRESH, async ({ page }) => {
     // As high as needed for all of the page to be in sight: what moves out of sight does not count.
     await page.setViewportSize({ width, height: 4000 });
     await page.addInitScript(() => {
@@ -65,7 +68,7 @@ for (const width of [375, 480, 640, 700, 760, 1024, 1280, 1920]) {
       await route.continue();
     });
     const loaded = show(page, NAMES.map((name) => `<p>Before</p><${name}></${name}><p>After</p>`).join(''), {
-      head: `<link rel="stylesheet" href="/motion-widgets.css"><style>body { font-family: ${FONTS[0][0]} }</style>`,
+      head: `<link rel="stylesheet" href="/motion-widgets.css"><style>body { font-family: ${FONTS[0][0]} } ${more}</style>`,
     });
     await page.waitForFunction(() => [...document.querySelectorAll('body > p')].length === 4);
     await frames(page);

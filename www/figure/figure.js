@@ -328,10 +328,7 @@ export class FigureElement extends LitElement {
     this.#say('heading-level', level);
   }
 
-  /**
-   * @param {string} name of an attribute
-   * @param {unknown} value of its property; none for no attribute
-   */
+  /** Says a property by its attribute, or by none. @param {string} name of the attribute @param {unknown} value */
   #say(name, value) {
     const { words: allowed = [], property = name } = COMMON[name];
     if (value === null || value === undefined) this.removeAttribute(name);

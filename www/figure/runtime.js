@@ -105,7 +105,7 @@ export class Runtime extends Part {
   report(error) {
     const message = messageOf(error);
     const unattended = this.host.dispatchEvent(new ErrorEvent('error', { error, message, cancelable: true }));
-    if (unattended) console.warn(`<${this.host.localName}> ${message}`);
+    if (unattended) console.warn(message, this.host);
   }
 
   /** Shows a sentence in the figure's place and tells the page. @param {unknown} error */

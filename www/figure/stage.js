@@ -234,6 +234,8 @@ export class Stage extends Part {
     const own = this.#printing || style.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, own ? '' : colour);
     style.setProperty('--back', own ? 'var(--paper)' : '');
+    // What the stylesheet takes from the page is for the page's own ground.
+    for (const name of ['muted', 'rule']) style.setProperty(`--mw-${name}`, own ? 'initial' : '');
     this.#palette = undefined;
   }
 

@@ -104,8 +104,9 @@ export function shifts(ownFonts) {
   const entries = /** @type {any} */ (globalThis).shifts.filter(
     (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !(ownFonts && sources.some(isBefore)),
   );
+  const placeOf = (/** @type {DOMRect} */ { x, y, width, height }) => `${width} × ${height} at ${x}, ${y}`;
   const name = (/** @type {any} */ { node, previousRect, currentRect }) =>
-    `${node?.localName ?? node?.nodeName}.${node?.className ?? ''} ${previousRect.y}→${currentRect.y}`;
+    `${node?.localName ?? node?.nodeName}.${node?.className ?? ''} ${placeOf(previousRect)}→${placeOf(currentRect)}`;
   return {
     total: entries.reduce((/** @type {number} */ sum, /** @type {any} */ entry) => sum + entry.value, 0),
     sources: entries.flatMap((/** @type {any} */ entry) => entry.sources.map(name)),

@@ -16,6 +16,7 @@ export default {
   go: (page, path) => page.locator(`.sidebar-content a[href$="${path}"]`).click(),
   wholePages: true,
   dark: (page, on) => page.locator('header starlight-theme-select select').selectOption(on ? 'dark' : 'light'),
+  allowed: [{ message: /^WebSocket connection .* failed: Page entered Back-Forward Cache/, reason: 'what Vite says of a page that was left, while developing' }],
   expected: [
     { selector: 'banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000 } },
     { selector: 'banana-machine >> nth=1', properties: { omega: 0.3, samples: 5000 } },

@@ -1,7 +1,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { npmInstall, pinned } from './project.mjs';
-import { files, program } from './serving.mjs';
+import { files } from './serving.mjs';
+import { inVite } from './vite.mjs';
 
 /** The same sources with the version before, which bears another name beside this one. @type {import('./project.mjs').Serving['serve']} */
 async function before(directory, tools) {
@@ -14,20 +14,13 @@ async function before(directory, tools) {
   return files('dist-18', '/book/')(directory, tools);
 }
 
+const common = inVite('vite-react', 'react');
+
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'React',
-  versions: () => pinned('vite-react', 'react', 'vite'),
-  install: npmInstall,
-  build: (_directory, { run }) => run('npm', ['run', 'build']),
-  servings: [
-    { name: 'production', serve: files('dist', '/book/') },
-    { name: 'development', serve: program((port) => ['npm', ['run', 'dev', '--', '--port', port, '--strictPort']], '/book/') },
-    { name: 'React 18', serve: before },
-  ],
-  pages: { first: '/#motion', second: '/#sensors' },
-  go: (page, path) => page.locator(`nav a[href="${path.slice(1)}"]`).click(),
-  dark: (page, on) => page.emulateMedia({ colorScheme: on ? 'dark' : 'light' }),
+  ...common,
+  servings: [...common.servings, { name: 'React 18', serve: before }],
   expected: [
     { selector: 'banana-machine', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'map-squeeze', properties: { noise: 0.2, start: { x: 2.05, y: 2.6, theta: 1.5 } } },

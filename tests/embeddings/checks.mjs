@@ -289,7 +289,7 @@ async function still(page, site) {
   await comeLate(page);
   await firstLoad(page, site);
   await settled(page);
-  const { total, sources } = await page.evaluate(shifts, site.definition.ownFonts ?? false);
+  const { total, sources } = await page.evaluate(shifts, site.definition.movesItself ?? false);
   assert.ok(total < MOST_SHIFT, `things moved by ${total.toFixed(3)}: ${sources.join('; ')}`);
 }
 

@@ -93,16 +93,16 @@ export function watchShifts() {
 /**
  * What has moved, where nobody has touched anything, and what it was.
  *
- * @param {boolean} ownFonts whether what stands before the figure may move, which does not on account of the figure, and all
+ * @param {boolean} movesItself whether what stands before the figure may move, which does not on account of the figure, and all
  *   that moves with it
  * @returns {{ total: number, sources: string[] }}
  */
-export function shifts(ownFonts) {
+export function shifts(movesItself) {
   const figure = document.querySelector('banana-machine, map-squeeze');
   const isBefore = (/** @type {any} */ { node }) =>
     figure !== null && node?.compareDocumentPosition(figure) === Node.DOCUMENT_POSITION_FOLLOWING;
   const entries = /** @type {any} */ (globalThis).shifts.filter(
-    (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !(ownFonts && sources.some(isBefore)),
+    (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !(movesItself && sources.some(isBefore)),
   );
   const placeOf = (/** @type {DOMRect} */ { x, y, width, height }) => `${width} × ${height} at ${x}, ${y}`;
   const name = (/** @type {any} */ { node, previousRect, currentRect }) =>

@@ -48,7 +48,7 @@ export default {
   pages: PAGES,
   go: follow,
   wholePages: true,
-  ownFonts: true,
+  movesItself: true,
   dark: (page, on) => choose(page, on ? 'navy' : 'light'),
   expected,
   also: {

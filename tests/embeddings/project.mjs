@@ -24,7 +24,8 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  * @property {Serving[]} servings the first is what readers of the site get
  * @property {{ first: string, second: string }} pages paths; the first has the figures
  * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} go by the engine's own link
- * @property {boolean} [ownFonts] whether its letters change when its fonts come, and move the page
+ * @property {boolean} [movesItself] whether it moves what stands before the figure, with or without one: letters when its fonts
+ *   come, or its sidebar while a slow machine reads the page
  * @property {boolean} [wholePages] whether its links load another document
  * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] by the engine's own
  *   switch; undefined where there is none

@@ -25,7 +25,7 @@ export default {
   pages: { first: 'index.html', second: 'map.html' },
   go: follow,
   wholePages: true,
-  ownFonts: true,
+  movesItself: true,
   expected,
   allowed: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme says so to readers who have chosen none' }],
 };

@@ -15,6 +15,7 @@ export default {
   pages: { first: '/motion/', second: '/sensors/' },
   go: (page, path) => page.locator(`.sidebar-content a[href$="${path}"]`).click(),
   wholePages: true,
+  movesItself: true,
   dark: (page, on) => page.locator('header starlight-theme-select select').selectOption(on ? 'dark' : 'light'),
   allowed: [{ message: /^WebSocket connection .* failed: Page entered Back-Forward Cache/, reason: 'what Vite says of a page that was left, while developing' }],
   expected: [

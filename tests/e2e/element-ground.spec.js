@@ -23,6 +23,9 @@ const THEMES = {
   'Docusaurus, dark': ['#1b1b1d', '#e3e3e3'],
   'Starlight, light': ['#ffffff', '#353841'],
   'Starlight, dark': ['#17181c', '#c0c2c7'],
+  'Vite, light': ['#ffffff', '#6b6375'],
+  'Vite, dark': ['#16171d', '#9ca3af'],
+  sepia: ['#f4ecd8', '#5b4636'],
 };
 
 /** Least contrast with the ground: of text, and of lines and dots. */
@@ -134,6 +137,32 @@ test('a theme that its surroundings have not gives a figure paper and ink of its
   await expect.poll(() => surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
   expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(ofPage);
 });
+
+/** What the stylesheet takes over, by the names that each theme has for it: what is muted, hairlines, and the header's height. */
+const NAMES_OF_THEMES = {
+  Docusaurus: ['--ifm-color-emphasis-700', '--ifm-color-emphasis-300', '--ifm-navbar-height'],
+  VitePress: ['--vp-c-text-2', '--vp-c-border', '--vp-nav-height'],
+  Starlight: ['--sl-color-gray-3', '--sl-color-hairline-light', '--sl-nav-height'],
+  pydata: ['--pst-color-text-muted', '--pst-color-border', '--pst-header-height'],
+  Furo: ['--color-foreground-muted', '--color-background-border', '--header-height'],
+};
+
+for (const [theme, [muted, rule, height]] of Object.entries(NAMES_OF_THEMES)) {
+  test(`the stylesheet takes what is muted, hairlines and the header's height from ${theme}`, async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>', {
+      head: `<style>:root { ${muted}: #112233; ${rule}: #445566; ${height}: 60px }</style><link rel="stylesheet" href="/motion-widgets.css">`,
+    });
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(['#112233', '#445566']);
+    const top = await widget.locator('.surface').evaluate((element) => {
+      const probe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
+      element.append(probe);
+      return probe.getBoundingClientRect().height;
+    });
+    expect(top).toBe(60);
+  });
+}
 
 test('what a page says by --motion- counts, on :root and on the element, also beside the stylesheet', async ({ page }) => {
   const said = '--motion-muted: #010203; --motion-rule: #040506; --motion-sticky-top: 7px';

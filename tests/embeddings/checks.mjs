@@ -289,8 +289,13 @@ async function still(page, site) {
   await comeLate(page);
   await firstLoad(page, site);
   await settled(page);
-  const { total, sources } = await page.evaluate(shifts, site.definition.movesItself ?? false);
+  const { movesItself = false } = site.definition;
+  const { total, sources, grown } = await page.evaluate(shifts, movesItself);
   assert.ok(total < MOST_SHIFT, `things moved by ${total.toFixed(3)}: ${sources.join('; ')}`);
+  // Where not all is counted that moves, nothing of it is the figures'.
+  if (!movesItself) return;
+  assert.ok(grown.length > 0, 'No figure was seen before its script came.');
+  assert.ok(grown.every((pixels) => Math.abs(pixels) < 1), `The figures became higher by ${grown.join(', ')} px.`);
 }
 
 /** @type {(page: Page, site: Site) => Promise<void>} */

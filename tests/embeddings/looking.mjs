@@ -83,33 +83,40 @@ export function textOf(figure) {
 
 /** From before there is anything that could move. */
 export function watchShifts() {
-  const list = Object.assign(globalThis, { shifts: /** @type {any[]} */ ([]) }).shifts;
+  const { shifts, heights } = Object.assign(globalThis, { shifts: /** @type {any[]} */ ([]), heights: /** @type {Map<Element, number>} */ (new Map()) });
   const observer = new PerformanceObserver((entries) => {
-    for (const entry of entries.getEntries()) list.push(entry);
+    for (const entry of entries.getEntries()) shifts.push(entry);
   });
   observer.observe({ type: 'layout-shift', buffered: true });
+  // While no script of the page has come, a figure has the height that is kept for it.
+  const look = () => {
+    for (const figure of document.querySelectorAll(':is(banana-machine, map-squeeze):not(:defined)')) heights.set(figure, figure.getBoundingClientRect().height);
+    requestAnimationFrame(look);
+  };
+  look();
 }
 
 /**
  * What has moved, where nobody has touched anything, and what it was.
  *
- * @param {boolean} movesItself whether what stands before the figure may move, which does not on account of the figure, and all
- *   that moves with it
- * @returns {{ total: number, sources: string[] }}
+ * @param {boolean} movesItself whether what stands before the figure may move, which does not on account of the figure, and
+ *   all that moves with it
+ * @returns {{ total: number, sources: string[], grown: number[] }} `grown` is by how much each figure became higher when it
+ *   came, CSS pixels
  */
 export function shifts(movesItself) {
   const figure = document.querySelector('banana-machine, map-squeeze');
+  const { shifts, heights } = /** @type {any} */ (globalThis);
   const isBefore = (/** @type {any} */ { node }) =>
     figure !== null && node?.compareDocumentPosition(figure) === Node.DOCUMENT_POSITION_FOLLOWING;
-  const entries = /** @type {any} */ (globalThis).shifts.filter(
-    (/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !(movesItself && sources.some(isBefore)),
-  );
+  const entries = shifts.filter((/** @type {any} */ { hadRecentInput, sources }) => !hadRecentInput && !(movesItself && sources.some(isBefore)));
   const placeOf = (/** @type {DOMRect} */ { x, y, width, height }) => `${width} × ${height} at ${x}, ${y}`;
   const name = (/** @type {any} */ { node, previousRect, currentRect }) =>
     `${node?.localName ?? node?.nodeName}.${node?.className ?? ''} ${placeOf(previousRect)}→${placeOf(currentRect)}`;
   return {
     total: entries.reduce((/** @type {number} */ sum, /** @type {any} */ entry) => sum + entry.value, 0),
     sources: entries.flatMap((/** @type {any} */ entry) => entry.sources.map(name)),
+    grown: [...heights].map(([each, height]) => each.getBoundingClientRect().height - height),
   };
 }
 

@@ -2,7 +2,10 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
+import { brotliCompressSync } from 'node:zlib';
+import { ROOT } from '../../scripts/process.mjs';
 import { compressed, libraries, loadedByWidgets } from '../../scripts/sizes.mjs';
 
 /**
@@ -32,6 +35,15 @@ test('what a page loads does not grow', () => {
   within('bundle', ['dist/motion-widgets.js'], 1000 * LIMITS.bundle);
   within('module for notebooks', ['dist/anywidget.js'], 1000 * LIMITS.notebook);
   within('classic script', ['dist/motion-widgets.iife.js'], 1000 * LIMITS.classicScript);
+});
+
+test('inlined, the module is a few hundredths longer, where base64 would be a third longer: so says doc/embedding.md', () => {
+  const module = compressed('dist/motion.wasm');
+  const [text] = readFileSync(join(ROOT, 'dist/motion-widgets.js'), 'utf8').match(/(?<=")[^"]{100000,}(?=")/) ?? [''];
+  const base64 = readFileSync(join(ROOT, 'dist/motion.wasm')).toString('base64');
+  const [inlined, coded] = [text, base64].map((each) => brotliCompressSync(each).length / module);
+  assert.ok(inlined > 1.02 && inlined < 1.1, `${inlined}`);
+  assert.ok(coded > 1.3 && coded < 1.37, `${coded}`);
 });
 
 test('doc/embedding.md says these limits', () => {

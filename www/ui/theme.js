@@ -41,12 +41,13 @@ export const theme = css`
     ${unsafeCSS(likedWidth)}
   }
 
-  /* --ground and --text are what is found around the figure, and --shade how far the ground is from white: see Stage. */
+  /* --ground and --text are what is found around the figure, --shade how far the ground is
+     from white, and --strength how much ink what is muted needs: see Stage. */
   .scheme-probe,
   .surface {
     --paper: var(--motion-paper, var(--ground, light-dark(#fffefb, #16181b)));
     --ink: var(--motion-ink, var(--text, light-dark(#1f1e1b, #ebe9e3)));
-    --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) 75%, var(--paper))));
+    --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) var(--strength, 75%), var(--paper))));
     --rule: var(--motion-rule, var(--mw-rule, color-mix(in srgb, var(--ink) 18%, var(--paper))));
     --prior: var(--motion-prior, color-mix(in srgb-linear, light-dark(#0b61b0, #5a9ff0), black var(--shade, 0%)));
     --prediction: var(--motion-prediction, color-mix(in srgb-linear, light-dark(#b85300, #f0963a), black var(--shade, 0%)));

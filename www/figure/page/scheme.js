@@ -4,8 +4,9 @@ import { css } from 'lit';
 import { channels } from '../../ui/theme.js';
 
 /**
- * @typedef {{ ground: string, text: string, shade: string, scheme: 'light' | 'dark' }} Surroundings `shade` is the share of black
- *   that colours for white paper need on the ground: on a darker one they stand out as far as on white
+ * @typedef {{ ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' }} Surroundings `shade` is
+ *   the share of black that colours for white paper need on the ground: on a darker one they stand out as far as on white;
+ *   `strength` is the share of the text's colour that what is muted needs to be legible
  */
 
 export const THEMES = /** @type {const} */ (['auto', 'light', 'dark']);
@@ -25,6 +26,12 @@ export const schemeStyles = css`
 
 /** Of text on a page that paints no ground, as where it is an image, and says nothing by `color-scheme`. */
 const DARK = '#121212';
+
+/** Shares of the text's colour in what is muted, hundredths: the least that is legible. On most pages that is the first. */
+const STRENGTHS = [75, 80, 85, 90, 95];
+
+/** Least contrast of text by WCAG 2, level AA, is 4.5; a screen rounds colours. */
+const LEGIBLE = 4.55;
 
 /** @param {Node} node @returns {Element[]} itself and what is around it, across shadow roots, the nearest first */
 export function ancestors(node) {
@@ -48,10 +55,25 @@ export function surroundings(probe) {
   const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
   const ground = channels(...[...grounds, unsaid ? DARK : canvas].reverse());
   const light = lightness(ground);
-  const scheme = light < lightness(channels(text)) ? 'dark' : 'light';
+  const ink = channels(text);
+  const scheme = light < lightness(ink) ? 'dark' : 'light';
   // By luminance, of which a light of 0.5 has some 0.5 ** 2.2. What is nearly white needs none.
   const shade = scheme === 'light' && light < 0.97 ? `${100 * (1 - light ** 2.2)}%` : '';
-  return { ground: `rgb(${ground})`, text, shade, scheme };
+  const muted = (/** @type {number} */ share) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
+  const strength = `${STRENGTHS.find((share) => contrast(muted(share), ground) >= LEGIBLE) ?? 100}%`;
+  return { ground: `rgb(${ground})`, text, shade, strength, scheme };
+}
+
+/**
+ * WCAG 2's.
+ *
+ * @param {number[]} one
+ * @param {number[]} other
+ */
+function contrast(one, other) {
+  const linear = (/** @type {number} */ channel) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
+  const [low, high] = [one, other].map((colour) => lightness(colour.map((channel) => 255 * linear(channel)))).sort((a, b) => a - b);
+  return (high + 0.05) / (low + 0.05);
 }
 
 /**

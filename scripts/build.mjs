@@ -6,6 +6,7 @@ import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { binder } from './bindgen.mjs';
 import { bundle, filesOf } from './bundle.mjs';
+import { cratesOf } from './licences.mjs';
 import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
 import { ensurePackages, wasmRust } from './toolchain.mjs';
 
@@ -15,8 +16,8 @@ const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', '
 
 /** Brings dist/ up to date with the sources. */
 export async function build() {
-  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/bind']);
-  const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts'];
+  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/licences.mjs', 'scripts/bind']);
+  const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts', 'build/crates.json'];
   await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
   const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], bundle);
@@ -78,8 +79,11 @@ async function compileCore() {
   const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
   const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
   await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
-  const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
-  return join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
+  const ask = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
+  const metadata = JSON.parse(await ask('metadata', '--format-version', '1'));
+  const tree = await ask('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
+  writeFileSync(at('build/crates.json'), JSON.stringify(cratesOf(tree, metadata)));
+  return join(metadata.target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
 }
 
 /**

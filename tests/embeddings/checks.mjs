@@ -7,7 +7,8 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
-import { asLightAsThePage, cloudPixels, lightness, shifts, textOf, watchShifts } from './looking.mjs';
+import { asLightAsThePage, lightness } from './lightness.mjs';
+import { cloudPixels, shifts, textOf, watchShifts } from './looking.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */

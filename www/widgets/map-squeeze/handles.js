@@ -115,7 +115,8 @@ export class RobotHandles extends Part {
   /** @param {number} theta radians */
   #turnTo(theta) {
     const { x, y } = this.#start;
-    this.#want({ x, y, theta: Math.atan2(Math.sin(theta), Math.cos(theta)) });
+    // Into (−π, π], without sines: in their last digits engines differ, and the same keys are to be the same heading.
+    this.#want({ x, y, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 
   /** @param {Pose} start */

@@ -67,7 +67,6 @@ pub struct Accepted {
 
 /// What rejection costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Cost {
     /// Draws of the model, accepted or not.
     pub draws: usize,

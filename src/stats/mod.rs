@@ -7,8 +7,6 @@ mod exact_gain;
 pub(crate) mod fused;
 mod gain;
 mod moments;
-#[cfg(target_arch = "wasm32")]
-pub(crate) mod plain;
 pub mod quadrature;
 pub(crate) mod sums;
 

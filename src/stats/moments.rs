@@ -5,13 +5,10 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Mean and covariance of (x, y, θ): m, m, rad, in the frame of the poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
 pub struct CartesianMoments {
     /// Arithmetic mean position and circular mean heading in (−π, π].
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::vector"))]
     pub mean: Vector3<f64>,
     /// Sample covariance (over n − 1), headings taken as the shortest turn from the mean heading. 3 × 3.
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::matrix"))]
     pub cov: Matrix3<f64>,
 }
 
@@ -31,12 +28,9 @@ impl CartesianMoments {
 
 /// Mean and covariance of ξ = x_t ⊟ x_{t−1} in the order (along, lateral, heading): m, m, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
 pub struct ExponentialMoments {
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::vector"))]
     pub mean: Vector3<f64>,
     /// Sample covariance (over n − 1), 3 × 3.
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "super::plain::matrix"))]
     pub cov: Matrix3<f64>,
 }
 

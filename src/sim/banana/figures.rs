@@ -84,45 +84,15 @@ impl Figures {
 
 /// The figures, and the number of samples that are shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stats<'a> {
+pub struct Stats {
     pub n: usize,
-    pub figures: &'a Figures,
-}
-
-#[cfg(target_arch = "wasm32")]
-impl serde::Serialize for Stats<'_> {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        #[derive(serde::Serialize)]
-        struct Coverage {
-            ellipse: f64,
-            exponential: f64,
-        }
-        let Self { n, figures } = self;
-        let coverage = Coverage { ellipse: figures.inside_ellipse, exponential: figures.inside_exponential };
-        let mut stats = serializer.serialize_struct("Stats", 11)?;
-        stats.serialize_field("n", n)?;
-        stats.serialize_field("cartesian", &figures.cartesian)?;
-        stats.serialize_field("exponential", &figures.exponential)?;
-        stats.serialize_field("crossTrackSkew", &figures.cross_track.skew)?;
-        stats.serialize_field("crossTrackSkewError", &figures.cross_track.skew_error)?;
-        stats.serialize_field("gaussianSkew", &figures.gaussian_skew)?;
-        stats.serialize_field("rhoCrossHeading", &figures.cross_track.rho_heading)?;
-        stats.serialize_field("coverage", &coverage)?;
-        stats.serialize_field("likelihoodGain", &figures.gain.value)?;
-        stats.serialize_field("likelihoodGainError", &figures.gain.error)?;
-        stats.serialize_field("areaRatio", &figures.area_ratio)?;
-        stats.end()
-    }
+    pub figures: Figures,
 }
 
 /// Moments of the pose, in m and rad, and the measures of its banana.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Column {
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "crate::stats::plain::vector"))]
     pub mean: Vector3<f64>,
-    #[cfg_attr(target_arch = "wasm32", serde(serialize_with = "crate::stats::plain::matrix"))]
     pub cov: Matrix3<f64>,
     pub cross_track_skew: f64,
     pub likelihood_gain: LikelihoodGain,
@@ -131,7 +101,6 @@ pub struct Column {
 
 /// Moments of the pose three ways, and of its exponential coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
 pub struct Table {
     /// The noise-free end, and the covariance to first order in the noise.
     pub linearized: Column,

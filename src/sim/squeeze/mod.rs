@@ -66,7 +66,6 @@ fn share(part: usize, all: usize) -> f64 {
 
 /// What the attempts shown say. Shares of nothing are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Stats {
     pub attempts: usize,
     /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
@@ -283,7 +282,7 @@ impl MapSqueeze {
                 conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total.draws += draws;
             total.wall_tests += wall_tests;
-            if total.draws > MAX_DRAWS + PATIENCE * sampler.parts() as usize * count {
+            if total.draws > most_draws(sampler, count) {
                 return Err(Wedged(total));
             }
         }
@@ -306,6 +305,11 @@ impl MapSqueeze {
         let VelocityCmd { v, omega, dt } = self.settings.command;
         Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
     }
+}
+
+/// Draws that [`MapSqueeze::trial`] takes at most for `count` accepted samples of a sampler.
+pub fn most_draws(sampler: Sampler, count: usize) -> usize {
+    MAX_DRAWS + PATIENCE * sampler.parts() as usize * count
 }
 
 /// The model under these settings in a plan, by a sampler.

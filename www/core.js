@@ -94,6 +94,9 @@ async function compiled(name) {
   return module;
 }
 
+/** Characters of an address that are quoted: one with data in it has millions. */
+const LONGEST = 200;
+
 /** @param {Source} source */
 async function compile(source) {
   try {
@@ -111,8 +114,7 @@ async function compile(source) {
     );
   }
   throw new TypeError(
-    `load: source is ${String(source)}, and must be the module's bytes, a URL or string, ` +
-      'or a WebAssembly.Module.',
+    `load: source is of the type ${typeof source}; allowed are the module's bytes, a URL or string, and a WebAssembly.Module.`,
   );
 }
 
@@ -134,18 +136,19 @@ function forbidden() {
 async function streamed(source) {
   const response = await fetch(source).catch((error) => {
     throw new Error(
-      `load: ${source} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src.`,
+      `load: ${String(source).slice(0, LONGEST)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src.`,
       { cause: error },
     );
   });
-  if (!response.ok) throw new Error(`load: ${response.url} answers ${response.status}.`);
+  const url = response.url.slice(0, LONGEST);
+  if (!response.ok) throw new Error(`load: ${url} answers ${response.status}.`);
   const type = response.headers.get('content-type') ?? 'something without a type';
   try {
     if (/^application\/wasm\s*$/i.test(type)) return await WebAssembly.compileStreaming(response);
     return await WebAssembly.compile(await response.arrayBuffer());
   } catch (error) {
     const reason = /** @type {Error} */ (error).message;
-    throw new Error(`load: ${response.url} answers with ${type}, which is no WebAssembly module: ${reason}`, { cause: error });
+    throw new Error(`load: ${url} answers with ${type}, which is no WebAssembly module: ${reason}`, { cause: error });
   }
 }
 

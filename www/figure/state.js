@@ -89,7 +89,7 @@ export class State extends Part {
       for (const [name, { check }] of Object.entries(this.#owned)) {
         whole[name] = check(`state.${name}`, whole[name], made, whole.playing);
       }
-      host.cloud?.check(whole, made);
+      host.cloud?.check(whole);
     });
     this.#adopt(whole);
     host.runtime.replace(machine);

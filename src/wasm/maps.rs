@@ -66,30 +66,33 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let free_thresh = free_thresh.unwrap_or(usual.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(usual.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
-    let [x, y, yaw] = origin;
-    Ok(OccupancyGrid::new(&read_image(image)?, &interpretation, resolution, SE2::new(x, y, yaw)))
-}
-
-/// The bytes of a PGM file, or an ImageData.
-fn read_image(image: &JsValue) -> Result<Image, JsValue> {
-    match image.dyn_ref::<Uint8Array>() {
-        Some(bytes) => read_file(bytes),
-        None => read_pixels(image.unchecked_ref()),
+    let origin = SE2::new(origin[0], origin[1], origin[2]);
+    if let Some(bytes) = image.dyn_ref::<Uint8Array>() {
+        let file = read_file(bytes)?;
+        let image = read_pgm(&file).map_err(|error| RangeError::new(&error.to_string()))?;
+        return Ok(OccupancyGrid::new(&image, &interpretation, resolution, origin));
     }
+    let Image { width, height, pixels } = read_pixels(image.unchecked_ref())?;
+    let pixels = pixels.chunks_exact(4).map(|pixel| Pixel {
+        shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
+        opacity: f32::from(pixel[3]) / 255.0,
+    });
+    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 
-fn read_file(bytes: &Uint8Array) -> Result<Image, JsValue> {
+/// The bytes of a PGM file.
+fn read_file(bytes: &Uint8Array) -> Result<Vec<u8>, JsValue> {
     let length = whole("image.length", &bytes.length().into(), 0..=MAX_BYTES as u64)? as usize;
     let mut copy = Vec::new();
     copy.try_reserve_exact(length).map_err(|_| no_memory("image.length"))?;
     copy.resize(length, 0);
     bytes.copy_to(&mut copy);
-    read_pgm(&copy).map_err(|error| RangeError::new(&error.to_string()).into())
+    Ok(copy)
 }
 
-/// An ImageData or, where there is no such class, as in Node, what has its properties. They are read by name: its own
+/// Red, green, blue and opacity of an ImageData or, where there is no such class, as in Node, of what has its properties. They are read by name: its own
 /// getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
-fn read_pixels(image: &ImageData) -> Result<Image, JsValue> {
+fn read_pixels(image: &ImageData) -> Result<Image<Vec<u8>>, JsValue> {
     let fields = Fields::open("image", "image.", image)?;
     let width = whole("image.width", &fields.value("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height = whole("image.height", &fields.value("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
@@ -101,13 +104,5 @@ fn read_pixels(image: &ImageData) -> Result<Image, JsValue> {
         let message = format!("image.data has length {}; allowed is {}", data.length(), 4 * width * height);
         return Err(RangeError::new(&message).into());
     }
-    let pixels = data
-        .to_vec()
-        .chunks_exact(4)
-        .map(|pixel| Pixel {
-            shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
-            opacity: f32::from(pixel[3]) / 255.0,
-        })
-        .collect();
-    Ok(Image { width, height, pixels })
+    Ok(Image { width, height, pixels: data.to_vec() })
 }

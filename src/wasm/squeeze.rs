@@ -165,7 +165,8 @@ impl JsMapSqueeze {
     pub fn set_grid(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "unknown")] description: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Uint8Array | ImageData")] image: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array | Pick<ImageData, 'width' | 'height' | 'data'>")]
+        image: &JsValue,
     ) -> Result<(), JsValue> {
         Ok(self.0.set_grid(read_map(description, image)?)?)
     }

@@ -325,7 +325,7 @@ test.describe('malformed maps', () => {
     ['a PNG cut in half', [yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', half)], new RegExp(`^room\\.png: the file ends after ${half.length} bytes, within IDAT; expected is a complete PNG image\\.$`)],
     ['a PNG that was changed', [yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', changed)], /^room\.png: IDAT is not what was written; expected is a complete PNG image\.$/],
     ['a map that contains itself', [file('room.yaml', 'image: &a [*a]'), image], /^room\.yaml, line 1: this is not YAML \(aliases exceeded maxAliases \(0\)\); expected is one field a line/],
-    ['a value that goes on for ever', [yaml('room.yaml', { ...FIELDS, image: `[${'a, '.repeat(1e4)}]` }), image], /^room\.yaml: image is \["a",("a",)+("a)?…; expected is the name of a \.pgm or \.png file\.$/],
+    ['a value that goes on for ever', [yaml('room.yaml', { ...FIELDS, image: `[${'a, '.repeat(1e4)}]` }), image], /^room\.yaml: image is \["a",[a",]+…; expected is the name of a \.pgm or \.png file\.$/],
     ['a PNG too large to unpack', [yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', Buffer.concat([SIGNATURE, header({ width: 100_000, height: 100_000 })]))], /^room\.png: width × height is 100000 × 100000; expected are sides up to/],
     ['another kind of file', [file('room.txt', 'a room')], /^room\.txt: this kind of file is not read; expected is a \.json floor plan/],
     ['two maps', [good, image, file('plan.json', JSON.stringify(ROOM))], /^plan\.json, room\.yaml: these are 2 maps; expected is one at a time/],

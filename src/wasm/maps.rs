@@ -67,23 +67,30 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let negate = negate.unwrap_or(usual.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
     let [x, y, yaw] = origin;
-    Ok(OccupancyGrid::new(&read_image(image)?, &interpretation, resolution, SE2::new(x, y, yaw)))
+    let origin = SE2::new(x, y, yaw);
+    if image.is_instance_of::<Uint8Array>() {
+        let file = read_file(image)?;
+        let image = read_pgm(&file).map_err(|error| RangeError::new(&error.to_string()))?;
+        return Ok(OccupancyGrid::new(&image, &interpretation, resolution, origin));
+    }
+    let Image { width, height, pixels } = read_pixels(image.unchecked_ref())?;
+    let pixels = pixels.chunks_exact(4).map(|pixel| Pixel {
+        shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
+        opacity: f32::from(pixel[3]) / 255.0,
+    });
+    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 
-/// The bytes of a PGM file, or an ImageData.
-fn read_image(image: &JsValue) -> Result<Image, JsValue> {
-    if image.is_instance_of::<Uint8Array>() { read_file(image) } else { read_pixels(image.unchecked_ref()) }
-}
-
-fn read_file(file: &JsValue) -> Result<Image, JsValue> {
+/// The bytes of a PGM file.
+fn read_file(file: &JsValue) -> Result<Vec<u8>, JsValue> {
     let length = length("image", file, "the bytes of a PGM file")?;
     whole("image.length", &(length as f64).into(), 0..=MAX_BYTES as u64)?;
-    read_pgm(&bytes("image", file, length)?).map_err(|error| RangeError::new(&error.to_string()).into())
+    bytes("image", file, length)
 }
 
-/// An ImageData or, where there is no such class, as in Node, what has its properties. They are read by name: its own
-/// getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
-fn read_pixels(image: &ImageData) -> Result<Image, JsValue> {
+/// Red, green, blue and opacity of an ImageData or, where there is no such class, as in Node, of what has its properties.
+/// They are read by name: its own getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
+fn read_pixels(image: &ImageData) -> Result<Image<Vec<u8>>, JsValue> {
     let fields = Fields::open("image", "image.", image)?;
     let width = whole("image.width", &fields.value("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height = whole("image.height", &fields.value("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
@@ -96,12 +103,5 @@ fn read_pixels(image: &ImageData) -> Result<Image, JsValue> {
         let message = format!("image.data has length {length}; allowed is {}", 4 * width * height);
         return Err(RangeError::new(&message).into());
     }
-    let pixels = bytes("image.data", &data, length)?
-        .chunks_exact(4)
-        .map(|pixel| Pixel {
-            shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
-            opacity: f32::from(pixel[3]) / 255.0,
-        })
-        .collect();
-    Ok(Image { width, height, pixels })
+    Ok(Image { width, height, pixels: bytes("image.data", &data, length)? })
 }

@@ -170,7 +170,8 @@ impl JsMapSqueeze {
     pub fn set_grid(
         &self,
         #[wasm_bindgen(unchecked_param_type = "unknown")] description: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Uint8Array | ImageData")] image: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array | Pick<ImageData, 'width' | 'height' | 'data'>")]
+        image: &JsValue,
     ) -> Result<(), JsValue> {
         let grid = read_map(description, image)?;
         Ok(self.0.with(move |machine| machine.set_grid(grid))?)

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { inspect } from 'node:util';
-import { freshModule } from './support.js';
+import { freshModule, generator } from './support.js';
 
 const { BananaMachine, commandReaching } = await (await freshModule()).load();
 
@@ -287,17 +287,6 @@ test('arguments of the other methods', () => {
   machine.restart();
   assertRefused(() => machine.inspect(0), RangeError, 'index', '0', 'inspect of an empty cloud');
 });
-
-/** A small generator (mulberry32): the same inputs on every run. @param {number} seed */
-function generator(seed) {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
-    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
-}
 
 test('thousands of arbitrary settings: refused whole or taken whole, and nothing traps', () => {
   const random = generator(2005);

@@ -435,7 +435,7 @@ test('a malformed map is explained by field and line, and the present one stays'
     ['line 3: the width', YAML, bytes('P5\n# wide\nwide 3\n255\n')],
     ['line 2: the height', YAML, bytes('P5\n16777216 2\n255\n')],
     ['line 3: the greatest value', YAML, bytes('P5\n4 3\n70000\n')],
-    ['line 3: the raster', YAML, bytes('P5\n4 3\n255\n0123456789')],
+    ['line 3: the length of the raster', YAML, bytes('P5\n4 3\n255\n0123456789')],
     ['line 4: a pixel', YAML, bytes('P2\n4 3\n255\n1 2 3')],
     ['line 5: a pixel', YAML, bytes('P2\n4 3\n255\n1 2 3\n4 five 6')],
     ['walls', { ...YAML, resolution: 0.05 }, imageData(640, 320, Array.from({ length: 640 * 320 }, (_, i) => (i % 2 || Math.floor(i / 640) % 2 ? 255 : 0)))],

@@ -27,7 +27,7 @@ function meet(root) {
       widgets[localName]();
     }
     // What a widget shows has no widget in it.
-    else if (Object.hasOwn(widgets, localName)) continue;
+    else if (localName in widgets) continue;
     else if (element.shadowRoot) watch(element.shadowRoot);
     else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watch(element.shadowRoot));
   }

@@ -53,7 +53,7 @@ export const WORD = { parse: (text) => text, print: (value) => value };
 
 /** Without a text it is true, as boolean attributes of HTML are; but "false" is false. @type {Kind} */
 const TRUTH = {
-  parse: (text) => (text === '' || text === 'true' ? true : text === 'false' ? false : text),
+  parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
   print: String,
 };
 

@@ -91,7 +91,7 @@ export class Runtime extends Part {
     try {
       this.attempt(work);
     } catch (error) {
-      if (!(error instanceof TypeError || error instanceof RangeError)) throw error;
+      if (isTrap(error)) throw error;
       this.report(error);
     }
   }

@@ -66,7 +66,7 @@ export function addEnglish(messages) {
  */
 export function setMessages(lang, messages) {
   const { english, catalogues } = shared;
-  if (!isTag(lang)) throw new RangeError(`messages: the language is ${JSON.stringify(lang)}; allowed is a BCP 47 tag: "de", "pt-BR".`);
+  if (!isTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
   check(english, messages, lang);
   const key = lang.toLowerCase();
   catalogues[key] = merge(catalogues[key] ?? {}, messages);

@@ -150,8 +150,11 @@ function makeFactory(path) {
   const script = readFileSync(at(`${path}.js`), 'utf8');
   const glue = script.match(/^let wasm_bindgen = \(function\(exports\) \{\n +let script_src;\n +if [^}]*\}\n(.*)\n +async function __wbg_load\(/s)?.[1];
   if (glue === undefined) throw new Error("wasm-bindgen's script is not what scripts/build.mjs takes it for.");
+  // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
+  const ends = glue.replaceAll('throw new Error(getStringFromWasm', 'throw new WebAssembly.RuntimeError(getStringFromWasm');
+  if (ends === glue) throw new Error("wasm-bindgen's errors are not what scripts/build.mjs takes them for.");
   const instance = '__wbg_finalize_init(await WebAssembly.instantiate(module, __wbg_get_imports()), module);';
-  writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${glue}\n${instance}\nreturn exports;\n};\n`);
+  writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${ends}\n${instance}\nreturn exports;\n};\n`);
   const type = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
   writeFileSync(at(`${path}.d.ts`), `${type}export default instantiate;\n`);
 }

@@ -57,7 +57,16 @@ export async function instantiateFor(name) {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
-  const motion = await makeCore(await compiled(name));
+  let motion;
+  try {
+    motion = await makeCore(await compiled(name));
+  } catch (error) {
+    if (!forbidden()) throw error;
+    throw new Error(
+      "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
+      { cause: error },
+    );
+  }
   for (const [name, each] of Object.entries(motion)) if ('free' in (each.prototype ?? {})) makeSafe(name, /** @type {any} */ (each));
   return motion;
 }
@@ -99,29 +108,21 @@ const LONGEST = 200;
 
 /** @param {Source} source */
 async function compile(source) {
-  try {
-    if (source instanceof WebAssembly.Module) return source;
-    if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return await WebAssembly.compile(source);
-    if (source instanceof URL || typeof source === 'string') {
-      const file = fileAt(source);
-      return file ? await WebAssembly.compile(await file) : await streamed(source);
-    }
-  } catch (error) {
-    if (!forbidden()) throw error;
-    throw new Error(
-      "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
-      { cause: error },
-    );
+  if (source instanceof WebAssembly.Module) return source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
+  if (source instanceof URL || typeof source === 'string') {
+    const file = fileAt(source);
+    return file ? WebAssembly.compile(await file) : streamed(source);
   }
   throw new TypeError(
     `load: source is of the type ${typeof source}; allowed are the module's bytes, a URL or string, and a WebAssembly.Module.`,
   );
 }
 
-/** Whether not even an empty module may be compiled here. */
+/** Whether not even an empty module may run here: WebKit forbids that alone, others to compile it. */
 function forbidden() {
   try {
-    return !new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
+    return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));
   } catch {
     return true;
   }

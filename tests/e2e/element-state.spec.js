@@ -107,6 +107,9 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['banana-machine', { version: 2 }, 'RangeError: state.version is 2; allowed is 1'],
     ['banana-machine', { widget: 'map-squeeze' }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
     ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
+    // Of another widget, or of another day, it has other keys too, which is not what is wrong with it.
+    ['banana-machine', { widget: 'map-squeeze', start: {} }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
+    ['banana-machine', { version: 2, speed: 1 }, 'RangeError: state.version is 2; allowed is 1'],
     ['banana-machine', { samples: 0 }, 'RangeError: samples is 0; allowed is a whole number from 1 to 10000000'],
     ['banana-machine', { command: { v: 'fast', omega: 0, dt: 1 } }, 'TypeError: command.v is "fast"; allowed is a number'],
     ['banana-machine', { alphas: { walking: [] } }, 'TypeError: state.alphas.walking is an unknown key; allowed are velocity, odometry'],

@@ -31,11 +31,13 @@ function beginning(text) {
  * @param {string} field
  * @param {unknown} value
  * @param {readonly string[]} keys that it may have
+ * @param {(value: Record<string, unknown>) => void} [heed] what matters more than its keys
  */
-export function object(field, value, keys) {
+export function object(field, value, keys, heed) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusal(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
+  heed?.(/** @type {Record<string, unknown>} */ (value));
   const stranger = Object.keys(value).find((key) => !keys.includes(key));
   if (stranger !== undefined) {
     throw new TypeError(`${field}.${beginning(stranger)} is an unknown key; allowed are ${keys.join(', ')}`);

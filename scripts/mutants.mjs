@@ -5,14 +5,14 @@
 import { createHash } from 'node:crypto';
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
-import { dirname, join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { Missing, ROOT, findProgram, progress, run, runAsScript } from './process.mjs';
 import { CHOSEN, TELL, mutated, writeSchemata } from './schemata.mjs';
 import { nativeRust } from './toolchain.mjs';
 
 /** @typedef {import('./schemata.mjs').Mutant} Mutant */
 /** @typedef {{ program: string, name: string, seconds: number, reached: Set<number> }} Test */
-/** @typedef {{ name: string, verdict: 'caught' | 'missed' | 'unviable', by?: string, how?: string }} Outcome */
+/** @typedef {{ name: string, by?: string, how?: string }} Outcome of a mutant: by which test it was caught, if it was */
 
 const OUTPUT = join(ROOT, 'build/mutants');
 const COPY = join(OUTPUT, 'copy');
@@ -43,17 +43,13 @@ async function mutants([seed = '1', amount = '300']) {
   if (!Number.isInteger(count) || count < 1) throw new Missing(`COUNT is "${amount}", and has to be a whole number from 1.`);
   const all = inOrderOf(seed, await list());
   const { stdout } = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
-  progress(`${count} of ${all.length} mutants of ${stdout.trim()}, seed "${seed}"`);
-  /** @type {Outcome[]} */
-  const outcomes = [];
-  const viable = () => outcomes.filter(({ verdict }) => verdict !== 'unviable');
-  // One that does not compile gives its place to the next.
-  for (let next = 0; viable().length < count && next < all.length; ) {
-    const drawn = all.slice(next, (next += count - viable().length));
-    outcomes.push(...(await meetTests(drawn)));
-    writeFileSync(join(OUTPUT, 'results.json'), `${JSON.stringify(outcomes, null, 2)}\n`);
-  }
-  return report(outcomes, viable());
+  const sample = `${count} of ${all.length} mutants of ${stdout.trim()}`;
+  progress(`${sample}, seed "${seed}"`);
+  const { together, bodies, alone, unviable } = await compileSample(all, count);
+  const outcomes = await meetTests(together, bodies, alone);
+  const results = { sample, seed, outcomes, unviable: unviable.map(({ name }) => name) };
+  writeFileSync(join(OUTPUT, 'results.json'), `${JSON.stringify(results, null, 2)}\n`);
+  return report(outcomes, unviable.length);
 }
 
 /** @returns {Promise<Mutant[]>} */
@@ -81,40 +77,74 @@ export function inOrderOf(seed, mutants) {
 }
 
 /**
- * @param {Mutant[]} drawn
- * @returns {Promise<Outcome[]>}
+ * Draws the first mutants that compile: one that does not gives its place to the next.
+ *
+ * @param {Mutant[]} all
+ * @param {number} count
  */
-async function meetTests(drawn) {
+async function compileSample(all, count) {
+  /** @type {Map<number, Mutant>} */
+  let together = new Map();
+  /** @type {Map<number, number>} */
+  let bodies = new Map();
+  /** @type {Mutant[]} */
+  const alone = [];
+  /** @type {Mutant[]} */
+  const unviable = [];
+  for (let next = 0; together.size + alone.length < count && next < all.length; ) {
+    const more = all.slice(next, next + count - together.size - alone.length);
+    const numbers = more.map((mutant, i) => /** @type {const} */ ([next + i + 1, mutant]));
+    next += more.length;
+    const compiled = await compileTogether(new Map([...together, ...numbers]));
+    ({ together, bodies } = compiled);
+    unviable.push(...compiled.unviable);
+    for (const mutant of compiled.left) {
+      await copyWith(mutant);
+      const { ok } = await cargo(['check', '--lib'], COPY);
+      (ok ? alone : unviable).push(mutant);
+    }
+  }
+  await freshCopy();
+  writeSchemata(COPY, together);
+  return { together, bodies, alone, unviable };
+}
+
+/**
+ * @param {Map<number, Mutant>} together those in the copy
+ * @param {Map<number, number>} bodies
+ * @param {Mutant[]} alone
+ */
+async function meetTests(together, bodies, alone) {
   /** @type {Outcome[]} */
   const outcomes = [];
   const tell = (/** @type {Outcome} */ outcome) => {
     outcomes.push(outcome);
-    const { verdict, name, by = '', how = '' } = outcome;
-    console.log(`${verdict.padEnd(8)} ${name}  ${by} ${how}`);
+    const { name, by, how = '' } = outcome;
+    console.log(`${by === undefined ? 'MISSED' : 'caught'} ${name}  ${by ?? ''} ${how}`);
   };
-  const together = new Map(drawn.map((mutant, i) => [i + 1, mutant]));
-  /** @type {Mutant[]} */
-  const alone = [];
-  const bodies = await compileTogether(together, alone);
   const tests = await readTests();
-  const waiting = [...together.keys()];
+  const waiting = [...together];
   const work = async () => {
-    for (let number = waiting.shift(); number !== undefined; number = waiting.shift()) {
+    for (let entry = waiting.shift(); entry !== undefined; entry = waiting.shift()) {
+      const [number, { name }] = entry;
       const body = /** @type {number} */ (bodies.get(number));
-      const meeting = tests.filter(({ reached }) => reached.has(body));
-      tell({ name: /** @type {Mutant} */ (together.get(number)).name, ...(await verdictOf(meeting, `${number}`)) });
+      tell({ name, ...(await meeting(tests.filter(({ reached }) => reached.has(body)), `${number}`)) });
     }
   };
   await Promise.all(Array.from({ length: availableParallelism() }, work));
   for (const mutant of alone) {
-    await freshCopy();
-    const path = join(COPY, mutant.file);
-    writeFileSync(path, mutated(readFileSync(path, 'utf8'), mutant));
-    const compiles = (await cargo(['check', '--lib'], COPY)).ok;
-    if (compiles) await programs();
-    tell({ name: mutant.name, ...(compiles ? await verdictOf(tests, '0') : { verdict: 'unviable' }) });
+    await copyWith(mutant);
+    await programs();
+    tell({ name: mutant.name, ...(await meeting(tests, '0')) });
   }
   return outcomes;
+}
+
+/** @param {Mutant} mutant */
+async function copyWith(mutant) {
+  await freshCopy();
+  const path = join(COPY, mutant.file);
+  writeFileSync(path, mutated(readFileSync(path, 'utf8'), mutant));
 }
 
 /** The repository's files as they are. */
@@ -130,30 +160,33 @@ async function freshCopy() {
 /**
  * Compiles mutants into one program.
  *
- * @param {Map<number, Mutant>} together what it is called with, and after it what is in the program
- * @param {Mutant[]} alone receives those that do not compile so: some never would, and some not inside a `match`
- * @returns {Promise<Map<number, number>>} the numbers of the bodies that they are in
+ * @param {Map<number, Mutant>} mutants
+ * @returns {Promise<{ together: Map<number, Mutant>, bodies: Map<number, number>, left: Mutant[], unviable: Mutant[] }>}
+ *   those in the program, the numbers of the bodies that they are in, those that are to be compiled alone, and those whose
+ *   own text is wrong
  */
-async function compileTogether(together, alone) {
+async function compileTogether(mutants) {
+  const together = new Map(mutants);
+  /** @type {Mutant[]} */
+  const [left, unviable] = [[], []];
   for (;;) {
     await freshCopy();
-    const { parts, bodies, left } = writeSchemata(COPY, together);
+    const { parts, bodies, outside } = writeSchemata(COPY, together);
     const { ok, stdout } = await cargo(['check', '--lib', '--message-format', 'json'], COPY);
-    const wrong = new Set(left);
-    for (const message of messages(stdout)) {
-      if (message.reason !== 'compiler-message' || message.message.level !== 'error') continue;
-      for (const { file_name: file, line_start: line, is_primary: primary } of message.message.spans) {
+    const wrong = new Map(outside.map((number) => [number, left]));
+    for (const { reason, message } of messages(stdout)) {
+      if (reason !== 'compiler-message' || message.level !== 'error') continue;
+      for (const { file_name: file, line_start: line, is_primary: primary } of message.spans) {
         if (!primary) continue;
         const part = parts.find(({ file: other, lines: [from, to] }) => other === file && from <= line && line <= to);
-        if (part === undefined) continue;
-        if (part.number !== undefined) wrong.add(part.number);
-        else for (const [number, body] of bodies) if (body === part.body) wrong.add(number);
+        if (part?.number !== undefined) wrong.set(part.number, unviable);
+        else for (const [number, body] of bodies) if (body === part?.body) wrong.set(number, left);
       }
     }
-    if (ok && wrong.size === 0) return bodies;
+    if (ok && wrong.size === 0) return { together, bodies, left, unviable };
     if (wrong.size === 0) throw new Error(`The mutants do not compile together:\n${stdout}`);
-    for (const number of wrong) {
-      alone.push(/** @type {Mutant} */ (together.get(number)));
+    for (const [number, list] of wrong) {
+      list.push(/** @type {Mutant} */ (together.get(number)));
       together.delete(number);
     }
   }
@@ -207,34 +240,31 @@ function runTest({ program, name, seconds }, chosen) {
 /**
  * @param {Test[]} tests
  * @param {string} chosen
- * @returns {Promise<Omit<Outcome, 'name'>>}
+ * @returns {Promise<{ by?: string, how?: string }>} the first test that fails; and whether it said why
  */
-async function verdictOf(tests, chosen) {
+async function meeting(tests, chosen) {
   for (const test of tests) {
     const { ok, output } = await runTest(test, chosen);
-    const by = `${test.program.replace(/.*\/(.*)-[0-9a-f]+$/, '$1')}::${test.name}`;
-    if (!ok) return { verdict: 'caught', by, ...(/panicked at/.test(output) ? {} : { how: 'without an answer' }) };
+    const by = `${basename(test.program).replace(/-[0-9a-f]+$/, '')}::${test.name}`;
+    if (!ok) return { by, ...(/panicked at/.test(output) ? {} : { how: 'without an answer' }) };
   }
-  return { verdict: 'missed' };
+  return {};
 }
 
 /**
  * @param {Outcome[]} outcomes
- * @param {Outcome[]} viable
+ * @param {number} unviable
  * @returns {boolean} whether enough were noticed
  */
-function report(outcomes, viable) {
-  const missed = viable.filter(({ verdict }) => verdict === 'missed');
+function report(outcomes, unviable) {
+  const missed = outcomes.filter(({ by }) => by === undefined);
   progress('Missed');
   for (const { name } of missed) console.log(name);
-  const caught = viable.length - missed.length;
-  const percent = (/** @type {number} */ share) => `${(100 * share).toFixed(1)} %`;
-  const [low, high] = wilson(caught, viable.length);
-  console.log(
-    `\n${caught} of ${viable.length} caught: ${percent(caught / viable.length)}, with 95 % confidence ${percent(low)} to ` +
-      `${percent(high)}. ${outcomes.length - viable.length} more do not compile.`,
-  );
-  return caught / viable.length >= NOTICED;
+  const [n, caught] = [outcomes.length, outcomes.length - missed.length];
+  const [share, low, high] = [caught / n, ...wilson(caught, n)].map((part) => `${(100 * part).toFixed(1)} %`);
+  console.log(`\n${caught} of ${n} caught: ${share}, with 95 % confidence ${low} to ${high}.`);
+  console.log(`${unviable} more were drawn that do not compile.`);
+  return caught / n >= NOTICED;
 }
 
 /**

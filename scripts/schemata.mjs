@@ -102,7 +102,7 @@ function bodyOf(text, mutant) {
  *
  * @param {string} root of a copy that is changed
  * @param {Map<number, Mutant>} mutants by their numbers, from 1
- * @returns {{ parts: Part[], bodies: Map<number, number>, left: number[] }} where each was written; the body that each is
+ * @returns {{ parts: Part[], bodies: Map<number, number>, outside: number[] }} where each was written; the body that each is
  *   in; those that no function can hold
  */
 export function writeSchemata(root, mutants) {
@@ -111,13 +111,13 @@ export function writeSchemata(root, mutants) {
   /** @type {Map<number, number>} */
   const bodies = new Map();
   /** @type {number[]} */
-  const left = [];
+  const outside = [];
   let count = 0;
   for (const file of new Set([...mutants.values()].map((mutant) => mutant.file))) {
     const path = join(root, file);
     const text = readFileSync(path, 'utf8');
     const found = [...mutants].filter(([, mutant]) => mutant.file === file).map(([number, mutant]) => ({ number, mutant, body: bodyOf(text, mutant) }));
-    left.push(...found.filter(({ body }) => body === undefined).map(({ number }) => number));
+    outside.push(...found.filter(({ body }) => body === undefined).map(({ number }) => number));
     // A function inside another is part of its text.
     const ranges = found.flatMap(({ body }) => body ?? []);
     const isOuter = (/** @type {Range} */ a) => !ranges.some((b) => b.start < a.start && a.end <= b.end);
@@ -146,5 +146,5 @@ export function writeSchemata(root, mutants) {
   writeFileSync(join(root, 'src/mutants.rs'), chooser(count));
   const lib = join(root, 'src/lib.rs');
   writeFileSync(lib, `${readFileSync(lib, 'utf8')}\n#[doc(hidden)]\nmod mutants;\n`);
-  return { parts, bodies, left };
+  return { parts, bodies, outside };
 }

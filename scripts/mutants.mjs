@@ -167,7 +167,7 @@ async function freshCopy() {
  */
 async function compileTogether(mutants) {
   const together = new Map(mutants);
-  /** @type {Mutant[]} */
+  /** @type {[Mutant[], Mutant[]]} */
   const [left, unviable] = [[], []];
   for (;;) {
     await freshCopy();

@@ -47,6 +47,23 @@ const pass = (page) =>
 test.describe('far from the window', () => {
   test.use(STILL);
 
+  test('what a page opens with is there before any observer has looked, and nothing else is', async ({ page }) => {
+    await page.addInitScript(() => {
+      window.IntersectionObserver = /** @type {any} */ (
+        class {
+          observe() {}
+          unobserve() {}
+        }
+      );
+    });
+    const [above, seen, below] = ['position: absolute; top: -4000px', '', 'position: absolute; top: 4000px'];
+    await show(page, [above, seen, below].map((style) => `<div style="width: 600px; ${style}"><banana-machine></banana-machine></div>`).join(''));
+    const widgets = page.locator('banana-machine');
+    await ready(widgets.nth(1));
+    await expect(widgets.nth(1).getByRole('button', { name: 'Straight' })).toBeVisible();
+    for (const i of [0, 2]) expect(await property(widgets.nth(i), 'machine')).toBe(undefined);
+  });
+
   test('nothing is fetched or computed, and one module serves all', FRESH, async ({ page }) => {
     /** @type {string[]} */
     const fetched = [];

@@ -184,6 +184,14 @@ const DEEDS = {
       return `${name} ${choice === 0 ? `${field}: ${JSON.stringify(text)}` : 'a former state'}`;
     }, [name, choice, key, text]);
   },
+  /** In a cloud of millions everything else would take its time. */
+  async few(page, luck) {
+    const [name, samples] = [luck.one(NAMES), luck.one([1, 20, 300, 2000])];
+    return page.evaluate(([name, samples]) => {
+      Object.assign(/** @type {Element} */ (document.querySelector(`${name}`)), { samples });
+      return `${name} ${samples}`;
+    }, [name, samples]);
+  },
   async move(page, luck) {
     const [name, choice] = [luck.one(NAMES), luck.below(3)];
     return page.evaluate(async ([name, choice]) => {
@@ -200,7 +208,7 @@ const DEEDS = {
 };
 
 /** How often each comes, against the others. @type {Record<string, number>} */
-const SHARES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, move: 1 };
+const SHARES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, few: 4, move: 1 };
 const DRAWN = Object.entries(SHARES).flatMap(([name, share]) => Array(share).fill(name));
 
 /**

@@ -86,8 +86,12 @@ declare const widget: { render(view: { model: object; el: HTMLElement }): (() =>
 export default widget;
 `;
 
-/** Bundles everything anew. */
-export async function bundle() {
+/**
+ * Bundles everything anew.
+ *
+ * @param {(path: string, script: string) => string} [changed] what becomes of a script of www/
+ */
+export async function bundle(changed = (_, script) => script) {
   progress('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -126,7 +130,7 @@ export async function bundle() {
               loader: 'js',
             }));
             onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({
-              contents: withShortStyles(readFileSync(path, 'utf8'), transformSync),
+              contents: changed(path, withShortStyles(readFileSync(path, 'utf8'), transformSync)),
               loader: 'js',
             }));
           },

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { NAMES, heard, ready, show, stateOf } from './element-support.js';
+import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
 import { FRESH, STILL, frames, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -114,6 +114,33 @@ for (const name of NAMES) {
     expect(await heard(page, ['error'])).toHaveLength(1);
   });
 }
+
+test('a link that unpacks to more than any map takes is refused, whatever it says', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const state = JSON.stringify({ widget: 'banana-machine', version: 1, samples: 700 });
+  for (const [length, samples] of [[4_000_001, 50_000], [4_000_000, 700]]) {
+    await page.evaluate(async (text) => {
+      const packed = new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+      const bytes = new Uint8Array(await new Response(packed).arrayBuffer());
+      location.hash = `#banana-machine.1=${btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')}`;
+    }, state.padEnd(length));
+    if (samples === 700) await expect.poll(() => property(widget, 'samples')).toBe(samples);
+    else await expect.poll(async () => (await heard(page, ['error'])).map(({ message }) => message).join()).toContain('state in the address is "');
+    expect(await property(widget, 'samples')).toBe(samples);
+  }
+});
+
+test('the code to embed a figure that is not there yet has what was said of it by theme and language', async ({ page }) => {
+  await show(page, '');
+  const code = await page.evaluate(() => {
+    const element = document.createElement('banana-machine');
+    for (const [name, text] of Object.entries({ theme: 'dark', lang: 'de', v: '0.5' })) element.setAttribute(name, text);
+    return element.embedCode();
+  });
+  expect(code.split('\n').slice(1)).toEqual(['<banana-machine theme="dark" lang="de"></banana-machine>', '']);
+});
 
 test.describe('the menu', () => {
   test.use({ permissions: ['clipboard-read', 'clipboard-write'] });

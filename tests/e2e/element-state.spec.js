@@ -110,6 +110,12 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     // Of another widget, or of another day, it has other keys too, which is not what is wrong with it.
     ['banana-machine', { widget: 'map-squeeze', start: {} }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
     ['banana-machine', { version: 2, speed: 1 }, 'RangeError: state.version is 2; allowed is 1'],
+    ['banana-machine', { version: {} }, 'RangeError: state.version is an object; allowed is 1'],
+    ['banana-machine', { version: null }, 'RangeError: state.version is null; allowed is 1'],
+    ['banana-machine', { version: [1] }, 'RangeError: state.version is an array; allowed is 1'],
+    ['banana-machine', { widget: 'w'.repeat(40) }, `RangeError: state.widget is "${'w'.repeat(40)}"; allowed`],
+    ['banana-machine', { widget: 'w'.repeat(41) }, `RangeError: state.widget is "${'w'.repeat(40)}…"; allowed`],
+    ['banana-machine', { overlays: 'ellipse' }, 'TypeError: state.overlays is "ellipse"; allowed is an array of command, ellipse, linearized, additive, exponential'],
     ['banana-machine', { samples: 0 }, 'RangeError: samples is 0; allowed is a whole number from 1 to 10000000'],
     ['banana-machine', { command: { v: 'fast', omega: 0, dt: 1 } }, 'TypeError: command.v is "fast"; allowed is a number'],
     ['banana-machine', { alphas: { walking: [] } }, 'TypeError: state.alphas.walking is an unknown key; allowed are velocity, odometry'],

@@ -99,6 +99,45 @@ for (const name of NAMES) {
   });
 }
 
+test('what is asked while a core is mended is the last good state, and nothing else fails', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><div style="height: 4000px"></div>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await heard(page);
+  const asked = await widget.evaluate(async (element) => {
+    const widget = /** @type {AnyElement} */ (element);
+    const trap = () => {
+      throw new WebAssembly.RuntimeError('unreachable');
+    };
+    const before = JSON.stringify(widget.getState());
+    // In the middle of what takes several frames.
+    Object.defineProperty(widget.machine, 'advance', { value: trap });
+    /** @type {unknown[]} */
+    const asked = [];
+    widget.addEventListener('error', () => asked.push(widget.stats, widget.poses, JSON.stringify(widget.getState()) === before), { once: true });
+    const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#v'));
+    slider.value = '0.25';
+    slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+    return asked;
+  });
+  expect(asked).toEqual([null, null, true]);
+  await mended(widget);
+  // Out of sight, between a change of the page's and its telling.
+  await page.evaluate(() => scrollTo(0, 4000));
+  await frames(page);
+  await widget.evaluate((element) => {
+    const widget = /** @type {AnyElement} */ (element);
+    Object.assign(window, { damaged: widget.machine });
+    widget.v = 0.5;
+    if (widget.machine) widget.machine.__wbg_ptr = 0x7ffffff0;
+    return widget.stats;
+  });
+  await page.evaluate(() => scrollTo(0, 0));
+  await mended(widget);
+  expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['unreachable', expect.stringMatching(/memory access out of bounds|unreachable/)]);
+});
+
 test('a core that traps again and again ends in a sentence, not in a loop', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine>');
   const widget = page.locator('banana-machine');

@@ -222,6 +222,24 @@ test('the menu saves files with names that say what they are, from the keyboard 
   }
 });
 
+test('a file that is saved says of what type it is', async ({ page }) => {
+  await page.addInitScript(() => {
+    const types = /** @type {string[]} */ ([]);
+    const address = URL.createObjectURL.bind(URL);
+    Object.assign(window, { types });
+    URL.createObjectURL = (blob) => {
+      types.push(/** @type {Blob} */ (blob).type);
+      return address(blob);
+    };
+  });
+  const widget = await open(page);
+  await widget.locator('.exports summary').click();
+  for (const name of ['PNG', 'SVG', 'CSV']) {
+    await Promise.all([page.waitForEvent('download'), widget.locator('.exports').getByRole('button', { name }).click()]);
+  }
+  expect(await page.evaluate(() => Reflect.get(window, 'types'))).toEqual(['image/png', 'image/svg+xml', 'text/csv']);
+});
+
 test('before there is a figure the methods say so', async ({ page }) => {
   await open(page);
   const complaint = await page.evaluate(async () => {

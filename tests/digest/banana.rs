@@ -128,7 +128,7 @@ impl Told for LikelihoodGain {
     }
 }
 
-impl Told for Stats<'_> {
+impl Told for Stats {
     fn tell(&self, bytes: &mut Vec<u8>) {
         let Self { n, figures } = self;
         let Figures { cartesian, exponential, cross_track, gaussian_skew, inside_ellipse, .. } = figures;

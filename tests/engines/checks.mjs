@@ -10,7 +10,8 @@ import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
 import { differences } from '../digest/digest.js';
-import { figures, machineOf, maps } from './figures.mjs';
+import { refusalOf } from '../node/map-support.js';
+import { damaged, figures, machineOf, maps } from './figures.mjs';
 import { machineState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
@@ -118,11 +119,12 @@ export async function check(name, engine, address) {
       states[`${tag} by its sliders`] = await slidersByKeys(page, tag);
     });
   }
-  for (const map of maps()) {
-    await attempt(`a map comes as ${map.name}`, async () => {
-      states[`a map as ${map.name}`] = await mapped(page, map);
+  for (const [name, map] of Object.entries(maps)) {
+    await attempt(`a map comes as ${name}`, async () => {
+      states[`a map as ${name}`] = await mapped(page, name, map);
     });
   }
+  for (const [name, map] of Object.entries(damaged)) await attempt(`${name} is refused`, () => refused(page, name, map));
   return { passed, failures, states };
 }
 
@@ -137,7 +139,7 @@ async function bits(page) {
  *
  * @param {Page} page
  * @param {string} tag
- * @param {import('./figures.mjs').OwnMap} [map]
+ * @param {File[]} [map]
  * @returns {Promise<{ machine: any, hash: string }>} the machine in Node
  */
 async function asInNode(page, tag, map) {
@@ -214,15 +216,31 @@ async function slidersByKeys(page, tag) {
   return (await asInNode(page, tag)).hash;
 }
 
-/** @type {(page: Page, map: import('./figures.mjs').OwnMap) => Promise<string>} */
-async function mapped(page, map) {
-  const tag = 'map-squeeze';
-  await page.open(tag);
-  const { hash: before } = await page.ask('stateOf', tag);
-  const files = map.files.map(({ name, buffer }) => ({ name, bytes: [...buffer] }));
-  assert.ok(await page.ask('drop', { tag, files }), 'It does not take files.');
-  assert.notEqual(await page.ask('changed', { tag, hash: before }), before, 'The map has not come.');
-  await page.settled(tag);
-  await page.keep(`${tag}-${map.name}`);
-  return (await asInNode(page, tag, map)).hash;
+const MAPPED = 'map-squeeze';
+
+/** @type {(page: Page, files: File[]) => Promise<void>} */
+async function drop(page, files) {
+  const contents = files.map(async (file) => ({ name: file.name, bytes: [...new Uint8Array(await file.arrayBuffer())] }));
+  assert.ok(await page.ask('drop', { tag: MAPPED, files: await Promise.all(contents) }), 'It does not take files.');
+}
+
+/** @type {(page: Page, name: string, map: File[]) => Promise<string>} */
+async function mapped(page, name, map) {
+  await page.open(MAPPED);
+  const { hash: before } = await page.ask('stateOf', MAPPED);
+  await drop(page, map);
+  assert.notEqual(await page.ask('changed', { tag: MAPPED, hash: before }), before, 'The map has not come.');
+  await page.settled(MAPPED);
+  await page.keep(`${MAPPED}-${name.replaceAll(' ', '-')}`);
+  return (await asInNode(page, MAPPED, map)).hash;
+}
+
+/** In the same words as in Node. @type {(page: Page, name: string, map: File[]) => Promise<void>} */
+async function refused(page, name, map) {
+  await page.open(MAPPED);
+  const before = await page.ask('stateOf', MAPPED);
+  await drop(page, map);
+  assert.equal(await page.ask('refusalOf', MAPPED), await refusalOf(map));
+  assert.deepEqual(await page.ask('stateOf', MAPPED), before, 'The figure is not as it was.');
+  await page.keep(`${MAPPED}-${name.replaceAll(' ', '-')}`);
 }

@@ -5,7 +5,9 @@
  */
 
 import { load } from '../../dist/core.js';
-import { pgm, png, yaml } from '../e2e/squeeze-support.js';
+import { pgm } from '../e2e/squeeze-support.js';
+import { description, file, opened } from '../node/map-support.js';
+import { pngOf } from '../png.js';
 
 /**
  * @typedef {object} Handle
@@ -13,9 +15,6 @@ import { pgm, png, yaml } from '../e2e/squeeze-support.js';
  * @property {number[]} to where it is dragged, m
  * @property {(machine: any, to: number[]) => number[]} placeOf what a machine is told, where the handle stands for it; `to` is
  *   how far away it was dragged
- *
- * @typedef {{ name: string, files: import('../e2e/squeeze-support.js').MapFile[], description: object, image: Uint8Array }} OwnMap
- *   `image` is a PGM file of the same cells
  */
 
 /** By their tags. @type {Record<string, { handles: Handle[] }>} */
@@ -41,28 +40,45 @@ export const figures = {
 /**
  * @param {string} tag
  * @param {any} config
- * @param {OwnMap} [map]
+ * @param {File[]} [map]
  * @returns {Promise<any>} the machine of a figure, in Node
  */
 export async function machineOf(tag, config, map) {
+  if (map) {
+    const machine = await opened(...map);
+    machine.configure(config);
+    return machine;
+  }
   const motion = /** @type {any} */ (await load());
-  const machine = new motion[tag.replace(/(^|-)(\w)/g, (_, _dash, letter) => letter.toUpperCase())](config);
-  if (map) machine.setGrid(map.description, map.image);
-  return machine;
+  return new motion[tag.replace(/(^|-)(\w)/g, (_, _dash, letter) => letter.toUpperCase())](config);
 }
 
-/** Two rooms with a door between them. @type {import('../e2e/squeeze-support.js').Occupied} */
-const rooms = (column, row) => column === 0 || row === 0 || column === 59 || row === 39 || (column === 30 && (row < 15 || row > 24));
+/** Two rooms with a door between them. @type {(column: number, row: number) => boolean} */
+const isWall = (column, row) => column === 0 || row === 0 || column === 59 || row === 39 || (column === 30 && (row < 15 || row > 24));
+const ROOMS = { width: 60, height: 40, sample: (/** @type {number} */ column, /** @type {number} */ row) => (isWall(column, row) ? 0 : 254) };
 
-/** @returns {OwnMap[]} the same in both formats */
-export function maps() {
-  const description = { resolution: 0.1, origin: [-1, -2, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 };
-  const image = pgm('rooms.pgm', 60, 40, rooms);
-  const told = (/** @type {string} */ name) => yaml('rooms.yaml', { ...description, image: name, origin: '[-1, -2, 0]' });
-  return [image, png('rooms.png', 60, 40, rooms)].map((file) => ({
-    name: file.name,
-    files: [told(file.name), file],
-    description,
-    image: new Uint8Array(image.buffer),
-  }));
-}
+/** Every shade behind glass of every opacity, told in the order of an interlaced image, with a gamma that is none of a map's. */
+const GLASS = {
+  width: 64,
+  height: 64,
+  colour: 4,
+  interlaced: true,
+  sample: (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ part) => 4 * (part === 0 ? column : row),
+  before: /** @type {[string, number[]][]} */ ([['gAMA', [0, 0, 0xb1, 0x8f]]]),
+};
+
+/** Maps of a reader's own, by what they are. @type {Record<string, File[]>} */
+export const maps = {
+  'a PGM image': [description({ resolution: 0.1, image: 'map.pgm' }), file('map.pgm', new Uint8Array(pgm('map.pgm', ROOMS.width, ROOMS.height, isWall).buffer))],
+  'a PNG image': [description({ resolution: 0.1 }), file('map.png', pngOf(ROOMS))],
+  'a PNG image of glass': [description({ resolution: 0.1, mode: 'scale' }), file('map.png', pngOf(GLASS))],
+};
+
+/** The first half of an image. */
+const half = pngOf(ROOMS).subarray(0, pngOf(ROOMS).length / 2);
+
+/** What is no map. @type {Record<string, File[]>} */
+export const damaged = {
+  'half a PNG image': [description(), file('map.png', half)],
+  'a YAML file that holds itself': [file('map.yaml', 'image: &a [*a]')],
+};

@@ -141,6 +141,16 @@ export function drop({ tag, files }) {
   return over.defaultPrevented && dropped.defaultPrevented;
 }
 
+/** @param {string} tag @returns {Promise<string>} what a figure says of files that it has refused, as soon as it does */
+export async function refusalOf(tag) {
+  const end = performance.now() + 20_000;
+  for (;;) {
+    const said = rootOf(tag).querySelector('.own-map .note')?.textContent?.trim();
+    if (said || performance.now() > end) return said ?? '';
+    await frame();
+  }
+}
+
 /** The digest of all configurations, by the core that ships. */
 export async function wholeDigest() {
   const [{ load }, list] = await Promise.all([

@@ -8,6 +8,8 @@ import { test } from './support.js';
 const at = (/** @type {string} */ name) => new URL(`../digest/${name}`, import.meta.url).pathname;
 
 test('a seed gives the bits that it gives natively and in Node', async ({ page }) => {
+  // Some seconds for all machines, and many times that beside other work.
+  test.setTimeout(180_000);
   await page.route('**/digest/*', (route) => route.fulfill({ path: at(new URL(route.request().url()).pathname.split('/')[2]) }));
   await page.goto('/custom-elements.json');
   const computed = await page.evaluate(async () => {

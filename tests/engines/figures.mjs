@@ -57,7 +57,7 @@ export async function machineOf(tag, config, map) {
 const isWall = (column, row) => column === 0 || row === 0 || column === 59 || row === 39 || (column === 30 && (row < 15 || row > 24));
 const ROOMS = { width: 60, height: 40, sample: (/** @type {number} */ column, /** @type {number} */ row) => (isWall(column, row) ? 0 : 254) };
 
-/** Every shade behind glass of every opacity, told in the order of an interlaced image, with a gamma that is none of a map's. */
+/** Every shade behind glass of every opacity, told in the order of an interlaced image, with a gamma that is nothing to a map. */
 const GLASS = {
   width: 64,
   height: 64,
@@ -71,7 +71,7 @@ const GLASS = {
 export const maps = {
   'a PGM image': [description({ resolution: 0.1, image: 'map.pgm' }), file('map.pgm', new Uint8Array(pgm('map.pgm', ROOMS.width, ROOMS.height, isWall).buffer))],
   'a PNG image': [description({ resolution: 0.1 }), file('map.png', pngOf(ROOMS))],
-  'a PNG image of glass': [description({ resolution: 0.1, mode: 'scale' }), file('map.png', pngOf(GLASS))],
+  'a PNG image of glass': [description({ resolution: 0.1 }), file('map.png', pngOf(GLASS))],
 };
 
 /** The first half of an image. */

@@ -7,6 +7,7 @@ mod floor_plan;
 mod occupancy;
 mod open_place;
 mod pgm;
+mod wall_tree;
 
 pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MapConditioned, Sampler, Wedged};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};

@@ -87,7 +87,7 @@ impl WallTree {
         }
         let spread = ends.map(|[least, most]| most - least);
         let axis = (1..4).fold(0, |widest, axis| if spread[axis] > spread[widest] { axis } else { widest });
-        walls.select_nth_unstable_by(middle - range.start, |a, b| place(a)[axis].total_cmp(&place(b)[axis]));
+        part(walls, middle - range.start, axis);
     }
 
     fn node_of(&self, at: usize) -> Node {
@@ -220,6 +220,45 @@ impl Line {
         x * x + y * y
     }
 }
+
+/// Brings the first `count` walls by a coordinate before the others, by Hoare's selection: in as many rounds as are usual at
+/// most. Were walls made to need more, their tree would have other parts and be none the less right.
+fn part(walls: &mut [Segment], count: usize, axis: usize) {
+    let (mut low, mut high) = (0, walls.len());
+    for _ in 0..ROUNDS {
+        if high - low < 2 {
+            return;
+        }
+        let of = |wall: &Segment| place(wall)[axis];
+        let pivot = of(&walls[(low + high) / 2]);
+        let (mut left, mut right) = (low, high);
+        loop {
+            while of(&walls[left]) < pivot {
+                left += 1;
+            }
+            while of(&walls[right - 1]) > pivot {
+                right -= 1;
+            }
+            if left < right {
+                walls.swap(left, right - 1);
+                (left, right) = (left + 1, right - 1);
+            }
+            if left >= right {
+                break;
+            }
+        }
+        // All before `right` are up to the pivot, all from `left` on at least.
+        if count < right {
+            high = right;
+        } else if count > left {
+            low = left;
+        } else {
+            return;
+        }
+    }
+}
+
+const ROUNDS: usize = 64;
 
 /// Coordinates of a wall among others: twice its middle, and the way from its left end to the right one. It does not
 /// matter which end is called the first.

@@ -8,6 +8,7 @@ use super::values::{
 };
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, Sampler, Wedged};
+use crate::sim::settings::MAX_SEED;
 use crate::sim::squeeze::{
     Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, PRESETS, Settings, alphas_of_noise,
 };
@@ -61,6 +62,11 @@ impl From<Wedged> for JsValue {
     }
 }
 
+fn opening(options: &JsValue) -> Result<Settings, JsValue> {
+    let settings = Settings::default();
+    if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
+}
+
 /// One command in a map, tried many times by a round robot. Metres, radians, seconds throughout. Whatever is out of range
 /// throws a TypeError or RangeError that names the field, and changes nothing.
 #[wasm_bindgen(js_name = MapSqueeze)]
@@ -74,9 +80,15 @@ impl JsMapSqueeze {
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
         options: &JsValue,
     ) -> Result<Self, JsValue> {
-        let settings = Settings::default();
-        let settings = if options.is_undefined() { settings } else { read_settings(&settings, options)? };
-        Ok(Self(MapSqueeze::new(settings)?))
+        Ok(Self(MapSqueeze::new(opening(options)?)?))
+    }
+
+    /// A machine as the constructor makes it, of whose samples none is tried yet.
+    pub fn empty(
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
+        options: &JsValue,
+    ) -> Result<Self, JsValue> {
+        Ok(Self(MapSqueeze::empty(opening(options)?)?))
     }
 
     /// Largest `samples`.
@@ -108,6 +120,37 @@ impl JsMapSqueeze {
         settings: &JsValue,
     ) -> Result<(), JsValue> {
         Ok(self.0.configure(read_settings(self.0.settings(), settings)?)?)
+    }
+
+    /// As `configure`, in slices: `advance` is to be called until it says true. Until then only some of the samples are
+    /// shown.
+    pub fn begin(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
+        settings: &JsValue,
+    ) -> Result<(), JsValue> {
+        Ok(self.0.begin(read_settings(self.0.settings(), settings)?)?)
+    }
+
+    /// Looks at the map, where that is a new one, and works on what was begun, for computing about as many distances;
+    /// whether all is done.
+    pub fn advance(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "number")] distances: &JsValue,
+    ) -> Result<bool, JsValue> {
+        let distances = whole("distances", distances, 1..=MAX_SEED)?;
+        Ok(self.0.advance(usize::try_from(distances).unwrap_or(usize::MAX)))
+    }
+
+    /// How much is done of looking at the map or, after that, of the samples; from 0 to 1.
+    #[wasm_bindgen(getter)]
+    pub fn progress(&self) -> f64 {
+        self.0.progress()
+    }
+
+    /// Gives up what was begun: the settings and samples are the former ones.
+    pub fn stop(&mut self) {
+        self.0.stop();
     }
 
     /// A copy; changing it changes nothing.
@@ -203,6 +246,16 @@ impl JsMapSqueeze {
     ) -> Result<usize, JsValue> {
         let count = whole("count", count, 0..=MAX_SAMPLES as u64)?;
         Ok(self.0.grow(count as usize))
+    }
+
+    /// As `grow`, in slices like `begin`.
+    #[wasm_bindgen(js_name = beginToGrow)]
+    pub fn begin_to_grow(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
+    ) -> Result<(), JsValue> {
+        self.0.begin_to_grow(whole("count", count, 0..=MAX_SAMPLES as u64)? as usize);
+        Ok(())
     }
 
     /// Shows none; the same attempts come again.

@@ -151,7 +151,12 @@ export class Cloud extends Part {
 
   /** Whether the marked sample is there, or comes. */
   get #isWanted() {
-    return this.index >= 0 && this.index < markable(this.#machine, this.growing);
+    return this.index >= 0 && this.index < this.markable;
+  }
+
+  /** How many samples can be marked: one that is to come can be, and is from when it is there. */
+  get markable() {
+    return this.growing ? this.#machine.config.samples : this.#machine.shown;
   }
 
   /** A mark of what is not there, and does not come, goes. */
@@ -222,32 +227,11 @@ export class Cloud extends Part {
   }
 }
 
-/**
- * Leaves of a machine's cloud the first samples only.
- *
- * @param {Growing} machine
- * @param {number} shown
- */
-export function showOnly(machine, shown) {
-  if (shown >= machine.config.samples) return;
-  machine.restart();
-  machine.grow(shown);
-}
-
-/**
- * How many samples can be marked: one that is to come can be, and is from when it is there.
- *
- * @param {Growing} machine
- * @param {boolean} growing
- */
-const markable = ({ config, shown }, growing) => (growing ? config.samples : shown);
-
 /** What of the state of an element with a cloud is its own. @type {Record<string, import('./state.js').Owned>} */
 export const cloudState = {
   marked: {
     opening: null,
-    check: (field, marked, machine, growing) =>
-      marked === null ? null : wholeNumber(field, marked, 0, markable(machine, growing) - 1),
+    check: (field, marked, machine, markable) => (marked === null ? null : wholeNumber(field, marked, 0, markable - 1)),
   },
 };
 

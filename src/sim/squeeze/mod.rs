@@ -274,8 +274,10 @@ impl MapSqueeze {
         done
     }
 
+    /// Makes all attempts that there are to be. Where there are none, nobody looks at the map.
     fn finish(&mut self) {
-        while !self.advance(usize::MAX) {}
+        while self.shown.goal > 0 && !self.advance(usize::MAX) {}
+        self.former = None;
     }
 
     /// How much is done of looking at the map or, after that, of the attempts; from 0 to 1.

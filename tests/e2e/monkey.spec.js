@@ -15,7 +15,7 @@ import { FRESH, frames, test } from './support.js';
  * @typedef {(page: Page, luck: Luck) => Promise<string>} Deed one that says what it did
  */
 
-const EVENTS = Number(process.env.MONKEY_EVENTS ?? 1500);
+const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);
 const SEED = Number(process.env.MONKEY_SEED ?? 1);
 
 /** Events between two looks at what they led to. */

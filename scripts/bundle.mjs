@@ -5,6 +5,7 @@ import { appendFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync,
 import { basename, dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
 import { pascal, widgets } from './declarations.mjs';
+import { licences, packagesOf } from './licences.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
 import { writePython } from './python.mjs';
@@ -183,6 +184,8 @@ export async function bundle(changed = (_, script) => script) {
   // What weighs how much: read by scripts/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
+  const crates = JSON.parse(readFileSync(at('build/crates.json'), 'utf8'));
+  write(at('dist/LICENSE-third-party.txt'), licences([...packagesOf(outputs), ...crates]));
   await writePython();
 }
 

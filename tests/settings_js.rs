@@ -1,6 +1,6 @@
 //! `www/settings.js`, what JavaScript has to know of the core before it is loaded, is what the core declares.
 
-use motion::map::MAX_PIXELS;
+use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP;
 use motion::sim::settings::{Declaration, Declared, Group, Setting};
 use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL, PATH_FREE};
@@ -52,10 +52,10 @@ export const presets = {{
 export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odometry_alphas:?} }};
 
 /**
- * What the core takes at most: `cells` of a grid or pixels of an image, `trial` samples times parts in `trial`, and the
- * number of colours that a `ramp` has.
+ * What the core takes at most: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
+ * `trial`, and the number of colours that a `ramp` has.
  */
-export const limits = {{ cells: {MAX_CELLS}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
+export const limits = {{ cells: {MAX_CELLS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
 
 /** Bits of a verdict of Map Squeeze. */
 export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: {ACCEPTED} }};

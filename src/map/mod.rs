@@ -11,4 +11,4 @@ mod pgm;
 pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MapConditioned, Sampler, Wedged};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
 pub use occupancy::{Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown};
-pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, read_pgm};
+pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, Shades, read_pgm};

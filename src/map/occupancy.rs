@@ -56,11 +56,11 @@ pub enum Unknown {
 
 /// A picture of shades from 0 (black) to 1 (white), row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Image {
+pub struct Image<Pixels = Vec<Pixel>> {
     pub width: usize,
     pub height: usize,
     /// width · height of them.
-    pub pixels: Vec<Pixel>,
+    pub pixels: Pixels,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,21 +114,32 @@ impl OccupancyGrid {
     /// unknown is free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
-    pub fn new(image: &Image, interpretation: &Interpretation, resolution: f64, origin: SE2) -> Self {
+    pub fn new<Pixels: Clone + IntoIterator<Item = Pixel>>(
+        image: &Image<Pixels>,
+        interpretation: &Interpretation,
+        resolution: f64,
+        origin: SE2,
+    ) -> Self {
         let Image { width, height, ref pixels } = *image;
-        let transparent = pixels.iter().any(|pixel| pixel.opacity < 1.0);
-        let four_colours = interpretation.mode == Mode::Trinary && transparent;
-        let seen = |pixel: &Pixel| match *pixel {
-            Pixel { shade, opacity } if four_colours => {
-                Pixel { shade: (3.0 * shade + opacity) / 4.0, opacity }
+        let mut cells = vec![Cell::Free; width * height];
+        // Into cells at once: the pixels of a large image take several times their memory.
+        let mut fill = |four_colours: bool| {
+            let mut transparent = false;
+            let mut pixels = pixels.clone().into_iter();
+            for row in cells.chunks_mut(width.max(1)).rev() {
+                for (cell, mut pixel) in row.iter_mut().zip(&mut pixels) {
+                    transparent |= pixel.opacity < 1.0;
+                    if four_colours {
+                        pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
+                    }
+                    *cell = interpretation.cell(pixel);
+                }
             }
-            opaque => opaque,
+            transparent
         };
-        let cells = pixels
-            .chunks(width.max(1))
-            .rev()
-            .flat_map(|row| row.iter().map(|pixel| interpretation.cell(seen(pixel))))
-            .collect();
+        if fill(false) && interpretation.mode == Mode::Trinary {
+            fill(true);
+        }
         let (to_local, unknown) = (Departure::new(origin.inverse()), Unknown::default());
         Self { width, height, resolution, origin, to_local, cells, unknown }
     }

@@ -2,6 +2,7 @@
 
 use super::occupancy::{Image, Pixel};
 use std::fmt;
+use std::slice::ChunksExact;
 
 /// Why bytes are not a PGM image.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -10,12 +11,15 @@ pub struct PgmError {
     pub field: &'static str,
     /// The line of the header where it should have been, from 1.
     pub line: usize,
-    pub expected: String,
+    /// What is there instead, as a sentence quotes it.
+    pub value: String,
+    pub allowed: String,
 }
 
 impl fmt::Display for PgmError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {} is not as expected: {}", self.line, self.field, self.expected)
+        let Self { field, line, value, allowed } = self;
+        write!(f, "line {line}: {field} is {value}; allowed is {allowed}")
     }
 }
 
@@ -27,43 +31,93 @@ pub const MAX_PIXELS: usize = 1 << 24;
 /// Bytes of a file at most: a plain one takes six characters a pixel.
 pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 
-/// The image in `bytes`: PGM, binary (P5) or plain (P2), of 8 or 16 bits.
+/// Characters of what is there instead that are quoted.
+const QUOTED: usize = 20;
+
+/// The image in `bytes`: PGM, binary (P5) or plain (P2), of 8 or 16 bits. All of it is looked at, and none of it copied.
 ///
 /// # Errors
 /// [`PgmError`] with the line of the header, or the line where plain pixels end.
-pub fn read_pgm(bytes: &[u8]) -> Result<Image, PgmError> {
+pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     let mut reader = Reader { bytes, at: 0, line: 1 };
     let plain = match reader.token() {
         b"P5" => false,
         b"P2" => true,
-        _ => return Err(reader.error("the magic number", "P5 or P2 as the first two bytes")),
+        token => return Err(reader.error("the magic number", token, "P5 or P2".to_owned())),
     };
     let width = reader.number("the width", 1, MAX_PIXELS)?;
     let height = reader.number("the height", 1, MAX_PIXELS / width)?;
     let greatest = reader.number("the greatest value", 1, 65_535)?;
     let count = width * height;
-    let values: Vec<usize> = if plain {
-        (0..count).map(|_| reader.number("a pixel", 0, greatest)).collect::<Result<_, _>>()?
+    let raster = if plain {
+        let first = reader.clone();
+        for _ in 0..count {
+            reader.number("a pixel", 0, greatest)?;
+        }
+        Raster::Plain(first)
     } else {
         let size = if greatest < 256 { 1 } else { 2 };
         // One white space character ends the header.
         let raster = bytes.get(reader.at + 1..).unwrap_or_default();
-        if raster.len() < count * size {
-            let expected = format!("{} bytes after the header, and there are {}", count * size, raster.len());
-            return Err(reader.error("the raster", &expected));
-        }
-        raster[..count * size]
-            .chunks(size)
-            .map(|bytes| bytes.iter().fold(0, |value, byte| value * 256 + usize::from(*byte)))
-            .collect()
+        let Some(raster) = raster.get(..count * size) else {
+            let allowed = format!("{} for {width} × {height} pixels", count * size);
+            let (field, line, value) =
+                ("the length of the raster in bytes", reader.line, raster.len().to_string());
+            return Err(PgmError { field, line, value, allowed });
+        };
+        Raster::Binary(raster.chunks_exact(size))
     };
-    let pixels = values
-        .into_iter()
-        .map(|value| Pixel { shade: value.min(greatest) as f32 / greatest as f32, opacity: 1.0 })
-        .collect();
-    Ok(Image { width, height, pixels })
+    Ok(Image { width, height, pixels: Shades { left: count, greatest, raster } })
 }
 
+/// The pixels of a PGM image, row by row from the top, each read when it is asked for: as numbers they would take several
+/// times the memory of the file.
+#[derive(Clone, Debug)]
+pub struct Shades<'a> {
+    left: usize,
+    greatest: usize,
+    raster: Raster<'a>,
+}
+
+#[derive(Clone, Debug)]
+enum Raster<'a> {
+    /// All numbers in it are as they should be.
+    Plain(Reader<'a>),
+    /// Of one or two bytes a pixel.
+    Binary(ChunksExact<'a, u8>),
+}
+
+impl Iterator for Shades<'_> {
+    type Item = Pixel;
+
+    fn next(&mut self) -> Option<Pixel> {
+        self.left = self.left.checked_sub(1)?;
+        let value = match &mut self.raster {
+            Raster::Plain(reader) => number(reader.token())?,
+            Raster::Binary(chunks) => {
+                chunks.next()?.iter().fold(0, |value, byte| value * 256 + usize::from(*byte))
+            }
+        };
+        Some(Pixel { shade: value.min(self.greatest) as f32 / self.greatest as f32, opacity: 1.0 })
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
+}
+
+impl ExactSizeIterator for Shades<'_> {}
+
+/// Of decimal digits; none that is larger than a file may hold.
+fn number(token: &[u8]) -> Option<usize> {
+    let value = token.iter().try_fold(0, |value: usize, digit| {
+        let digit = digit.is_ascii_digit().then(|| usize::from(digit - b'0'))?;
+        Some(value * 10 + digit).filter(|value| *value <= MAX_PIXELS)
+    })?;
+    (!token.is_empty()).then_some(value)
+}
+
+#[derive(Clone, Debug)]
 struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -95,14 +149,21 @@ impl<'a> Reader<'a> {
 
     fn number(&mut self, field: &'static str, least: usize, most: usize) -> Result<usize, PgmError> {
         let token = self.token();
-        std::str::from_utf8(token)
-            .ok()
-            .and_then(|text| text.parse().ok())
+        number(token)
             .filter(|number| (least..=most).contains(number))
-            .ok_or_else(|| self.error(field, &format!("a whole number from {least} to {most}")))
+            .ok_or_else(|| self.error(field, token, format!("a whole number from {least} to {most}")))
     }
 
-    fn error(&self, field: &'static str, expected: &str) -> PgmError {
-        PgmError { field, line: self.line, expected: expected.to_owned() }
+    fn error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
+        // What is no letter of a text may be anything, the pixels of another kind of image among it.
+        let readable = |byte: &u8| {
+            if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
+        };
+        let mut value = String::from("missing");
+        if !token.is_empty() {
+            let shown: String = token.iter().take(QUOTED).map(readable).collect();
+            value = format!("\"{shown}{}\"", if token.len() > QUOTED { "…" } else { "" });
+        }
+        PgmError { field, line: self.line, value, allowed }
     }
 }

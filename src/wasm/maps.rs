@@ -1,7 +1,7 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, boolean, in_range, item, length, no_memory, numbers, printed, type_error, whole, word,
+    Fields, boolean, bytes, in_range, item, length, numbers, printed, type_error, whole, word,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -57,9 +57,9 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let usual = Interpretation::default();
     let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(usual.occupied_thresh);
     let free_thresh = threshold("free_thresh")?;
-    if free_thresh.is_some_and(|free| free > occupied_thresh) {
-        let limit = printed(occupied_thresh);
-        let message = format!("free_thresh is above occupied_thresh ({limit}); allowed is at most that");
+    if let Some(free) = free_thresh.filter(|free| *free > occupied_thresh) {
+        let [free, limit] = [free, occupied_thresh].map(printed);
+        let message = format!("free_thresh is {free}; allowed is at most occupied_thresh, {limit}");
         return Err(RangeError::new(&message).into());
     }
     let mode = fields.optional("mode", word)?.unwrap_or(usual.mode);
@@ -67,47 +67,41 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let negate = negate.unwrap_or(usual.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
     let [x, y, yaw] = origin;
-    Ok(OccupancyGrid::new(&read_image(image)?, &interpretation, resolution, SE2::new(x, y, yaw)))
-}
-
-/// The bytes of a PGM file, or an ImageData.
-fn read_image(image: &JsValue) -> Result<Image, JsValue> {
-    match image.dyn_ref::<Uint8Array>() {
-        Some(bytes) => read_file(bytes),
-        None => read_pixels(image.unchecked_ref()),
+    let origin = SE2::new(x, y, yaw);
+    if image.is_instance_of::<Uint8Array>() {
+        let file = read_file(image)?;
+        let image = read_pgm(&file).map_err(|error| RangeError::new(&error.to_string()))?;
+        return Ok(OccupancyGrid::new(&image, &interpretation, resolution, origin));
     }
+    let Image { width, height, pixels } = read_pixels(image.unchecked_ref())?;
+    let pixels = pixels.chunks_exact(4).map(|pixel| Pixel {
+        shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
+        opacity: f32::from(pixel[3]) / 255.0,
+    });
+    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 
-fn read_file(bytes: &Uint8Array) -> Result<Image, JsValue> {
-    let length = whole("image.length", &bytes.length().into(), 0..=MAX_BYTES as u64)? as usize;
-    let mut copy = Vec::new();
-    copy.try_reserve_exact(length).map_err(|_| no_memory("image.length"))?;
-    copy.resize(length, 0);
-    bytes.copy_to(&mut copy);
-    read_pgm(&copy).map_err(|error| RangeError::new(&error.to_string()).into())
+/// The bytes of a PGM file.
+fn read_file(file: &JsValue) -> Result<Vec<u8>, JsValue> {
+    let length = length("image", file, "the bytes of a PGM file")?;
+    whole("image.length", &(length as f64).into(), 0..=MAX_BYTES as u64)?;
+    bytes("image", file, length)
 }
 
-/// An ImageData or, where there is no such class, as in Node, what has its properties. They are read by name: its own
-/// getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
-fn read_pixels(image: &ImageData) -> Result<Image, JsValue> {
+/// Red, green, blue and opacity of an ImageData or, where there is no such class, as in Node, of what has its properties.
+/// They are read by name: its own getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
+fn read_pixels(image: &ImageData) -> Result<Image<Vec<u8>>, JsValue> {
     let fields = Fields::open("image", "image.", image)?;
     let width = whole("image.width", &fields.value("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height = whole("image.height", &fields.value("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
-    let data = fields.value("data")?;
-    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
-        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
-    };
-    if data.length() as usize != 4 * width * height {
-        let message = format!("image.data has length {}; allowed is {}", data.length(), 4 * width * height);
+    let (data, allowed) = (fields.value("data")?, "a Uint8ClampedArray of red, green, blue, opacity");
+    if !data.is_instance_of::<Uint8ClampedArray>() {
+        return Err(type_error("image.data", &data, allowed));
+    }
+    let length = length("image.data", &data, allowed)?;
+    if length != 4 * width * height {
+        let message = format!("image.data has length {length}; allowed is {}", 4 * width * height);
         return Err(RangeError::new(&message).into());
     }
-    let pixels = data
-        .to_vec()
-        .chunks_exact(4)
-        .map(|pixel| Pixel {
-            shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
-            opacity: f32::from(pixel[3]) / 255.0,
-        })
-        .collect();
-    Ok(Image { width, height, pixels })
+    Ok(Image { width, height, pixels: bytes("image.data", &data, length)? })
 }

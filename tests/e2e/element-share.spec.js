@@ -199,3 +199,52 @@ test.describe('the menu', () => {
     await expectAccessible(page, undefined, 'map-squeeze');
   });
 });
+
+test('a link that is followed while the figure starts is heard', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const links = [];
+  for (const name of ['Pivot', 'Straight']) {
+    await widget.getByRole('button', { name }).click();
+    links.push(new URL(await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink())).hash);
+  }
+  const [pivot, straight] = links;
+  const command = await page.evaluate(async ([first, second]) => {
+    document.querySelector('banana-machine')?.remove();
+    location.hash = first;
+    await new Promise((resolve) => addEventListener('hashchange', resolve, { once: true }));
+    const element = document.createElement('banana-machine');
+    const { link } = /** @type {any} */ (element);
+    const { prepare } = link;
+    link.prepare = async () => {
+      await prepare.call(link);
+      // It has read the address, and there is no machine yet.
+      location.hash = second;
+      await new Promise((resolve) => addEventListener('hashchange', resolve, { once: true }));
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    };
+    const loaded = new Promise((resolve) => element.addEventListener('load', resolve));
+    document.body.prepend(element);
+    await loaded;
+    return element.getState()?.command;
+  }, [pivot, straight]);
+  expect(command).toEqual({ v: 1, omega: 0, dt: 2 });
+});
+
+test('figures in shadow roots, closed ones too, have parts of their own in the address', async ({ page }) => {
+  await page.addInitScript(() => {
+    for (const [name, mode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
+      customElements.define(name, class extends HTMLElement {
+        figure = this.attachShadow({ mode: /** @type {ShadowRootMode} */ (mode) }).appendChild(document.createElement('banana-machine'));
+      });
+    }
+  });
+  await show(page, '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>');
+  const keys = await page.evaluate(async () => {
+    const hosts = /** @type {any[]} */ ([...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure')));
+    const figures = /** @type {AnyElement[]} */ ([...hosts, document.querySelector('banana-machine')]);
+    return Promise.all(figures.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
+  });
+  expect(keys).toEqual(['open-host.1/banana-machine.1', 'open-host.2/banana-machine.1', 'closed-host:c/banana-machine.1', 'banana-machine.1']);
+});

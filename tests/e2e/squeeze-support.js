@@ -4,8 +4,8 @@
  * @module
  */
 
-import { deflateSync } from 'node:zlib';
 import { expect } from '@playwright/test';
+import { pngOf } from '../png.js';
 import { frames } from './support.js';
 
 /**
@@ -103,25 +103,11 @@ export function pgm(name, columns, rows, occupied, { black = 0, white = 254 } = 
  * @param {Occupied} [transparent]
  */
 export function png(name, columns, rows, occupied, transparent) {
-  const pixels = shadesOf(columns, rows, occupied, 0, 254);
-  const samples = transparent ? 2 : 1;
-  const raster = Buffer.alloc(rows * (1 + columns * samples));
-  for (let row = 0; row < rows; row++) {
-    for (let column = 0; column < columns; column++) {
-      const at = row * (1 + columns * samples) + 1 + column * samples;
-      raster[at] = pixels[row * columns + column];
-      if (transparent) raster[at + 1] = transparent(column, row) ? 0 : 255;
-    }
-  }
-  const header = Buffer.alloc(13);
-  header.writeUInt32BE(columns, 0);
-  header.writeUInt32BE(rows, 4);
-  header.set([8, transparent ? 4 : 0, 0, 0, 0], 8);
-  const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
-  return file(
-    name,
-    Buffer.concat([signature, chunk('IHDR', header), chunk('IDAT', deflateSync(raster)), chunk('IEND', Buffer.alloc(0))]),
-  );
+  const sample = (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ part) => {
+    if (part) return transparent?.(column, row) ? 0 : 255;
+    return occupied(column, row) ? 0 : 254;
+  };
+  return file(name, pngOf({ width: columns, height: rows, colour: transparent ? 4 : 0, sample }));
 }
 
 /**
@@ -137,27 +123,4 @@ function shadesOf(columns, rows, occupied, black, white) {
     if (occupied(i % columns, Math.floor(i / columns))) pixels[i] = black;
   }
   return pixels;
-}
-
-/**
- * @param {string} type
- * @param {Buffer} data
- */
-function chunk(type, data) {
-  const body = Buffer.concat([Buffer.from(type), data]);
-  const framed = Buffer.alloc(body.length + 8);
-  framed.writeUInt32BE(data.length, 0);
-  body.copy(framed, 4);
-  framed.writeUInt32BE(crc32(body), body.length + 4);
-  return framed;
-}
-
-/** @param {Buffer} bytes */
-function crc32(bytes) {
-  let crc = 0xffffffff;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; bit++) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-  }
-  return (crc ^ 0xffffffff) >>> 0;
 }

@@ -265,7 +265,7 @@ test('every setting is checked, and a refused one changes nothing', () => {
     ['options', null],
     ['options', 7],
     ['options', 'doorway'],
-    ['an array', []],
+    ['options has length 0', []],
     ['seed', { get seed() { throw new Error('a trap'); } }],
     ['options', new Proxy({}, { ownKeys() { throw new Error('a trap'); } })],
     ['clearance', { get clearance() { throw machine.configure({ seed: 3 }); } }],
@@ -296,7 +296,12 @@ test('other arguments are checked too', () => {
     ['steps', () => m.trial('endpoint', 0, 1)],
     ['count', () => m.trial('endpoint', 1, 0)],
     ['count', () => m.trial('endpoint', 1, 1e9)],
-    ['n', () => /** @type {any} */ (MapSqueeze).alphasOfNoise('0.1')],
+    ['n is', () => /** @type {any} */ (MapSqueeze).alphasOfNoise('0.1')],
+    ['n is NaN; allowed is a number from 0 to 1000000', () => MapSqueeze.alphasOfNoise(NaN)],
+    ['radius is -1; allowed is a number from 0 to Infinity', () => m.nearest(0, 0, -1)],
+    ['radius is NaN', () => m.nearest(0, 0, NaN)],
+    ['columns is 16385; allowed is a whole number from 1 to 16384', () => m.picture(0, 0, 1, 1, 2 ** 14 + 1, 1, new Uint8Array(3072))],
+    ['ramps has length 1024; allowed is a Uint8Array of 3072 bytes', () => m.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))],
   ]);
   assert.equal(machine.nearest(NaN, 0, 1), -1);
 });
@@ -326,7 +331,7 @@ test('a malformed floor plan is explained, and the present one stays', () => {
     ['plan', null],
     ['plan', 'apartment'],
     ['plan', 5],
-    ['an array', []],
+    ['plan has length 0', []],
     ['bounds', {}],
     ['bounds', { walls }],
     ['bounds', { bounds: null, walls }],
@@ -430,7 +435,7 @@ test('a malformed map is explained by field and line, and the present one stays'
     ['line 3: the width', YAML, bytes('P5\n# wide\nwide 3\n255\n')],
     ['line 2: the height', YAML, bytes('P5\n16777216 2\n255\n')],
     ['line 3: the greatest value', YAML, bytes('P5\n4 3\n70000\n')],
-    ['line 3: the raster', YAML, bytes('P5\n4 3\n255\n0123456789')],
+    ['line 3: the length of the raster', YAML, bytes('P5\n4 3\n255\n0123456789')],
     ['line 4: a pixel', YAML, bytes('P2\n4 3\n255\n1 2 3')],
     ['line 5: a pixel', YAML, bytes('P2\n4 3\n255\n1 2 3\n4 five 6')],
     ['walls', { ...YAML, resolution: 0.05 }, imageData(640, 320, Array.from({ length: 640 * 320 }, (_, i) => (i % 2 || Math.floor(i / 640) % 2 ? 255 : 0)))],
@@ -527,7 +532,11 @@ test('a wedged robot is told of, not waited for', () => {
   machine.setPlan(CELL);
   assert.deepEqual([machine.stats.accepted, machine.stats.acceptanceRate, machine.startFree], [0, 0, false]);
   assert.equal(machine.openPlace, null);
-  assert.throws(() => machine.trial('whole-arc', 1, 10), /wedged: 10000 draws were tried and too few accepted/);
+  assert.throws(() => machine.trial('whole-arc', 1, 10), {
+    name: 'RangeError',
+    message: 'sampler is "whole-arc", by which the robot is wedged: 10000 draws were tried and too few accepted; ' +
+      'allowed is one of at most 10000 draws an accepted sample and 10200 for 10 of them',
+  });
   machine.configure({ sampler: 'sub-stepped' });
   assert.equal(machine.stats.gaveUp, true);
   assert.ok(machine.stats.drawn <= 30_000 && machine.shown < 10);

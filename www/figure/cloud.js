@@ -106,12 +106,8 @@ export class Cloud extends Part {
     return { shown, marked };
   }
 
-  /**
-   * @param {Values} state
-   * @param {Growing} machine in that state
-   */
-  check({ shown, playing }, machine) {
-    wholeNumber('state.shown', shown, 0, machine.config.samples);
+  /** @param {Values} state */
+  check({ playing }) {
     truth('state.playing', playing);
   }
 
@@ -223,15 +219,15 @@ export class Cloud extends Part {
 }
 
 /**
- * Leaves of a machine's cloud the first samples only.
+ * Shows the first samples of a machine's cloud only.
  *
  * @param {Growing} machine
- * @param {number} shown
+ * @param {number} shown of a state
  */
 export function showOnly(machine, shown) {
-  if (shown >= machine.config.samples) return;
-  machine.restart();
-  machine.grow(shown);
+  wholeNumber('state.shown', shown, 0, machine.config.samples);
+  if (shown < machine.shown) machine.restart();
+  machine.grow(shown - machine.shown);
 }
 
 /**

@@ -123,6 +123,7 @@ export class FigureElement extends LitElement {
   pictures = [];
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
+  #updating = false;
 
   /** The class of the widget, with what it says of all of its kind. */
   get kind() {
@@ -432,6 +433,50 @@ export class FigureElement extends LitElement {
     this.stage.recolour();
   }
 
+  /**
+   * LitElement does not hear of another update that is asked for while there is one.
+   *
+   * @type {LitElement['requestUpdate']}
+   */
+  requestUpdate(...change) {
+    // It asks for the first before there is anything of a figure.
+    if (#updating in this && this.#updating) this.updateComplete.then(() => this.requestUpdate());
+    else super.requestUpdate(...change);
+  }
+
+  /** @type {LitElement['update']} */
+  update(changed) {
+    const rendered = () => {
+      super.update(changed);
+      return true;
+    };
+    this.#updating = true;
+    try {
+      // At once: what was shown before a trap stays, and in the place of what failed comes the sentence.
+      this.runtime.attemptOrFail(rendered) ?? rendered();
+    } finally {
+      this.#updating = false;
+    }
+  }
+
+  createRenderRoot() {
+    if (this.ownerDocument === document) return super.createRenderRoot();
+    const root = this.attachShadow(this.kind.shadowRootOptions);
+    this.adoptedCallback();
+    return root;
+  }
+
+  /** It is in another document now, which takes no style sheets but its own. */
+  adoptedCallback() {
+    const { defaultView } = this.ownerDocument;
+    if (!this.shadowRoot || !defaultView) return;
+    this.shadowRoot.adoptedStyleSheets = this.kind.elementStyles.map((style) => {
+      const sheet = new defaultView.CSSStyleSheet();
+      sheet.replaceSync(/** @type {import('lit').CSSResult} */ (style).cssText);
+      return sheet;
+    });
+  }
+
   render() {
     speak(this);
     const recolour = () => this.stage.recolour();
@@ -445,10 +490,19 @@ export class FigureElement extends LitElement {
 
   /** What was shown stays while there is no machine: it is made again after a trap, or the element is not on the page. */
   #content() {
-    const content = this.machine && this.runtime.attemptOrFail(() => [this.content(this.reading), this.announcer.render()]);
     const { failure } = this.runtime;
-    // Also at once: what asks for an update while there is one is not heard.
-    if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-    return content ?? (this.reading ? noChange : placeholder(this));
+    if (failure !== undefined) return html`<p class="failure" role="alert">${sorry(failure)}</p>`;
+    if (this.machine) return [this.content(this.reading), this.announcer.render()];
+    return this.reading ? noChange : placeholder(this);
+  }
+}
+
+/** The sentence in the place of a figure that cannot run. @param {string} reason */
+function sorry(reason) {
+  try {
+    return `${words.failure(reason)}`;
+  } catch {
+    // Another language's words come from the page.
+    return en.failure(reason);
   }
 }

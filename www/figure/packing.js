@@ -26,20 +26,38 @@ export async function pack(data) {
 export async function unpack(text) {
   try {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
-    const reader = stream.getReader();
     /** @type {BlobPart[]} */
     const parts = [];
-    for (let size = 0; ; ) {
-      const { done, value } = await reader.read();
-      if (done) break;
-      size += value.byteLength;
+    let size = 0;
+    for await (const part of inflated([bytes], 'deflate-raw')) {
+      size += part.length;
       if (size > MAX_BYTES) throw new RangeError('too long');
-      parts.push(value);
+      parts.push(part);
     }
     return JSON.parse(await new Blob(parts).text());
   } catch {
     throw refusal('state in the address', text, 'what shareLink gives');
+  }
+}
+
+/**
+ * What was deflated, piece by piece, so that a reader can stop where it is too much.
+ *
+ * @param {BlobPart[]} parts
+ * @param {CompressionFormat} format
+ * @returns {AsyncGenerator<Uint8Array<ArrayBuffer>, void>} rejects where they are damaged
+ */
+export async function* inflated(parts, format) {
+  const reader = new Blob(parts).stream().pipeThrough(new DecompressionStream(format)).getReader();
+  try {
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) return;
+      yield value;
+    }
+  } finally {
+    // Of what is damaged nothing is left to cancel, and that is told already.
+    reader.cancel().catch(() => {});
   }
 }
 

@@ -134,7 +134,7 @@ export class Settings extends Part {
     this.#showing = true;
     queueMicrotask(() => {
       this.#showing = false;
-      if (this.stale && !stage.inSight) runtime.attempt(() => this.host.refresh());
+      if (this.stale && !stage.inSight) runtime.attemptOrFail(() => this.host.refresh());
     });
   }
 }

@@ -57,7 +57,7 @@ export class Stage extends Part {
     const faded = (/** @type {TransitionEvent} */ { target, propertyName }) => {
       if (propertyName === 'background-color' && ancestors(this.host).includes(/** @type {Element} */ (target))) this.recolour();
     };
-    document.addEventListener('transitionend', faded, { signal });
+    this.host.ownerDocument.addEventListener('transitionend', faded, { signal });
   }
 
   hostDisconnected() {

@@ -81,15 +81,16 @@ export class State extends Part {
     const host = this.host;
     host.settings.settle();
     const present = host.snapshot();
-    const given = object('state', state, Object.keys(present));
-    word('state.widget', given.widget, [host.localName]);
-    if (given.version !== VERSION) throw refusal('state.version', given.version, String(VERSION));
+    const given = object('state', state, Object.keys(present), ({ widget, version }) => {
+      word('state.widget', widget, [host.localName]);
+      if (version !== VERSION) throw refusal('state.version', version, String(VERSION));
+    });
     const whole = { ...present, ...host.completed(present, given) };
     const machine = orFree(host.createMachine(host.motion, whole), (made) => {
       for (const [name, { check }] of Object.entries(this.#owned)) {
         whole[name] = check(`state.${name}`, whole[name], made, whole.playing);
       }
-      host.cloud?.check(whole, made);
+      host.cloud?.check(whole);
     });
     this.#adopt(whole);
     host.runtime.replace(machine);

@@ -45,7 +45,7 @@ export class Picture {
    */
   draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false } = {}) {
     const brush = brushOn(surface, this.view, palette);
-    if (!still) this.fit(scene);
+    if (!still || !this.view.aimed) this.fit(scene);
     const moving = this.view.ease(elapsed, atOnce);
     this.paint(brush, scene);
     return moving;

@@ -283,7 +283,7 @@ impl MapSqueeze {
                 conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total.draws += draws;
             total.wall_tests += wall_tests;
-            if total.draws > MAX_DRAWS + PATIENCE * sampler.parts() as usize * count {
+            if total.draws > most_draws(sampler, count) {
                 return Err(Wedged(total));
             }
         }
@@ -306,6 +306,11 @@ impl MapSqueeze {
         let VelocityCmd { v, omega, dt } = self.settings.command;
         Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
     }
+}
+
+/// Draws that [`MapSqueeze::trial`] takes at most for `count` accepted samples of a sampler.
+pub fn most_draws(sampler: Sampler, count: usize) -> usize {
+    MAX_DRAWS + PATIENCE * sampler.parts() as usize * count
 }
 
 /// The model under these settings in a plan, by a sampler.

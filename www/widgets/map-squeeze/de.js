@@ -138,6 +138,7 @@ export const de = {
     noFile: 'Keine Datei',
     alone: (name) => `${name}: Ein Bild allein hat keinen Maßstab; erwartet wird seine .yaml-Datei dazu.`,
     gone: (name, reason) => `${name}: Die Datei ist nicht lesbar (${reason}); erwartet wird eine, die noch da ist.`,
+    long: (name, bytes, most) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${most}.`,
     plan: (name, reason, form) => `${name}: ${reason}; ein Grundriss ist ${form} in Metern.`,
     planForm: (form) => `${form} in Metern`,
     yamlForm: 'ein Feld je Zeile, wie in resolution: 0.05',
@@ -151,7 +152,12 @@ export const de = {
     noPng: (name) => `${name}: Die ersten Bytes sind nicht die eines PNG-Bildes; erwartet wird PNG.`,
     large: (name, size, side, pixels) =>
       `${name}: Breite × Höhe ist ${size}; erwartet werden Seiten bis ${side} und höchstens ${pixels} Pixel.`,
-    broken: (name) => `${name}: Die Bilddaten lassen sich nicht entziffern; erwartet wird ein vollständiges PNG-Bild.`,
+    broken: (name, reason) => `${name}: ${reason}; erwartet wird ein vollständiges PNG-Bild.`,
+    png: {
+      cut: (bytes, chunk) => `Die Datei endet nach ${bytes} Bytes, in ${chunk}`,
+      changed: (chunk) => `${chunk} ist nicht, was geschrieben wurde`,
+      field: (field, value, allowed) => `${field} ist ${value}; erlaubt ist ${allowed}`,
+    },
     line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
     cells: (name, reason) => `${name}: Die belegten Zellen haben zu viele Seiten: ${reason}.`,
   },

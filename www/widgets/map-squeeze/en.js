@@ -141,6 +141,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     noFile: 'No file',
     alone: (name) => `${name}: an image alone has no scale; expected is its .yaml file together with it.`,
     gone: (name, reason) => `${name}: the file cannot be read (${reason}); expected is one that is still there.`,
+    long: (name, bytes, most) => `${name}: the file has ${bytes} bytes; expected are at most ${most}.`,
     plan: (name, reason, form) => `${name}: ${reason}; a floor plan is ${form} in metres.`,
     planForm: (form) => `${form} in metres`,
     yamlForm: 'one field a line, as in resolution: 0.05',
@@ -153,7 +154,12 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     noPng: (name) => `${name}: its first bytes are not those of a PNG image; expected is PNG.`,
     large: (name, size, side, pixels) =>
       `${name}: width × height is ${size}; expected are sides up to ${side} and at most ${pixels} pixels.`,
-    broken: (name) => `${name}: the image data cannot be decoded; expected is a complete PNG image.`,
+    broken: (name, reason) => `${name}: ${reason}; expected is a complete PNG image.`,
+    png: {
+      cut: (bytes, chunk) => `the file ends after ${bytes} bytes, within ${chunk}`,
+      changed: (chunk) => `${chunk} is not what was written`,
+      field: (field, value, allowed) => `${field} is ${value}; allowed is ${allowed}`,
+    },
     line: (name, line, reason) => `${name}, line ${line}: ${reason}.`,
     cells: (name, reason) => `${name}: its occupied cells have too many sides: ${reason}.`,
   },

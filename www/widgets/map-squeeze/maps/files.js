@@ -16,12 +16,24 @@ import { limits } from '../../../settings.js';
 
 /** One sentence that names the file, the line or field, and what was expected. */
 export class MapFileError extends Error {
-  /** @param {(say: Refused) => string} sentence in the words of the time when it is shown */
-  constructor(sentence) {
+  /**
+   * @param {string} file its name
+   * @param {(say: Refused, file: string) => string} sentence in the words of the time when it is shown
+   */
+  constructor(file, sentence) {
     super('The map is refused.');
-    this.sentence = sentence;
+    this.sentence = (/** @type {Refused} */ say) => sentence(say, quoted(file));
   }
 }
+
+/** Bytes of a floor plan at most: a hundred for each wall that the core takes. */
+const PLAN_BYTES = 10_000_000;
+
+/** Bytes at most of what says how an image is to be read. */
+const DESCRIPTION_BYTES = 100_000;
+
+/** Characters of a name or a value that a sentence quotes. */
+const QUOTED = 100;
 
 /** What a floor plan looks like. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
@@ -38,16 +50,16 @@ export async function readMapFiles(files) {
   const [plans, descriptions, images] = [named(/\.json$/i), named(/\.ya?ml$/i), named(/\.(pgm|png)$/i)];
   const stranger = files.find((file) => ![...plans, ...descriptions, ...images].includes(file));
   if (stranger) {
-    throw new MapFileError((say) => say.kind(stranger.name));
+    throw new MapFileError(stranger.name, (say, name) => say.kind(name));
   }
   const maps = plans.length + descriptions.length;
   if (maps > 1) {
     const names = [...plans, ...descriptions].map(({ name }) => name).join(', ');
-    throw new MapFileError((say) => say.several(names, maps));
+    throw new MapFileError(names, (say, those) => say.several(those, maps));
   }
-  if (plans.length) return readPlan(plans[0].name, await textOf(plans[0]));
+  if (plans.length) return readPlan(plans[0].name, await textOf(plans[0], PLAN_BYTES));
   if (descriptions.length) return readGrid(descriptions[0], images);
-  throw new MapFileError((say) => say.alone(images[0]?.name ?? say.noFile));
+  throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
 }
 
 /**
@@ -61,13 +73,31 @@ async function bytesOf(part, name) {
     return await part.arrayBuffer();
   } catch (error) {
     const reason = error instanceof Error ? error.name : String(error);
-    throw new MapFileError((say) => say.gone(name, reason));
+    throw new MapFileError(name, (say, file) => say.gone(file, reason));
   }
 }
 
-/** @param {File} file */
-async function textOf(file) {
+/**
+ * @param {File} file
+ * @param {number} most bytes
+ */
+async function textOf(file, most) {
+  checkSize(file.name, file.size, most);
   return new TextDecoder().decode(await bytesOf(file, file.name));
+}
+
+/**
+ * @param {string} name of a file
+ * @param {number} size in bytes, before they are read
+ * @param {number} most
+ */
+function checkSize(name, size, most) {
+  if (size > most) throw new MapFileError(name, (say, file) => say.long(file, size, most));
+}
+
+/** As much of a text as a sentence quotes. @param {string} text */
+function quoted(text) {
+  return text.length > QUOTED ? `${text.slice(0, QUOTED)}…` : text;
 }
 
 /**
@@ -79,11 +109,12 @@ async function textOf(file) {
  * @throws {MapFileError}
  */
 export async function readPlan(name, text) {
+  checkSize(name, text.length, PLAN_BYTES);
   const plan = await parsed(name, text, 'JSON');
   return {
     name,
     apply: (machine) =>
-      retold(() => machine.setPlan(plan ?? null), (say, reason) => say.plan(name, reason, PLAN_FORM)),
+      retold(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
   };
 }
 
@@ -97,14 +128,14 @@ export async function readPlan(name, text) {
  * @param {'JSON' | 'YAML'} language
  */
 async function parsed(name, text, language) {
-  const { YAMLException, load: parseYaml } = await import('./yaml.js');
+  const { YAMLException, parseYaml } = await import('./yaml.js');
   try {
     return parseYaml(text);
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
     const line = error.mark ? error.mark.line + 1 : 0;
-    throw new MapFileError((say) =>
-      say.syntax(name, line, language, error.reason, language === 'JSON' ? say.planForm(PLAN_FORM) : say.yamlForm),
+    throw new MapFileError(name, (say, file) =>
+      say.syntax(file, line, language, quoted(error.reason), language === 'JSON' ? say.planForm(PLAN_FORM) : say.yamlForm),
     );
   }
 }
@@ -115,17 +146,18 @@ async function parsed(name, text, language) {
  * @returns {Promise<OwnMap>}
  */
 async function readGrid(file, images) {
-  const description = await readDescription(file.name, await textOf(file));
+  const description = await readDescription(file.name, await textOf(file, DESCRIPTION_BYTES));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
-    throw new MapFileError((say) => say.image(file.name, path === undefined ? '' : JSON.stringify(path)));
+    throw new MapFileError(file.name, (say, name) => say.image(name, path === undefined ? '' : quoted(JSON.stringify(path))));
   }
-  const wanted = path.split(/[\\/]/).pop();
+  const wanted = path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
   const image = images.find(({ name }) => name === wanted);
   if (!image) {
     const given = images.map(({ name }) => name).join(', ');
-    throw new MapFileError((say) => say.pair(file.name, wanted, given));
+    throw new MapFileError(file.name, (say, name) => say.pair(name, quoted(wanted), quoted(given)));
   }
+  checkSize(image.name, image.size, limits.bytes);
   const pixels = /\.pgm$/i.test(image.name)
     ? new Uint8Array(await bytesOf(image, image.name))
     : await readPng(image);
@@ -133,8 +165,9 @@ async function readGrid(file, images) {
     name: file.name,
     apply: (machine) =>
       retold(
+        file.name,
         () => machine.setGrid(description, pixels),
-        (say, reason) => gridComplaint(say, file.name, image.name, reason),
+        (say, name, reason) => gridComplaint(say, name, quoted(image.name), reason),
       ),
   };
 }
@@ -149,7 +182,7 @@ const WORDS = new Map([['yes', true], ['on', true], ['no', false], ['off', false
 async function readDescription(name, text) {
   const description = await parsed(name, text, 'YAML');
   if (typeof description !== 'object' || description === null || Array.isArray(description)) {
-    throw new MapFileError((say) => say.fields(name));
+    throw new MapFileError(name, (say, file) => say.fields(file));
   }
   const fields = /** @type {Record<string, unknown>} */ (description);
   const { negate } = fields;
@@ -158,55 +191,19 @@ async function readDescription(name, text) {
 
 /** @param {File} file */
 async function readPng(file) {
-  const header = new DataView(await bytesOf(file.slice(0, 24), file.name));
-  const isPng = header.byteLength === 24 && header.getUint32(0) === 0x89504e47;
-  if (!isPng) throw new MapFileError((say) => say.noPng(file.name));
-  // Before the image is unpacked: a small file may hold an enormous one.
-  const [width, height] = [header.getUint32(16), header.getUint32(20)];
-  if (Math.max(width, height) > LONGEST_SIDE || width * height > limits.cells) {
-    throw new MapFileError((say) => say.large(file.name, `${width} × ${height}`, LONGEST_SIDE, limits.cells));
-  }
+  const { HEADER_BYTES, PngError, decodePng, headerOf, isPng } = await import('./png.js');
+  const start = new Uint8Array(await bytesOf(file.slice(0, HEADER_BYTES), file.name));
+  if (!isPng(start)) throw new MapFileError(file.name, (say, name) => say.noPng(name));
   try {
-    return await decoded(file, width, height);
-  } catch {
-    throw new MapFileError((say) => say.broken(file.name));
-  }
-}
-
-/**
- * The values as they are in the file, not as a screen would show them.
- *
- * @param {File} file
- * @param {number} width
- * @param {number} height
- */
-async function decoded(file, width, height) {
-  const asTheyAre = /** @type {const} */ ({ colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
-  if ('ImageDecoder' in globalThis) {
-    const decoder = new ImageDecoder({ data: await file.arrayBuffer(), type: 'image/png', ...asTheyAre });
-    const { image } = await decoder.decode();
-    const { format } = image;
-    const pixels = new ImageData(width, height);
-    const { data } = pixels;
-    // In the image's own format: a conversion would blacken what is fully transparent.
-    await image.copyTo(data);
-    image.close();
-    decoder.close();
-    for (let i = 0; i < data.length; i += 4) {
-      if (format?.startsWith('B')) [data[i], data[i + 2]] = [data[i + 2], data[i]];
-      if (format?.endsWith('X')) data[i + 3] = 255;
+    const { width, height } = headerOf(start);
+    if (Math.max(width, height) > LONGEST_SIDE || width * height > limits.cells) {
+      throw new MapFileError(file.name, (say, name) => say.large(name, `${width} × ${height}`, LONGEST_SIDE, limits.cells));
     }
-    return pixels;
+    return await decodePng(new Uint8Array(await bytesOf(file, file.name)));
+  } catch (error) {
+    if (!(error instanceof PngError)) throw error;
+    throw new MapFileError(file.name, (say, name) => say.broken(name, error.reason(say.png)));
   }
-  // Other browsers have a canvas only, which blackens what is fully transparent.
-  const bitmap = await createImageBitmap(file, asTheyAre);
-  const canvas = new OffscreenCanvas(width, height);
-  const context = /** @type {OffscreenCanvasRenderingContext2D} */ (
-    canvas.getContext('2d', { willReadFrequently: true })
-  );
-  context.drawImage(bitmap, 0, 0);
-  bitmap.close();
-  return context.getImageData(0, 0, width, height);
 }
 
 /**
@@ -223,15 +220,16 @@ function gridComplaint(say, description, image, reason) {
 }
 
 /**
+ * @param {string} name of the file that holds the map
  * @param {() => void} apply what the core may refuse: it names a field and what is allowed
- * @param {(say: Refused, reason: string) => string} sentence
+ * @param {(say: Refused, file: string, reason: string) => string} sentence
  */
-function retold(apply, sentence) {
+function retold(name, apply, sentence) {
   try {
     apply();
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
     const reason = error.message.replace(' is undefined;', ' is missing;');
-    throw new MapFileError((say) => sentence(say, reason));
+    throw new MapFileError(name, (say, file) => sentence(say, file, reason));
   }
 }

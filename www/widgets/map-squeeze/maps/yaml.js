@@ -3,4 +3,16 @@
  * the other half of the library, which writes.
  */
 
-export { YAMLException, load } from 'js-yaml';
+import { YAMLException, load } from 'js-yaml';
+
+export { YAMLException };
+
+/**
+ * @param {string} text
+ * @returns {unknown}
+ * @throws {YAMLException}
+ */
+export function parseYaml(text) {
+  // No map repeats itself, and by repetition a short text says a billion things, or one that contains itself.
+  return load(text, { maxAliases: 0 });
+}

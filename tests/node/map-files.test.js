@@ -1,0 +1,85 @@
+// What a reader's map files may say, and how much of them is read.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { instantiate } from '../../dist/core.js';
+import { description, file, opened, refusalOf } from './map-support.js';
+
+const PGM = file('map.pgm', 'P5 2 1 255\n\x00\x7f');
+
+/** Milliseconds that a refusal may take: a thousand times what it takes, and a second is what a reader waits. */
+const INSTANT = 1000;
+
+/**
+ * @param {string} yaml
+ * @param {string} reason why it is no YAML
+ */
+async function refused(yaml, reason) {
+  const start = performance.now();
+  const sentence = await refusalOf([file('map.yaml', yaml), PGM]);
+  const took = performance.now() - start;
+  assert.match(sentence, new RegExp(`^map\\.yaml(, line \\d+)?: this is not YAML \\(${reason}\\); expected is one field a line, as in resolution: 0\\.05\\.$`));
+  assert.ok(took < INSTANT, `${yaml.slice(0, 40)} took ${took} ms`);
+}
+
+test('a map that repeats or contains itself is refused at once', async () => {
+  const aliases = 'aliases exceeded maxAliases \\(0\\)';
+  await refused('image: &a [*a]', aliases);
+  await refused('image: &a map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: *a', aliases);
+  for (const [levels, width] of [[9, 9], [7, 5], [30, 2]]) {
+    const bomb = Array.from({ length: levels }, (_, i) => `k${i}: &a${i} [${Array(width).fill(i ? `*a${i - 1}` : 'x').join(', ')}]`);
+    await refused(`${bomb.join('\n')}\nimage: *a${levels - 1}`, aliases);
+  }
+  const plan = await refusalOf([file('plan.json', '{"bounds": &b [0, 0, 1, 1], "walls": [*b]}')]);
+  assert.match(plan, /^plan\.json, line 1: this is not JSON \(aliases/);
+});
+
+test('what else YAML has beyond fields and values is refused at once', async () => {
+  await refused(`a: ${'['.repeat(1e4)}${']'.repeat(1e4)}`, 'nesting exceeded maxDepth \\(100\\)');
+  await refused('? '.repeat(3e4), 'nesting exceeded maxDepth \\(100\\)');
+  await refused('image: map.pgm\nimage: other.pgm', 'duplicated mapping key');
+  await refused('image: !!js/function x', 'unknown scalar tag .+');
+  await refused(`image: !${'x'.repeat(9e4)} y`, 'unknown scalar tag .{81}…');
+  await refused('image: map.pgm\n---\nimage: map.pgm', 'expected a single document in the stream, but found more');
+  await refused('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
+  // A key of any length, or that is the name of something else, is a field that nobody reads.
+  for (const key of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
+    const { grid } = await opened(description({ image: 'map.pgm', [key]: '{resolution: 9, image: [1]}' }), PGM);
+    assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);
+  }
+  assert.equal(Reflect.get({}, 'resolution'), undefined);
+});
+
+test('a value of any kind or length is refused by a sentence that can be read', async () => {
+  const long = 'x'.repeat(9e4);
+  for (const value of [`"${long}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
+    for (const field of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
+      const sentence = await refusalOf([description({ image: 'map.pgm', [field]: value }), PGM]);
+      const taken = field === 'negate' && value === 'true';
+      assert.match(sentence, taken ? /^$/ : new RegExp(`^map\\.yaml: ${field}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${field}: ${value.slice(0, 30)}`);
+      assert.ok(sentence.length < 400, `${field}: ${value.slice(0, 30)}: ${sentence.length} characters`);
+    }
+  }
+});
+
+test('how large files are is looked at before they are read', async () => {
+  for (const [name, most] of /** @type {[string, number][]} */ ([['plan.json', 10_000_000], ['map.yaml', 100_000], ['map.pgm', 100_667_392]])) {
+    const large = file(name, '');
+    Object.defineProperty(large, 'size', { value: most + 1 });
+    large.arrayBuffer = () => assert.fail(`${name} is read.`);
+    const files = name === 'map.pgm' ? [description({ image: name }), large] : [large];
+    assert.equal(await refusalOf(files), `${name}: the file has ${most + 1} bytes; expected are at most ${most}.`);
+  }
+});
+
+test('a plain image of the largest size takes little more memory than its file and its cells', async () => {
+  const motion = await instantiate();
+  const machine = new motion.MapSqueeze({ samples: 1 });
+  const side = 4096;
+  const bytes = new Uint8Array(Buffer.from(`P2 ${side} ${side} 255\n${'200 '.repeat(side ** 2)}`));
+  const { external } = process.memoryUsage();
+  machine.setGrid({ resolution: 0.01, origin: [0, 0, 0] }, bytes);
+  const taken = process.memoryUsage().external - external;
+  // A copy of the file, a byte a cell, and as much again for the field of distances and whatever the allocator leaves.
+  assert.ok(taken < bytes.length + 2 * side ** 2, `${taken} bytes for a file of ${bytes.length}`);
+});

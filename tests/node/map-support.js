@@ -1,0 +1,48 @@
+// Map files as a reader hands them over, and what becomes of them.
+
+import { load } from '../../dist/core.js';
+import { de } from '../../www/widgets/map-squeeze/de.js';
+import { en } from '../../www/widgets/map-squeeze/en.js';
+import { MapFileError, readMapFiles } from '../../www/widgets/map-squeeze/maps/files.js';
+
+const motion = await load();
+
+/**
+ * @param {string} name
+ * @param {BlobPart} contents
+ */
+export const file = (name, contents) => new File([contents], name);
+
+/** What describes an image, with these fields besides. @param {Record<string, unknown>} [fields] */
+export function description(fields) {
+  const all = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...fields };
+  return file('map.yaml', Object.entries(all).map(([key, value]) => `${key}: ${value}\n`).join(''));
+}
+
+/**
+ * The machine that files put a map into.
+ *
+ * @param {File[]} files
+ */
+export async function opened(...files) {
+  const machine = new motion.MapSqueeze({ samples: 1 });
+  const map = await readMapFiles(files);
+  map.apply(machine);
+  return machine;
+}
+
+/**
+ * Why files are refused; empty where they are not. Whatever else is thrown is not caught.
+ *
+ * @param {File[]} files
+ * @param {'en' | 'de'} [language]
+ */
+export async function refusalOf(files, language = 'en') {
+  try {
+    (await opened(...files)).free();
+  } catch (error) {
+    if (error instanceof MapFileError) return error.sentence({ en, de }[language].refused);
+    throw error;
+  }
+  return '';
+}

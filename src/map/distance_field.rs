@@ -33,8 +33,8 @@ const MAX_CELLS: f64 = 1_048_576.0;
 
 /// Walls, or nodes of them, that may be measured for a block, and for each of its cells besides. Where more are near, as in
 /// the middle of a star, the field would take seconds to fill; nothing is known there instead, and the tree is asked.
-const WALLS_A_BLOCK: usize = 16;
-const WALLS_A_CELL: usize = 2;
+const WALLS_A_BLOCK: usize = 32;
+const WALLS_A_CELL: usize = 3;
 
 /// Where there is a tree, the distance of a block need not be known better than to this share of its radius: walls that
 /// lie closer together are measured as one.
@@ -189,9 +189,10 @@ impl Filling {
         let blur = size as f64 * self.field.blur;
         // What the blocks before had is of no use to this one.
         self.near.truncate(range[1]);
-        let Some([least, most]) = self.measure(tree, centre, block, blur) else {
+        let mut spent = 0;
+        let Some([least, most]) = self.measure(tree, centre, block, blur, &mut spent) else {
             self.filled += (right - left) * (top - bottom);
-            return self.measured.len();
+            return spent;
         };
         if size > 1 && least <= FAR * radius + blur / BLUR {
             let reach = most + 2.0 * radius + self.slack;
@@ -202,7 +203,7 @@ impl Filling {
             for [column, row] in [[half, half], [0, half], [half, 0], [0, 0]] {
                 self.blocks.push(Block { first: [left + column, bottom + row], size: half, range });
             }
-            return self.measured.len();
+            return spent;
         }
         // No wall passes through the block where this holds, so that all of it is on one side of every outline.
         let buried = least > radius && solid.is_some_and(|solid| solid.holds(centre));
@@ -218,35 +219,53 @@ impl Filling {
         }
         let cells = (right - left) * (top - bottom);
         self.filled += cells;
-        self.measured.len() + cells
+        spent + cells
     }
 
     /// Between which two values the distance from the middle of a block to the nearest wall lies, at most `blur` apart (m);
     /// None where too many walls are near. `measured` has what may be the nearest from there then.
-    fn measure(&mut self, tree: &WallTree, point: [f64; 2], block: Block, blur: f64) -> Option<[f64; 2]> {
+    fn measure(
+        &mut self,
+        tree: &WallTree,
+        point: [f64; 2],
+        block: Block,
+        blur: f64,
+        spent: &mut usize,
+    ) -> Option<[f64; 2]> {
         let Self { near, open, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
+        // What is nearer to another point of the block than the wall nearest to its middle is no further from there.
+        let reach = 2.0 * size as f64 * self.field.radius + self.slack;
         measured.clear();
         open.clear();
         open.extend_from_slice(&near[from..to]);
         let mut most = f64::INFINITY;
         while let Some(near) = open.pop() {
+            *spent += 1;
+            if *spent > WALLS_A_BLOCK + WALLS_A_CELL * size * size {
+                return None;
+            }
             let to = |wall: usize| tree.line(wall).square(point).sqrt();
-            let (least, at_most) = match near {
-                Near::Wall(wall) => [to(wall as usize); 2].into(),
-                Near::Node(node) => {
-                    (tree.node(node as usize).least(point), to(tree.members(node as usize).start))
-                }
+            let least = match near {
+                Near::Wall(wall) => to(wall as usize),
+                Near::Node(node) => tree.node(node as usize).least(point),
             };
-            most = most.min(at_most);
+            if least > most + reach {
+                continue;
+            }
+            if least < most {
+                most = most.min(match near {
+                    Near::Wall(_) => least,
+                    Near::Node(node) => to(tree.members(node as usize).start),
+                });
+            }
             if size == 1 && most <= blur {
                 return Some([0.0, most]);
             }
-            if measured.len() > WALLS_A_BLOCK + WALLS_A_CELL * size * size {
-                return None;
-            }
             match near {
-                Near::Node(node) if least < most - blur => {
+                Near::Node(node)
+                    if least < most - blur || tree.node(node as usize).thickness > 0.5 * reach =>
+                {
                     if tree.is_leaf(node as usize) {
                         open.extend(tree.members(node as usize).map(|wall| Near::Wall(wall as u32)));
                     } else {

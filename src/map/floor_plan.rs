@@ -210,7 +210,7 @@ impl FloorPlan {
             point,
             clearance,
             &mut wall_tests,
-            |node| node.least(point) > clearance,
+            |node| node.is_beyond(point, clearance),
             |wall| wall.distance_to_point(point) > clearance,
         );
         Verdict { free, wall_tests }
@@ -396,7 +396,7 @@ impl Sweep<'_> {
             near,
             &mut self.wall_tests,
             |node| {
-                node.least(middle) > near
+                node.is_beyond(middle, near)
                     // Worth it where the walls of a node are more alike than what can be told by the piece.
                     || node.thickness < reach
                         && node.line().distance_to_unrolled(unrolled()) - node.thickness > clearance

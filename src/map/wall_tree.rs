@@ -185,6 +185,13 @@ impl Node {
         Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
     }
 
+    /// Whether no wall of the node comes within `reach` (m) of a point.
+    #[inline(always)]
+    pub fn is_beyond(&self, point: [f64; 2], reach: f64) -> bool {
+        let reach = reach + self.thickness;
+        self.hull.square(point) > reach * reach
+    }
+
     /// No wall of the node is nearer to a point than this, m.
     #[inline(always)]
     pub fn least(&self, point: [f64; 2]) -> f64 {

@@ -1,61 +1,113 @@
+// Maps that take long to look at: the page goes on meanwhile, says so, and lets the reader stop it.
+
 import { expect } from '@playwright/test';
-import { openSqueeze } from './squeeze-support.js';
-import { STILL, frames, test } from './support.js';
+import { expectAccessible } from './axe.js';
+import { file, openSqueeze, squeezed, unfold } from './squeeze-support.js';
+import { STILL, frames, pictureOf, test } from './support.js';
+
+/**
+ * @typedef {import('../../www/types.d.ts').MapSqueezeElement} Element
+ * @typedef {import('@playwright/test').Locator} Locator
+ */
 
 test.use(STILL);
 
+/** As many walls as are allowed, from one point to everywhere: it takes seconds to look at. */
+const STAR = {
+  name: 'star',
+  bounds: [0, 0, 10, 10],
+  walls: Array.from({ length: 100_000 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / 100_000;
+    return [5, 5, 5 + 4.9 * Math.cos(angle), 5 + 4.9 * Math.sin(angle)];
+  }),
+};
 
-/** Tasks of the page's main thread by the processor's time, ms, longest first. */
-async function tasks(page, work) {
-  const browser = page.context().browser();
-  await browser.startTracing(page, { categories: ['toplevel', 'disabled-by-default-devtools.timeline', 'devtools.timeline', 'disabled-by-default-v8.cpu_profiler'].slice(0, 3) });
-  const said = await work();
-  const trace = JSON.parse((await browser.stopTracing()).toString());
-  const events = trace.traceEvents;
-  const mains = new Set(events.filter((e) => e.name === 'thread_name' && e.args.name === 'CrRendererMain').map((e) => `${e.pid}/${e.tid}`));
-  const long = events.filter((e) => mains.has(`${e.pid}/${e.tid}`) && e.name.endsWith('RunTask') && e.tdur > 30_000);
-  const inner = events.filter((e) => mains.has(`${e.pid}/${e.tid}`) && e.tdur > 20_000 && ['FunctionCall', 'FireAnimationFrame', 'Layout', 'Paint', 'RunMicrotasks', 'MajorGC', 'MinorGC', 'PrePaint', 'Commit'].includes(e.name)).map((e) => `${e.name} ${e.args?.data?.functionName ?? ''} ${Math.round(e.tdur / 1000)}`);
-  return { said, long: long.map((e) => Math.round(e.tdur / 1000)), inner };
+const progress = (/** @type {Locator} */ widget) => widget.getByRole('progressbar');
+const status = (/** @type {Locator} */ widget) => widget.locator('[role=status]');
+
+/**
+ * Gives the element a map and lets it be.
+ *
+ * @param {Locator} widget
+ * @param {object} map
+ */
+function give(widget, map) {
+  return widget.evaluate((element, given) => {
+    /** @type {Element} */ (element).map = /** @type {any} */ (given);
+  }, map);
 }
 
-for (const kind of (process.env.KINDS ?? 'equal,star,random,mesh').split(','))
-test('explore ' + kind, async ({ page }) => {
-  test.setTimeout(120_000);
+test('a hard map is looked at in slices, with progress, and the page goes on', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await widget.evaluate((element, kind) => {
-      const n = 100_000;
-      const T = Math.PI;
-      const make = {
-        equal: () => [0, 0, 10, 10],
-        star: (i) => [5 - 4.9 * Math.cos((T * i) / n), 5 - 4.9 * Math.sin((T * i) / n), 5 + 4.9 * Math.cos((T * i) / n), 5 + 4.9 * Math.sin((T * i) / n)],
-        random: () => [10 * Math.random(), 10 * Math.random(), 10 * Math.random(), 10 * Math.random()],
-        mesh: (i) => (i % 2 ? [0, (10 * i) / n, 10, (10 * i) / n] : [(10 * i) / n, 0, (10 * i) / n, 10]),
-      }[kind];
-      window.map = { name: kind, bounds: [0, 0, 10, 10], walls: Array.from({ length: n }, (_, i) => make(i)) };
-      const timed = (object, name) => { const f = object[name]; object[name] = function (...a) { const b = performance.now(); const r = f.apply(this, a); const e = performance.now() - b; if (e > 40) (window.slow ??= []).push(`${name} ${Math.round(e)}`); return r; }; };
-      const proto = Object.getPrototypeOf(element.machine);
-      for (const [name, d] of Object.entries(Object.getOwnPropertyDescriptors(proto))) {
-        if (d.value && name !== 'constructor') timed(proto, name);
-        else if (d.get) { const g = d.get; Object.defineProperty(proto, name, { ...d, get() { const b = performance.now(); const r = g.call(this); const e = performance.now() - b; if (e > 40) (window.slow ??= []).push(`get ${name} ${Math.round(e)}`); return r; } }); }
-      }
-  }, kind);
-  const client = await page.context().newCDPSession(page);
-  await client.send('Profiler.enable');
-  await client.send('Profiler.setSamplingInterval', { interval: 1000 });
-  await client.send('Profiler.start');
-  const said = await tasks(page, () => widget.evaluate(async (squeeze, kind) => {
-      const t0 = performance.now();
-      squeeze.map = window.map;
-      const set = performance.now() - t0;
-      while (squeeze.map?.name !== kind) await new Promise(requestAnimationFrame);
-      const there = performance.now() - t0;
-      await new Promise((r) => setTimeout(r, 1500));
-      return [set, there, window.slow];
-    }, kind));
-  const { profile } = await client.send('Profiler.stop');
-  const self = new Map();
-  const byId = new Map(profile.nodes.map((n) => [n.id, n]));
-  profile.samples.forEach((id, i) => { const { functionName, url, lineNumber, columnNumber } = byId.get(id).callFrame; const key = `${functionName}:${url.split('/').pop()}:${lineNumber}:${columnNumber}`; self.set(key, (self.get(key) ?? 0) + profile.timeDeltas[i] / 1000); });
-  console.log([...self].sort((a, b) => b[1] - a[1]).slice(0, 14).map(([k, v]) => `${k} ${Math.round(v)}`).join('\n'));
-  console.log(kind, JSON.stringify(said));
+  const before = await pictureOf(widget.locator('canvas.plane'));
+  // Frames in which the page could do something else, and how far the work was in them.
+  const told = await widget.evaluate(async (element, map) => {
+    const squeeze = /** @type {Element} */ (element);
+    squeeze.map = /** @type {any} */ (map);
+    const shares = [];
+    while (squeeze.map === null) {
+      await new Promise(requestAnimationFrame);
+      shares.push(squeeze.shadowRoot?.querySelector('progress')?.value);
+    }
+    return shares;
+  }, STAR);
+  const shares = told.filter((share) => share !== undefined);
+  expect(shares.length).toBeGreaterThan(10);
+  expect(new Set(shares).size).toBeGreaterThan(5);
+  for (const share of shares) expect(share).toBeGreaterThanOrEqual(0);
+  await frames(page);
+  await expect(progress(widget)).toHaveCount(0);
+  const { config, stats, walls } = await squeezed(widget);
+  expect(walls).toHaveLength(400_000);
+  expect(stats.attempts).toBe(config.samples);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
+});
+
+for (const [way, act] of /** @type {[string, (widget: Locator) => Promise<void>][]} */ ([
+  ['the button', (widget) => widget.getByRole('button', { name: 'Stop' }).click()],
+  ['Escape', (widget) => widget.getByRole('slider', { name: 'Robot', exact: true }).press('Escape')],
+])) {
+  test(`${way} stops it, and all is as it was`, async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const before = await squeezed(widget);
+    const picture = await pictureOf(widget.locator('canvas.plane'));
+    await give(widget, STAR);
+    await expect(progress(widget)).toBeVisible();
+    await expect(status(widget)).toHaveText('This takes a moment. Escape stops it.');
+    await act(widget);
+    await expect(progress(widget)).toHaveCount(0);
+    await expect(status(widget)).toHaveText('Stopped: everything is as it was.');
+    expect(await squeezed(widget)).toEqual(before);
+    expect(await pictureOf(widget.locator('canvas.plane'))).toBe(picture);
+    // It was nothing that lasts.
+    await give(widget, { name: 'room', bounds: [0, 0, 6, 4], walls: [[0, 0, 6, 0]] });
+    expect((await squeezed(widget)).walls).toEqual([0, 0, 6, 0]);
+  });
+}
+
+test('a link with a hard map shows the figure at once, and the map when it was looked at', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const link = await widget.evaluate(async (element, map) => {
+    const squeeze = /** @type {Element} */ (element);
+    squeeze.map = /** @type {any} */ (map);
+    return squeeze.shareLink();
+  }, { ...STAR, walls: STAR.walls.map(([, , x, y]) => [5, 5, Math.round(x), Math.round(y)]) });
+  expect(link.length).toBeLessThan(10_000);
+  await page.goto('about:blank');
+  await page.goto(link);
+  const opened = page.locator('map-squeeze').first();
+  await opened.scrollIntoViewIfNeeded();
+  await expect.poll(() => opened.evaluate((element) => /** @type {Element} */ (element).map?.name)).toBe('star');
+  expect((await squeezed(opened)).walls).toHaveLength(400_000);
+});
+
+test('what is said of the work is accessible', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await unfold(widget, 'A map of your own');
+  await widget.getByLabel('Map files').setInputFiles([file('star.json', JSON.stringify({ bounds: [0, 0, 10, 10], walls: STAR.walls.slice(0, 3000) }))]);
+  await expect(widget.locator('.own-map .present')).toContainText('star.json');
+  await give(widget, STAR);
+  await expect(progress(widget)).toHaveAccessibleName('Computing');
+  await expect(widget.getByRole('button', { name: 'Stop' })).toBeVisible();
+  await expectAccessible(page);
 });

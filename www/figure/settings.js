@@ -157,9 +157,9 @@ export class Settings extends Part {
         this.host.progress.tell();
         return false;
       }
-      this.stale = true;
       // Its end may have been the beginning of another.
       if (this.#job !== job) continue;
+      this.stale = true;
       this.#job = this.next = undefined;
       this.host.progress.rest();
     }

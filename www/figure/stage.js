@@ -166,7 +166,7 @@ export class Stage extends Part {
       return;
     }
     const { scene } = host;
-    const how = { elapsed, still: host.held, atOnce: isCalm() };
+    const how = { elapsed, still: host.held, atOnce: isCalm(), piecemeal: !this.#printing };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();

@@ -264,14 +264,19 @@ export class MapSqueezeElement extends FigureElement {
    */
   *#entering(machine, { name, start }, arrived) {
     yield* advancing(machine);
+    yield 1;
     if (start) machine.configure({ start });
     else if (!machine.startFree || machine.grid) machine.configure({ start: this.#putInTheOpen(machine) });
     machine.beginToGrow(this.cloud.asked);
+    yield 0;
     yield* advancing(machine);
+    yield 1;
+    const data = mapData(machine, name);
+    yield 1;
     this.runtime.replace(machine);
     this.settings.reset();
     this.#left = null;
-    this.#moved(mapData(machine, name));
+    this.#moved(data);
     arrived();
   }
 

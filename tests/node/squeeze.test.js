@@ -549,9 +549,9 @@ test('a handle is freed by free and by Symbol.dispose', () => {
 test('a hard plan takes a moment, in slices too, and can be given up', () => {
   const walls = Float64Array.from({ length: 400_000 }, (_, i) => [0, 0, 12, 9][i % 4]);
   const settings = /** @type {const} */ ({ sampler: 'whole-arc', samples: 2000, clearance: 0.05 });
-  const whole = new motion.MapSqueeze(settings);
+  const whole = new MapSqueeze(settings);
   whole.setPlan({ bounds: [0, 0, 12, 9], walls });
-  const sliced = motion.MapSqueeze.empty(settings);
+  const sliced = MapSqueeze.empty(settings);
   sliced.setPlan(whole.plan);
   sliced.beginToGrow(2000);
   let slices = 1;

@@ -554,3 +554,27 @@ test('a handle is freed by free and by Symbol.dispose', () => {
   disposed[Symbol.dispose]();
   assert.throws(() => disposed.stats);
 });
+
+test('a hard plan takes a moment, in slices too, and can be given up', () => {
+  const walls = Float64Array.from({ length: 400_000 }, (_, i) => [0, 0, 12, 9][i % 4]);
+  const settings = /** @type {const} */ ({ sampler: 'whole-arc', samples: 2000, clearance: 0.05 });
+  const whole = new MapSqueeze(settings);
+  whole.setPlan({ bounds: [0, 0, 12, 9], walls });
+  const sliced = MapSqueeze.empty(settings);
+  sliced.setPlan(whole.plan);
+  sliced.beginToGrow(2000);
+  let slices = 1;
+  while (!sliced.advance(50_000)) assert.ok(++slices && sliced.progress >= 0 && sliced.progress <= 1);
+  assert.ok(slices > 100, `${slices} slices`);
+  const told = (/** @type {typeof whole} */ { stats, poses, verdicts, config }) => ({ stats, poses, verdicts, config });
+  assert.deepEqual(told(sliced), told(whole));
+  assert.ok(whole.stats.wallTestsPerAccepted < 10, 'equal walls are one');
+
+  sliced.begin({ clearance: 0.2 });
+  sliced.advance(1);
+  assert.ok(sliced.shown < 2000);
+  sliced.stop();
+  assert.deepEqual(told(sliced), told(whole));
+  assert.throws(() => sliced.setPlan({ bounds: [0, 0, 12, 9], walls: new Float64Array(3) }), /^TypeError: walls is an object; allowed is a list of four numbers a wall$/);
+  for (const machine of [whole, sliced]) machine.free();
+});

@@ -161,8 +161,8 @@ export class Settings extends Part {
       if (this.#job !== job) continue;
       this.stale = true;
       this.#job = this.next = undefined;
-      this.host.progress.rest();
     }
+    this.host.progress.rest();
     return true;
   }
 

@@ -101,6 +101,7 @@ export function canvas(figure, picture, description) {
     aria-label=${description}
     @pointermove=${point}
     @click=${point}
+    @contextrestored=${() => figure.stage.wake()}
   ></canvas>`;
 }
 

@@ -7,6 +7,7 @@ import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
+import { onPixels } from './page/pixels.js';
 import { onPrint } from './page/print.js';
 import { ancestors, surroundings } from './page/scheme.js';
 import { Part } from './part.js';
@@ -52,6 +53,8 @@ export class Stage extends Part {
     this.#listening = new AbortController();
     const { signal } = this.#listening;
     onPrint((printing) => this.#print(printing), signal);
+    // Where the observer tells of lengths in CSS pixels alone, as in WebKit.
+    onPixels(() => this.measure(), signal);
     onLanguage(this.host, () => this.#speakAgain(), signal);
     // What the text around says at once, a background that fades says when it has arrived.
     const faded = (/** @type {TransitionEvent} */ { target, propertyName }) => {
@@ -82,6 +85,7 @@ export class Stage extends Part {
 
   /** Tells what size the canvases have, now and whenever it changes. What enlarges them as they are, has to ask for it. */
   measure() {
+    this.#sizes?.disconnect();
     for (const canvas of this.#canvases ?? []) {
       try {
         this.#sizes?.observe(canvas, { box: 'device-pixel-content-box' });

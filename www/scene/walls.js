@@ -99,7 +99,7 @@ export class WallLayer {
     this.#layer.width = Math.round(view.width * ratio);
     this.#layer.height = Math.round(view.height * ratio);
     this.#next = 0;
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#layer.getContext('2d'));
+    const context = contextOf(this.#layer);
     context.scale(ratio, ratio);
     if (this.#grid) {
       if (this.#hasUnknown) {
@@ -173,6 +173,11 @@ export class WallLayer {
   }
 }
 
+/** Drawn by the processor: what a graphics card has it may lose, and what is kept here is not drawn anew then. @param {OffscreenCanvas} canvas */
+function contextOf(canvas) {
+  return /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d', { willReadFrequently: true }));
+}
+
 /**
  * A pixel a cell, the lowest row first, coloured where the cell is.
  *
@@ -186,7 +191,7 @@ function maskOf({ columns, rows }, cells, colour) {
   const [pixel] = new Uint32Array(Uint8Array.of(...channels(colour), 255).buffer);
   for (let i = 0; i < cells.length; i++) pixels[i] = pixel * cells[i];
   const canvas = new OffscreenCanvas(columns, rows);
-  /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d')).putImageData(image, 0, 0);
+  contextOf(canvas).putImageData(image, 0, 0);
   return canvas;
 }
 

@@ -1,0 +1,183 @@
+// Nothing is left of figures that have gone, nor of what was done to one: memory, listeners, observers, nodes.
+
+import { expect } from '@playwright/test';
+import { NAMES, heard, ready, show } from './element-support.js';
+import { FRESH, STILL, test } from './support.js';
+
+/** @typedef {import('@playwright/test').CDPSession} Session */
+/** @typedef {import('@playwright/test').Page} Page */
+
+test.use(STILL);
+
+// Ten times what they take where nothing else runs.
+test.setTimeout(200_000);
+
+/** What a figure makes one of at least, and leaves none of. */
+const MADE = ['WebAssembly.Memory', 'ResizeObserver', 'AbortController', 'ShadowRoot'];
+
+/** Events of a slider a frame: as many as no hand makes. */
+const A_FRAME = 500;
+
+/** What all figures of a page share. */
+const SHARED = ['MutationObserver', 'IntersectionObserver'];
+
+/**
+ * How many objects of each class there are, after all that nobody holds was collected.
+ *
+ * @param {Session} session
+ * @param {string[]} classes
+ */
+async function living(session, classes) {
+  /** @type {Record<string, number>} */
+  const counts = {};
+  for (const name of classes) {
+    const { result } = await session.send('Runtime.evaluate', { expression: `${name}.prototype` });
+    const { objects } = await session.send('Runtime.queryObjects', { prototypeObjectId: String(result.objectId) });
+    const { result: length } = await session.send('Runtime.callFunctionOn', {
+      objectId: objects.objectId,
+      functionDeclaration: 'function () { return this.length }',
+      returnByValue: true,
+    });
+    await session.send('Runtime.releaseObject', { objectId: String(objects.objectId) });
+    counts[name] = length.value;
+  }
+  return counts;
+}
+
+/**
+ * What a page takes, after all that nobody holds was collected.
+ *
+ * @param {Page} page
+ * @param {Session} session
+ */
+async function taken(page, session) {
+  // What the test itself has noted.
+  await heard(page);
+  // A measurement of costs waits for 300 ms of rest, and its figure with it. What is finalized lets go of more.
+  await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 400)));
+  for (let i = 0; i < 3; i++) {
+    await session.send('HeapProfiler.collectGarbage');
+    await page.evaluate(() => new Promise((resolve) => setTimeout(resolve)));
+  }
+  const { usedSize: heap } = await session.send('Runtime.getHeapUsage');
+  const { nodes, jsEventListeners } = await session.send('Memory.getDOMCounters');
+  return { heap, nodes, counts: { jsEventListeners, ...(await living(session, [...MADE, ...SHARED])) } };
+}
+
+/**
+ * Puts figures on the page, several at a time, and takes them away when each has been drawn.
+ *
+ * @param {Page} page
+ * @param {string} name
+ * @param {number} count
+ */
+function mount(page, name, count) {
+  return page.evaluate(
+    async ([tag, times]) => {
+      const place = /** @type {Element} */ (document.querySelector('#place'));
+      const AT_ONCE = 10;
+      for (let i = 0; i < times; i += AT_ONCE) {
+        const figures = Array.from({ length: AT_ONCE }, () => document.createElement(tag));
+        const loaded = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve, { once: true })));
+        place.append(...figures);
+        await Promise.all(loaded);
+        await new Promise(requestAnimationFrame);
+        place.replaceChildren();
+        // They are taken down after the task in which they go.
+        await new Promise((resolve) => setTimeout(resolve));
+      }
+    },
+    /** @type {const} */ ([name, count]),
+  );
+}
+
+test('a thousand figures that came and went leave nothing', FRESH, async ({ page }) => {
+  await show(page, '<div id="place" style="display: grid; grid-template-columns: repeat(10, 120px)"></div>');
+  await page.waitForFunction((names) => names.every((name) => customElements.get(name)), [...NAMES]);
+  const session = await page.context().newCDPSession(page);
+  await session.send('HeapProfiler.enable');
+  // What is compiled and kept once for all figures.
+  for (const name of NAMES) await mount(page, name, 50);
+  const before = await taken(page, session);
+  expect(before.counts).toMatchObject(Object.fromEntries(MADE.map((name) => [name, 0])));
+
+  for (const name of NAMES) await mount(page, name, 500);
+  const after = await taken(page, session);
+  expect(after.counts).toEqual(before.counts);
+  expect(after.nodes).toBe(before.nodes);
+
+  // What one leaves that somebody holds: so it would be seen.
+  for (const name of NAMES) {
+    await page.evaluate(async (tag) => {
+      const figure = document.createElement(tag);
+      const loaded = new Promise((resolve) => figure.addEventListener('load', resolve));
+      document.querySelector('#place')?.append(figure);
+      await loaded;
+      await new Promise(requestAnimationFrame);
+      figure.remove();
+      Object.assign(window, { [tag]: figure });
+    }, name);
+  }
+  const held = await taken(page, session);
+  expect(held.counts).toMatchObject({ ShadowRoot: NAMES.length });
+  expect(held.nodes).toBeGreaterThan(after.nodes);
+  // A thousand leave less than a single one that is held: what the engine notes of its own is some kilobytes.
+  const [grown, one] = [after.heap - before.heap, (held.heap - after.heap) / NAMES.length];
+  console.log(`a thousand figures left ${grown} bytes, one that is held ${one}`);
+  expect(grown).toBeLessThan(one);
+});
+
+for (const name of NAMES) {
+  test(`fifty thousand events of the sliders of ${name} leave nothing`, FRESH, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const session = await page.context().newCDPSession(page);
+    await session.send('HeapProfiler.enable');
+    const slide = (/** @type {number} */ events) =>
+      widget.evaluate(async (element, [count, perFrame]) => {
+        const sliders = /** @type {HTMLInputElement[]} */ ([...(element.shadowRoot?.querySelectorAll('input[type=range]') ?? [])]).filter(({ id }) => id !== 'samples' && id !== 'steps');
+        for (let i = 0; i < count; i++) {
+          const slider = sliders[i % sliders.length];
+          // Up and down, the same after so many: what is said for the first time brings a template that is kept.
+          const share = Math.abs((((i % 5000) * 0.0137) % 1.2) - 0.6);
+          slider.value = String(Number(slider.min) + (Number(slider.max) - Number(slider.min)) * share);
+          slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+          // The page hears of each.
+          await null;
+          if (i % perFrame === 0) await new Promise(requestAnimationFrame);
+        }
+        for (const slider of sliders) {
+          slider.value = slider.min;
+          slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+          slider.dispatchEvent(new Event('change', { bubbles: true, composed: true }));
+        }
+        for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+      }, [events, A_FRAME]);
+    /** Bytes of WebAssembly's memories. */
+    const memory = async () => {
+      const { result } = await session.send('Runtime.evaluate', { expression: 'WebAssembly.Memory.prototype' });
+      const { objects } = await session.send('Runtime.queryObjects', { prototypeObjectId: String(result.objectId) });
+      const { result: bytes } = await session.send('Runtime.callFunctionOn', {
+        objectId: objects.objectId,
+        functionDeclaration: 'function () { return this.map(({ buffer }) => buffer.byteLength) }',
+        returnByValue: true,
+      });
+      return bytes.value;
+    };
+    await slide(20_000);
+    const before = { ...(await taken(page, session)), memory: await memory() };
+    await slide(50_000);
+    const after = { ...(await taken(page, session)), memory: await memory() };
+    expect(after.memory).toEqual(before.memory);
+    expect(before.memory).toHaveLength(1);
+    const grown = after.heap - before.heap;
+    const nodes = after.nodes - before.nodes;
+    console.log(`50 000 events on ${name} left ${grown} bytes and ${nodes} nodes`);
+    expect(after.counts).toEqual(before.counts);
+    // Not one a frame: other words may have other nodes.
+    expect(nodes).toBeLessThan(50_000 / A_FRAME);
+    // The least that something kept takes is a reference to it, of four bytes, an event; and what it refers to, more.
+    expect(grown).toBeLessThan(4 * 50_000);
+  });
+}

@@ -1,0 +1,289 @@
+// What a browser takes from a page for a while comes back: canvases, sizes, pixels, sight, and the page itself.
+
+import { chromium, expect } from '@playwright/test';
+import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
+import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
+import { STILL, centreOf, frames, pictureOf, pixelsOf, test } from './support.js';
+
+/** @typedef {import('./element-support.js').AnyElement} AnyElement */
+/** @typedef {import('@playwright/test').Locator} Locator */
+/** @typedef {import('@playwright/test').Page} Page */
+
+test.use(STILL);
+
+/** A plan of so many walls that they are kept as a layer of their own. */
+const WALLS = Array.from({ length: 120 }, (_, i) => [0.1 * i, 0.5 * (i % 7), 0.1 * i + 0.05, 0.5 * (i % 7)]);
+const MAP = { bounds: [0, -1, 12, 5], walls: WALLS };
+
+/**
+ * Work in a browser of its own, with other arguments than the tests' has.
+ *
+ * @param {string} address of the tests' server
+ * @param {{ args?: string[], ignoreDefaultArgs?: string[] }} options
+ * @param {(page: Page) => Promise<void>} work
+ */
+async function withBrowser(address, { args = CHROME_ARGUMENTS, ignoreDefaultArgs }, work) {
+  const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args, ignoreDefaultArgs });
+  try {
+    await work(await browser.newPage({ baseURL: address, reducedMotion: 'reduce' }));
+  } finally {
+    await browser.close();
+  }
+}
+
+/** The digest of everything that a figure shows. @param {Locator} widget */
+function digest(widget) {
+  return widget.evaluate(async (element) => {
+    const { machine } = /** @type {AnyElement} */ (element);
+    const state = JSON.stringify(/** @type {AnyElement} */ (element).getState());
+    const shown = new Blob([machine.poses, JSON.stringify(machine.stats), state]);
+    const hash = await crypto.subtle.digest('SHA-256', await shown.arrayBuffer());
+    return [...new Uint8Array(hash)].map((byte) => byte.toString(16).padStart(2, '0')).join('');
+  });
+}
+
+for (const name of NAMES) {
+  test(`${name} is drawn again after a trap within 100 ms, the same to the bit, and its neighbours go on as they are`, async ({ page }) => {
+    const others = NAMES.map((each, i) => `<${each} class="other" style="position: fixed; top: 0; right: ${330 * i}px; width: 320px; opacity: 0.5"></${each}>`);
+    await show(page, `<${name} id="it" seed="11"></${name}>${others.join('')}`);
+    const widget = page.locator('#it');
+    await ready(widget);
+    for (const other of await page.locator('.other').all()) await ready(other);
+    const before = [await digest(widget), await pictureOf(widget.locator('canvas.plane'))];
+    const neighbours = () => Promise.all(NAMES.map((each) => digest(page.locator(`${each}.other`))));
+    const around = await neighbours();
+    await page.evaluate(() => {
+      const machines = [...document.querySelectorAll('.other')].map((each) => /** @type {any} */ (each).machine);
+      Object.assign(window, { machines });
+    });
+    await heard(page);
+    // The quickest of several: what else runs on the machine is not the figure's.
+    const times = await widget.evaluate(async (element) => {
+      const figure = /** @type {any} */ (element);
+      const [picture] = figure.pictures;
+      const times = [];
+      for (let i = 0; i < 9; i++) {
+        const { machine } = figure;
+        machine.__wbg_ptr = 0x7ffffff0;
+        const start = performance.now();
+        const drawn = new Promise((resolve) => {
+          picture.constructor.prototype.draw = /** @this {any} */ function (/** @type {any[]} */ ...given) {
+            const moving = Object.getPrototypeOf(picture.constructor.prototype).draw.apply(this, given);
+            if (figure.machine && figure.machine !== machine) resolve(performance.now());
+            return moving;
+          };
+        });
+        figure.commit();
+        times.push((await drawn) - start);
+        delete picture.constructor.prototype.draw;
+        await new Promise(requestAnimationFrame);
+      }
+      return times.sort((one, other) => one - other);
+    });
+    console.log(`${name}: drawn again after ${times.map((time) => time.toFixed(0)).join(', ')} ms`);
+    expect(times[0]).toBeLessThan(100);
+    expect([await digest(widget), await pictureOf(widget.locator('canvas.plane'))]).toEqual(before);
+    expect((await heard(page)).map(({ name, target }) => [name, target])).toEqual(times.map(() => ['error', name]));
+    // Not one of them was made anew.
+    expect(await page.evaluate(() => Reflect.get(window, 'machines').map((/** @type {unknown} */ machine, /** @type {number} */ i) => machine === /** @type {any} */ (document.querySelectorAll('.other')[i]).machine))).toEqual([true, true]);
+    expect(await neighbours()).toEqual(around);
+  });
+
+  test(`${name} is drawn again when its canvas has got its context back`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const canvas = widget.locator('canvas.plane');
+    const before = await pictureOf(canvas);
+    const blank = await canvas.evaluate((element) => {
+      const canvas = /** @type {HTMLCanvasElement} */ (element);
+      // As a browser does it.
+      canvas.getContext('2d')?.reset();
+      const blank = canvas.toDataURL();
+      canvas.dispatchEvent(new Event('contextrestored'));
+      return blank;
+    });
+    expect(blank).not.toBe(before);
+    expect(await pictureOf(canvas)).toBe(before);
+  });
+
+  test(`${name} comes back from a size of zero as it was, and draws nothing meanwhile`, async ({ page }) => {
+    await show(page, `<div id="box" style="width: 900px"><${name}></${name}></div>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const canvas = widget.locator('canvas.plane');
+    const before = await pictureOf(canvas);
+    for (const [property, none] of [['display', 'none'], ['width', '0'], ['zoom', '0.001'], ['content-visibility', 'hidden']]) {
+      const box = page.locator('#box');
+      await box.evaluate((element, [key, value]) => element.style.setProperty(key, value), [property, none]);
+      await frames(page);
+      // What is set meanwhile is there afterwards.
+      await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
+      await frames(page);
+      await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = /** @type {any} */ (null)));
+      await box.evaluate((element, key) => element.style.removeProperty(key), property);
+      await box.evaluate((element) => element.style.setProperty('width', '900px'));
+      await expect.poll(() => pictureOf(canvas), property).toBe(before);
+    }
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  test(`${name} has the screen’s pixels when these change`, async ({ page }) => {
+    await page.addInitScript(() => {
+      // As in WebKit. What tells of pixels in others, an emulated screen leaves out.
+      const { observe } = ResizeObserver.prototype;
+      ResizeObserver.prototype.observe = function (target, options) {
+        if (options?.box === 'device-pixel-content-box') throw new TypeError('no such box');
+        observe.call(this, target);
+      };
+      Reflect.deleteProperty(ResizeObserverEntry.prototype, 'devicePixelContentBoxSize');
+      // It leaves out the news as well.
+      const { matchMedia } = window;
+      const screens = /** @type {MediaQueryList[]} */ ([]);
+      Object.assign(window, { screens });
+      window.matchMedia = (query) => {
+        const list = matchMedia.call(window, query);
+        if (query.includes('resolution')) screens.push(list);
+        return list;
+      };
+    });
+    await show(page, `<div style="width: 900px"><${name}></${name}></div>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const canvas = widget.locator('canvas.plane');
+    const before = await pictureOf(canvas);
+    const session = await page.context().newCDPSession(page);
+    const screen = async (/** @type {number} */ deviceScaleFactor) => {
+      await session.send('Emulation.setDeviceMetricsOverride', { width: 1280, height: 720, deviceScaleFactor, mobile: false });
+      await page.evaluate(() => {
+        for (const list of Reflect.get(window, 'screens').splice(0)) list.dispatchEvent(new Event('change'));
+      });
+    };
+    const size = () => canvas.evaluate((element) => [/** @type {HTMLCanvasElement} */ (element).width, /** @type {HTMLCanvasElement} */ (element).height]);
+    const [width, height] = await size();
+    for (const ratio of [2, 1.5, 3]) {
+      await screen(ratio);
+      // Lengths on the page are rounded here, and pixels there.
+      await expect.poll(async () => (await size()).map((length, i) => Math.abs(length - ratio * [width, height][i]) < ratio)).toEqual([true, true]);
+      expect(await pixelsOf(canvas, 'prior')).toBeGreaterThan(0);
+    }
+    await screen(1);
+    await expect.poll(() => pictureOf(canvas)).toBe(before);
+    await session.detach();
+  });
+
+  test(`${name} has the pixels that it is enlarged by`, async ({ page }) => {
+    await show(page, `<div id="box" style="width: 600px"><${name}></${name}></div>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const canvas = widget.locator('canvas.plane');
+    const size = () => canvas.evaluate((element) => [/** @type {HTMLCanvasElement} */ (element).width, /** @type {HTMLCanvasElement} */ (element).height]);
+    const [width, height] = await size();
+    await page.locator('#box').evaluate((element) => element.style.setProperty('zoom', '1.5'));
+    // Both are rounded to whole pixels.
+    await expect.poll(async () => (await size()).map((length, i) => Math.abs(length - 1.5 * [width, height][i]) < 1.5)).toEqual([true, true]);
+    expect(await pixelsOf(canvas, 'prior')).toBeGreaterThan(0);
+    await page.locator('#box').evaluate((element) => element.style.removeProperty('zoom'));
+    await expect.poll(size).toEqual([width, height]);
+    expect(await pixelsOf(canvas, 'prior')).toBeGreaterThan(0);
+  });
+
+  test(`${name} in a hidden tab asks for no frame, and shows afterwards what was set meanwhile`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const canvas = widget.locator('canvas.plane');
+    await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
+    const wanted = await pictureOf(canvas);
+    await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = /** @type {any} */ (null)));
+    const before = await pictureOf(canvas);
+    const requested = await widget.evaluate(async (element) => {
+      const hide = (/** @type {boolean} */ value) => {
+        Object.defineProperty(document, 'hidden', { configurable: true, value });
+        document.dispatchEvent(new Event('visibilitychange'));
+      };
+      const { requestAnimationFrame: request } = window;
+      let requested = 0;
+      window.requestAnimationFrame = (callback) => {
+        requested++;
+        return request.call(window, callback);
+      };
+      hide(true);
+      const figure = /** @type {AnyElement} */ (element);
+      for (let i = 0; i < 10; i++) {
+        figure.omega = 1.25 + i / 100;
+        /** @type {any} */ (figure).commit();
+        await new Promise((resolve) => setTimeout(resolve, 20));
+      }
+      figure.omega = 1.25;
+      const meanwhile = requested;
+      window.requestAnimationFrame = request;
+      hide(false);
+      return meanwhile;
+    });
+    expect(requested).toBe(0);
+    expect(before).not.toBe(wanted);
+    await expect.poll(() => pictureOf(canvas)).toBe(wanted);
+  });
+}
+
+test('a process for graphics that dies leaves no blank picture', async ({ baseURL }) => {
+  // A canvas that the processor draws has nothing to lose: these have the canvases drawn as by a graphics card.
+  const args = [...CHROME_ARGUMENTS.filter((argument) => argument !== '--disable-gpu'), '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--enable-gpu-rasterization'];
+  test.slow();
+  await withBrowser(String(baseURL), { args }, async (page) => {
+    await show(page, '<map-squeeze></map-squeeze>');
+    const widget = page.locator('map-squeeze');
+    await ready(widget);
+    await widget.evaluate((element, map) => Object.assign(element, { map, samples: 5000 }), MAP);
+    await ready(widget);
+    const canvas = widget.locator('canvas.plane');
+    /** How many pixels are drawn on: colours may be rounded otherwise the next time. */
+    const inked = () =>
+      canvas.evaluate(async (/** @type {HTMLCanvasElement} */ element) => {
+        const { width, height } = /** @type {HTMLCanvasElement} */ (element);
+        const copy = new OffscreenCanvas(width, height);
+        const context = /** @type {OffscreenCanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+        // A copy: a canvas that is read itself is drawn by the processor from then on.
+        context.drawImage(await createImageBitmap(element), 0, 0);
+        return context.getImageData(0, 0, width, height).data.filter((value, i) => i % 4 === 3 && value > 0).length;
+      });
+    const before = await inked();
+    expect(before).toBeGreaterThan(10_000);
+    const restored = canvas.evaluate((element) => new Promise((resolve) => element.addEventListener('contextrestored', () => resolve(true))));
+    const session = await /** @type {import('@playwright/test').Browser} */ (page.context().browser()).newBrowserCDPSession();
+    await session.send('Browser.crashGpuProcess');
+    expect(await restored).toBe(true);
+    await frames(page);
+    expect(await inked()).toBe(before);
+  });
+});
+
+test('a page that comes back from the back-forward cache is alive', async ({ baseURL }) => {
+  await withBrowser(String(baseURL), { ignoreDefaultArgs: ['--disable-back-forward-cache'] }, async (page) => {
+    await show(page, NAMES.map((name) => `<${name} share></${name}>`).join(''));
+    const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+    await ready(banana);
+    await squeeze.scrollIntoViewIfNeeded();
+    await ready(squeeze);
+    await banana.scrollIntoViewIfNeeded();
+    await banana.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
+    const before = [await digest(banana), await digest(squeeze), await pictureOf(banana.locator('canvas.plane'))];
+    await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
+    await page.goto('/embed.html?widget=map-squeeze');
+    await page.goBack({ waitUntil: 'commit' });
+    await expect.poll(() => page.evaluate(() => Reflect.get(window, 'persisted'))).toBe(true);
+    await frames(page);
+    expect([await digest(banana), await digest(squeeze), await pictureOf(banana.locator('canvas.plane'))]).toEqual(before);
+    // It goes on: a handle can be dragged, and the picture follows.
+    const { x, y } = await centreOf(banana.locator('.handle'));
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x - 40, y + 30, { steps: 4 });
+    await page.mouse.up();
+    await frames(page);
+    expect(await property(banana, 'omega')).not.toBe(1.25);
+    expect(await pictureOf(banana.locator('canvas.plane'))).not.toBe(before[2]);
+    expect(await stateOf(squeeze)).toMatchObject({ widget: 'map-squeeze' });
+  });
+});

@@ -15,8 +15,8 @@ export default [
   },
   { files: ['www/**', 'examples/**'], languageOptions: { globals: globals.browser } },
   // They run in Node and in a page.
-  { files: ['benches/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
+  { files: ['benches/**', 'tests/digest/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
   { files: ['scripts/**', 'tests/node/**', '*.config.js', 'examples/**/*.config.js'], languageOptions: { globals: globals.node } },
   // Browser tests run in Node and pass functions into the page.
-  { files: ['tests/e2e/**', 'tests/embeddings/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
+  { files: ['tests/e2e/**', 'tests/embeddings/**', 'tests/engines/**', 'tests/mutants/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 ];

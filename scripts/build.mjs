@@ -6,6 +6,7 @@ import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { binder } from './bindgen.mjs';
 import { bundle, filesOf } from './bundle.mjs';
+import { cratesOf } from './licences.mjs';
 import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
 import { ensurePackages, wasmRust } from './toolchain.mjs';
 
@@ -15,8 +16,8 @@ const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', '
 
 /** Brings dist/ up to date with the sources. */
 export async function build() {
-  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/bind']);
-  const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts'];
+  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/licences.mjs', 'scripts/bind']);
+  const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts', 'build/crates.json'];
   await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
   const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], bundle);
@@ -78,8 +79,11 @@ async function compileCore() {
   const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
   const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
   await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
-  const metadata = await run(cargo, ['metadata', '--locked', '--no-deps', '--format-version', '1'], { env: rust.env, quiet: true });
-  return join(JSON.parse(metadata.stdout).target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
+  const ask = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
+  const metadata = JSON.parse(await ask('metadata', '--format-version', '1'));
+  const tree = await ask('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
+  writeFileSync(at('build/crates.json'), JSON.stringify(cratesOf(tree, metadata)));
+  return join(metadata.target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
 }
 
 /**
@@ -146,8 +150,11 @@ function makeFactory(path) {
   const script = readFileSync(at(`${path}.js`), 'utf8');
   const glue = script.match(/^let wasm_bindgen = \(function\(exports\) \{\n +let script_src;\n +if [^}]*\}\n(.*)\n +async function __wbg_load\(/s)?.[1];
   if (glue === undefined) throw new Error("wasm-bindgen's script is not what scripts/build.mjs takes it for.");
+  // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
+  const ends = glue.replaceAll('throw new Error(getStringFromWasm', 'throw new WebAssembly.RuntimeError(getStringFromWasm');
+  if (ends === glue) throw new Error("wasm-bindgen's errors are not what scripts/build.mjs takes them for.");
   const instance = '__wbg_finalize_init(await WebAssembly.instantiate(module, __wbg_get_imports()), module);';
-  writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${glue}\n${instance}\nreturn exports;\n};\n`);
+  writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${ends}\n${instance}\nreturn exports;\n};\n`);
   const type = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
   writeFileSync(at(`${path}.d.ts`), `${type}export default instantiate;\n`);
 }

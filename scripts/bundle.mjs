@@ -5,6 +5,7 @@ import { appendFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync,
 import { basename, dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
 import { pascal, widgets } from './declarations.mjs';
+import { licences, packagesOf } from './licences.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
 import { writePython } from './python.mjs';
@@ -85,8 +86,12 @@ declare const widget: { render(view: { model: object; el: HTMLElement }): (() =>
 export default widget;
 `;
 
-/** Bundles everything anew. */
-export async function bundle() {
+/**
+ * Bundles everything anew.
+ *
+ * @param {(path: string, script: string) => string} [changed] what becomes of a script of www/
+ */
+export async function bundle(changed = (_, script) => script) {
   progress('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -125,7 +130,7 @@ export async function bundle() {
               loader: 'js',
             }));
             onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({
-              contents: withShortStyles(readFileSync(path, 'utf8'), transformSync),
+              contents: changed(path, withShortStyles(readFileSync(path, 'utf8'), transformSync)),
               loader: 'js',
             }));
           },
@@ -179,6 +184,8 @@ export async function bundle() {
   // What weighs how much: read by scripts/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
+  const crates = JSON.parse(readFileSync(at('build/crates.json'), 'utf8'));
+  write(at('dist/LICENSE-third-party.txt'), licences([...packagesOf(outputs), ...crates]));
   await writePython();
 }
 

@@ -193,8 +193,9 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
  * @param {string} command
  * @param {string[]} args
  * @param {{ env?: Record<string, string>, cwd?: string }} [options]
- * @returns {{ output: () => string, ended: Promise<void>, stop: () => Promise<void> }} `output` is what it has printed
- *   so far; both promises are resolved when it is no more
+ * @returns {{ output: () => string, said: (pattern: RegExp) => Promise<string>, ended: Promise<void>, stop: () => Promise<void> }}
+ *   `output` is what it has printed so far, `said` the first group of a pattern as soon as there is one in that; both other
+ *   promises are resolved when it is no more
  */
 export function start(command, args, { env = {}, cwd = ROOT } = {}) {
   const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
@@ -215,6 +216,16 @@ export function start(command, args, { env = {}, cwd = ROOT } = {}) {
   });
   return {
     output: () => output,
+    said: (pattern) =>
+      new Promise((resolve, reject) => {
+        const look = () => {
+          const found = output.match(pattern);
+          if (found) resolve(found[1]);
+        };
+        for (const stream of [child.stdout, child.stderr]) stream.on('data', look);
+        ended.then(() => reject(new Error(`${command} has ended:\n${output}`)));
+        look();
+      }),
     ended,
     stop() {
       if (group !== undefined) end(group);

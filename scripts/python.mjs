@@ -22,6 +22,7 @@ export async function writePython() {
   for (const license of readdirSync(ROOT).filter((name) => name.startsWith('LICENSE'))) {
     copyFileSync(join(ROOT, license), join(PYTHON, license));
   }
+  copyFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), join(PYTHON, 'LICENSE-third-party.txt'));
 }
 
 /** @returns {Promise<string>} a module of Python */

@@ -105,6 +105,12 @@ impl NoiseKind {
     }
 }
 
+/// The product of independent densities. 0 where one of them is 0, however narrow the others: a density may be too large for
+/// a double, and 0 · ∞ is no number.
+pub(crate) fn joint<const N: usize>(densities: [f64; N]) -> f64 {
+    if densities.contains(&0.0) { 0.0 } else { densities.into_iter().product() }
+}
+
 /// The density at the angle `a` of noise of variance `b2` wrapped around the circle: Σₖ prob(a + 2πk), per radian.
 /// 1 or 0 as [`NoiseKind::prob`] where the variance is 0.
 pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {

@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::{KINDS, SIGMAS, golden, pose_distance, seeded, winds_around};
+use common::{KINDS, SIGMAS, pose_distance, seeded, winds_around};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
@@ -62,13 +62,6 @@ fn the_opening_state_is_the_gentle_arc() {
     ];
     assert_eq!(presets, expected);
     const { assert!(MAX_SAMPLES >= 100_000) };
-}
-
-/// The same bits on every machine; tests/web.rs runs the same in a browser.
-#[test]
-fn seeded_clouds_are_golden() {
-    let fingerprints = golden::settings().map(golden::fingerprint);
-    assert_eq!(fingerprints, golden::FINGERPRINTS, "{fingerprints:#018x?}");
 }
 
 /// For robots that get a metre or two away, each factor of a coordinate off by the accuracy of its sine or cosine.

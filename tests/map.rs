@@ -371,6 +371,40 @@ fn wall_tests_grow_slower_than_the_number_of_walls() {
     assert!(fixed[3] < 0.001 * 10_000.0, "{fixed:?}: a thousandth of the walls");
 }
 
+/// The box of a wall across the map holds half of it; who drives in that box, but far from the wall, does not measure it.
+#[test]
+fn a_wall_across_the_map_is_measured_only_from_nearby() {
+    let across = wall(0.0, 0.0, 100.0, 100.0);
+    let plan = FloorPlan::new(vec![across, wall(80.0, 20.0, 81.0, 20.0)], [0.0, 0.0, 100.0, 100.0])
+        .expect("a valid plan");
+    let mut rng = seeded(9900);
+    let mut measured = 0;
+    for _ in 0..1000 {
+        let point = in_box([79.8, 19.8, 81.2, 20.2], &mut rng);
+        let tests = plan.point_free(point, 0.13).wall_tests;
+        assert!(tests <= 1, "{point:?}: {tests} walls");
+        measured += tests;
+    }
+    assert!(measured > 100, "{measured}");
+}
+
+/// A plan that is told in other units has its place at the same spot. By a power of two, even to the bit.
+#[test]
+fn a_place_does_not_depend_on_the_unit() {
+    let apartment = FloorPlan::apartment();
+    for clearance in [0.0, 0.13, 1.0] {
+        let place = apartment.open_place(clearance).expect("there is room");
+        for unit in [1.0 / 64.0, 4.0, 256.0] {
+            let scaled = |[x, y]: [f64; 2]| [unit * x, unit * y];
+            let walls = apartment.walls().iter();
+            let walls = walls.map(|Segment { from, to }| Segment { from: scaled(*from), to: scaled(*to) });
+            let plan = FloorPlan::new(walls.collect(), apartment.bounds().map(|edge| unit * edge));
+            let found = plan.expect("a valid plan").open_place(unit * clearance).expect("there is room");
+            assert_eq!(found, SE2::new(unit * place.x(), unit * place.y(), place.theta()), "{unit}");
+        }
+    }
+}
+
 #[test]
 fn a_robot_is_put_in_the_open() {
     let apartment = FloorPlan::apartment();

@@ -563,6 +563,9 @@ fn a_robot_is_put_in_the_open() {
         let way = Arc { start: place, length: 0.5, turn: 0.0 };
         assert!(plan.arc_free(&way, 0.0).free && place.theta().abs() < 0.5, "{place:?}");
     }
+    // Where the robot just fits, there is no way at all.
+    let shut = FloorPlan::from_grid(drawn(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
+    assert_eq!(shut.open_place(0.0499).expect("there is room").theta(), 0.0);
     // Nothing is known, but something is free; or nothing is.
     let unknown = drawn(&["???", "???", "???"], Unknown::Free);
     let place = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");

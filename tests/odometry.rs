@@ -15,7 +15,7 @@ use motion::geom::se2::{SE2, wrap_angle};
 use motion::stats::CartesianMoments;
 use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, Variance};
 use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const ALPHAS: OdomAlphas = OdomAlphas([0.05, 0.02, 0.01, 0.03]);
 
@@ -96,6 +96,11 @@ fn a_spin_on_the_spot_is_charged_to_the_second_rotation() {
             assert!((step.rot2 - turn).abs() < 1e-15);
         }
     }
+    // From a nanometre on there is a direction of travel.
+    let prev = SE2::identity();
+    let at = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
+    assert_eq!(at(1e-9f64.next_down()), delta(0.0, 0.0, 0.5));
+    assert_eq!(at(1e-9), delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
     // Only the second rotation and, through α₄, the translation are noisy; nothing has a full-rank density.
     let u = delta(0.0, 0.0, 0.8);
     let x = SE2::new(3.0, -2.0, 1.0);

@@ -453,6 +453,11 @@ fn degenerate_clouds_give_nan() {
     assert!(cross_track_skew(&three[..2]).is_nan());
     assert!((cross_track_skew(&three) - 0.5f64.sqrt()).abs() < 1e-12, "two at −1, one at 2");
     assert!(predicted_cross_track_skew(&Vector3::zeros(), &Matrix3::zeros()).is_nan());
+    // A robot that turns half round on its way ends up beside its arc's chord: noise to its side is noise along its heading.
+    for turn in [PI, -PI] {
+        let aside = Matrix3::from_diagonal(&Vector3::y());
+        assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &aside).is_nan());
+    }
     let still = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
     assert!(ExactMoments::of_velocity(&still, &U).cross_track_skew.is_nan());
     assert!(ExactMoments::of_velocity(&along, &straight).cross_track_skew.is_nan());

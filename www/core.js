@@ -57,8 +57,17 @@ export async function instantiateFor(name) {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
-  const motion = await makeCore(await compiled(name));
-  for (const each of Object.values(motion)) if ('free' in (each.prototype ?? {})) makeDisposable(/** @type {any} */ (each));
+  let motion;
+  try {
+    motion = await makeCore(await compiled(name));
+  } catch (error) {
+    if (!forbidden()) throw error;
+    throw new Error(
+      "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
+      { cause: error },
+    );
+  }
+  for (const [name, each] of Object.entries(motion)) if ('free' in (each.prototype ?? {})) makeSafe(name, /** @type {any} */ (each));
   return motion;
 }
 
@@ -94,32 +103,26 @@ async function compiled(name) {
   return module;
 }
 
+/** Characters of an address that are quoted: one with data in it has millions. */
+const LONGEST = 200;
+
 /** @param {Source} source */
 async function compile(source) {
-  try {
-    if (source instanceof WebAssembly.Module) return source;
-    if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return await WebAssembly.compile(source);
-    if (source instanceof URL || typeof source === 'string') {
-      const file = fileAt(source);
-      return file ? await WebAssembly.compile(await file) : await streamed(source);
-    }
-  } catch (error) {
-    if (!forbidden()) throw error;
-    throw new Error(
-      "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
-      { cause: error },
-    );
+  if (source instanceof WebAssembly.Module) return source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
+  if (source instanceof URL || typeof source === 'string') {
+    const file = fileAt(source);
+    return file ? WebAssembly.compile(await file) : streamed(source);
   }
   throw new TypeError(
-    `load: source is ${String(source)}, and must be the module's bytes, a URL or string, ` +
-      'or a WebAssembly.Module.',
+    `load: source is of the type ${typeof source}; allowed are the module's bytes, a URL or string, and a WebAssembly.Module.`,
   );
 }
 
-/** Whether not even an empty module may be compiled here. */
+/** Whether not even an empty module may run here: WebKit forbids that alone, others to compile it. */
 function forbidden() {
   try {
-    return !new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0));
+    return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));
   } catch {
     return true;
   }
@@ -134,18 +137,19 @@ function forbidden() {
 async function streamed(source) {
   const response = await fetch(source).catch((error) => {
     throw new Error(
-      `load: ${source} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src.`,
+      `load: ${String(source).slice(0, LONGEST)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src.`,
       { cause: error },
     );
   });
-  if (!response.ok) throw new Error(`load: ${response.url} answers ${response.status}.`);
+  const url = response.url.slice(0, LONGEST);
+  if (!response.ok) throw new Error(`load: ${url} answers ${response.status}.`);
   const type = response.headers.get('content-type') ?? 'something without a type';
   try {
     if (/^application\/wasm\s*$/i.test(type)) return await WebAssembly.compileStreaming(response);
     return await WebAssembly.compile(await response.arrayBuffer());
   } catch (error) {
     const reason = /** @type {Error} */ (error).message;
-    throw new Error(`load: ${response.url} answers with ${type}, which is no WebAssembly module: ${reason}`, { cause: error });
+    throw new Error(`load: ${url} answers with ${type}, which is no WebAssembly module: ${reason}`, { cause: error });
   }
 }
 
@@ -163,21 +167,51 @@ function fileAt(source) {
 }
 
 /**
- * Lets `m.free()` and `m[Symbol.dispose]()` be called again, which does nothing, and gives engines
- * without `Symbol.dispose` one.
+ * Machines that are at work: what calls them meanwhile is code of the caller's, run by reading its arguments.
  *
- * @param {{ prototype: { free(): void } }} handle a class of the generated glue
+ * @type {WeakSet<object>}
  */
-function makeDisposable({ prototype }) {
+const busy = new WeakSet();
+
+/** Takes, as arguments, room on the stack: 8 kB, four times what the core was seen to need, in a microsecond or two. */
+const ROOM = Array(1024).fill(0);
+const fits = () => {};
+
+/**
+ * Lets the methods of a class of the generated glue be called on its own machines alone, and one at a time: the glue hands
+ * an address to the core, whatever is there. `m.free()` and `m[Symbol.dispose]()` may be called again, which does nothing;
+ * engines without `Symbol.dispose` are given one.
+ *
+ * @param {string} name of the class, which bundlers shorten
+ * @param {{ new (): object, prototype: { free(): void } }} Machine
+ */
+function makeSafe(name, { prototype }) {
   if (!Symbol.dispose) {
     Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
   }
   const { free } = prototype;
-  /** @this {{ __wbg_ptr: number }} the address in the module's memory, 0 once it is freed */
-  function freeOnce() {
-    if (this.__wbg_ptr !== 0) free.call(this);
-  }
-  for (const name of ['free', Symbol.dispose]) {
-    Object.defineProperty(prototype, name, { value: freeOnce, configurable: true, writable: true });
+  Object.defineProperty(prototype, Symbol.dispose, { value: free, configurable: true, writable: true });
+  for (const key of Reflect.ownKeys(prototype)) {
+    const property = /** @type {any} */ (Object.getOwnPropertyDescriptor(prototype, key));
+    const kind = property.get ? 'get' : 'value';
+    const work = property[kind];
+    // The glue's own begin with __.
+    if (/^(constructor$|__)/.test(String(key))) continue;
+    property[kind] = function (/** @type {unknown[]} */ ...args) {
+      // The address in the core's memory, 0 once it is freed.
+      const address = Object.prototype.isPrototypeOf.call(prototype, this) ? this.__wbg_ptr : undefined;
+      if (address === 0 && work === free) return undefined;
+      const what = address === undefined ? 'something else' : address === 0 ? 'a freed one' : busy.has(this) && 'one that is reading its arguments';
+      if (what) throw new TypeError(`${name}.${String(key)} is called on ${what}; allowed is a ${name} of the same core, in use`);
+      // Without it this throws while nothing has begun. Within the core it would leave things half done.
+      Reflect.apply(fits, undefined, ROOM);
+      busy.add(this);
+      try {
+        return work.apply(this, args);
+      } finally {
+        busy.delete(this);
+      }
+    };
+    Object.defineProperty(prototype, key, property);
   }
 }

@@ -118,7 +118,7 @@ impl Arc {
         let turn = self.turn * ahead;
         let side = if turn < 0.0 { -1.0 } else { 1.0 };
         let turn = turn.abs();
-        let curvature = if length > 0.0 && turn > MIN_TURN { turn / length } else { 0.0 };
+        let curvature = if length > MIN_LENGTH && turn > MIN_TURN { turn / length } else { 0.0 };
         Unrolled {
             origin: [self.start.x(), self.start.y()],
             forward: [ahead * cos, ahead * sin],
@@ -256,9 +256,8 @@ pub(crate) struct Course {
 impl Course {
     /// From one point to another, `length` (m, positive) apart along the arc, turning by `turn`; `half_sinc` = sinc(φ/2).
     fn new(from: [f64; 2], to: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
-        let chord = length * half_sinc;
-        let per_metre = if chord > 0.0 { 1.0 / chord } else { 0.0 };
-        let curvature = if length > 0.0 { turn / length } else { 0.0 };
+        let (per_metre, curvature) =
+            if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
         let tangent = [(to[0] - from[0]) * per_metre, (to[1] - from[1]) * per_metre];
         let half = 0.5 * length;
         let ends = Self {
@@ -300,6 +299,10 @@ impl Course {
 /// Turns below this (rad) count as straight: the arc then leaves the line by less than any double of its length can
 /// tell. Far larger values would show, far smaller ones would underflow in the curvature.
 const MIN_TURN: f64 = 1e-30;
+
+/// Arcs below this length (m) count as points. The curvature of much shorter ones, times a square of kilometres, is no
+/// double; no longer one is too short to be driven.
+const MIN_LENGTH: f64 = 1e-100;
 
 /// An arc in the frame of its start, mirrored so that it leads forward and to the left: from the origin along x with
 /// length ≥ 0, turn ≥ 0, curvature κ ≥ 0 (0: straight). All of it works without the centre, which is far away or

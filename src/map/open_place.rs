@@ -29,21 +29,26 @@ struct Squares<'a> {
     plan: &'a FloorPlan,
     columns: usize,
     rows: usize,
-    /// m.
-    side: f64,
+    /// Width and height, m: the same, but on a plan that is narrower than its squares would be.
+    sides: [f64; 2],
 }
 
 impl<'a> Squares<'a> {
     fn of(plan: &'a FloorPlan) -> Self {
         if let Some(grid) = plan.grid() {
             let [columns, rows] = grid.size();
-            return Self { plan, columns, rows, side: grid.resolution() };
+            return Self { plan, columns, rows, sides: [grid.resolution(); 2] };
         }
         let [left, bottom, right, top] = plan.bounds();
         let (width, height) = (right - left, top - bottom);
         let side = width.max(height) / SQUARES;
-        let [columns, rows] = [width, height].map(|length| (length / side) as usize);
-        Self { plan, columns, rows, side }
+        let sides = [width, height].map(|length| side.min(length));
+        let [columns, rows] = [width / sides[0], height / sides[1]].map(|count| count as usize);
+        Self { plan, columns, rows, sides }
+    }
+
+    fn longer_side(&self) -> f64 {
+        self.sides[0].max(self.sides[1])
     }
 
     fn grid(&self) -> Option<&OccupancyGrid> {
@@ -53,7 +58,7 @@ impl<'a> Squares<'a> {
     /// The point at these coordinates, in squares from the lower left corner.
     fn point(&self, at: [f64; 2]) -> [f64; 2] {
         let [left, bottom, ..] = self.plan.bounds();
-        let on_plan = [left + at[0] * self.side, bottom + at[1] * self.side];
+        let on_plan = [left + at[0] * self.sides[0], bottom + at[1] * self.sides[1]];
         self.grid().map_or(on_plan, |grid| grid.point(at))
     }
 
@@ -70,7 +75,9 @@ impl<'a> Squares<'a> {
             return grid.known_free(column, row);
         }
         let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
-        column < self.columns && row < self.rows && self.plan.field().least(middle) > 0.75 * self.side
+        column < self.columns
+            && row < self.rows
+            && self.plan.field().least(middle) > 0.75 * self.longer_side()
     }
 
     /// The middle of the largest square of free ones, in squares from the lower left corner; None where none is free.
@@ -102,7 +109,7 @@ impl<'a> Squares<'a> {
             let angle = TAU * f64::from(i) / f64::from(HEADINGS);
             let (sin, cos) = libm::sincos(angle);
             let way = (1..)
-                .map(|steps| 0.5 * self.side * f64::from(steps))
+                .map(|steps| 0.5 * self.longer_side() * f64::from(steps))
                 .map(|length| [x + length * cos, y + length * sin])
                 .take_while(|point| self.free_at(*point) && fits(point))
                 .count();
@@ -115,7 +122,7 @@ impl<'a> Squares<'a> {
 
     fn free_at(&self, [x, y]: [f64; 2]) -> bool {
         let [left, bottom, ..] = self.plan.bounds();
-        let on_plan = [(x - left) / self.side, (y - bottom) / self.side];
+        let on_plan = [(x - left) / self.sides[0], (y - bottom) / self.sides[1]];
         let [column, row] = self.grid().map_or(on_plan, |grid| grid.cell_coordinates([x, y]));
         column >= 0.0 && row >= 0.0 && self.free(column as usize, row as usize)
     }

@@ -2,7 +2,7 @@
 
 use super::MotionModel;
 use crate::geom::se2::{SE2, wrap_angle};
-use crate::noise::{NoiseKind, Variance, centred_uniform, wrapped_prob};
+use crate::noise::{NoiseKind, Variance, centred_uniform, joint, wrapped_prob};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::PI;
@@ -121,9 +121,11 @@ impl OdometryModel {
     fn charged_prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2, charge: Charge) -> f64 {
         let hat = OdomDelta::from_poses(x, x_next);
         let [rot1_variance, trans_variance, rot2_variance] = self.charged_variances(&hat, charge);
-        self.noise.prob(wrap_angle(u.rot1 - hat.rot1), rot1_variance)
-            * self.noise.prob(u.trans - hat.trans, trans_variance)
-            * self.noise.prob(wrap_angle(u.rot2 - hat.rot2), rot2_variance)
+        joint([
+            self.noise.prob(wrap_angle(u.rot1 - hat.rot1), rot1_variance),
+            self.noise.prob(u.trans - hat.trans, trans_variance),
+            self.noise.prob(wrap_angle(u.rot2 - hat.rot2), rot2_variance),
+        ])
     }
 
     /// The map from legs to poses has the determinant δ̂_trans. Noise may turn the translation negative, so that two
@@ -140,9 +142,11 @@ impl OdometryModel {
         let legs: f64 = [(bearing, distance), (bearing + PI, -distance)]
             .into_iter()
             .map(|(rot1, trans)| {
-                wrapped_prob(self.noise, rot1 - u.rot1, rot1_variance)
-                    * self.noise.prob(trans - u.trans, trans_variance)
-                    * wrapped_prob(self.noise, step.theta() - rot1 - u.rot2, rot2_variance)
+                joint([
+                    wrapped_prob(self.noise, rot1 - u.rot1, rot1_variance),
+                    self.noise.prob(trans - u.trans, trans_variance),
+                    wrapped_prob(self.noise, step.theta() - rot1 - u.rot2, rot2_variance),
+                ])
             })
             .sum();
         Some(if legs > 0.0 { legs / distance } else { 0.0 })

@@ -184,10 +184,11 @@ fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
 
 /// log N(residual; 0, cov) for a positive definite `cov`; −∞ where rounding left it none.
 fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
-    let Some(cholesky) = cov.cholesky() else { return f64::NEG_INFINITY };
-    let root = cholesky.l_dirty();
+    let Some(root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
     let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(root[(i, i)])).sum();
-    -0.5 * (residual.dot(&cholesky.solve(residual)) + log_det + 3.0 * libm::log(2.0 * PI))
+    // Of the whitened residual: solving for it twice would divide by a variance that may be smaller than any double.
+    let Some(whitened) = root.solve_lower_triangular(residual) else { return f64::NEG_INFINITY };
+    -0.5 * (whitened.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
 }
 
 /// A lower triangular L with L·Lᵀ = cov, zero columns where the covariance has no extent.

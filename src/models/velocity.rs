@@ -3,7 +3,7 @@
 use super::{MotionModel, TangentNoiseModel};
 use crate::geom::arc::{ArcInversion, chord, invert_arc};
 use crate::geom::se2::SE2;
-use crate::noise::{NoiseKind, Variance, centred_uniform, wrapped_prob};
+use crate::noise::{NoiseKind, Variance, centred_uniform, joint, wrapped_prob};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::TAU;
@@ -83,9 +83,11 @@ impl MotionModel for VelocityModel {
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
         let executed = invert_arc(x, x_next, u.dt);
         let [v_variance, omega_variance, gamma_variance] = self.variances(u);
-        self.noise.prob(u.v - executed.v_hat, v_variance)
-            * self.noise.prob(u.omega - executed.omega_hat, omega_variance)
-            * self.noise.prob(executed.gamma_hat, gamma_variance)
+        joint([
+            self.noise.prob(u.v - executed.v_hat, v_variance),
+            self.noise.prob(u.omega - executed.omega_hat, omega_variance),
+            self.noise.prob(executed.gamma_hat, gamma_variance),
+        ])
     }
 
     /// With d the distance and φ the turn of the arc, the map (v̂, ω̂, γ̂) → (x, y, θ) has the determinant
@@ -100,7 +102,8 @@ impl MotionModel for VelocityModel {
         let step = x.inverse() * *x_next;
         let distance = libm::hypot(step.x(), step.y());
         let shortest_turn = executed.omega_hat * u.dt;
-        if distance == 0.0 {
+        let square = distance * distance * u.dt;
+        if square == 0.0 {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
         // On one circle the length driven is proportional to the turn; a straight line closes no circle.
@@ -114,9 +117,11 @@ impl MotionModel for VelocityModel {
                 (executed.v_hat * (turn / shortest_turn), turn)
             };
             // |sinc(φ/2)| = d/|v̂Δt|, which leaves d²Δt/(2|v̂|) of the determinant beside γ̂'s Δt.
-            2.0 * v_hat.abs() / (distance * distance * u.dt)
-                * self.noise.prob(v_hat - u.v, v_variance)
-                * self.noise.prob(turn / u.dt - u.omega, omega_variance)
+            joint([
+                2.0 * v_hat.abs() / square,
+                self.noise.prob(v_hat - u.v, v_variance),
+                self.noise.prob(turn / u.dt - u.omega, omega_variance),
+            ])
         };
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
         let nearest = ((u.omega * u.dt - shortest_turn) / TAU).round();
@@ -125,7 +130,7 @@ impl MotionModel for VelocityModel {
 
         let last_turn = step.theta() - shortest_turn;
         let dt2 = u.dt * u.dt;
-        Some(arcs * wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0)))
+        Some(joint([arcs, wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0))]))
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {

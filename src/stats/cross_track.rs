@@ -24,6 +24,10 @@ pub struct CrossTrack {
 /// about 1e-16 of those a step; a larger bound would begin to call narrow clouds lines.
 pub(super) const NO_SPREAD: f64 = 1e-12;
 
+/// A mean square (m²) below this counts as none as well: the sixth power of a spread of 10⁻⁵⁰ m is hardly a double, and
+/// its error would come out as 0.
+const LEAST_SQUARE: f64 = 1e-100;
+
 impl CrossTrack {
     /// The figures of `poses`, all in one frame in which they are near the origin or spread around it.
     pub fn from_poses(poses: &[SE2]) -> Self {
@@ -75,7 +79,7 @@ impl CrossTrack {
     pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
         let TrackMoments { d: [.., m2, m3, _, _, _], sin_d, .. } = moments;
         let (m2, m3) = (*m2, *m3);
-        if count < 3 || m2 <= NO_SPREAD * NO_SPREAD * moments.extent_squared {
+        if count < 3 || m2 <= (NO_SPREAD * NO_SPREAD * moments.extent_squared).max(LEAST_SQUARE) {
             return Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
         }
         let sd = m2.sqrt();

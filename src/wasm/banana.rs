@@ -1,12 +1,15 @@
 //! `BananaMachine` for JavaScript.
 
 use super::fields::{in_range, no_memory, number, read_settings, whole, word};
-use super::pictures::{read_grid, read_ramps, view_of};
-use super::values::{doubles, float64_array, object, settings_to_js, to_js};
+use super::held::Held;
+use super::pictures::{RADIUS, place_of, read_grid, read_ramps, view_of};
+use super::values::{Plain, doubles, float64_array, gathered, list, object, settings_to_js, whole_numbers};
 use crate::geom::arc::ArcInversion;
+use crate::geom::se2::SE2;
 use crate::models::{OdomDelta, VelocityCmd};
 use crate::sim::banana::{
     BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings,
+    Stats, Table,
 };
 use crate::sim::settings::{MAX_SEED, QUANTITY};
 use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
@@ -126,7 +129,7 @@ export interface Inspection {
 /// One command sent to many identical robots from (0, 0), heading along x. Metres, radians, seconds throughout. Whatever
 /// is out of range throws a TypeError or RangeError that names the field, and changes nothing.
 #[wasm_bindgen(js_name = BananaMachine)]
-pub struct JsBananaMachine(BananaMachine);
+pub struct JsBananaMachine(Held<BananaMachine>);
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
@@ -135,14 +138,14 @@ impl JsBananaMachine {
     pub fn new(
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(Self(BananaMachine::new(opening(options)?)?))
+        Ok(Self(Held::new(BananaMachine::new(opening(options)?)?)))
     }
 
     /// A machine as the constructor makes it, of whose samples none is shown yet.
     pub fn empty(
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(Self(BananaMachine::empty(opening(options)?)?))
+        Ok(Self(Held::new(BananaMachine::empty(opening(options)?)?)))
     }
 
     /// Largest `samples`.
@@ -154,7 +157,7 @@ impl JsBananaMachine {
     #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
     pub fn presets() -> Result<Array, JsValue> {
         let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| {
-            let alphas = alphas.map_or(Ok(JsValue::NULL), |alphas| to_js(alphas.as_slice()))?;
+            let alphas = alphas.map_or(Ok(JsValue::NULL), |alphas| list(&alphas))?;
             object(&[
                 ("name", name.into()),
                 ("v", v.into()),
@@ -168,34 +171,37 @@ impl JsBananaMachine {
 
     /// Changes the settings that are named. A complete cloud stays complete.
     pub fn configure(
-        &mut self,
+        &self,
         #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
     ) -> Result<(), JsValue> {
-        Ok(self.0.configure(read_settings(self.0.settings(), settings)?)?)
+        let settings = read_settings(&self.settings(), settings)?;
+        Ok(self.0.with(move |machine| machine.configure(settings))?)
     }
 
     /// As `configure`, in slices: `advance` is to be called until it says true. Until then the figures are the former
     /// ones, and the samples partly so.
     pub fn begin(
-        &mut self,
+        &self,
         #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
     ) -> Result<(), JsValue> {
-        Ok(self.0.begin(read_settings(self.0.settings(), settings)?)?)
+        let settings = read_settings(&self.settings(), settings)?;
+        Ok(self.0.with(move |machine| machine.begin(settings))?)
     }
 
     /// Works on what was begun, for about as many poses of twice as many as are shown; whether all is done.
     pub fn advance(
-        &mut self,
+        &self,
         #[wasm_bindgen(unchecked_param_type = "number")] poses: &JsValue,
     ) -> Result<bool, JsValue> {
         let poses = whole("poses", poses, 1..=MAX_SEED)?;
-        Ok(self.0.advance(usize::try_from(poses).unwrap_or(usize::MAX)))
+        let poses = usize::try_from(poses).unwrap_or(usize::MAX);
+        Ok(self.0.with(move |machine| machine.advance(poses)))
     }
 
     /// A copy; changing it changes nothing.
     #[wasm_bindgen(getter, unchecked_return_type = "BananaMachineSettings")]
     pub fn config(&self) -> Result<JsValue, JsValue> {
-        settings_to_js(self.0.settings())
+        settings_to_js(&self.settings())
     }
 
     /// The noise parameters that each model has, or will have when it is chosen again.
@@ -205,89 +211,88 @@ impl JsBananaMachine {
         unchecked_return_type = "{ velocity: number[]; odometry: number[] }"
     )]
     pub fn alphas_of_models(&self) -> Result<JsValue, JsValue> {
-        let Settings { velocity_alphas, odometry_alphas, .. } = self.0.settings();
-        object(&[
-            ("velocity", to_js(velocity_alphas.as_slice())?),
-            ("odometry", to_js(odometry_alphas.as_slice())?),
-        ])
+        let Settings { velocity_alphas, odometry_alphas, .. } = self.settings();
+        object(&[("velocity", list(&velocity_alphas)?), ("odometry", list(&odometry_alphas)?)])
     }
 
     /// How many samples there are now, 0 to `config.samples`.
     #[wasm_bindgen(getter)]
     pub fn shown(&self) -> usize {
-        self.0.shown()
+        self.0.with(|machine| machine.shown())
     }
 
     /// Whether exponential coordinates reach as far as the robots turn: to short of a full circle. Where not, figures and
     /// contours in them are undefined.
     #[wasm_bindgen(getter, js_name = chartHolds)]
     pub fn chart_holds(&self) -> bool {
-        self.0.chart_holds()
+        self.0.with(|machine| machine.chart_holds())
     }
 
     /// Shows up to `count` samples more, 0 to 10 000 000. Returns how many are shown then.
     pub fn grow(
-        &mut self,
+        &self,
         #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
     ) -> Result<usize, JsValue> {
-        let count = whole("count", count, 0..=MAX_SAMPLES as u64)?;
-        Ok(self.0.grow(count as usize))
+        let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
+        Ok(self.0.with(move |machine| machine.grow(count)))
     }
 
     /// As `grow`, in slices like `begin`.
     #[wasm_bindgen(js_name = beginToGrow)]
     pub fn begin_to_grow(
-        &mut self,
+        &self,
         #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
     ) -> Result<(), JsValue> {
-        self.0.begin_to_grow(whole("count", count, 0..=MAX_SAMPLES as u64)? as usize);
+        let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
+        self.0.with(move |machine| machine.begin_to_grow(count));
         Ok(())
     }
 
     /// Shows none; the same samples come again.
-    pub fn restart(&mut self) {
-        self.0.restart();
+    pub fn restart(&self) {
+        self.0.with(BananaMachine::restart);
     }
 
     /// x, y (m), θ (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Result<Float64Array, JsValue> {
-        doubles("samples", self.0.poses().map(|pose| [pose.x(), pose.y(), pose.theta()]))
+        let numbers = |pose: SE2| [pose.x(), pose.y(), pose.theta()];
+        doubles("samples", self.0.with(move |machine| gathered(machine.poses().map(numbers))))
     }
 
     /// ξ along, lateral (m), heading (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Result<Float64Array, JsValue> {
-        doubles("samples", self.0.twists().map(<[f64; 3]>::from))
+        doubles("samples", self.0.with(|machine| gathered(machine.twists().map(<[f64; 3]>::from))))
     }
 
     /// What each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
     /// δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter)]
     pub fn executed(&self) -> Result<Float64Array, JsValue> {
-        doubles("samples", self.0.executed())
+        doubles("samples", self.0.with(|machine| gathered(machine.executed())))
     }
 
     /// The command as odometry without noise reads it.
     #[wasm_bindgen(getter, unchecked_return_type = "Legs")]
     pub fn reading(&self) -> Result<JsValue, JsValue> {
-        legs_to_js(self.0.reading())
+        legs_to_js(self.0.with(|machine| machine.reading()))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
-    pub fn stats(&self) -> Result<JsValue, JsValue> {
-        to_js(&self.0.stats())
+    pub fn stats(&self) -> Plain<Stats> {
+        Plain(Ok(self.0.with(|machine| machine.stats())))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Table")]
-    pub fn table(&self) -> Result<JsValue, JsValue> {
-        to_js(&self.0.table())
+    pub fn table(&self) -> Plain<Table> {
+        Plain(Ok(self.0.with(|machine| machine.table())))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
     pub fn contours(&self) -> Result<JsValue, JsValue> {
         let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } =
-            self.0.contours();
+            self.0.with(|machine| machine.contours());
         object(&[
             ("command", float64_array(command.as_flattened())?.into()),
             ("ellipse", float64_array(ellipse.as_flattened())?.into()),
@@ -309,7 +314,7 @@ impl JsBananaMachine {
         let first = in_range("omegaMin", omega_min, &QUANTITY)?;
         let last = in_range("omegaMax", omega_max, &QUANTITY)?;
         let points = whole("points", points, 2..=MAX_CURVE_POINTS)?;
-        Ok(self.0.skew_curve(first, last, points as usize))
+        Ok(self.0.with(move |machine| machine.skew_curve(first, last, points as usize)))
     }
 
     /// A sample shown, counted from 0.
@@ -320,7 +325,7 @@ impl JsBananaMachine {
     ) -> Result<JsValue, JsValue> {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let Sample { pose, twist, executed, path } =
-            self.0.inspect(index).ok_or_else(|| self.not_shown(index))?;
+            self.0.with(move |machine| machine.inspect(index)).ok_or_else(|| self.not_shown(index))?;
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs) = match executed {
             Executed::Arc { arc, .. } => (arc, JsValue::NULL),
             Executed::Legs(legs) => {
@@ -345,7 +350,8 @@ impl JsBananaMachine {
         #[wasm_bindgen(unchecked_param_type = "number")] index: &JsValue,
     ) -> Result<f64, JsValue> {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        Ok(self.0.pose(index).ok_or_else(|| self.not_shown(index))?.theta())
+        let pose = self.0.with(move |machine| machine.pose(index));
+        Ok(pose.ok_or_else(|| self.not_shown(index))?.theta())
     }
 
     /// The nearest sample inside an ellipse of these radii around a point of the view; −1 for none.
@@ -359,14 +365,14 @@ impl JsBananaMachine {
     ) -> Result<i32, JsValue> {
         let view = word("view", view)?;
         let target = [number("x", x)?, number("y", y)?];
-        let radii = [number("radiusX", radius_x)?, number("radiusY", radius_y)?];
-        Ok(self.0.nearest(view, target, radii).map_or(-1, |index| index as i32))
+        let radii = [in_range("radiusX", radius_x, &RADIUS)?, in_range("radiusY", radius_y, &RADIUS)?];
+        Ok(self.0.with(move |machine| machine.nearest(view, target, radii)).map_or(-1, |index| index as i32))
     }
 
-    /// Samples a cell of a grid over a part of the view, row by row from yMax down; 2²⁴ cells at most.
+    /// Samples a cell of a grid over a part of the view, row by row from yMax down; 2²⁴ cells, 2¹⁴ a side at most.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle and a size")]
     pub fn density(
-        &mut self,
+        &self,
         #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
         #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
         #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
@@ -377,8 +383,8 @@ impl JsBananaMachine {
     ) -> Result<Uint32Array, JsValue> {
         let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
-        let counts = self.0.density(view, &grid).map_err(|_| no_memory("columns"))?;
-        Ok(Uint32Array::from(counts.as_slice()))
+        let counts = self.0.with(move |machine| machine.density(view, &grid));
+        whole_numbers(&counts.map_err(|_| no_memory("columns"))?)
     }
 
     /// The same as RGBA pixels, each count c in the colour ramp[255·√(c/most)] of 256, transparent where there is nobody.
@@ -386,7 +392,7 @@ impl JsBananaMachine {
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
-        &mut self,
+        &self,
         #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
         #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
         #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
@@ -399,8 +405,8 @@ impl JsBananaMachine {
         let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let [ramp] = read_ramps("ramp", ramp)?;
-        let pixels = self.0.paint(view, &grid, &ramp).map_err(|_| no_memory("columns"))?;
-        Ok(view_of(pixels.as_flattened()))
+        let pixels = self.0.with(move |machine| machine.paint(view, &grid, &ramp).map(place_of));
+        Ok(view_of(&pixels.map_err(|_| no_memory("columns"))?))
     }
 }
 
@@ -415,8 +421,12 @@ fn opening(options: &JsValue) -> Result<Settings, JsValue> {
 }
 
 impl JsBananaMachine {
+    fn settings(&self) -> Settings {
+        self.0.with(|machine| *machine.settings())
+    }
+
     fn not_shown(&self, index: usize) -> RangeError {
-        let shown = self.0.shown();
+        let shown = self.shown();
         RangeError::new(&format!(
             "index is {index}; allowed is one of the {shown} samples shown, counted from 0"
         ))

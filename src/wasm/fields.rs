@@ -1,9 +1,9 @@
 //! Reading JavaScript values, each checked once. Every refusal is a TypeError or RangeError that names the field, the
-//! value and what is allowed. Nothing here can throw past Rust or run the caller's code unguarded: properties are read
-//! by `Reflect`, whose exceptions come back as values.
+//! value and what is allowed. Nothing here throws past Rust: what may run the caller's code, or fail, is called by
+//! `Reflect` or with `catch`, and its exceptions come back as values. Nothing is copied before its length is known.
 
 use crate::sim::settings::{Group, Rules, Setting, SettingsError, Word, Words, check_real, check_whole};
-use js_sys::{Number, RangeError, Reflect, TypeError};
+use js_sys::{ArrayBuffer, JsString, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
@@ -25,14 +25,17 @@ impl<'a> Fields<'a> {
         if !object.is_object() {
             return Err(type_error(name, object, &format!("an object with keys from {}", known.join(", "))));
         }
-        let keys = Reflect::own_keys(object).map_err(|_| unreadable(name))?;
-        if object.is_array() {
-            let message =
-                format!("{name} is an array; allowed is an object with keys from {}", known.join(", "));
+        // What has a length may have as many keys: arrays, typed arrays, text as an object.
+        let length = Reflect::get(object, &"length".into()).map_err(|_| unreadable(name))?;
+        if !length.is_undefined() {
+            let (length, known) = (describe(&length), known.join(", "));
+            let message = format!("{name} has length {length}; allowed is an object with keys from {known}");
             return Err(TypeError::new(&message).into());
         }
+        let keys = Reflect::own_keys(object).map_err(|_| unreadable(name))?;
         for key in keys.iter() {
-            let Some(key) = key.as_string() else { continue };
+            let Some(key) = key.dyn_ref::<JsString>() else { continue };
+            let key = beginning(key);
             if !known.contains(&key.as_str()) {
                 let message = format!("{prefix}{key} is an unknown key; allowed are {}", known.join(", "));
                 return Err(TypeError::new(&message).into());
@@ -101,8 +104,8 @@ pub fn word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
 
 fn read_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsValue> {
     let allowed = |word: &dyn Word| word.all().into_iter().map(quoted).collect::<Vec<_>>().join(" or ");
-    let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
-    if word.set(&text) {
+    let text: &JsString = value.dyn_ref().ok_or_else(|| type_error(field, value, &allowed(word)))?;
+    if text.length() <= LONGEST && word.set(&beginning(text)) {
         return Ok(());
     }
     Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed(word))).into())
@@ -214,14 +217,35 @@ pub fn printed(number: f64) -> String {
     Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
 
+/// Characters of a text that are quoted: enough to recognize it, and more than any key or word has.
+const MAX_CHARACTERS: usize = 40;
+
+/// UTF-16 units up to which a text is looked at: the engine may have put a longer one together of pieces that it would
+/// have to copy into one.
+const LONGEST: u32 = 1 << 20;
+
+/// The first characters of a text, whole ones, and "…" where there are more.
+fn beginning(text: &JsString) -> String {
+    // Two units are one character at most; a half of the last one would be the one that is left out.
+    let units = String::from(text.slice(0, 2 * MAX_CHARACTERS as u32 + 2));
+    let mut characters = units
+        .chars()
+        .map(|character| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
+    let mut shown: String = characters.by_ref().take(MAX_CHARACTERS).collect();
+    if characters.next().is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
 /// A text between quotation marks. Not as `Debug` has it, which knows all of Unicode and takes a twentieth of the module.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let mut result = String::from('"');
     for character in text.chars() {
         if matches!(character, '"' | '\\') {
             result.push('\\');
         }
-        result.push(if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
+        result.push(character);
     }
     result.push('"');
     result
@@ -229,11 +253,13 @@ fn quoted(text: &str) -> String {
 
 /// The value as a sentence can hold it, without running any of the caller's code.
 fn describe(value: &JsValue) -> String {
-    /// Characters of a string that are quoted: enough to recognize it.
-    const MAX_CHARACTERS: usize = 40;
-    if let Some(text) = value.as_string() {
-        let shown: String = text.chars().take(MAX_CHARACTERS).collect();
-        return quoted(&shown) + if shown.len() < text.len() { "…" } else { "" };
+    if let Some(text) = value.dyn_ref::<JsString>() {
+        let length = text.length();
+        return if length <= LONGEST {
+            quoted(&beginning(text))
+        } else {
+            format!("a text of {length} characters")
+        };
     }
     if let Some(number) = value.as_f64() {
         return printed(number);
@@ -248,4 +274,32 @@ fn describe(value: &JsValue) -> String {
         Some(kind) => format!("a {kind}"),
         None => "a value".to_owned(),
     }
+}
+
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(catch, js_namespace = ["Uint8Array", "prototype", "set"], js_name = call)]
+    fn set_bytes(target: &mut [u8], source: &JsValue) -> Result<(), JsValue>;
+}
+
+/// A copy of the `length` bytes of an array of bytes.
+pub fn bytes(field: &str, source: &JsValue, length: usize) -> Result<Vec<u8>, JsValue> {
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(length).map_err(|_| no_memory(&format!("{field}.length")))?;
+    bytes.resize(length, 0);
+    copy_bytes(field, source, &mut bytes)?;
+    Ok(bytes)
+}
+
+/// Fills `target` with the bytes of an array of bytes.
+pub fn copy_bytes(field: &str, source: &JsValue, target: &mut [u8]) -> Result<(), JsValue> {
+    // What only looks like one may have numbers that are objects with code of the caller's.
+    let copied = ArrayBuffer::is_view(source) && set_bytes(target, source).is_ok();
+    if copied {
+        return Ok(());
+    }
+    let message = format!(
+        "{field} is an array that has lost its bytes, as when they are transferred; allowed is one that has them"
+    );
+    Err(TypeError::new(&message).into())
 }

@@ -1,7 +1,7 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, boolean, in_range, item, length, no_memory, numbers, printed, type_error, whole, word,
+    Fields, boolean, bytes, in_range, item, length, numbers, printed, type_error, whole, word,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -10,7 +10,7 @@ use crate::map::{
     RESOLUTION, read_pgm,
 };
 use crate::sim::settings::{QUANTITY, Words};
-use js_sys::{RangeError, Uint8Array, Uint8ClampedArray};
+use js_sys::{ArrayBuffer, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 use web_sys::ImageData;
 
@@ -25,11 +25,24 @@ impl From<FloorPlanError> for JsValue {
     }
 }
 
-/// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as a JSON floor plan has them.
+/// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as a JSON floor plan has them, or with the walls in one
+/// Float64Array, as a machine tells them.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = numbers("bounds", &fields.value("bounds")?)?;
     let walls = fields.value("walls")?;
+    // What only looks like an array of numbers is no view of a memory.
+    if let Some(numbers) = walls.dyn_ref::<Float64Array>().filter(|walls| ArrayBuffer::is_view(walls)) {
+        let (count, rest) = (numbers.length() as usize / 4, numbers.length() % 4);
+        if rest > 0 {
+            return Err(type_error("walls", &walls, "a list of four numbers a wall"));
+        }
+        if count > FloorPlan::MAX_WALLS {
+            return Err(FloorPlanError::TooManyWalls(count).into());
+        }
+        let segment = |wall: &[f64]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
+        return Ok(FloorPlan::new(numbers.to_vec().chunks_exact(4).map(segment).collect(), bounds)?);
+    }
     let count = length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
     if count > FloorPlan::MAX_WALLS {
         return Err(FloorPlanError::TooManyWalls(count).into());
@@ -57,18 +70,19 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let usual = Interpretation::default();
     let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(usual.occupied_thresh);
     let free_thresh = threshold("free_thresh")?;
-    if free_thresh.is_some_and(|free| free > occupied_thresh) {
-        let limit = printed(occupied_thresh);
-        let message = format!("free_thresh is above occupied_thresh ({limit}); allowed is at most that");
+    if let Some(free) = free_thresh.filter(|free| *free > occupied_thresh) {
+        let [free, limit] = [free, occupied_thresh].map(printed);
+        let message = format!("free_thresh is {free}; allowed is at most occupied_thresh, {limit}");
         return Err(RangeError::new(&message).into());
     }
     let mode = fields.optional("mode", word)?.unwrap_or(usual.mode);
     let free_thresh = free_thresh.unwrap_or(usual.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(usual.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
-    let origin = SE2::new(origin[0], origin[1], origin[2]);
-    if let Some(bytes) = image.dyn_ref::<Uint8Array>() {
-        let file = read_file(bytes)?;
+    let [x, y, yaw] = origin;
+    let origin = SE2::new(x, y, yaw);
+    if image.is_instance_of::<Uint8Array>() {
+        let file = read_file(image)?;
         let image = read_pgm(&file).map_err(|error| RangeError::new(&error.to_string()))?;
         return Ok(OccupancyGrid::new(&image, &interpretation, resolution, origin));
     }
@@ -81,28 +95,26 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
 }
 
 /// The bytes of a PGM file.
-fn read_file(bytes: &Uint8Array) -> Result<Vec<u8>, JsValue> {
-    let length = whole("image.length", &bytes.length().into(), 0..=MAX_BYTES as u64)? as usize;
-    let mut copy = Vec::new();
-    copy.try_reserve_exact(length).map_err(|_| no_memory("image.length"))?;
-    copy.resize(length, 0);
-    bytes.copy_to(&mut copy);
-    Ok(copy)
+fn read_file(file: &JsValue) -> Result<Vec<u8>, JsValue> {
+    let length = length("image", file, "the bytes of a PGM file")?;
+    whole("image.length", &(length as f64).into(), 0..=MAX_BYTES as u64)?;
+    bytes("image", file, length)
 }
 
-/// Red, green, blue and opacity of an ImageData or, where there is no such class, as in Node, of what has its properties. They are read by name: its own
-/// getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
+/// Red, green, blue and opacity of an ImageData or, where there is no such class, as in Node, of what has its properties.
+/// They are read by name: its own getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
 fn read_pixels(image: &ImageData) -> Result<Image<Vec<u8>>, JsValue> {
     let fields = Fields::open("image", "image.", image)?;
     let width = whole("image.width", &fields.value("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height = whole("image.height", &fields.value("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
-    let data = fields.value("data")?;
-    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
-        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
-    };
-    if data.length() as usize != 4 * width * height {
-        let message = format!("image.data has length {}; allowed is {}", data.length(), 4 * width * height);
+    let (data, allowed) = (fields.value("data")?, "a Uint8ClampedArray of red, green, blue, opacity");
+    if !data.is_instance_of::<Uint8ClampedArray>() {
+        return Err(type_error("image.data", &data, allowed));
+    }
+    let length = length("image.data", &data, allowed)?;
+    if length != 4 * width * height {
+        let message = format!("image.data has length {length}; allowed is {}", 4 * width * height);
         return Err(RangeError::new(&message).into());
     }
-    Ok(Image { width, height, pixels: data.to_vec() })
+    Ok(Image { width, height, pixels: bytes("image.data", &data, length)? })
 }

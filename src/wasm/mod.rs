@@ -2,6 +2,7 @@
 
 mod banana;
 mod fields;
+mod held;
 mod maps;
 mod pictures;
 mod squeeze;

@@ -2,25 +2,41 @@
 
 use super::fields::no_memory;
 use crate::sim::settings::{Declared, Group, Setting};
-use js_sys::{Array, Float64Array, Object, Reflect, Uint8Array};
+use js_sys::{Array, Float64Array, Object, Reflect, Uint8Array, Uint32Array};
 use serde::Serialize;
+use wasm_bindgen::convert::ReturnWasmAbi;
+use wasm_bindgen::describe::WasmDescribe;
 use wasm_bindgen::prelude::*;
 
-/// A plain JavaScript value; None becomes null.
-pub fn to_js(value: &(impl Serialize + ?Sized)) -> Result<JsValue, JsValue> {
-    Ok(value.serialize(&serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true))?)
+/// What a method returns as a plain JavaScript value, in which None is null. It is made after the machine was given back: a
+/// page may have put setters on what all objects inherit, and what they throw passes through Rust.
+pub struct Plain<T>(pub Result<T, JsValue>);
+
+impl<T> WasmDescribe for Plain<T> {
+    fn describe() {
+        Result::<JsValue, JsValue>::describe();
+    }
+}
+
+impl<T: Serialize> ReturnWasmAbi for Plain<T> {
+    type Abi = <Result<JsValue, JsValue> as ReturnWasmAbi>::Abi;
+
+    fn return_abi(self) -> Self::Abi {
+        let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
+        self.0.and_then(|value| Ok(value.serialize(&serializer)?)).return_abi()
+    }
 }
 
 /// The settings of a widget; what is another way to say one of them is left out.
 pub fn settings_to_js<S: Declared>(settings: &S) -> Result<JsValue, JsValue> {
-    let (object, mut settings) = (Object::new(), *settings);
+    let (mut entries, mut settings) = (Vec::new(), *settings);
     settings.try_each(|declaration, setting| {
         if declaration.of.is_none() {
-            Reflect::set(&object, &declaration.key.into(), &setting_to_js(setting)?)?;
+            entries.push((declaration.key, setting_to_js(setting)?));
         }
         Ok::<_, JsValue>(())
     })?;
-    Ok(object.into())
+    object(&entries)
 }
 
 fn setting_to_js(setting: Setting) -> Result<JsValue, JsValue> {
@@ -30,7 +46,7 @@ fn setting_to_js(setting: Setting) -> Result<JsValue, JsValue> {
         Setting::WholeOrNone(whole, _) => number_or_null(whole.map(|whole| whole as f64)),
         Setting::Truth(truth) => (*truth).into(),
         Setting::Word(word) => word.get().into(),
-        Setting::Numbers(numbers, _) => to_js(&*numbers)?,
+        Setting::Numbers(numbers, _) => list(numbers)?,
         Setting::Level(level, _) => number_or_null(level.get()),
         Setting::Group(group) => group_to_js(group)?,
     })
@@ -41,23 +57,32 @@ pub fn number_or_null(number: Option<f64>) -> JsValue {
 }
 
 pub fn group_to_js(group: &mut dyn Group) -> Result<JsValue, JsValue> {
-    let object = Object::new();
-    for (i, field) in group.fields().iter().enumerate() {
-        Reflect::set(&object, &field.declaration.key.into(), &(*group.number(i)).into())?;
-    }
-    Ok(object.into())
+    let entries: Vec<_> = group
+        .fields()
+        .iter()
+        .enumerate()
+        .map(|(i, field)| (field.declaration.key, (*group.number(i)).into()))
+        .collect();
+    object(&entries)
 }
 
-/// The numbers of one item after the other. A RangeError that names `field` where memory does not suffice, on either
-/// side: an array of a million poses may be the one that is too much.
-pub fn doubles<const N: usize>(
-    field: &str,
-    items: impl ExactSizeIterator<Item = [f64; N]>,
-) -> Result<Float64Array, JsValue> {
-    let mut numbers: Vec<[f64; N]> = Vec::new();
-    numbers.try_reserve_exact(items.len()).map_err(|_| no_memory(field))?;
-    items.for_each(|item| numbers.push(item));
-    float64_array(numbers.as_flattened())
+/// A plain array of numbers.
+pub fn list(numbers: &[f64]) -> Result<JsValue, JsValue> {
+    Ok(Array::from(float64_array(numbers)?.as_ref()).into())
+}
+
+/// The items one after the other; None where memory does not suffice.
+pub fn gathered<T>(items: impl ExactSizeIterator<Item = T>) -> Option<Vec<T>> {
+    let mut gathered = Vec::new();
+    gathered.try_reserve_exact(items.len()).ok()?;
+    items.for_each(|item| gathered.push(item));
+    Some(gathered)
+}
+
+/// The numbers of what was gathered. A RangeError that names `field` where memory does not suffice, on either side: an
+/// array of a million poses may be the one that is too much.
+pub fn doubles<const N: usize>(field: &str, items: Option<Vec<[f64; N]>>) -> Result<Float64Array, JsValue> {
+    float64_array(items.ok_or_else(|| no_memory(field))?.as_flattened())
 }
 
 /// A copy of these numbers, with an error where JavaScript has no memory for it.
@@ -68,13 +93,18 @@ pub fn float64_array(numbers: &[f64]) -> Result<Float64Array, JsValue> {
     Ok(array)
 }
 
+/// As [`float64_array`].
+pub fn whole_numbers(numbers: &[u32]) -> Result<Uint32Array, JsValue> {
+    let array: Uint32Array = typed_array("Uint32Array", numbers.len())?.into();
+    array.copy_from(numbers);
+    Ok(array)
+}
+
 /// As [`doubles`] for single bytes.
-pub fn bytes(field: &str, items: impl ExactSizeIterator<Item = u8>) -> Result<Uint8Array, JsValue> {
-    let mut numbers = Vec::new();
-    numbers.try_reserve_exact(items.len()).map_err(|_| no_memory(field))?;
-    items.for_each(|item| numbers.push(item));
-    let array: Uint8Array = typed_array("Uint8Array", numbers.len())?.into();
-    array.copy_from(&numbers);
+pub fn bytes(field: &str, items: Option<Vec<u8>>) -> Result<Uint8Array, JsValue> {
+    let items = items.ok_or_else(|| no_memory(field))?;
+    let array: Uint8Array = typed_array("Uint8Array", items.len())?.into();
+    array.copy_from(&items);
     Ok(array)
 }
 
@@ -85,12 +115,9 @@ fn typed_array(kind: &str, length: usize) -> Result<JsValue, JsValue> {
     Reflect::construct(&constructor.into(), &Array::of1(&(length as f64).into()))
 }
 
-/// An object whose values are not all plain.
+/// A plain object. Its properties are defined, not assigned: what all objects inherit may have setters of the page's.
 #[inline(never)]
 pub fn object(entries: &[(&str, JsValue)]) -> Result<JsValue, JsValue> {
-    let object = Object::new();
-    for (key, value) in entries {
-        Reflect::set(&object, &(*key).into(), value)?;
-    }
-    Ok(object.into())
+    let entries: Vec<_> = entries.iter().map(|(key, value)| Array::of2(&(*key).into(), value)).collect();
+    Ok(Object::from_entries(&Array::of(&entries))?.into())
 }

@@ -3,7 +3,6 @@
 
 pub mod density;
 pub mod distance;
-pub mod golden;
 pub mod told;
 
 use motion::NoiseKind;

@@ -264,6 +264,29 @@ test.describe('figures', () => {
     expect(await marks()).toEqual([0, 0]);
   });
 
+  test('the first robot is marked as any other, and stays so while the pointer is over nothing', async ({ page }) => {
+    const widget = await openWhole(page);
+    const twist = widget.locator('canvas.twist');
+    const marked = () => widget.evaluate((element) => Reflect.get(element, 'marked'));
+    await widget.evaluate((element) => void Object.assign(element, { samples: 1 }));
+    await frames(page);
+    await twist.scrollIntoViewIfNeeded();
+    const { x, y, width, height } = await boxOf(twist);
+    // As shares of the width.
+    const [left, top] = await widget.evaluate((element) => {
+      const { twists, pictures } = /** @type {any} */ (element);
+      const { view } = pictures[1];
+      return [view.toPixelX(twists[0]), view.toPixelY(twists[2])].map((pixels) => pixels / view.width);
+    });
+    await page.mouse.move(x + width * left, y + width * top);
+    expect(await marked()).toBe(0);
+    await page.mouse.move(x + 3, y + height - 3);
+    expect(await marked()).toBe(0);
+    // A click there is meant.
+    await page.mouse.click(x + 3, y + height - 3);
+    expect(await marked()).toBe(null);
+  });
+
   test('the pictures have a text equivalent that follows the state', async ({ page }) => {
     const widget = await openWhole(page);
     const plane = widget.locator('canvas.plane');

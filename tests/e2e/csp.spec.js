@@ -69,3 +69,16 @@ anyway('where the module in a file of its own is forbidden, so does one', async 
   await expect(sentence).toContainText(/banana-machine-\w+\.wasm/);
   await expect(sentence).toContainText('connect-src');
 });
+
+anyway('where WebAssembly may be compiled and not run, as in WebKit, so does one', async ({ page }) => {
+  await page.addInitScript(() => {
+    const refuse = () => {
+      throw new WebAssembly.CompileError("Refused to create a WebAssembly object because 'unsafe-eval' or 'wasm-unsafe-eval' is not allowed");
+    };
+    Object.assign(WebAssembly, { instantiate: async () => refuse(), Instance: refuse });
+  });
+  await openUnder(page, STRICT, 'embed.html?widget=banana-machine');
+  const sentence = page.locator('banana-machine').getByRole('alert');
+  await expect(sentence).toContainText("lacks 'wasm-unsafe-eval'");
+  await expect(sentence).not.toContainText('Refused');
+});

@@ -218,6 +218,8 @@ test.describe('properties', () => {
       [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'conditioned', 'maybe', 'TypeError: conditioned is "maybe"; allowed is true or false'],
+      [squeeze, 'conditioned', 'toString', 'TypeError: conditioned is "toString"; allowed is true or false'],
+      [banana, 'model', 'constructor', 'RangeError: model is "constructor"; allowed is "velocity" or "odometry"'],
       [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "close" or "whole"'],
       [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: bounds has length 3; allowed is an array of 4 numbers'],
     ])) {

@@ -121,6 +121,24 @@ test('what the page does itself is told by stats alone, also out of sight', asyn
   expect(/** @type {number[]} */ (means)[0]).toBeGreaterThan(1.2);
 });
 
+test('what has not changed is not told again, whatever is drawn and asked', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await heard(page, ['stats']);
+  await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await widget.evaluate((element) => {
+    const figure = /** @type {import('./element-support.js').AnyElement} */ (element);
+    figure.toSVG();
+    figure.toCSV();
+    figure.getState();
+  });
+  expect(await heard(page, ['stats'])).toEqual([]);
+  expect(await assign(widget, 'v', 0.3)).toBe('');
+  expect(await heard(page, ['stats'])).toHaveLength(1);
+});
+
 test('a key that was used goes no further; any other does', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = NAMES.map((name) => page.locator(name));

@@ -95,6 +95,28 @@ for (const [theme, [ground, text]] of Object.entries(THEMES)) {
   });
 }
 
+test('what is muted has as much of the text as it takes to be legible, and hues as much black as the ground takes of the light', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const shares = [75, 80, 85, 90, 95];
+  const seen = new Set();
+  for (const [ground, text] of [[255, 0], [255, 60], [255, 80], [255, 89], [255, 98], [255, 106], [255, 130], [238, 1], [246, 2], [249, 3], [0, 255], [0, 150], [0, 128], [30, 145], [0, 9], [9, 255]]) {
+    await page.evaluate(([ground, text]) => void (document.body.style.cssText = `background: rgb(${ground} ${ground} ${ground}); color: rgb(${text} ${text} ${text})`), [ground, text]);
+    await frames(page);
+    const [strength, shade] = await widget.locator('.surface').evaluate(({ style }) => ['--strength', '--shade'].map((name) => style.getPropertyValue(name)));
+    const grey = (/** @type {number} */ channel) => [channel, channel, channel];
+    // 4.5 by WCAG 2, and a little more for screens that round.
+    const least = shares.find((share) => contrast(grey(ground + (share / 100) * (text - ground)), grey(ground)) >= 4.55) ?? 100;
+    expect(strength, `${text} on ${ground}`).toBe(`${least}%`);
+    seen.add(least);
+    const light = ground / 255;
+    const black = text < ground && light < 0.97 ? 100 * (1 - light ** 2.2) : 0;
+    expect(Number.parseFloat(shade || '0'), `${text} on ${ground}`).toBeCloseTo(black, 6);
+  }
+  expect([...seen].sort()).toEqual([100, ...shares]);
+});
+
 test('the ground is the nearest, through shadow roots and what is half transparent', async ({ page }) => {
   await show(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
     head: '<style>body { background: rgb(200 100 50); color: white }</style>',

@@ -47,6 +47,26 @@ const pass = (page) =>
 test.describe('far from the window', () => {
   test.use(STILL);
 
+  test('what a page opens with is there before any observer has looked, and nothing else is', async ({ page }) => {
+    await page.addInitScript(() => {
+      window.IntersectionObserver = /** @type {any} */ (
+        class {
+          observe() {}
+          unobserve() {}
+        }
+      );
+    });
+    const [above, seen, below] = ['position: absolute; top: -4000px', '', 'position: absolute; top: 4000px'];
+    await show(page, [above, seen, below].map((style) => `<div style="width: 600px; ${style}"><banana-machine></banana-machine></div>`).join(''));
+    const widgets = page.locator('banana-machine');
+    await ready(widgets.nth(1));
+    const plane = widgets.nth(1).locator('canvas.plane');
+    const opening = await pictureOf(plane);
+    await widgets.nth(1).getByRole('button', { name: 'Straight' }).click();
+    await expect.poll(() => pictureOf(plane)).not.toBe(opening);
+    for (const i of [0, 2]) expect(await property(widgets.nth(i), 'machine')).toBe(undefined);
+  });
+
   test('nothing is fetched or computed, and one module serves all', FRESH, async ({ page }) => {
     /** @type {string[]} */
     const fetched = [];
@@ -252,6 +272,21 @@ test.describe('moved and removed', () => {
       await expect.poll(open).toEqual(before.with(-1, false));
       await widget.getByRole('button', { name: 'Reset' }).click();
       await expect.poll(() => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown)).toBe(0);
+    });
+
+    test(`${name} keeps what the reader did in the very moment before it was removed`, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      const kept = await widget.evaluate(async (element) => {
+        const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#v'));
+        slider.value = '0.25';
+        slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+        element.remove();
+        await new Promise(requestAnimationFrame);
+        return /** @type {any} */ (element).getState().command.v;
+      });
+      expect(kept).toBe(0.25);
     });
 
     test(`${name}, removed, leaves nothing behind`, async ({ page }) => {

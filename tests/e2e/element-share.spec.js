@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { NAMES, heard, ready, show, stateOf } from './element-support.js';
+import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
 import { FRESH, STILL, frames, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -115,6 +115,33 @@ for (const name of NAMES) {
   });
 }
 
+test('a link that unpacks to more than any map takes is refused, whatever it says', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const state = JSON.stringify({ widget: 'banana-machine', version: 1, samples: 700 });
+  for (const [length, samples] of [[4_000_001, 50_000], [4_000_000, 700]]) {
+    await page.evaluate(async (text) => {
+      const packed = new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+      const bytes = new Uint8Array(await new Response(packed).arrayBuffer());
+      location.hash = `#banana-machine.1=${btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')}`;
+    }, state.padEnd(length));
+    if (samples === 700) await expect.poll(() => property(widget, 'samples')).toBe(samples);
+    else await expect.poll(async () => (await heard(page, ['error'])).map(({ message }) => message).join()).toContain('state in the address is "');
+    expect(await property(widget, 'samples')).toBe(samples);
+  }
+});
+
+test('the code to embed a figure that is not there yet has what was said of it by theme and language', async ({ page }) => {
+  await show(page, '');
+  const code = await page.evaluate(() => {
+    const element = document.createElement('banana-machine');
+    for (const [name, text] of Object.entries({ theme: 'dark', lang: 'de', v: '0.5' })) element.setAttribute(name, text);
+    return element.embedCode();
+  });
+  expect(code.split('\n').slice(1)).toEqual(['<banana-machine theme="dark" lang="de"></banana-machine>', '']);
+});
+
 test.describe('the menu', () => {
   test.use({ permissions: ['clipboard-read', 'clipboard-write'] });
 
@@ -171,4 +198,53 @@ test.describe('the menu', () => {
     await expect(widget.getByRole('textbox', { name: 'Copy it from here' })).toHaveValue(/<map-squeeze seed="4"><\/map-squeeze>/);
     await expectAccessible(page, undefined, 'map-squeeze');
   });
+});
+
+test('a link that is followed while the figure starts is heard', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const links = [];
+  for (const name of ['Pivot', 'Straight']) {
+    await widget.getByRole('button', { name }).click();
+    links.push(new URL(await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink())).hash);
+  }
+  const [pivot, straight] = links;
+  const command = await page.evaluate(async ([first, second]) => {
+    document.querySelector('banana-machine')?.remove();
+    location.hash = first;
+    await new Promise((resolve) => addEventListener('hashchange', resolve, { once: true }));
+    const element = document.createElement('banana-machine');
+    const { link } = /** @type {any} */ (element);
+    const { prepare } = link;
+    link.prepare = async () => {
+      await prepare.call(link);
+      // It has read the address, and there is no machine yet.
+      location.hash = second;
+      await new Promise((resolve) => addEventListener('hashchange', resolve, { once: true }));
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    };
+    const loaded = new Promise((resolve) => element.addEventListener('load', resolve));
+    document.body.prepend(element);
+    await loaded;
+    return element.getState()?.command;
+  }, [pivot, straight]);
+  expect(command).toEqual({ v: 1, omega: 0, dt: 2 });
+});
+
+test('figures in shadow roots, closed ones too, have parts of their own in the address', async ({ page }) => {
+  await page.addInitScript(() => {
+    for (const [name, mode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
+      customElements.define(name, class extends HTMLElement {
+        figure = this.attachShadow({ mode: /** @type {ShadowRootMode} */ (mode) }).appendChild(document.createElement('banana-machine'));
+      });
+    }
+  });
+  await show(page, '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>');
+  const keys = await page.evaluate(async () => {
+    const hosts = /** @type {any[]} */ ([...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure')));
+    const figures = /** @type {AnyElement[]} */ ([...hosts, document.querySelector('banana-machine')]);
+    return Promise.all(figures.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
+  });
+  expect(keys).toEqual(['open-host.1/banana-machine.1', 'open-host.2/banana-machine.1', 'closed-host:c/banana-machine.1', 'banana-machine.1']);
 });

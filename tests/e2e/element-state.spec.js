@@ -107,11 +107,26 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['banana-machine', { version: 2 }, 'RangeError: state.version is 2; allowed is 1'],
     ['banana-machine', { widget: 'map-squeeze' }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
     ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
+    // Of another widget, or of another day, it has other keys too, which is not what is wrong with it.
+    ['banana-machine', { widget: 'map-squeeze', start: {} }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
+    ['banana-machine', { version: 2, speed: 1 }, 'RangeError: state.version is 2; allowed is 1'],
+    ['banana-machine', { version: {} }, 'RangeError: state.version is an object; allowed is 1'],
+    ['banana-machine', { version: null }, 'RangeError: state.version is null; allowed is 1'],
+    ['banana-machine', { version: [1] }, 'RangeError: state.version is an array; allowed is 1'],
+    ['banana-machine', { widget: 'w'.repeat(40) }, `RangeError: state.widget is "${'w'.repeat(40)}"; allowed`],
+    ['banana-machine', { widget: 'w'.repeat(41) }, `RangeError: state.widget is "${'w'.repeat(40)}…"; allowed`],
+    ['banana-machine', { overlays: 'ellipse' }, 'TypeError: state.overlays is "ellipse"; allowed is an array of command, ellipse, linearized, additive, exponential'],
     ['banana-machine', { samples: 0 }, 'RangeError: samples is 0; allowed is a whole number from 1 to 10000000'],
     ['banana-machine', { command: { v: 'fast', omega: 0, dt: 1 } }, 'TypeError: command.v is "fast"; allowed is a number'],
     ['banana-machine', { alphas: { walking: [] } }, 'TypeError: state.alphas.walking is an unknown key; allowed are velocity, odometry'],
     ['banana-machine', { alphas: { odometry: [1] } }, 'RangeError: alphas has length 1; allowed is an array of 4 numbers'],
     ['banana-machine', { shown: 60000 }, 'RangeError: state.shown is 60000; allowed is a whole number from 0 to 50000'],
+    ['banana-machine', { shown: -1 }, 'RangeError: state.shown is -1; allowed is a whole number from 0 to 50000'],
+    ['banana-machine', { shown: '10' }, 'TypeError: state.shown is "10"; allowed is a whole number from 0 to 50000'],
+    ['map-squeeze', { shown: -1 }, 'RangeError: state.shown is -1; allowed is a whole number from 0 to 600'],
+    ['map-squeeze', { shown: 0.5 }, 'RangeError: state.shown is 0.5; allowed is a whole number from 0 to 600'],
+    ['banana-machine', { ['🤖'.repeat(1000)]: 1 }, `TypeError: state.${'🤖'.repeat(40)}… is an unknown key; allowed are`],
+    ['map-squeeze', { view: '🤖'.repeat(1000) }, `RangeError: state.view is "${'🤖'.repeat(40)}…"; allowed is "close" or "whole"`],
     ['banana-machine', { shown: 10, marked: 10 }, 'RangeError: state.marked is 10; allowed is a whole number from 0 to 9'],
     ['banana-machine', { overlays: ['stars'] }, 'RangeError: state.overlays[0] is "stars"; allowed is'],
     ['banana-machine', { playing: 'yes' }, 'TypeError: state.playing is "yes"; allowed is true or false'],
@@ -140,6 +155,14 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     expect(thrown).toContain(message);
     expect(await stateOf(widget)).toEqual(before);
   }
+  const ofFunction = await page.locator('banana-machine').evaluate((element) => {
+    try {
+      /** @type {any} */ (element).setState({ widget: element.localName, version: () => 1 });
+    } catch (error) {
+      return String(error);
+    }
+  });
+  expect(ofFunction).toBe('RangeError: state.version is a function; allowed is 1');
 });
 
 test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {

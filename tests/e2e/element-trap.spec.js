@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, heard, ready, show, stateOf } from './element-support.js';
-import { STILL, frames, pictureOf, test } from './support.js';
+import { STILL, frames, pictureOf, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -99,6 +99,45 @@ for (const name of NAMES) {
   });
 }
 
+test('what is asked while a core is mended is the last good state, and nothing else fails', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><div style="height: 4000px"></div>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await heard(page);
+  const asked = await widget.evaluate(async (element) => {
+    const widget = /** @type {AnyElement} */ (element);
+    const trap = () => {
+      throw new WebAssembly.RuntimeError('unreachable');
+    };
+    const before = JSON.stringify(widget.getState());
+    // In the middle of what takes several frames.
+    Object.defineProperty(widget.machine, 'advance', { value: trap });
+    /** @type {unknown[]} */
+    const asked = [];
+    widget.addEventListener('error', () => asked.push(widget.stats, widget.poses, JSON.stringify(widget.getState()) === before), { once: true });
+    const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#v'));
+    slider.value = '0.25';
+    slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+    return asked;
+  });
+  expect(asked).toEqual([null, null, true]);
+  await mended(widget);
+  // Out of sight, between a change of the page's and its telling.
+  await page.evaluate(() => scrollTo(0, 4000));
+  await frames(page);
+  await widget.evaluate((element) => {
+    const widget = /** @type {AnyElement} */ (element);
+    Object.assign(window, { damaged: widget.machine });
+    widget.v = 0.5;
+    if (widget.machine) widget.machine.__wbg_ptr = 0x7ffffff0;
+    return widget.stats;
+  });
+  await page.evaluate(() => scrollTo(0, 0));
+  await mended(widget);
+  expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['unreachable', expect.stringMatching(/memory access out of bounds|unreachable/)]);
+});
+
 test('a core that traps again and again ends in a sentence, not in a loop', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine>');
   const widget = page.locator('banana-machine');
@@ -143,3 +182,149 @@ for (const name of NAMES) {
     expect(errors.map(({ message }) => message)).toEqual(['there is no such figure']);
   });
 }
+
+/** A message that is said in a fold: where it stands in the catalogue. */
+const FOLDED = { 'banana-machine': ['banana', 'table', 'mean'], 'map-squeeze': ['squeeze', 'tally', 'tests'] };
+
+for (const name of NAMES) {
+  /** @param {import('@playwright/test').Page} page */
+  const unfolded = async (page) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    await heard(page);
+    return widget;
+  };
+
+  const others = ['new TypeError("of the page")', '"of the page"', 'Object.create(null)', 'Symbol("of the page")'];
+  for (const thrown of ['new Error("of the page")', ...(name === NAMES[0] ? others : [])]) {
+    test(`${name} ends in the sentence where a message of the page throws ${thrown} in a fold, and once`, async ({ page }) => {
+      const widget = await unfolded(page);
+      await page.evaluate(
+        async ([vocabulary, group, key, code]) => {
+          const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
+          setMessages('en', { [vocabulary]: { [group]: { [key]: new Function(`throw ${code}`) } } });
+        },
+        [...FOLDED[name], thrown],
+      );
+      await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
+      await expect(widget.getByRole('alert')).toContainText(/^(Object|Symbol)/.test(thrown) ? /object|symbol/ : 'of the page');
+      expect((await heard(page, ['error'])).length).toBe(1);
+    });
+  }
+
+  test(`${name} says the sentence in English where the page's own words for it throw`, async ({ page }) => {
+    const widget = await unfolded(page);
+    await widget.evaluate(async (element) => {
+      const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
+      setMessages('fr', { failure: () => { throw new Error('of the page'); } });
+      element.setAttribute('lang', 'fr');
+      const widget = /** @type {any} */ (element);
+      widget.content = () => { throw new Error('no such figure'); };
+      widget.requestUpdate();
+    });
+    await expect(widget.getByRole('alert')).toHaveText('This interactive figure cannot run here. no such figure');
+  });
+
+  test(`${name} is mended after a trap in a fold`, async ({ page }) => {
+    const widget = await unfolded(page);
+    const before = await stateOf(widget);
+    await widget.evaluate((element) => {
+      const widget = /** @type {any} */ (element);
+      const { content } = widget;
+      Object.assign(window, { damaged: widget.machine });
+      widget.content = (/** @type {unknown} */ reading) => {
+        widget.content = content;
+        // Lit asks a list for what is in it when all else is done.
+        return [content.call(widget, reading), { [Symbol.iterator]() { throw new WebAssembly.RuntimeError('unreachable'); } }];
+      };
+      widget.requestUpdate();
+    });
+    await mended(widget);
+    await frames(page);
+    expect(await stateOf(widget)).toEqual(before);
+    await expect(widget.getByRole('alert')).toHaveCount(0);
+    expect((await heard(page)).map(({ message }) => message)).toEqual(['unreachable']);
+    await expect(widget.locator('canvas')).toHaveCount(name === 'banana-machine' ? 2 : 1);
+  });
+
+  test(`${name} hears of an update that is asked for while there is one`, async ({ page }) => {
+    const widget = await unfolded(page);
+    const rendered = await widget.evaluate(async (element) => {
+      const widget = /** @type {any} */ (element);
+      const { content } = widget;
+      let count = 0;
+      widget.content = (/** @type {unknown} */ reading) => {
+        if (++count === 1) widget.requestUpdate();
+        return content.call(widget, reading);
+      };
+      widget.requestUpdate();
+      for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+      return count;
+    });
+    expect(rendered).toBe(2);
+  });
+
+  test(`${name} hands the page's own error back, and takes it for no trap`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await heard(page);
+    const [before, after, thrown, kept] = await widget.evaluate((element) => {
+      const widget = /** @type {AnyElement} */ (element);
+      const { machine } = widget;
+      const before = widget.getState();
+      const own = new Error('of the page');
+      const states = [
+        { widget: element.localName, version: 1, get seed() { throw own; } },
+        { get widget() { throw own; }, version: 1 },
+        { widget: element.localName, version: 1, command: { ...before?.command, get v() { throw own; } } },
+      ];
+      const thrown = states.map((state) => {
+        try {
+          widget.setState(/** @type {any} */ (state));
+        } catch (error) {
+          return error === own || String(error);
+        }
+      });
+      return [before, widget.getState(), thrown, widget.machine === machine];
+    });
+    expect(thrown).toEqual([true, true, 'TypeError: command.v is a property that throws; allowed is a plain value']);
+    expect(after).toEqual(before);
+    expect(kept).toBe(true);
+    expect(await heard(page)).toEqual([]);
+    // Nobody else hears of what was given before the figure was there.
+    const early = await page.evaluate(async (tag) => {
+      const element = /** @type {AnyElement} */ (/** @type {unknown} */ (document.createElement(tag)));
+      const told = /** @type {string[]} */ ([]);
+      element.addEventListener('error', (event) => told.push(/** @type {ErrorEvent} */ (event).message));
+      element.setState(/** @type {any} */ ({ widget: tag, version: 1, get seed() { throw new Error('of the page'); } }));
+      document.body.prepend(element);
+      await new Promise((resolve) => element.addEventListener('load', resolve));
+      return told;
+    }, name);
+    expect(early).toEqual(['of the page']);
+  });
+}
+
+test('a figure whose frame fails keeps no other from its own', async ({ page }) => {
+  await show(page, NAMES.map((name) => `<${name}></${name}>`).join(''));
+  const [failing, other] = NAMES.map((name) => page.locator(name));
+  await ready(failing);
+  await other.scrollIntoViewIfNeeded();
+  await ready(other);
+  const told = await failing.evaluate(async (element) => {
+    const told = /** @type {string[]} */ ([]);
+    window.reportError = (error) => void told.push(error.message);
+    const { stage } = /** @type {any} */ (element);
+    stage.frame = () => { throw new Error('in a frame'); };
+    stage.inSight = true;
+    stage.wake();
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+    return told;
+  });
+  expect(told).toEqual(['in a frame']);
+  await other.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
+  await expect(other.locator('#omega')).toHaveAttribute('aria-valuetext', '1.25 rad/s');
+});

@@ -159,6 +159,38 @@ test.describe('the page', () => {
     }
   });
 
+  test.describe('on a screen of 1.3 pixels a CSS pixel', () => {
+    test.use({ deviceScaleFactor: 1.3 });
+
+    for (const exact of [true, false]) {
+      test(`gives its canvases the very pixels under them, ${exact ? 'as the browser tells them' : 'where no browser tells them, the nearest'}`, async ({ page }) => {
+        if (!exact) {
+          await page.addInitScript(() => {
+            const { observe } = ResizeObserver.prototype;
+            ResizeObserver.prototype.observe = function (target, options) {
+              if (options?.box === 'device-pixel-content-box') throw new TypeError('no such box');
+              observe.call(this, target, options);
+            };
+            Reflect.deleteProperty(ResizeObserverEntry.prototype, 'devicePixelContentBoxSize');
+          });
+        }
+        const widget = await open(page);
+        for (const width of [1111, 703]) {
+          await page.setViewportSize({ width, height: 801 });
+          await frames(page);
+          const sizes = await widget.locator('canvas.plane').evaluate(async (element, exact) => {
+            const target = /** @type {HTMLCanvasElement} */ (element);
+            const [entry] = await new Promise((resolve) => new ResizeObserver(resolve).observe(target));
+            const { inlineSize, blockSize } = exact ? entry.devicePixelContentBoxSize[0] : entry.contentBoxSize[0];
+            const ratio = exact ? 1 : devicePixelRatio;
+            return [[target.width, target.height], [Math.round(ratio * inlineSize), Math.round(ratio * blockSize)]];
+          }, exact);
+          expect(sizes[0]).toEqual(sizes[1]);
+        }
+      });
+    }
+  });
+
   test('asks for no frames when nothing happens', async ({ page }) => {
     await page.addInitScript(() => {
       const request = window.requestAnimationFrame.bind(window);

@@ -222,6 +222,24 @@ test('the menu saves files with names that say what they are, from the keyboard 
   }
 });
 
+test('a file that is saved says of what type it is', async ({ page }) => {
+  await page.addInitScript(() => {
+    const types = /** @type {string[]} */ ([]);
+    const address = URL.createObjectURL.bind(URL);
+    Object.assign(window, { types });
+    URL.createObjectURL = (blob) => {
+      types.push(/** @type {Blob} */ (blob).type);
+      return address(blob);
+    };
+  });
+  const widget = await open(page);
+  await widget.locator('.exports summary').click();
+  for (const name of ['PNG', 'SVG', 'CSV']) {
+    await Promise.all([page.waitForEvent('download'), widget.locator('.exports').getByRole('button', { name }).click()]);
+  }
+  expect(await page.evaluate(() => Reflect.get(window, 'types'))).toEqual(['image/png', 'image/svg+xml', 'text/csv']);
+});
+
 test('before there is a figure the methods say so', async ({ page }) => {
   await open(page);
   const complaint = await page.evaluate(async () => {
@@ -229,4 +247,49 @@ test('before there is a figure the methods say so', async ({ page }) => {
     return element.toPNG().catch((error) => String(error));
   });
   expect(complaint).toBe('Error: There is no figure yet: it is there from the load event on.');
+});
+
+/** What no XML may have, and what would end a part of it. */
+const HOSTILE = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
+
+/** As it comes out of an SVG file. @param {string} text */
+// eslint-disable-next-line no-control-regex
+const harmless = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
+
+test('SVG is well-formed whatever a page calls its things', async ({ page }) => {
+  const walls = [[3, 0, 3, 1.5], [3, 2.5, 3, 4], [0, 0, 6, 0], [6, 0, 6, 4], [6, 4, 0, 4], [0, 4, 0, 0]];
+  const banana = await open(page);
+  const squeeze = await openSqueeze(page);
+  for (const widget of [banana, squeeze]) {
+    await widget.evaluate(
+      async (element, [json, map]) => {
+        // On the way to the page, halves of a pair are lost otherwise.
+        const text = JSON.parse(json);
+        const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
+        // Every word and every name is another's.
+        /** @type {(message: any) => any} */
+        const hostile = (message) => {
+          if (typeof message === 'string') return text;
+          if (typeof message === 'function') return () => text;
+          const entries = Object.entries(message).map(([key, each]) => [key, hostile(each)]);
+          return Array.isArray(message) ? entries.map(([, each]) => each) : Object.fromEntries(entries);
+        };
+        const english = Reflect.get(globalThis, Symbol.for('motion-widgets.messages')).english;
+        setMessages('fr', hostile(english));
+        element.setAttribute('lang', 'fr');
+        const title = Object.assign(document.createElement('span'), { slot: 'title', textContent: text });
+        element.append(title);
+        element.style.setProperty('--motion-font', `"${text.replaceAll('"', '').replaceAll('\0', '')}", serif`);
+        if ('map' in element) element.map = { ...map, name: text };
+        await new Promise(requestAnimationFrame);
+        await new Promise(requestAnimationFrame);
+      },
+      /** @type {const} */ ([JSON.stringify(HOSTILE), { bounds: [0, 0, 6, 4], walls }]),
+    );
+    const svg = await svgOf(widget);
+    const { title, description } = await elementsOf(page, svg);
+    expect(title).toBe(harmless(HOSTILE.replace(/\s+/g, ' ')));
+    expect(description).toContain(harmless(HOSTILE));
+    expect(await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('script').length, svg)).toBe(0);
+  }
 });

@@ -216,3 +216,43 @@ test('a page may replace words and add languages, and is told of a message that 
   await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Step' })).toBeVisible();
 });
+
+test('words for what is no language are refused', async ({ page }) => {
+  await open(page);
+  const complaints = await page.evaluate(async () => {
+    const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
+    return ['de_AT', 'constructor', '__proto__', '', 'no tag', undefined, 3].map((lang) => {
+      try {
+        setMessages(lang, { play: 'Los' });
+      } catch (error) {
+        return String(error);
+      }
+    });
+  });
+  const refused = (/** @type {string | undefined} */ lang) => `RangeError: messages: lang is ${lang}; allowed is a BCP 47 tag, as "de" or "pt-BR".`;
+  expect(complaints).toEqual(['"de_AT"', '"constructor"', '"__proto__"', '""', '"no tag"', 'undefined', '3'].map(refused));
+  // What every object has is no message.
+  const inherited = await page.evaluate(async () => {
+    const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
+    return ['constructor', '__proto__'].map((key) => {
+      try {
+        setMessages('de', JSON.parse(`{ "exports": { "${key}": {} } }`));
+      } catch (error) {
+        return String(error).replace(/one of .*/, 'one of');
+      }
+    });
+  });
+  expect(inherited).toEqual(['constructor', '__proto__'].map((key) => `TypeError: messages: de.exports.${key} is a group; allowed is one of`));
+});
+
+test('what is no language kills no widget', async ({ page }) => {
+  const widget = await open(page);
+  for (const lang of ['constructor', 'CONSTRUCTOR', '__proto__', 'constructor-x', 'tostring', 'de_AT', '-', '']) {
+    await widget.evaluate((element, given) => element.setAttribute('lang', given), lang);
+    await widget.locator('#v').fill('0.4');
+    await widget.getByRole('button', { name: 'Straight' }).click();
+    await expect(widget.locator('.caption > span')).toContainText('The cloud');
+    await expect(readout(widget, 'cross-track skew')).toHaveText(/^−?0[.]\d/);
+    await expect(widget.getByRole('alert')).toHaveCount(0);
+  }
+});

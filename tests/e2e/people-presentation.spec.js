@@ -141,6 +141,22 @@ for (const name of NAMES) {
   }
 }
 
+test('what a page begins ends by its button, and the page stays where it was', async ({ page }) => {
+  await page.addInitScript(() => Object.defineProperty(Document.prototype, 'fullscreenEnabled', { value: false }));
+  await show(page, '<div style="height: 900px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  // The figure begins in sight, and the button that gets the focus at the end is below the window.
+  await page.evaluate(() => scrollTo(0, 250));
+  await frames(page);
+  await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
+  await widget.getByRole('button', { name: 'Esc' }).click();
+  await expect(widget).not.toHaveAttribute('presentation');
+  await expect(widget.locator('.to-present')).toBeFocused();
+  await frames(page);
+  expect(await page.evaluate(() => scrollY)).toBe(250);
+});
+
 test('a handle stays under the pointer while the picture is enlarged', async ({ page }) => {
   await show(page, '<banana-machine presentation></banana-machine>');
   const widget = page.locator('banana-machine');

@@ -5,7 +5,8 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { beside, pythonProgram } from './book.mjs';
 import { live, picture, settled } from './checks.mjs';
-import { lightness, textOf } from './looking.mjs';
+import { lightness } from './lightness.mjs';
+import { textOf } from './looking.mjs';
 import { pinned } from './project.mjs';
 import { files, program } from './serving.mjs';
 

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { isProgram } from '../../scripts/process.mjs';
 import { CACHE, nativeRust } from '../../scripts/toolchain.mjs';
 import { copyScript, expected, follow, unpack } from './book.mjs';
-import { asLightAsThePage } from './looking.mjs';
+import { asLightAsThePage } from './lightness.mjs';
 import { files, program } from './serving.mjs';
 
 const VERSION = '0.5.4';

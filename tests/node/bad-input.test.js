@@ -50,7 +50,8 @@ const BAD = [
   [{ command: null }, TypeError, 'command', 'null'],
   [{ command: 1 }, TypeError, 'command', '1'],
   [{ command: 'forward' }, TypeError, 'command', '"forward"'],
-  [{ command: [1, 0.5, 1] }, TypeError, 'command', 'an array'],
+  [{ command: [1, 0.5, 1] }, TypeError, 'command', 'length 3'],
+  [{ command: new Float64Array(3) }, TypeError, 'command', 'length 3'],
 
   [{ alphas: alphasWith(0, NaN) }, RangeError, 'alphas[0]', 'NaN'],
   [{ alphas: alphasWith(5, Infinity) }, RangeError, 'alphas[5]', 'Infinity'],
@@ -121,7 +122,7 @@ const BAD = [
   [true, TypeError, 'options', 'true'],
   [7n, TypeError, 'options', 'bigint'],
   [Symbol('s'), TypeError, 'options', 'symbol'],
-  [[1, 2], TypeError, 'options', 'an array'],
+  [[1, 2], TypeError, 'options', 'length 2'],
 
   // Code of the caller's that runs while it is read.
   [throwing('samples'), TypeError, 'samples', 'throws'],
@@ -257,14 +258,18 @@ test('arguments of the other methods', () => {
     [() => machine.nearest('side', 0, 0, 1, 1), RangeError, 'view', '"side"'],
     [() => machine.nearest('plane', '0', 0, 1, 1), TypeError, 'x', '"0"'],
     [() => machine.nearest('plane', 0, 0, 1), TypeError, 'radiusY', 'undefined'],
+    [() => machine.nearest('plane', 0, 0, -1, 1), RangeError, 'radiusX', '-1'],
+    [() => machine.nearest('plane', 0, 0, 1, NaN), RangeError, 'radiusY', 'NaN'],
     [() => machine.density('plane', 0, 0, NaN, 1, 10, 10), RangeError, 'xMax', 'NaN'],
     [() => machine.density('plane', 0, 0, -1, 1, 10, 10), RangeError, 'xMax', '-1'],
     [() => machine.density('plane', 0, 0, 1, 1, 0, 10), RangeError, 'columns', '0'],
-    [() => machine.density('plane', 0, 0, 1, 1, 1e5, 1e5), RangeError, 'rows', '100000'],
+    [() => machine.density('plane', 0, 0, 1, 1, 2 ** 14, 2 ** 10 + 1), RangeError, 'rows', '1025; allowed is a whole number from 1 to 1024'],
+    [() => machine.density('plane', 0, 0, 1, 1, 1, 2 ** 14 + 1), RangeError, 'rows', '16385; allowed is a whole number from 1 to 16384'],
+    [() => machine.picture('plane', 0, 0, 1, 1, 2 ** 14 + 1, 1, new Uint8Array(1024)), RangeError, 'columns', '16385; allowed is a whole number from 1 to 16384'],
     [() => machine.density('plane', 0, 0, 1, 1, 1e12, 1), RangeError, 'columns', '1000000000000'],
     [() => machine.density(null, 0, 0, 1, 1, 1, 1), TypeError, 'view', 'null'],
     [() => machine.picture('plane', 0, 0, 1, 1, 10, 0, new Uint8Array(1024)), RangeError, 'rows', '0'],
-    [() => machine.picture('plane', 0, 0, 1, 1, 10, 10, new Uint8Array(1023)), TypeError, 'ramp', 'Uint8Array'],
+    [() => machine.picture('plane', 0, 0, 1, 1, 10, 10, new Uint8Array(1023)), RangeError, 'ramp', '1023'],
     [() => machine.picture('plane', 0, 0, 1, 1, 10, 10), TypeError, 'ramp', 'undefined'],
     [() => machine.heading(1e9), RangeError, 'index', '1000000000'],
     [() => machine.advance(0), RangeError, 'poses', '0'],
@@ -276,10 +281,9 @@ test('arguments of the other methods', () => {
   ];
   for (const [act, type, field, value] of bad) assertRefused(act, type, field, value, `${act}`);
   assert.deepEqual(state(machine), before);
-  // Points and radii without meaning find nothing; they are no reason to stop a pointer.
-  for (const value of [NaN, 0, -1]) {
-    assert.equal(machine.nearest('plane', 9, 9, value, value), -1);
-  }
+  // Points without meaning are near to nothing; they are no reason to stop a pointer.
+  assert.equal(machine.nearest('plane', NaN, 0, 1, 1), -1);
+  assert.equal(machine.nearest('plane', 9, 9, 0, 0), -1);
   machine.restart();
   assertRefused(() => machine.inspect(0), RangeError, 'index', '0', 'inspect of an empty cloud');
 });

@@ -265,7 +265,7 @@ test('every setting is checked, and a refused one changes nothing', () => {
     ['options', null],
     ['options', 7],
     ['options', 'doorway'],
-    ['an array', []],
+    ['options has length 0', []],
     ['seed', { get seed() { throw new Error('a trap'); } }],
     ['options', new Proxy({}, { ownKeys() { throw new Error('a trap'); } })],
     ['clearance', { get clearance() { throw machine.configure({ seed: 3 }); } }],
@@ -296,7 +296,12 @@ test('other arguments are checked too', () => {
     ['steps', () => m.trial('endpoint', 0, 1)],
     ['count', () => m.trial('endpoint', 1, 0)],
     ['count', () => m.trial('endpoint', 1, 1e9)],
-    ['n', () => /** @type {any} */ (MapSqueeze).alphasOfNoise('0.1')],
+    ['n is', () => /** @type {any} */ (MapSqueeze).alphasOfNoise('0.1')],
+    ['n is NaN; allowed is a number from 0 to 1000000', () => MapSqueeze.alphasOfNoise(NaN)],
+    ['radius is -1; allowed is a number from 0 to Infinity', () => m.nearest(0, 0, -1)],
+    ['radius is NaN', () => m.nearest(0, 0, NaN)],
+    ['columns is 16385; allowed is a whole number from 1 to 16384', () => m.picture(0, 0, 1, 1, 2 ** 14 + 1, 1, new Uint8Array(3072))],
+    ['ramps has length 1024; allowed is a Uint8Array of 3072 bytes', () => m.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))],
   ]);
   assert.equal(machine.nearest(NaN, 0, 1), -1);
 });
@@ -326,7 +331,7 @@ test('a malformed floor plan is explained, and the present one stays', () => {
     ['plan', null],
     ['plan', 'apartment'],
     ['plan', 5],
-    ['an array', []],
+    ['plan has length 0', []],
     ['bounds', {}],
     ['bounds', { walls }],
     ['bounds', { bounds: null, walls }],
@@ -527,7 +532,11 @@ test('a wedged robot is told of, not waited for', () => {
   machine.setPlan(CELL);
   assert.deepEqual([machine.stats.accepted, machine.stats.acceptanceRate, machine.startFree], [0, 0, false]);
   assert.equal(machine.openPlace, null);
-  assert.throws(() => machine.trial('whole-arc', 1, 10), /wedged: 10000 draws were tried and too few accepted/);
+  assert.throws(() => machine.trial('whole-arc', 1, 10), {
+    name: 'RangeError',
+    message: 'sampler is "whole-arc", by which the robot is wedged: 10000 draws were tried and too few accepted; ' +
+      'allowed is one of at most 10000 draws an accepted sample and 10200 for 10 of them',
+  });
   machine.configure({ sampler: 'sub-stepped' });
   assert.equal(machine.stats.gaveUp, true);
   assert.ok(machine.stats.drawn <= 30_000 && machine.shown < 10);

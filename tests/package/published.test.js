@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -41,4 +41,17 @@ test('Are the types wrong? finds nothing', () => {
   const { status, stdout } = spawnSync(process.execPath, args, { encoding: 'utf8' });
   assert.equal(status, 0, stdout);
   assert.match(stdout, /"motion-widgets\/core"/);
+});
+
+test('whoever wrote what the bundles carry is named, with the licence', () => {
+  const listed = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
+  const maps = readdirSync(join(ROOT, 'dist'), { recursive: true, encoding: 'utf8' }).filter((path) => path.endsWith('.map'));
+  const sources = maps.flatMap((path) => JSON.parse(readFileSync(join(ROOT, 'dist', path), 'utf8')).sources);
+  const packages = sources.flatMap((path) => path.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
+  const [, crates] = readFileSync(join(ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
+  const named = [...new Set(packages), ...[...(crates ?? '').matchAll(/^[\w-]+/gm)].map(String)];
+  assert.ok(named.includes('lit-html') && named.includes('nalgebra'), named.join(' '));
+  for (const name of named) assert.match(listed, new RegExp(`^${name} \\d\\S* \\(.+\\)$`, 'm'));
+  const inPackage = execFileSync('tar', ['-tf', tarball], { encoding: 'utf8' }).split('\n');
+  assert.ok(inPackage.includes('package/dist/LICENSE-third-party.txt'));
 });

@@ -23,13 +23,13 @@ function within(name, paths, limit) {
  * Kilobytes: the budget of a page with one widget, and what else is loaded, held where it is and rounded up. See "The size of
  * the module" in doc/implementation-notes.md.
  */
-const LIMITS = { page: 110, moduleOfWidget: 54, module: 76, bundle: 153, classicScript: 155, notebook: 162 };
+const LIMITS = { page: 110, moduleOfWidget: 54, module: 77, bundle: 153, classicScript: 155, notebook: 162 };
 
 test('what a page loads does not grow', () => {
   const loaded = loadedByWidgets();
   for (const [tag, paths] of Object.entries(loaded)) within(tag, paths, 1000 * LIMITS.page);
   const all = [...new Set(Object.values(loaded).flat())];
-  within('scripts of all widgets', all.filter((path) => path.endsWith('.js')), 63_000);
+  within('scripts of all widgets', all.filter((path) => path.endsWith('.js')), 63_500);
   for (const path of all.filter((path) => path.endsWith('.wasm'))) within('module of a widget', [path], 1000 * LIMITS.moduleOfWidget);
   within('module', ['dist/motion.wasm'], 1000 * LIMITS.module);
   within('bundle', ['dist/motion-widgets.js'], 1000 * LIMITS.bundle);

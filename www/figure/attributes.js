@@ -53,7 +53,7 @@ export const WORD = { parse: (text) => text, print: (value) => value };
 
 /** Without a text it is true, as boolean attributes of HTML are; but "false" is false. @type {Kind} */
 const TRUTH = {
-  parse: (text) => ({ '': true, true: true, false: false })[text] ?? text,
+  parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
   print: String,
 };
 

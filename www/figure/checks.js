@@ -1,5 +1,8 @@
 /** Refusals in the words of the core, of what the page gives to the element itself. */
 
+/** Characters that are quoted: enough to recognize a text. */
+const QUOTED = 40;
+
 /**
  * @param {string} field
  * @param {unknown} value
@@ -12,24 +15,32 @@ export function refusal(field, value, allowed, Kind = RangeError) {
 
 /** @param {unknown} value */
 function described(value) {
-  if (typeof value === 'string') return JSON.stringify(value.length > 40 ? `${value.slice(0, 40)}…` : value);
-  if (Array.isArray(value)) return 'an array';
-  if (typeof value === 'object' && value !== null) return 'an object';
-  return typeof value === 'function' ? 'a function' : String(value);
+  if (typeof value === 'string') return JSON.stringify(beginning(value));
+  if (typeof value === 'object' && value !== null) return Array.isArray(value) ? 'an array' : 'an object';
+  return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
+}
+
+/** The first characters of a text, whole ones. @param {string} text */
+function beginning(text) {
+  // A character has two units at most.
+  const characters = [...text.slice(0, 2 * QUOTED + 2)];
+  return characters.length > QUOTED ? `${characters.slice(0, QUOTED).join('')}…` : text;
 }
 
 /**
  * @param {string} field
  * @param {unknown} value
  * @param {readonly string[]} keys that it may have
+ * @param {(value: Record<string, unknown>) => void} [heed] what matters more than its keys
  */
-export function object(field, value, keys) {
+export function object(field, value, keys, heed) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusal(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
+  heed?.(/** @type {Record<string, unknown>} */ (value));
   const stranger = Object.keys(value).find((key) => !keys.includes(key));
   if (stranger !== undefined) {
-    throw new TypeError(`${field}.${stranger} is an unknown key; allowed are ${keys.join(', ')}`);
+    throw new TypeError(`${field}.${beginning(stranger)} is an unknown key; allowed are ${keys.join(', ')}`);
   }
   return /** @type {Record<string, unknown>} */ (value);
 }

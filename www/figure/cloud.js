@@ -106,12 +106,8 @@ export class Cloud extends Part {
     return { shown, marked };
   }
 
-  /**
-   * @param {Values} state
-   * @param {Growing} machine in that state
-   */
-  check({ shown, playing }, machine) {
-    wholeNumber('state.shown', shown, 0, machine.config.samples);
+  /** @param {Values} state */
+  check({ playing }) {
     truth('state.playing', playing);
   }
 
@@ -151,7 +147,12 @@ export class Cloud extends Part {
 
   /** Whether the marked sample is there, or comes. */
   get #isWanted() {
-    return this.index >= 0 && this.index < markable(this.#machine, this.growing);
+    return this.index >= 0 && this.index < this.markable;
+  }
+
+  /** How many samples can be marked: one that is to come can be, and is from when it is there. */
+  get markable() {
+    return this.growing ? this.#machine.config.samples : this.#machine.shown;
   }
 
   /** A mark of what is not there, and does not come, goes. */
@@ -223,31 +224,20 @@ export class Cloud extends Part {
 }
 
 /**
- * Leaves of a machine's cloud the first samples only.
+ * How many samples a state shows.
  *
- * @param {Growing} machine
+ * @param {Growing} machine in that state
  * @param {number} shown
  */
-export function showOnly(machine, shown) {
-  if (shown >= machine.config.samples) return;
-  machine.restart();
-  machine.grow(shown);
+export function shownOf(machine, shown) {
+  return wholeNumber('state.shown', shown, 0, machine.config.samples);
 }
-
-/**
- * How many samples can be marked: one that is to come can be, and is from when it is there.
- *
- * @param {Growing} machine
- * @param {boolean} growing
- */
-const markable = ({ config, shown }, growing) => (growing ? config.samples : shown);
 
 /** What of the state of an element with a cloud is its own. @type {Record<string, import('./state.js').Owned>} */
 export const cloudState = {
   marked: {
     opening: null,
-    check: (field, marked, machine, growing) =>
-      marked === null ? null : wholeNumber(field, marked, 0, markable(machine, growing) - 1),
+    check: (field, marked, machine, markable) => (marked === null ? null : wholeNumber(field, marked, 0, markable - 1)),
   },
 };
 

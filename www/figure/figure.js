@@ -18,9 +18,10 @@ import { Lettering } from './lettering.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
 import { placeholder } from './placeholder.js';
 import { Presentation } from './presentation.js';
+import { Progress, progressStyles } from './progress.js';
 import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
-import { Settings } from './settings.js';
+import { LONGEST_WORK, Settings } from './settings.js';
 import { Stage } from './stage.js';
 import { State } from './state.js';
 import { CopyMenu, embedding } from './takeaway/copy.js';
@@ -69,6 +70,7 @@ addEnglish(en);
  * @csspart readouts - The figures about the cloud.
  * @csspart table - A table of figures.
  * @csspart fold - What is folded away, with its name.
+ * @csspart progress - How much is done of what takes longer, with the button that stops it.
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.
  *
@@ -90,7 +92,7 @@ addEnglish(en);
  * @template {{ config: Values }} Reading
  */
 export class FigureElement extends LitElement {
-  static styles = [theme, schemeStyles, presentationStyles];
+  static styles = [theme, schemeStyles, presentationStyles, progressStyles];
 
   /** The widget's settings, as declared. @type {import('../settings.js').Declaration[]} */
   static declared = [];
@@ -113,6 +115,7 @@ export class FigureElement extends LitElement {
   reflection = new Reflection(this, this.kind.attributes, this.kind.basis);
   link = new Link(this);
   announcer = new Announcer();
+  progress = new Progress(this);
   copies = new CopyMenu(this);
   typing = new Typing(this);
   lettering = new Lettering(this);
@@ -123,6 +126,7 @@ export class FigureElement extends LitElement {
   pictures = [];
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
+  #updating = false;
 
   /** The class of the widget, with what it says of all of its kind. */
   get kind() {
@@ -230,7 +234,8 @@ export class FigureElement extends LitElement {
   get fresh() {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);
-    this.settings.settle();
+    // A machine that is still in the making is no change of this one.
+    this.settings.settle(this.settings.next ? 0 : Infinity);
     if (this.settings.stale) this.refresh();
     return this.reading;
   }
@@ -252,7 +257,7 @@ export class FigureElement extends LitElement {
 
   /** What the reader changed has come to rest: put it into effect and say what it led to. */
   commit() {
-    this.runtime.attempt(() => this.settings.settle());
+    this.runtime.attempt(() => this.settings.settle(LONGEST_WORK));
     this.announcer.expect();
     this.settings.stale = true;
     this.gesture.end();
@@ -432,23 +437,76 @@ export class FigureElement extends LitElement {
     this.stage.recolour();
   }
 
+  /**
+   * LitElement does not hear of another update that is asked for while there is one.
+   *
+   * @type {LitElement['requestUpdate']}
+   */
+  requestUpdate(...change) {
+    // It asks for the first before there is anything of a figure.
+    if (#updating in this && this.#updating) this.updateComplete.then(() => this.requestUpdate());
+    else super.requestUpdate(...change);
+  }
+
+  /** @type {LitElement['update']} */
+  update(changed) {
+    const rendered = () => {
+      super.update(changed);
+      return true;
+    };
+    this.#updating = true;
+    try {
+      // At once: what was shown before a trap stays, and in the place of what failed comes the sentence.
+      this.runtime.attemptOrFail(rendered) ?? rendered();
+    } finally {
+      this.#updating = false;
+    }
+  }
+
+  createRenderRoot() {
+    if (this.ownerDocument === document) return super.createRenderRoot();
+    const root = this.attachShadow(this.kind.shadowRootOptions);
+    this.adoptedCallback();
+    return root;
+  }
+
+  /** It is in another document now, which takes no style sheets but its own. */
+  adoptedCallback() {
+    const { defaultView } = this.ownerDocument;
+    if (!this.shadowRoot || !defaultView) return;
+    this.shadowRoot.adoptedStyleSheets = this.kind.elementStyles.map((style) => {
+      const sheet = new defaultView.CSSStyleSheet();
+      sheet.replaceSync(/** @type {import('lit').CSSResult} */ (style).cssText);
+      return sheet;
+    });
+  }
+
   render() {
     speak(this);
     const recolour = () => this.stage.recolour();
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
       <div class="surface ${this.presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
-        ${this.lettering.title()} ${this.#content()} ${this.lettering.caption()} ${this.presenting.render()}
+        ${this.lettering.title()} ${this.#content()} ${this.progress.render()} ${this.lettering.caption()} ${this.presenting.render()}
       </div>
     `;
   }
 
   /** What was shown stays while there is no machine: it is made again after a trap, or the element is not on the page. */
   #content() {
-    const content = this.machine && this.runtime.attemptOrFail(() => [this.content(this.reading), this.announcer.render()]);
     const { failure } = this.runtime;
-    // Also at once: what asks for an update while there is one is not heard.
-    if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-    return content ?? (this.reading ? noChange : placeholder(this));
+    if (failure !== undefined) return html`<p class="failure" role="alert">${sorry(failure)}</p>`;
+    if (this.machine) return [this.content(this.reading), this.announcer.render()];
+    return this.reading ? noChange : placeholder(this);
+  }
+}
+
+/** The sentence in the place of a figure that cannot run. @param {string} reason */
+function sorry(reason) {
+  try {
+    return `${words.failure(reason)}`;
+  } catch {
+    // Another language's words come from the page.
+    return en.failure(reason);
   }
 }

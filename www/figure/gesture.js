@@ -12,6 +12,11 @@ export class Gesture extends Part {
   /** Whether a step was told without its end. */
   #open = false;
 
+  /** What leaves the page is let go of. */
+  hostDisconnected() {
+    if (this.#open) this.host.commit();
+  }
+
   /** Something has changed, and it may go on. */
   step() {
     this.#step = true;

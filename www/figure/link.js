@@ -10,7 +10,8 @@ import { Part } from './part.js';
 export class Link extends Part {
   /** A state from the address that waits for the machine. @type {unknown} */
   #waiting;
-  /** The latest text for the address: an earlier one that is ready later is void. */
+  /** The latest look at the address, and the latest text for it: an earlier one that is ready later is void. */
+  #looking = 0;
   #writing = 0;
 
   hostConnected() {
@@ -24,25 +25,24 @@ export class Link extends Part {
 
   /** Looks for a state to open in: the first time only, as the address says where the figure began. */
   async prepare() {
-    if (!this.host.state.kept) this.#waiting = await this.#look();
+    if (!this.host.state.kept) await this.follow();
   }
 
   /** Enters the state that waited for the machine. */
   catchUp() {
     const waiting = this.#waiting;
     this.#waiting = undefined;
-    this.#enter(waiting);
+    if (waiting !== undefined) this.host.runtime.tolerate(() => this.host.setState(/** @type {any} */ (waiting)));
   }
 
   /** The page's address may carry another state. */
   follow = async () => {
-    if (this.host.machine) this.#enter(await this.#look());
+    const looking = ++this.#looking;
+    const state = await this.#look();
+    if (looking !== this.#looking) return;
+    this.#waiting = state;
+    if (this.host.machine) this.catchUp();
   };
-
-  /** @param {unknown} state as the address has it; undefined for none */
-  #enter(state) {
-    if (state !== undefined) this.host.runtime.tolerate(() => this.host.setState(/** @type {any} */ (state)));
-  }
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
   async #look() {
@@ -82,15 +82,20 @@ export class Link extends Part {
 }
 
 /**
- * The name of an element's part: its id, or where it has none, its place among its kind on the page.
+ * The name of an element's part: its id, or where it has none, its place among its kind on the page; in a shadow root, where
+ * it is its place there, after the name of what that belongs to.
  *
  * @param {Element} element
+ * @returns {string}
  */
 function keyOf(element) {
   const { localName, id } = element;
-  if (id) return `${localName}:${encodeURIComponent(id)}`;
-  const kind = [...document.querySelectorAll(localName)];
-  return `${localName}.${kind.indexOf(element) + 1}`;
+  const root = /** @type {ParentNode & Node} */ (element.getRootNode());
+  const around = root instanceof ShadowRoot ? `${keyOf(root.host)}/` : '';
+  const name = around + encodeURIComponent(localName);
+  if (id) return `${name}:${encodeURIComponent(id)}`;
+  const kind = [...root.querySelectorAll('*')].filter((each) => each.localName === localName);
+  return `${name}.${kind.indexOf(element) + 1}`;
 }
 
 /**

@@ -249,7 +249,7 @@ export class Reflection extends Part {
 export function has(present, given) {
   if (Object.is(present, given)) return true;
   if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
-  return Object.keys(given).every((key) => has(present[key], given[key]));
+  return Object.keys(given).every((key) => Object.hasOwn(present, key) && has(present[key], given[key]));
 }
 
 /**

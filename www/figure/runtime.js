@@ -91,7 +91,7 @@ export class Runtime extends Part {
     try {
       this.attempt(work);
     } catch (error) {
-      if (!(error instanceof TypeError || error instanceof RangeError)) throw error;
+      if (isTrap(error)) throw error;
       this.report(error);
     }
   }
@@ -134,7 +134,8 @@ export class Runtime extends Part {
   }
 
   #abandon() {
-    if (this.machine) abandon(this.machine);
+    for (const machine of [this.machine, this.host.settings.next]) if (machine) abandon(machine);
+    this.host.settings.reset();
     this.machine = this.motion = undefined;
   }
 
@@ -206,17 +207,20 @@ export function orFree(machine, work) {
 }
 
 /**
- * Whether an error is the core's end: a trap, or what its glue throws where a machine is used after one,
- * which are plain errors. What refuses a value is a TypeError or RangeError.
+ * Whether an error is the core's end: a trap, or what its glue throws where a machine is used after one: see makeFactory in
+ * scripts/build.mjs. Others are refusals, or come from what the page gave.
  *
  * @param {unknown} error
  */
 function isTrap(error) {
-  if (typeof WebAssembly === 'undefined') return false;
-  return error instanceof WebAssembly.RuntimeError || (error instanceof Error && error.constructor === Error);
+  return typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 }
 
-/** @param {unknown} error */
+/** @param {unknown} error anything: a page's own functions are called too */
 function messageOf(error) {
-  return error instanceof Error ? error.message : String(error);
+  try {
+    return `${error instanceof Error ? error.message : error}`;
+  } catch {
+    return typeof error;
+  }
 }

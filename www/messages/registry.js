@@ -42,7 +42,7 @@ export function addEnglish(messages) {
   shared.english = merge(shared.english, messages);
   // What a page gave before these came has not been checked.
   for (const [lang, given] of Object.entries(shared.catalogues)) {
-    for (const key of Object.keys(messages).filter((key) => key in given)) {
+    for (const key of Object.keys(messages).filter((key) => Object.hasOwn(given, key))) {
       try {
         check(messages, { [key]: given[key] }, lang);
       } catch (error) {
@@ -60,11 +60,13 @@ export function addEnglish(messages) {
  *
  * @param {string} lang a BCP 47 tag: "de", "pt-BR"
  * @param {object} messages in the shape of the English ones, or a part of it
+ * @throws {RangeError} if there is no such language
  * @throws {TypeError} if a message is not of the catalogue, or not of the kind it is there: a list has as many entries as the
  *   English one, and a function is of as many values or fewer
  */
 export function setMessages(lang, messages) {
   const { english, catalogues } = shared;
+  if (!isTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
   check(english, messages, lang);
   const key = lang.toLowerCase();
   catalogues[key] = merge(catalogues[key] ?? {}, messages);
@@ -79,7 +81,7 @@ export function setMessages(lang, messages) {
 function check(known, given, path) {
   if (Object.keys(known).length === 0) return;
   for (const [key, message] of Object.entries(given)) {
-    const expected = known[key];
+    const expected = Object.hasOwn(known, key) ? known[key] : undefined;
     const [is, allowed] = [describe(message), describe(expected)];
     const isLess = typeof message === 'function' && typeof expected === 'function' && message.length < expected.length;
     if (is !== allowed && !isLess) {
@@ -115,7 +117,7 @@ export function speak(element) {
   let voice = voices.get(wanted);
   if (!voice) {
     const [primary] = wanted.split('-');
-    const found = [wanted, primary].find((tag) => tag in shared.catalogues) ?? 'en';
+    const found = [wanted, primary].find((tag) => Object.hasOwn(shared.catalogues, tag)) ?? 'en';
     const language = primary === found && isTag(wanted) ? wanted : found;
     const { english, catalogues } = shared;
     const said = [catalogues.en, catalogues[found]].reduce((base, over) => merge(base, over ?? {}), english);
@@ -124,10 +126,10 @@ export function speak(element) {
   ({ words, language } = voice);
 }
 
-/** @param {string} text */
+/** @param {unknown} text */
 function isTag(text) {
   try {
-    return Intl.getCanonicalLocales(text).length > 0;
+    return typeof text === 'string' && Intl.getCanonicalLocales(text).length > 0;
   } catch {
     return false;
   }

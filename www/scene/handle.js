@@ -22,13 +22,14 @@ import { length, pointOn } from './canvas.js';
  * @property {string | false} [stop] a few words on what it has come up against, if it has
  */
 
-/** Where the arrow keys go, y up. @type {Record<string, [x: number, y: number]>} */
-export const WAYS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+/** Where the arrow keys go, y up. */
+export const WAYS = new Map(Object.entries({ ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }));
 
 export class Handle {
-  held = false;
   #part;
   #hooks;
+  /** The pointer that holds it, and its element. @type {{ id: number, by: Element } | undefined} */
+  #hold;
   /** From the pointer to what is held, metres: taken by its edge it does not jump. */
   #grip = [0, 0];
   /** Where its middle was placed, pixels of the view: on the screen it is rounded. */
@@ -41,6 +42,11 @@ export class Handle {
   constructor(part, hooks) {
     this.#part = part;
     this.#hooks = hooks;
+  }
+
+  /** Whether a pointer holds it: a browser lets go of what leaves the page, and tells nobody. */
+  get held() {
+    return this.#hold?.by.hasPointerCapture(this.#hold.id) ?? false;
   }
 
   /** @param {Said} said */
@@ -59,7 +65,7 @@ export class Handle {
       aria-valuetext=${stop ? `${text}. ${stop}` : text}
       data-stop=${stop || nothing}
       title=${title}
-      @pointerdown=${this.#hold}
+      @pointerdown=${this.#take}
       @pointermove=${this.#drag}
       @pointerup=${this.#release}
       @pointercancel=${this.#release}
@@ -99,11 +105,11 @@ export class Handle {
     return this.#world(pointOn(/** @type {Element} */ (parentElement), this.#hooks.view(), event));
   }
 
-  #hold = (/** @type {PointerEvent} */ event) => {
+  #take = (/** @type {PointerEvent} */ event) => {
     if (event.button !== 0) return;
     const handle = /** @type {Element} */ (event.currentTarget);
     handle.setPointerCapture(event.pointerId);
-    this.held = true;
+    this.#hold = { id: event.pointerId, by: handle };
     const pointer = this.#pointer(event);
     const held = this.#hooks.at?.(pointer) ?? this.#world(this.#middle);
     this.#grip = [held[0] - pointer[0], held[1] - pointer[1]];
@@ -116,8 +122,8 @@ export class Handle {
   };
 
   #release = () => {
-    if (!this.held) return;
-    this.held = false;
+    if (!this.#hold) return;
+    this.#hold = undefined;
     this.#hooks.commit();
   };
 

@@ -3,8 +3,12 @@
  * for both. It knows what scene/draw.js and the pictures use of a canvas, and no more.
  */
 
+/** What XML has no way to write. */
+const UNWRITABLE = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
+
 /** @param {string} text */
-export const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
+export const escaped = (text) =>
+  text.replace(UNWRITABLE, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
 /** @param {number} length CSS pixels: a hundredth of one is finer than any printer */
 export const short = (length) => String(Math.round(100 * length) / 100);

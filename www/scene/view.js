@@ -54,6 +54,11 @@ export class View {
     this.#target = undefined;
   }
 
+  /** Whether it knows for its present size what to show. */
+  get aimed() {
+    return this.#target !== undefined;
+  }
+
   /** Pixels a unit of x; with equal aspect also of y. */
   get scaleX() {
     return (this.frame.right - this.frame.left) / (this.extent.xMax - this.extent.xMin);

@@ -19,17 +19,10 @@ const HALF_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
 /** A curve that stays below is flat to the eye, and is not stretched. */
 const MIN_PEAK = 0.1;
 
-/** How many steps a key moves the marker by. @type {Record<string, number>} */
-const KEY_STEPS = {
-  ArrowRight: 1,
-  ArrowUp: 1,
-  ArrowLeft: -1,
-  ArrowDown: -1,
-  PageUp: 10,
-  PageDown: -10,
-  Home: -Infinity,
-  End: Infinity,
-};
+/** How many steps a key moves the marker by. */
+const KEY_STEPS = new Map(
+  Object.entries({ ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10, Home: -Infinity, End: Infinity }),
+);
 
 export const chartStyles = css`
   .chart {
@@ -120,7 +113,7 @@ export function chart(chart) {
   const onStep = (/** @type {number} */ value) => clamp(Math.round(value / step) * step, min, max);
   const pointer = follower((pixel) => move(() => onStep(scale.under(pixel))), commit);
   const key = (/** @type {KeyboardEvent} */ event) => {
-    const steps = KEY_STEPS[event.key];
+    const steps = KEY_STEPS.get(event.key);
     if (steps === undefined) return;
     event.preventDefault();
     move((now) => onStep(now + steps * step));

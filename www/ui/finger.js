@@ -6,13 +6,18 @@
 /** A finger that has moved less than this, CSS pixels, may be going anywhere. */
 const SLOP = 8;
 
-/** Where a finger came down of which it is not known yet what it wants. @type {PointerEvent | undefined} */
+/** Where a finger came down of which it is not known yet what it wants. @type {{ clientX: number, clientY: number } | undefined} */
 let down;
+
+const forget = () => (down = undefined);
 
 export const finger = {
   /** @param {PointerEvent} event */
-  comes(event) {
-    down = event.pointerType === 'touch' ? event : undefined;
+  comes({ pointerType, clientX, clientY }) {
+    down = pointerType === 'touch' ? { clientX, clientY } : undefined;
+    // What it came down on may leave the page, and does not hear then that it goes.
+    addEventListener('pointerup', forget);
+    addEventListener('pointercancel', forget);
   },
 
   /** @param {PointerEvent} event */

@@ -84,13 +84,13 @@ impl Figures {
 
 /// The figures, and the number of samples that are shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stats<'a> {
+pub struct Stats {
     pub n: usize,
-    pub figures: &'a Figures,
+    pub figures: Figures,
 }
 
 #[cfg(target_arch = "wasm32")]
-impl serde::Serialize for Stats<'_> {
+impl serde::Serialize for Stats {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
         #[derive(serde::Serialize)]

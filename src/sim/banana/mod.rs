@@ -267,8 +267,8 @@ impl BananaMachine {
         &self.figures
     }
 
-    pub fn stats(&self) -> Stats<'_> {
-        Stats { n: self.shown(), figures: &self.figures }
+    pub fn stats(&self) -> Stats {
+        Stats { n: self.shown(), figures: self.figures }
     }
 
     /// Whether the robots keep short of turning a whole circle, where exponential coordinates end. Where not, every

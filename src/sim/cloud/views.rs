@@ -23,6 +23,10 @@ pub const EXTENT: RangeInclusive<f64> = -1e18..=1e18;
 /// Cells of a [`Grid`] at most: as many as a picture of a map may have pixels, beyond any screen. They take 64 MB.
 pub const MAX_CELLS: u64 = MAX_PIXELS as u64;
 
+/// Cells of a side of a [`Grid`] at most: more than a browser's canvas may have on some devices. Longer rows or columns would
+/// have a frame around them, a cell wide, that takes more memory than they do.
+pub const MAX_SIDE: u64 = 1 << 14;
+
 /// A rectangle of a view divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {

@@ -47,7 +47,14 @@ function run(now) {
   const due = [...waiting];
   waiting.clear();
   running = true;
-  for (const animated of due) animated.frame(elapsed);
+  for (const animated of due) {
+    try {
+      animated.frame(elapsed);
+    } catch (error) {
+      // The others' frames go on.
+      reportError(error);
+    }
+  }
   running = waiting.size > 0;
   if (running) requestAnimationFrame(run);
 }

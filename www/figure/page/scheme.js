@@ -38,7 +38,7 @@ export function ancestors(node) {
   const all = [];
   /** @type {any} */
   let at = node;
-  for (; at; at = at.assignedSlot ?? at.parentNode ?? at.host) if (at instanceof Element) all.push(at);
+  for (; at; at = at.assignedSlot ?? at.parentNode ?? at.host) if (at.nodeType === 1) all.push(at);
   return all;
 }
 

@@ -16,7 +16,7 @@ export class ArcHandle extends Handle {
       view: () => figure.pictures[0].view,
       drag: (x, y) => figure.reach(x, y),
       key: ({ key, shiftKey }) => {
-        const way = WAYS[key];
+        const way = WAYS.get(key);
         if (!way) return false;
         const step = shiftKey ? LONG_KEY_STEP : KEY_STEP;
         const [x, y] = figure.runtime.attempt(() => figure.fresh.end) ?? [0, 0];

@@ -13,8 +13,8 @@ import { turnDistance } from './picture.js';
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
-/** Which way a key turns it: to the left is counter-clockwise, as for a driver. @type {Record<string, number>} */
-const TURNS = { '[': 1, ']': -1, ArrowLeft: 1, ArrowUp: 1, ArrowRight: -1, ArrowDown: -1 };
+/** Which way a key turns it: to the left is counter-clockwise, as for a driver. */
+const TURNS = new Map(Object.entries({ '[': 1, ']': -1, ArrowLeft: 1, ArrowUp: 1, ArrowRight: -1, ArrowDown: -1 }));
 
 /** Least size of the body's handle, CSS pixels. */
 const MIN_BODY = 32;
@@ -94,11 +94,11 @@ export class RobotHandles extends Part {
    * @param {boolean} moves whether arrow keys move the robot rather than turn it
    */
   #key({ key, ctrlKey, metaKey, altKey }, moves) {
-    const [way, turn] = [moves ? WAYS[key] : undefined, TURNS[key]];
+    const [way, turn] = [moves ? WAYS.get(key) : undefined, TURNS.get(key)];
     if (ctrlKey || metaKey || altKey || !(way || turn)) return false;
     const { x, y, theta } = this.#start;
     if (way) this.#moveTo(x + KEY_STEP * way[0], y + KEY_STEP * way[1]);
-    else this.#turnTo(theta + KEY_TURN * turn);
+    else if (turn) this.#turnTo(theta + KEY_TURN * turn);
     return true;
   }
 
@@ -115,7 +115,8 @@ export class RobotHandles extends Part {
   /** @param {number} theta radians */
   #turnTo(theta) {
     const { x, y } = this.#start;
-    this.#want({ x, y, theta: Math.atan2(Math.sin(theta), Math.cos(theta)) });
+    // Into (−π, π], without sines: in their last digits engines differ, and the same keys are to be the same heading.
+    this.#want({ x, y, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 
   /** @param {Pose} start */

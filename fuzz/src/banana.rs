@@ -1,0 +1,267 @@
+//! The Banana Machine under any settings and calls.
+
+use super::input::Input;
+use super::laws;
+use super::settings::{allowed, changed};
+use motion::geom::se2::SE2;
+use motion::sim::View;
+use motion::sim::banana::{BananaMachine, Column, Contours, Executed, Figures, Settings, command_reaching};
+use motion::sim::picture::RAMP;
+use motion::sim::settings::QUANTITY;
+use motion::sim::views::{EXTENT, Grid};
+
+/// Samples and calls of a run at most: enough for every branch, few enough for many runs.
+const SAMPLES: usize = 40;
+const CALLS: usize = 6;
+
+pub fn run(bytes: &[u8]) {
+    let mut input = Input(bytes);
+    let [with_curves, with_double] = [0; 2].map(|_| input.choice(4) == 1);
+    let opening = changed(&few(Settings::default()), &mut input);
+    if !allowed(&opening) {
+        assert!(BananaMachine::empty(opening).is_err());
+        return;
+    }
+    let mut machine = BananaMachine::empty(few(opening)).expect("allowed");
+    if input.truth() {
+        machine.grow(SAMPLES);
+    }
+    for _ in 0..CALLS {
+        if input.is_empty() {
+            break;
+        }
+        call(&mut machine, &mut input);
+    }
+    shows_sense(&machine);
+    // What takes longest is not looked at every time.
+    if with_curves {
+        contours(&machine);
+    }
+    if with_double {
+        as_if_new(&machine);
+    }
+}
+
+/// The same settings with few enough samples.
+fn few(settings: Settings) -> Settings {
+    Settings { samples: settings.samples.min(SAMPLES), ..settings }
+}
+
+fn call(machine: &mut BananaMachine, input: &mut Input) {
+    match input.choice(9) {
+        0 => configure(machine, input),
+        1 => in_slices(machine, input),
+        2 => {
+            let before = machine.shown();
+            let count = input.choice(SAMPLES);
+            let after = machine.grow(count);
+            assert_eq!(after, (before + count).min(machine.settings().samples));
+        }
+        3 => {
+            machine.restart();
+            assert_eq!(machine.shown(), 0);
+        }
+        4 => paint(machine, input),
+        5 => nearest(machine, input),
+        6 => inspect(machine, usize::from(input.byte())),
+        7 => table(machine),
+        _ => {
+            let [x, y] = [0; 2].map(|_| input.within(QUANTITY));
+            let near = machine.settings().command;
+            let reaching = command_reaching(x, y, &near);
+            // A circle that is nearly straight is too long for a double.
+            assert!(!reaching.v.is_nan() && reaching.omega.is_finite(), "{reaching:?} to {x}, {y}");
+        }
+    }
+}
+
+fn configure(machine: &mut BananaMachine, input: &mut Input) {
+    let settings = changed(machine.settings(), input);
+    if allowed(&settings) {
+        machine.configure(few(settings)).expect("allowed");
+        return;
+    }
+    let (before, shown) = (*machine.settings(), numbers(machine));
+    assert!(machine.configure(settings).is_err() && machine.begin(settings).is_err());
+    assert_eq!(*machine.settings(), before);
+    laws::same("after a refusal", &numbers(machine), &shown);
+}
+
+/// Slices lead to what one call leads to.
+fn in_slices(machine: &mut BananaMachine, input: &mut Input) {
+    let settings = changed(machine.settings(), input);
+    if !allowed(&settings) {
+        return;
+    }
+    let mut other = machine.clone();
+    other.configure(few(settings)).expect("allowed");
+    machine.begin(few(settings)).expect("allowed");
+    let poses = 1 + usize::from(input.byte());
+    let slices = (0..8).take_while(|_| !machine.advance(poses)).count();
+    assert!(slices < 8, "{slices} slices for {} samples", settings.samples);
+    laws::same("in slices", &numbers(machine), &numbers(&other));
+}
+
+/// A machine is what its settings are, whatever came before.
+fn as_if_new(machine: &BananaMachine) {
+    let mut other = BananaMachine::empty(*machine.settings()).expect("allowed");
+    if machine.shown() > 0 {
+        other.grow(machine.shown());
+        laws::same("as if new", &numbers(machine), &numbers(&other));
+    }
+}
+
+/// All that is shown, but for curves.
+fn numbers(machine: &BananaMachine) -> Vec<f64> {
+    let mut numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
+    let Figures {
+        cartesian,
+        exponential,
+        cross_track,
+        gaussian_skew,
+        inside_ellipse,
+        inside_exponential,
+        gain,
+        area_ratio,
+    } = machine.figures();
+    numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
+    numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
+    numbers.extend([cross_track.skew, cross_track.skew_error, cross_track.rho_heading, *gaussian_skew]);
+    numbers.extend([*inside_ellipse, *inside_exponential, *area_ratio]);
+    numbers.extend([gain.value.pose, gain.value.floor, gain.error.pose, gain.error.floor]);
+    numbers
+}
+
+/// Everything shown is finite, or NaN where it has no meaning.
+fn shows_sense(machine: &BananaMachine) {
+    let (n, figures) = (machine.shown(), machine.figures());
+    machine.poses().for_each(|pose| laws::pose("a pose", &pose));
+    assert_eq!(machine.poses().len(), n);
+    laws::finite("executed", machine.executed().collect::<Vec<_>>().as_flattened());
+    let charted = machine.chart_holds();
+    if charted {
+        machine.twists().for_each(|twist| laws::finite("a twist", twist.as_slice()));
+    }
+    if n > 0 {
+        laws::finite("mean", figures.cartesian.mean.as_slice());
+    }
+    if n > 1 {
+        laws::moments("pose", &figures.cartesian.mean, &figures.cartesian.cov);
+    }
+    if charted && n > 1 {
+        laws::moments("exponential", &figures.exponential.mean, &figures.exponential.cov);
+    } else {
+        assert!(n == 1 || figures.exponential.cov.iter().all(|number| number.is_nan()));
+    }
+    let track = figures.cross_track;
+    laws::finite_or_none("skew", &[track.skew, track.skew_error]);
+    // No sample of n has more skew than n − 1 alike and one elsewhere.
+    let most = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
+    assert!(track.skew.is_nan() || track.skew.abs() <= most * (1.0 + 1e-9), "{track:?} of {n}");
+    assert!(track.skew_error.is_nan() || track.skew_error >= 0.0, "{track:?}");
+    assert!(track.rho_heading.is_nan() || track.rho_heading.abs() <= 1.0, "{track:?}");
+    laws::finite_or_none("gaussian skew", &[figures.gaussian_skew]);
+    laws::share("inside the ellipse", figures.inside_ellipse);
+    laws::share("inside the contour", figures.inside_exponential);
+    assert!(figures.area_ratio.is_nan() || figures.area_ratio >= 0.0, "{}", figures.area_ratio);
+    let (gain, error) = (figures.gain.value, figures.gain.error);
+    for (gain, error) in [(gain.pose, error.pose), (gain.floor, error.floor)] {
+        assert!(error.is_nan() || (error >= 0.0 && gain.is_finite()), "gain {gain} ± {error}");
+    }
+}
+
+fn contours(machine: &BananaMachine) {
+    let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } = machine.contours();
+    for (what, outline) in [
+        ("command", &command),
+        ("ellipse", &ellipse),
+        ("linearized", &linearized),
+        ("exponential", &exponential),
+        ("twist ellipse", &twist_ellipse),
+        ("additive", &additive),
+    ] {
+        laws::finite(what, outline.as_flattened());
+    }
+    for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
+        assert_eq!(outline.first(), outline.last(), "an outline is closed");
+    }
+    assert_eq!(ellipse.is_empty(), machine.shown() < 2);
+    assert_eq!(exponential.is_empty(), machine.shown() < 2 || !machine.chart_holds());
+}
+
+/// Every column of the table, which quadrature makes slow.
+fn table(machine: &BananaMachine) {
+    let table = machine.table();
+    for (what, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
+        let Column { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
+        laws::moments(what, mean, cov);
+        laws::finite_or_none(what, &[*cross_track_skew]);
+        assert!(
+            !likelihood_gain.pose.is_infinite() || likelihood_gain.pose > 0.0,
+            "{what}: {likelihood_gain:?}"
+        );
+        assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{what}: {area_ratio}");
+    }
+    if let Some(tangent) = table.tangent {
+        laws::moments("tangent", &tangent.mean, &tangent.cov);
+    }
+    let reading = machine.reading();
+    laws::finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
+}
+
+fn inspect(machine: &BananaMachine, index: usize) {
+    let Some(sample) = machine.inspect(index) else {
+        assert!(index >= machine.shown());
+        return;
+    };
+    laws::pose("inspected", &sample.pose);
+    laws::finite("path", sample.path.as_flattened());
+    if let Executed::Legs(legs) = sample.executed {
+        laws::finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
+    }
+    let [x, y] = *sample.path.last().expect("a path has an end");
+    // A path is of the scalar functions, a pose of those for four, which agree to 2e-15 of the length.
+    let length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
+    let most = match sample.executed {
+        Executed::Arc { arc, dt } => (arc.v_hat * dt).abs(),
+        Executed::Legs(legs) => legs.trans.abs(),
+    };
+    assert!(length <= most * (1.0 + 1e-9) + 1e-9, "{length}, {most}");
+    assert!(
+        distance([x, y], [sample.pose.x(), sample.pose.y()]) <= 1e-14 * most + f64::MIN_POSITIVE,
+        "{sample:?}"
+    );
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// A rectangle of a view, with few cells.
+pub fn grid(input: &mut Input) -> Grid {
+    let min = [0; 2].map(|_| input.within(EXTENT));
+    let max = min.map(|least| input.within(least..=*EXTENT.end()));
+    let [columns, rows] = [0; 2].map(|_| 1 + input.choice(40));
+    Grid { min, max, columns, rows }
+}
+
+fn paint(machine: &mut BananaMachine, input: &mut Input) {
+    let (view, grid) = (input.of(&[View::Plane, View::Twist]), grid(input));
+    let counts = machine.density(view, &grid).expect("memory");
+    assert_eq!(counts.len(), grid.columns * grid.rows);
+    assert!(counts.iter().sum::<u32>() as usize <= machine.shown(), "{grid:?}: {counts:?}");
+    let pixels = machine.paint(view, &grid, &[[1; 4]; RAMP]).expect("memory");
+    assert_eq!(pixels.len(), counts.len());
+    assert!(pixels.iter().zip(&counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
+}
+
+fn nearest(machine: &BananaMachine, input: &mut Input) {
+    let target = [0; 2].map(|_| input.number());
+    let radii = [0; 2].map(|_| input.within(0.0..=f64::INFINITY));
+    let Some(index) = machine.nearest(View::Plane, target, radii) else { return };
+    let found: SE2 = machine.pose(index).expect("a sample that is shown");
+    let away = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
+    // A square of a distance below 1e-154 is 0.
+    let least = machine.poses().map(|pose| away(&pose)).fold(f64::INFINITY, f64::min);
+    assert!(away(&found) <= least * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
+}

@@ -1,0 +1,140 @@
+//! Grids of any cells, thresholds, resolution and origin.
+
+use super::input::Input;
+use super::plan;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown,
+};
+use motion::sim::settings::QUANTITY;
+
+/// Cells along a side at most, and arcs that are judged among them.
+const ARCS: usize = 3;
+const SIDE: usize = 3;
+
+pub fn run(bytes: &[u8]) {
+    let mut input = Input(bytes);
+    let Some((grid, unknown)) = read(&mut input) else { return };
+    let [columns, rows] = grid.size();
+    assert_eq!(grid.cells().len(), columns * rows);
+    // The field of a plan takes a hundred times as long as all else.
+    if input.choice(16) != 1 {
+        outlined(&grid.with_unknown(unknown), unknown);
+        return;
+    }
+    let plan = match FloorPlan::from_grid(grid.with_unknown(unknown)) {
+        Ok(plan) => plan,
+        Err(FloorPlanError::BadBounds(_)) => return,
+        Err(error) => panic!("{error}"),
+    };
+    let grid = plan.grid().expect("made of a grid");
+    outlined(grid, unknown);
+    for (middle, blocks) in middles(grid, unknown) {
+        assert_eq!(plan.point_free(middle, 0.0).free, !blocks, "{middle:?} in {grid:?}");
+    }
+    for _ in 0..ARCS {
+        plan::verdict(&plan, &mut input);
+        if input.is_empty() {
+            break;
+        }
+    }
+}
+
+/// The middle of each cell, and whether the cell is in the way; none where coordinates hardly tell cells apart.
+fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
+    let ([columns, rows], origin, side) = (grid.size(), grid.origin(), grid.resolution());
+    let size = origin.x().abs().max(origin.y().abs()) + (columns + rows) as f64 * side;
+    if side <= 1e3 * f64::EPSILON * size {
+        return Vec::new();
+    }
+    let blocks =
+        |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown == Unknown::Blocked);
+    let cells = grid.cells().iter().enumerate();
+    let middle = |i: usize| {
+        let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * side);
+        let middle = origin * SE2::new(u, v, 0.0);
+        [middle.x(), middle.y()]
+    };
+    cells.map(|(i, cell)| (middle(i), blocks(*cell))).collect()
+}
+
+/// Cells hold their middles, and outlines are all around those in the way: as long as the sides of cells between what is in
+/// the way and what is not.
+fn outlined(grid: &OccupancyGrid, unknown: Unknown) {
+    let middles = middles(grid, unknown);
+    for (middle, blocks) in &middles {
+        assert_eq!(grid.holds(*middle), *blocks, "{middle:?} in {grid:?}");
+    }
+    let [columns, rows] = grid.size();
+    let at = |column: usize, row: usize| {
+        (column < columns && row < rows)
+            .then(|| middles.get(row * columns + column))
+            .flatten()
+            .is_some_and(|cell| cell.1)
+    };
+    let mut sides = 0;
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let here = at(column, row);
+            sides += usize::from(here != at(column.wrapping_sub(1), row));
+            sides += usize::from(here != at(column, row.wrapping_sub(1)));
+        }
+    }
+    let outlines = grid.outlines(usize::MAX).expect("no limit");
+    let length: f64 = outlines.iter().map(long).sum();
+    if !middles.is_empty() {
+        assert!((length / grid.resolution() - sides as f64).abs() < 1e-3 * (1 + sides) as f64, "{grid:?}");
+    }
+}
+
+fn long(wall: &Segment) -> f64 {
+    (wall.to[0] - wall.from[0]).hypot(wall.to[1] - wall.from[1])
+}
+
+/// A grid of a few cells, and what is unknown in it.
+pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
+    let resolution = input.near(&RESOLUTION);
+    let [x, y, yaw] = [0; 3].map(|_| input.near(&QUANTITY));
+    if !RESOLUTION.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY.contains(number)) {
+        return None;
+    }
+    let [width, height] = [0; 2].map(|_| 1 + input.choice(SIDE));
+    let mode = input.of(&[Mode::Trinary, Mode::Scale, Mode::Raw]);
+    let negate = input.truth();
+    let [a, b] = [0; 2].map(|_| f64::from(input.byte()) / 255.0);
+    let interpretation = Interpretation { mode, negate, occupied_thresh: a.max(b), free_thresh: a.min(b) };
+    let unknown = input.of(&[Unknown::Free, Unknown::Blocked]);
+    let opaque = input.truth();
+    let pixels: Vec<Pixel> = (0..width * height)
+        .map(|_| Pixel {
+            shade: f32::from(input.byte()) / 255.0,
+            opacity: if opaque { 1.0 } else { f32::from(input.byte()) / 255.0 },
+        })
+        .collect();
+    for pixel in &pixels {
+        told(&interpretation, *pixel);
+    }
+    let image = Image { width, height, pixels };
+    Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown))
+}
+
+/// What a pixel says, as `map_server` documents it; at a threshold, to the rounding of a float, either will do.
+fn told(interpretation: &Interpretation, pixel: Pixel) {
+    let Interpretation { mode, negate, occupied_thresh, free_thresh } = *interpretation;
+    let shade = f64::from(pixel.shade);
+    let occupancy = if negate { shade } else { 1.0 - shade };
+    let value = (255.0 * shade).round();
+    let near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
+    let expected = match mode {
+        Mode::Raw if value == 100.0 => Cell::Occupied,
+        Mode::Raw if value > 100.0 => Cell::Unknown,
+        Mode::Raw => Cell::Free,
+        Mode::Scale if pixel.opacity < 1.0 => Cell::Unknown,
+        _ if near(occupied_thresh) || near(free_thresh) => return,
+        _ if occupancy > occupied_thresh => Cell::Occupied,
+        Mode::Trinary if occupancy > free_thresh => Cell::Unknown,
+        _ => Cell::Free,
+    };
+    assert_eq!(interpretation.cell(pixel), expected, "{interpretation:?} of {pixel:?}");
+}

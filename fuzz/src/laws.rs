@@ -1,0 +1,56 @@
+//! What holds of numbers that are shown.
+
+use motion::geom::se2::SE2;
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::PI;
+
+pub fn finite(what: &str, numbers: &[f64]) {
+    assert!(numbers.iter().all(|number| number.is_finite()), "{what}: {numbers:?}");
+}
+
+/// Either all are numbers or none is.
+pub fn finite_or_none(what: &str, numbers: &[f64]) {
+    if !numbers.iter().all(|number| number.is_nan()) {
+        finite(what, numbers);
+    }
+}
+
+pub fn share(what: &str, share: f64) {
+    assert!(share.is_nan() || (0.0..=1.0).contains(&share), "{what}: {share}");
+}
+
+pub fn pose(what: &str, pose: &SE2) {
+    finite(what, &[pose.x(), pose.y(), pose.theta()]);
+    assert!(-PI < pose.theta() && pose.theta() <= PI, "{what}: {pose:?}");
+}
+
+/// Finite, symmetric, and no correlation above 1: but for rounding, which is in proportion to the size of what a covariance
+/// was made of.
+pub fn moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
+    finite(what, mean.as_slice());
+    finite(what, cov.as_slice());
+    let sizes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
+    let extent = sizes.x + sizes.y;
+    let sizes = [extent, extent, sizes.z];
+    for i in 0..3 {
+        assert!(cov[(i, i)] >= 0.0, "{what}: {mean:?} {cov:?}");
+        for j in 0..i {
+            let most = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
+            let rounding = ROUNDING * sizes[i] * sizes[j] + UNDERFLOW * (sizes[i] + sizes[j]);
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= rounding, "{what}: {mean:?} {cov:?}");
+            assert!(cov[(i, j)].abs() <= most + rounding, "{what}: {mean:?} {cov:?}");
+        }
+    }
+}
+
+/// A few dozen units in the last place.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// What a deviation may be of which the square is 0, and more than its double.
+const UNDERFLOW: f64 = 1e-161;
+
+/// The same numbers, NaN being NaN.
+pub fn same(what: &str, a: &[f64], b: &[f64]) {
+    let alike = |(a, b): (&f64, &f64)| a == b || (a.is_nan() && b.is_nan());
+    assert!(a.len() == b.len() && a.iter().zip(b).all(alike), "{what}: {a:?} and {b:?}");
+}

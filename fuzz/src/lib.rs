@@ -1,0 +1,10 @@
+//! What is held of any input: one function a target, used by cargo-fuzz and by the tests of the package.
+
+pub mod banana;
+pub mod grid;
+pub mod input;
+pub mod laws;
+pub mod pgm;
+pub mod plan;
+pub mod settings;
+pub mod squeeze;

@@ -1,0 +1,41 @@
+//! Files of maps.
+
+use motion::map::{Image, MAX_PIXELS, read_pgm};
+use std::fmt::Write;
+
+pub fn run(bytes: &[u8]) {
+    match read_pgm(bytes) {
+        Ok(image) => {
+            let Image { width, height, ref pixels } = image;
+            assert!(width > 0 && height > 0 && width * height <= MAX_PIXELS);
+            assert_eq!(pixels.len(), width * height);
+            assert!(pixels.iter().all(|pixel| (0.0..=1.0).contains(&pixel.shade) && pixel.opacity == 1.0));
+            if pixels.len() <= 64 {
+                written_again(&image);
+            }
+        }
+        Err(error) => {
+            let message = error.to_string();
+            assert!(!message.is_empty() && message.len() < 300, "{message}");
+        }
+    }
+}
+
+/// A reading is a fixed point: in 16 bits, plain and binary, it reads the same, to the 65 535th of the shade that is
+/// rounded away where its file counted to another number.
+fn written_again(image: &Image) {
+    const GREATEST: f32 = 65_535.0;
+    let mut plain = format!("P2\n{} {}\n{GREATEST}", image.width, image.height);
+    let mut binary = format!("P5 {} {} {GREATEST}\n", image.width, image.height).into_bytes();
+    for pixel in &image.pixels {
+        let value = (pixel.shade * GREATEST).round() as u16;
+        write!(plain, " {value}").expect("memory");
+        binary.extend(value.to_be_bytes());
+    }
+    let again = read_pgm(plain.as_bytes()).expect("a plain file");
+    assert_eq!(again, read_pgm(&binary).expect("a binary file"));
+    assert_eq!((again.width, again.height), (image.width, image.height));
+    for (before, after) in image.pixels.iter().zip(&again.pixels) {
+        assert!((before.shade - after.shade).abs() <= 0.51 / GREATEST, "{before:?} {after:?}");
+    }
+}

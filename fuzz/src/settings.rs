@@ -1,0 +1,88 @@
+//! Settings as a reader of them sets them, with any values.
+
+use super::input::Input;
+use motion::sim::settings::{Allowed, Group, Rules, Setting, SettingsError};
+
+/// The present settings with some of them changed.
+pub fn changed<S: Rules>(present: &S, input: &mut Input) -> S {
+    let (mut settings, mut named) = (*present, Vec::new());
+    let chosen = u16::from_le_bytes(input.bytes());
+    let mut number = 0;
+    let _: Result<(), ()> = settings.try_each(|declaration, setting| {
+        number += 1;
+        if chosen >> (number - 1) & 1 == 1 {
+            named.push(declaration.key);
+            set(setting, input);
+        }
+        Ok(())
+    });
+    settings.settle(present, &named);
+    settings
+}
+
+fn set(setting: Setting, input: &mut Input) {
+    match setting {
+        Setting::Number(slot, allowed) => *slot = input.near(&allowed),
+        Setting::Whole(slot, allowed) => slot.set(input.whole_near(&allowed)),
+        Setting::WholeOrNone(slot, allowed) => {
+            *slot = input.truth().then(|| input.whole_near(&allowed) as usize);
+        }
+        Setting::Truth(slot) => *slot = input.truth(),
+        Setting::Word(slot) => {
+            let words = slot.all();
+            assert!(slot.set(input.of(&words)) && !slot.set("") && !slot.set("__proto__"));
+        }
+        Setting::Numbers(slots, allowed) => slots.iter_mut().for_each(|slot| *slot = input.near(&allowed)),
+        // A level is refused before it is taken apart.
+        Setting::Level(slot, allowed) => slot.set(input.within(allowed)),
+        Setting::Group(group) => {
+            for (i, field) in group.fields().iter().enumerate() {
+                *group.number(i) = input.near(&field.allowed);
+            }
+        }
+    }
+}
+
+/// Whether settings are as they may be; who says no says why.
+pub fn allowed<S: Rules>(settings: &S) -> bool {
+    let Err(error) = settings.check() else {
+        holds_all(settings);
+        return true;
+    };
+    let SettingsError { field, value, allowed } = &error;
+    let root = field.split(['.', '[']).next();
+    assert!(S::KEYS.iter().any(|key| Some(*key) == root), "{error}");
+    let message = error.to_string();
+    assert!(message.starts_with(field) && message.contains("; allowed is "), "{message}");
+    match allowed {
+        Allowed::Real(range) => assert!(!range.contains(value), "{message}"),
+        Allowed::Whole(range) => {
+            let whole = *value as u64;
+            assert!(whole as f64 != *value || !range.contains(&whole), "{message}");
+        }
+        Allowed::LessMemory | Allowed::Word { .. } => panic!("{message}"),
+    }
+    false
+}
+
+/// Every number is of its range.
+fn holds_all<S: Rules>(settings: &S) {
+    let mut settings = *settings;
+    let _: Result<(), ()> = settings.try_each(|declaration, setting| {
+        let all_are = match setting {
+            Setting::Number(number, range) => range.contains(number),
+            Setting::Whole(whole, range) => range.contains(&whole.get()),
+            Setting::WholeOrNone(whole, range) => whole.is_none_or(|whole| range.contains(&(whole as u64))),
+            Setting::Numbers(numbers, range) => numbers.iter().all(|number| range.contains(number)),
+            Setting::Group(group) => group_holds(group),
+            Setting::Truth(_) | Setting::Word(_) | Setting::Level(..) => true,
+        };
+        assert!(all_are, "{}", declaration.key);
+        Ok(())
+    });
+}
+
+fn group_holds(group: &mut dyn Group) -> bool {
+    let fields = group.fields().iter().enumerate();
+    fields.fold(true, |all, (i, field)| all && field.allowed.contains(group.number(i)))
+}

@@ -1,0 +1,163 @@
+//! Map Squeeze under any settings, maps and calls.
+
+use super::input::Input;
+use super::settings::{allowed, changed};
+use super::{banana, grid, laws, plan};
+use motion::geom::segment::Segment;
+use motion::map::{FloorPlan, Sampler};
+use motion::sim::picture::RAMP;
+use motion::sim::squeeze::{KINDS, MapSqueeze, Settings};
+use std::cell::LazyCell;
+
+/// Samples, parts of one and calls of a run at most.
+const SAMPLES: usize = 8;
+const PARTS: u32 = 3;
+const CALLS: usize = 4;
+
+thread_local! {
+    /// In a room with one wall, with what is known about the space in it.
+    static OPENING: LazyCell<MapSqueeze> = LazyCell::new(|| {
+        let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
+        let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
+        let mut machine = MapSqueeze::new(few(Settings::default(), false)).expect("the opening state");
+        machine.set_plan(plan);
+        assert!(machine.start_free());
+        machine
+    });
+}
+
+pub fn run(bytes: &[u8]) {
+    let mut input = Input(bytes);
+    let mut machine = OPENING.with(|opening| (**opening).clone());
+    for _ in 0..CALLS {
+        if input.is_empty() {
+            break;
+        }
+        call(&mut machine, &mut input);
+    }
+    shows_sense(&machine);
+}
+
+/// The same settings with few enough samples. A robot that is wedged takes 10 000 draws to say so: most are judged once.
+fn few(settings: Settings, patient: bool) -> Settings {
+    let steps = settings.steps.min(PARTS);
+    let sampler = if patient { settings.sampler.in_parts(steps) } else { judged_once(settings.sampler) };
+    Settings { samples: settings.samples.min(SAMPLES), steps, sampler, ..settings }
+}
+
+fn judged_once(sampler: Sampler) -> Sampler {
+    if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
+}
+
+fn call(machine: &mut MapSqueeze, input: &mut Input) {
+    match input.choice(9) {
+        0 | 1 => configure(machine, input),
+        2 => {
+            if let Some(plan) = plan::read(input) {
+                machine.set_plan(plan);
+            }
+        }
+        3 => {
+            if let Some((grid, _)) = grid::read(input) {
+                let (walls, refused) = (machine.plan().walls().len(), machine.set_grid(grid).is_err());
+                assert!(!refused || machine.plan().walls().len() == walls);
+            }
+        }
+        4 => {
+            let before = machine.attempts().len();
+            let after = machine.grow(input.choice(SAMPLES));
+            assert!(before <= after && after <= machine.settings().samples);
+        }
+        5 => {
+            machine.restart();
+            assert!(machine.attempts().is_empty());
+        }
+        6 => paint(machine, input),
+        7 => {
+            let target = [0; 2].map(|_| input.number());
+            let radius = input.within(0.0..=f64::INFINITY);
+            let found = machine.nearest(target, radius);
+            assert!(found.is_none_or(|index| index < machine.attempts().len()));
+        }
+        // To look along 72 headings takes as long as ten other calls.
+        _ if input.choice(8) == 1 => in_the_open(machine),
+        _ => {}
+    }
+}
+
+fn configure(machine: &mut MapSqueeze, input: &mut Input) {
+    let settings = changed(machine.settings(), input);
+    let before = *machine.settings();
+    if allowed(&settings) {
+        let patient = input.choice(16) == 1;
+        machine.configure(few(settings, patient)).expect("allowed");
+        return;
+    }
+    let attempts = machine.attempts().to_vec();
+    assert!(machine.configure(settings).is_err());
+    assert_eq!(*machine.settings(), before);
+    assert_eq!(machine.attempts(), attempts);
+}
+
+/// The place in the open is one.
+fn in_the_open(machine: &MapSqueeze) {
+    let Some(place) = machine.open_place() else { return };
+    laws::pose("in the open", &place);
+    let fits = machine.plan().point_free([place.x(), place.y()], machine.settings().clearance).free;
+    assert!(fits, "{place:?}");
+}
+
+fn shows_sense(machine: &MapSqueeze) {
+    let (settings, stats, attempts) = (machine.settings(), machine.stats(), machine.attempts());
+    assert_eq!(stats.attempts, attempts.len());
+    assert!(attempts.len() <= settings.samples);
+    assert_eq!(stats.accepted, attempts.iter().filter(|attempt| attempt.accepted).count());
+    let through = attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
+    assert_eq!(stats.through_wall, through);
+    laws::share("acceptance", stats.acceptance_rate);
+    laws::share("through a wall", stats.through_wall_rate);
+    let [low, high] = stats.through_wall_interval;
+    assert!(0.0 <= low && low <= high && high <= 1.0, "{stats:?}");
+    if stats.accepted > 0 {
+        assert!((low..=high).contains(&stats.through_wall_rate), "{stats:?}");
+        assert!(stats.draws_per_accepted >= 1.0 && stats.draws_per_accepted.is_finite(), "{stats:?}");
+    }
+    for (index, attempt) in attempts.iter().enumerate() {
+        laws::pose("an attempt", &attempt.pose);
+        assert!(attempt.end_free || !attempt.path_free, "{attempt:?}");
+        let expected = match settings.sampler {
+            _ if !settings.conditioned => true,
+            Sampler::Endpoint => attempt.end_free,
+            Sampler::WholeArc => attempt.path_free,
+            Sampler::SubStepped(_) => attempt.accepted,
+        };
+        assert_eq!(attempt.accepted, expected, "{attempt:?}");
+        let arcs = machine.arcs(index);
+        if attempt.accepted || !settings.conditioned {
+            assert_eq!(arcs.len(), settings.parts() as usize);
+        }
+        for arc in &arcs {
+            laws::finite("arc", &[arc.length, arc.turn]);
+        }
+    }
+    assert!(machine.arcs(attempts.len()).is_empty());
+    if let Some(arc) = machine.arcs(0).first() {
+        laws::finite("path", arc.points().as_flattened());
+    }
+    plan_is_told(machine.plan());
+}
+
+fn plan_is_told(plan: &FloorPlan) {
+    laws::finite("bounds", &plan.bounds());
+    for wall in plan.walls() {
+        laws::finite("wall", &[wall.from, wall.to].concat());
+    }
+}
+
+fn paint(machine: &mut MapSqueeze, input: &mut Input) {
+    let grid = banana::grid(input);
+    let shown = machine.attempts().len();
+    let pixels = machine.paint(&grid, &[[[1; 4]; RAMP]; KINDS]).expect("memory");
+    assert_eq!(pixels.len(), grid.columns * grid.rows);
+    assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown);
+}

@@ -1,0 +1,179 @@
+/**
+ * What machines of the JavaScript face tell, to the last bit: main.rs asks the same of the simulations themselves. It imports
+ * nothing, so that it runs in Node and in any page.
+ *
+ * @module
+ */
+
+/**
+ * @typedef {import('../../www/types.d.ts').Motion} Motion
+ * @typedef {number | boolean | null | ArrayLike<unknown> | object} Told
+ * @typedef {{ preset?: string, map?: string, bounds?: number[], settings: Record<string, any> }} Configuration
+ * @typedef {object} Configurations as configurations.json has them
+ * @property {{ columns: number, rows: number }} picture
+ * @property {Record<string, string[]>} images lines of PGM files
+ * @property {Record<string, any>} maps
+ * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
+ */
+
+/** The NaN that stands for every NaN: main.rs says why. */
+const NAN = 0x7ff8_0000_0000_0000n;
+
+/** What is asked of a machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */
+export const widgets = {
+  'banana-machine'({ BananaMachine, commandReaching }, all, { preset, bounds = all.widgets['banana-machine'].bounds, settings }) {
+    const machine = new BananaMachine({ ...commandOf(BananaMachine.presets, preset), ...settings });
+    const { shown, config: { command } } = machine;
+    const [xMin, yMin, xMax, yMax] = bounds;
+    const { columns, rows } = all.picture;
+    const pictureOf = (/** @type {'plane' | 'twist'} */ view) =>
+      machine.picture(view, xMin, yMin, xMax, yMax, columns, rows, ramps(1)).slice();
+    const told = {
+      poses: machine.poses,
+      twists: machine.twists,
+      executed: machine.executed,
+      statistics: { shown, chartHolds: machine.chartHolds, reading: machine.reading, stats: machine.stats },
+      table: machine.table,
+      contours: machine.contours,
+      curve: machine.skewCurve(-3, 3, 25),
+      samples: {
+        inspected: everyOf(shown, 501).map((index) => ({ ...machine.inspect(index), heading: machine.heading(index) })),
+        nearest: VIEWS.map((view) => machine.nearest(view, 0.9, 0.2, 0.5, 0.3)),
+        reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
+      },
+      densities: VIEWS.map((view) => machine.density(view, xMin, yMin, xMax, yMax, columns, rows)),
+      plane: pictureOf('plane'),
+      twist: pictureOf('twist'),
+    };
+    machine.free();
+    return told;
+  },
+
+  'map-squeeze'({ MapSqueeze }, all, { preset, map, bounds = all.widgets['map-squeeze'].bounds, settings }) {
+    const start = MapSqueeze.presets.find(({ name }) => name === preset)?.start;
+    const machine = new MapSqueeze({ start, ...settings });
+    const { plan, description, image } = map === undefined ? {} : all.maps[map];
+    if (plan) machine.setPlan(plan);
+    if (description) machine.setGrid(description, new TextEncoder().encode(`${all.images[image].join('\n')}\n`));
+    const { shown, startFree, openPlace, noise, stats } = machine;
+    const [xMin, yMin, xMax, yMax] = bounds;
+    const { columns, rows } = all.picture;
+    const told = {
+      map: { ...machine.plan, grid: machine.grid },
+      poses: machine.poses,
+      verdicts: machine.verdicts,
+      statistics: { shown, startFree, openPlace, noise, stats },
+      paths: {
+        commanded: machine.commanded,
+        driven: everyOf(shown, 101).map((index) => machine.path(index)),
+        nearest: machine.nearest(2.1, 2.4, 0.5),
+      },
+      trials: SAMPLERS.map((sampler) => {
+        try {
+          return machine.trial(sampler, 4, 50);
+        } catch {
+          // The robot is wedged.
+          return null;
+        }
+      }),
+      picture: machine.picture(xMin, yMin, xMax, yMax, columns, rows, ramps(3)).slice(),
+    };
+    machine.free();
+    return told;
+  },
+};
+
+const VIEWS = /** @type {const} */ (['plane', 'twist']);
+const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
+
+/**
+ * @param {Motion['BananaMachine']['presets']} presets
+ * @param {string} [wanted]
+ */
+function commandOf(presets, wanted) {
+  const preset = presets.find(({ name }) => name === wanted);
+  if (preset === undefined) return {};
+  const { v, omega, dt, alphas } = preset;
+  return { command: { v, omega, dt }, ...(alphas && { alphas }) };
+}
+
+/** @type {(count: number, step: number) => number[]} */
+const everyOf = (count, step) => Array.from({ length: Math.ceil(count / step) }, (_, i) => i * step);
+
+/** Colours of which no two are alike, as configuration.rs makes them. @param {number} count of ramps */
+const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, at) => {
+  const i = (at >> 2) & 255;
+  return [i, 255 - i, 85 * (at >> 10), 255][at & 3];
+});
+
+/**
+ * @param {Told} value
+ * @param {number[]} numbers that it is added to: of a list its length and its items, of an object its values in their
+ *   order, NaN where there is nothing
+ */
+function tell(value, numbers) {
+  if (value === null) numbers.push(NaN);
+  else if (typeof value === 'number' || typeof value === 'boolean') numbers.push(Number(value));
+  else if (typeof value !== 'object') throw new TypeError(`${typeof value} is nothing to be told.`);
+  else if ('length' in value) {
+    numbers.push(value.length);
+    for (let i = 0; i < value.length; i++) tell(/** @type {any} */ (value)[i], numbers);
+  } else for (const each of Object.values(value)) tell(each, numbers);
+}
+
+/**
+ * @param {Told} value
+ * @returns {Promise<string>} a hash of every bit of it
+ */
+export async function hashOf(value) {
+  /** @type {number[]} */
+  const numbers = [];
+  tell(value, numbers);
+  const view = new DataView(new ArrayBuffer(8 * numbers.length));
+  numbers.forEach((number, i) => {
+    if (Number.isNaN(number)) view.setBigUint64(8 * i, NAN, true);
+    else view.setFloat64(8 * i, number, true);
+  });
+  return hex(await crypto.subtle.digest('SHA-256', view)).slice(0, 16);
+}
+
+/** @param {ArrayBuffer} bytes */
+const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString(16).padStart(2, '0')).join('');
+
+/**
+ * @param {Motion} motion
+ * @param {Configurations} all
+ * @param {string[]} [tags] of the widgets that are asked
+ * @returns {Promise<string>} what golden.txt has to be, or its part on these
+ */
+export async function digest(motion, all, tags = Object.keys(all.widgets)) {
+  /** @type {string[]} */
+  const lines = [];
+  for (const widget of tags) {
+    for (const [name, configuration] of Object.entries(all.widgets[widget].configurations)) {
+      const parts = Object.entries(widgets[widget](motion, all, configuration));
+      const hashes = await Promise.all(parts.map(async ([part, value]) => ` ${part}:${await hashOf(value)}`));
+      lines.push(`${widget}/${name}${hashes.join('')}\n`);
+    }
+  }
+  return lines.sort().join('');
+}
+
+/**
+ * @param {string} golden
+ * @param {string} computed
+ * @returns {string[]} what is not the same, a line for each configuration
+ */
+export function differences(golden, computed) {
+  const table = (/** @type {string} */ text) =>
+    new Map(text.trimEnd().split('\n').map((line) => /** @type {[string, string[]]} */ ([line.split(' ')[0], line.split(' ').slice(1)])));
+  const [expected, got] = [table(golden), table(computed)];
+  const names = [...new Set([...expected.keys(), ...got.keys()])];
+  return names.flatMap((name) => {
+    const [golden, computed] = [expected.get(name), got.get(name)];
+    if (golden === undefined) return [`${name} is not in golden.txt`];
+    if (computed === undefined) return [`${name} is gone`];
+    const other = computed.filter((part) => !golden.includes(part)).map((part) => part.split(':')[0]);
+    return other.length > 0 || golden.length !== computed.length ? [`${name}: ${other.join(', ')}`] : [];
+  });
+}

@@ -1,0 +1,298 @@
+// A monkey on the page: clicks, drags, keys, numbers, files, attributes, sizes, languages, whatever comes along. Nothing that
+// it does may bring a message, a trap or a figure that is none, and the state says all of what is shown.
+//
+// MONKEY_EVENTS and MONKEY_SEED ask for more, and for another one; a failure names what replays it.
+
+import { expect } from '@playwright/test';
+import { NAMES, ready } from './element-support.js';
+import { file, pgm, yaml } from './squeeze-support.js';
+import { FRESH, frames, test } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('./element-support.js').AnyElement} AnyElement
+ * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Luck
+ * @typedef {(page: Page, luck: Luck) => Promise<string>} Deed one that says what it did
+ */
+
+const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);
+const SEED = Number(process.env.MONKEY_SEED ?? 1);
+
+/** Events between two looks at what they led to. */
+const ROUND = 250;
+
+/** What is clicked and dragged of a widget. */
+const PARTS = 'button, summary, input, .handle, canvas, .chart-marker, textarea, label';
+
+const NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
+const KEYS = ['Tab', 'Shift+Tab', 'Enter', ' ', 'Escape', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', 'c', 'C', '5', 'Backspace', 'Delete'];
+const TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '\u0000', 'velocity', 'odometry', 'normal', 'triangular', 'close', 'whole', 'endpoint', 'whole-arc', 'sub-stepped', 'free', 'occupied', 'unknown', 'command ellipse', 'Banana', 'Hard arc', 'doorway', ...NUMBERS];
+const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
+const SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
+
+const HALL = pgm('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
+/** Files as they come, the first of them a map. */
+const FILES = [
+  [yaml('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL],
+  [file('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [0, 0, 5, 0, 5, 0, 5, 4, 5, 4, 0, 4, 0, 4, 0, 0] }))],
+  [HALL],
+  [file('hall.yaml', 'image: &a [*a]')],
+  [file('cut.pgm', HALL.buffer.subarray(0, 200))],
+  [file('plan.json', '{"walls": 7}')],
+  [file('notes.txt', 'no map')],
+];
+
+/** @param {number} seed @returns {Luck} Mulberry32's */
+function luckOf(seed) {
+  let state = seed;
+  const next = () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
+  };
+  const below = (/** @type {number} */ end) => Math.floor(end * next());
+  return { below, one: (of) => of[below(of.length)] };
+}
+
+/**
+ * Brings a part of a widget to where the pointer can reach it.
+ *
+ * @param {Page} page
+ * @param {Luck} luck
+ * @param {string} selector
+ */
+async function partAt(page, luck, selector) {
+  const [name, choice, x, y] = [luck.one(NAMES), luck.below(1e6), luck.below(99) + 1, luck.below(99) + 1];
+  const place = await page.evaluate(
+    ([name, selector, choice]) => {
+      const parts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((part) => part.checkVisibility());
+      const part = parts[Number(choice) % parts.length];
+      if (!part) return;
+      part.scrollIntoView({ block: 'nearest', behavior: 'instant' });
+      const { left, top, width, height } = part.getBoundingClientRect();
+      return { left, top, width, height, what: `${part.localName} ${part.id || part.className} ${part.textContent?.trim().slice(0, 20)}` };
+    },
+    [name, selector, choice],
+  );
+  return place && { x: place.left + (place.width * x) / 100, y: place.top + (place.height * y) / 100, what: `${name} ${place.what}` };
+}
+
+/** @type {Record<string, Deed>} */
+const DEEDS = {
+  async click(page, luck) {
+    const part = await partAt(page, luck, PARTS);
+    if (part) await page.mouse.click(part.x, part.y, { clickCount: luck.one([1, 1, 1, 2]) });
+    return `${part?.what}`;
+  },
+  async tap(page, luck) {
+    const part = await partAt(page, luck, PARTS);
+    if (part) await page.touchscreen.tap(part.x, part.y);
+    return `${part?.what}`;
+  },
+  async drag(page, luck) {
+    const part = await partAt(page, luck, 'input[type=range], .handle, .chart-marker, canvas');
+    if (!part) return 'nothing';
+    const by = [luck.below(400) - 200, luck.below(200) - 100];
+    await page.mouse.move(part.x, part.y);
+    await page.mouse.down();
+    await page.mouse.move(part.x + by[0], part.y + by[1], { steps: 4 });
+    // Now and then something else comes along while it is held.
+    if (luck.below(4) > 0) await page.mouse.up();
+    return `${part.what} by ${by}`;
+  },
+  async key(page, luck) {
+    const keys = Array.from({ length: 1 + luck.below(4) }, () => luck.one(KEYS));
+    for (const key of keys) await page.keyboard.press(key);
+    return keys.join(' ');
+  },
+  async type(page, luck) {
+    const part = await partAt(page, luck, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
+    const [text, end] = [luck.one(NUMBERS), luck.one(['Enter', 'Tab', 'Escape'])];
+    if (part) {
+      await page.mouse.click(part.x, part.y, { clickCount: 3 });
+      await page.keyboard.insertText(text);
+      await page.keyboard.press(end);
+    }
+    return `${part?.what}: ${JSON.stringify(text)} ${end}`;
+  },
+  async wheel(page, luck) {
+    const by = luck.below(2000) - 1000;
+    await page.mouse.wheel(0, by);
+    return `${by}`;
+  },
+  async attribute(page, luck) {
+    const [name, choice, text] = [luck.one(NAMES), luck.below(1e6), luck.below(4) === 0 ? null : luck.one(TEXTS)];
+    return page.evaluate(([name, choice, text]) => {
+      const attributes = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
+      const attribute = attributes[Number(choice) % attributes.length];
+      const element = document.querySelector(`${name}`);
+      if (text === null) element?.removeAttribute(attribute);
+      else element?.setAttribute(attribute, `${text}`);
+      return `${name} ${attribute}=${text}`;
+    }, [name, choice, text]);
+  },
+  async resize(page, luck) {
+    const [width, height] = luck.one(SIZES);
+    await page.setViewportSize({ width, height });
+    return `${width} × ${height}`;
+  },
+  async media(page, luck) {
+    const media = { colorScheme: luck.one(/** @type {const} */ (['light', 'dark'])), reducedMotion: luck.one(/** @type {const} */ (['reduce', 'no-preference'])), media: luck.one(/** @type {const} */ (['screen', 'screen', 'print'])) };
+    await page.emulateMedia(media);
+    return JSON.stringify(media);
+  },
+  async language(page, luck) {
+    const lang = luck.one(LANGUAGES);
+    await page.evaluate((to) => (document.documentElement.lang = to), lang);
+    return lang;
+  },
+  async hash(page, luck) {
+    const [name, choice] = [luck.one(NAMES), luck.below(4)];
+    return page.evaluate(async ([name, choice]) => {
+      const link = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
+      const { hash } = new URL(link);
+      location.hash = [hash, hash.slice(0, -9), `#${name}.1=`, '#top'][Number(choice)];
+      return location.hash.slice(0, 60);
+    }, [name, choice]);
+  },
+  async files(page, luck) {
+    const given = luck.one(FILES);
+    await page.evaluate(async (files) => {
+      const section = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
+      const dataTransfer = new DataTransfer();
+      for (const { name, bytes } of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      for (const type of ['dragover', 'drop']) section?.dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, composed: true, cancelable: true }));
+    }, given.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
+    return given.map(({ name }) => name).join(' ');
+  },
+  async state(page, luck) {
+    const [name, choice, key, text] = [luck.one(NAMES), luck.below(3), luck.below(1e6), luck.one([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
+    return page.evaluate(([name, choice, key, text]) => {
+      const element = /** @type {any} */ (document.querySelector(`${name}`));
+      const kept = /** @type {any} */ (window).kept;
+      const state = element.getState();
+      if (state) kept.push(state);
+      const { widget, version, ...values } = state ?? {};
+      const names = Object.keys(values);
+      const field = names[Number(key) % names.length];
+      const given = choice === 0 ? { widget, version, [field]: text } : kept[Number(key) % kept.length];
+      try {
+        element.setState(given);
+      } catch (error) {
+        if (!(error instanceof TypeError || error instanceof RangeError)) throw error;
+      }
+      return `${name} ${choice === 0 ? `${field}: ${JSON.stringify(text)}` : 'a former state'}`;
+    }, [name, choice, key, text]);
+  },
+  /** In a cloud of millions everything else would take its time. */
+  async few(page, luck) {
+    const [name, samples] = [luck.one(NAMES), luck.one([1, 20, 300, 2000])];
+    return page.evaluate(([name, samples]) => {
+      Object.assign(/** @type {Element} */ (document.querySelector(`${name}`)), { samples });
+      return `${name} ${samples}`;
+    }, [name, samples]);
+  },
+  async move(page, luck) {
+    const [name, choice] = [luck.one(NAMES), luck.below(3)];
+    return page.evaluate(async ([name, choice]) => {
+      const element = document.querySelector(`${name}`);
+      const mark = document.createComment('');
+      element?.after(mark);
+      const place = /** @type {Element} */ (element);
+      place.remove();
+      if (choice === 1) await new Promise(requestAnimationFrame);
+      mark.replaceWith(choice === 2 ? Object.assign(document.createElement(`${name}`), { id: place.id }) : place);
+      return `${name} ${['moved', 'taken away for a while', 'another one in its place'][Number(choice)]}`;
+    }, [name, choice]);
+  },
+};
+
+/** How often each comes, against the others. @type {Record<string, number>} */
+const SHARES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, few: 4, move: 1 };
+const DRAWN = Object.entries(SHARES).flatMap(([name, share]) => Array(share).fill(name));
+
+/**
+ * What there is to complain of in a widget: what it shows, and whether its state brings the same machine again.
+ *
+ * @param {Page} page
+ * @param {string} name
+ */
+function complaintsAbout(page, name) {
+  return page.evaluate(async (name) => {
+    const element = /** @type {any} */ (document.querySelector(name));
+    const there = async (/** @type {any} */ element) => {
+      element.scrollIntoView({ block: 'start', behavior: 'instant' });
+      for (let i = 0; i < 600 && !element.machine && element.runtime.failure === undefined; i++) await new Promise(requestAnimationFrame);
+      for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+    };
+    element.hidden = false;
+    await there(element);
+    const failure = element.shadowRoot.querySelector('.failure');
+    if (failure || !element.machine) return [`it shows ${failure?.textContent ?? 'nothing'}`];
+    const complaints = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
+      .map((each) => each.value ?? each.textContent)
+      .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
+      .map((text) => `it says ${text}`);
+
+    const told = async (/** @type {any} */ one) => {
+      const bytes = new Uint8Array(await new Blob([one.poses, one.verdicts ?? one.executed]).arrayBuffer());
+      const hash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].join();
+      return JSON.stringify([one.getState(), one.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
+    };
+    // What grows would be further on in the next moment.
+    element.setState({ ...element.getState(), playing: false });
+    const before = await told(element);
+    const state = element.getState();
+    const fresh = /** @type {any} */ (document.createElement(name));
+    fresh.setState(JSON.parse(JSON.stringify(state)));
+    element.after(fresh);
+    await there(fresh);
+    const after = await told(fresh);
+    fresh.remove();
+    if (after !== before) complaints.push(`another one in its state is another: ${before.slice(0, 2000)} became ${after.slice(0, 2000)}`);
+    return complaints;
+  }, name);
+}
+
+test.use({ hasTouch: true });
+
+test('a monkey leaves every figure as sound as it was', FRESH, async ({ page }) => {
+  test.setTimeout(60_000 + EVENTS * 400);
+  page.on('dialog', (dialog) => dialog.dismiss());
+  await page.addInitScript(() => {
+    Object.assign(window, { kept: [], trouble: [] });
+    // Refusals are told by an event, and are no trouble: what else goes wrong is.
+    addEventListener('error', (event) => {
+      const { error } = event;
+      event.preventDefault();
+      const refused = event.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
+      if (!refused) Reflect.get(window, 'trouble').push(`${error?.stack ?? event.message}`);
+    }, true);
+  });
+  await page.goto('/');
+  for (const name of NAMES) {
+    await page.locator(name).first().scrollIntoViewIfNeeded();
+    await ready(page.locator(name).first());
+  }
+
+  const luck = luckOf(SEED);
+  /** @type {string[]} */
+  const done = [];
+  const replay = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENTS}, after ${done.length} events; the last:\n${done.slice(-12).join('\n')}\n`;
+  while (done.length < EVENTS) {
+    const name = luck.one(DRAWN);
+    done.push(`${name} …`);
+    await test.step(name, async () => done.push(`${name} ${await DEEDS[name](page, luck)}`), { box: true }).catch((error) => {
+      throw new Error(replay(), { cause: error });
+    });
+    done.splice(-2, 1);
+    if (done.length % ROUND > 0 && done.length < EVENTS) continue;
+    await page.mouse.up();
+    await page.keyboard.press('Escape');
+    await page.emulateMedia({ media: 'screen' });
+    await frames(page);
+    for (const widget of NAMES) expect(await complaintsAbout(page, widget), `${widget}: ${replay()}`).toEqual([]);
+    expect(await page.evaluate(() => Reflect.get(window, 'trouble').splice(0)), replay()).toEqual([]);
+  }
+});

@@ -1,0 +1,228 @@
+/**
+ * What has to be so in every engine: the bits, and the page under a reader's hand.
+ *
+ * @module
+ */
+
+import assert from 'node:assert/strict';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { ROOT } from '../../scripts/process.mjs';
+import { settings } from '../../www/settings.js';
+import { differences } from '../digest/digest.js';
+import { figures, machineOf, maps } from './figures.mjs';
+import { machineState } from './inside.js';
+
+/** @typedef {import('./browsers.mjs').Engine} Engine */
+/** @typedef {{ passed: number, failures: string[], states: Record<string, string> }} Result `states` are hashes of what has to be the same everywhere */
+
+/** Steps that a drag takes: a hand does not jump. */
+const STEPS = 8;
+
+/** What the colours of a picture are told from blank paper by: lines, letters and a cloud have many between them. */
+const COLOURS = 16;
+
+const read = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
+
+/** A page of one engine, which is asked what inside.js exports. */
+class Page {
+  /**
+   * @param {string} name
+   * @param {Engine} engine
+   * @param {string} address
+   */
+  constructor(name, engine, address) {
+    this.name = name;
+    this.engine = engine;
+    this.address = address;
+  }
+
+  /**
+   * @template {keyof typeof import('./inside.js')} Name
+   * @param {Name} name
+   * @param {Parameters<typeof import('./inside.js')[Name]>[0]} [given]
+   * @returns {Promise<Awaited<ReturnType<typeof import('./inside.js')[Name]>>>}
+   */
+  ask(name, given) {
+    return this.engine.ask(
+      async ({ name, given }) => (await import(new URL('/tests/engines/inside.js', location.href).href))[name](given),
+      { name, given },
+    );
+  }
+
+  /** As a reader gets it. @param {string} [tag] of a figure that is brought into sight */
+  async open(tag) {
+    await this.engine.open(this.address);
+    if (tag !== undefined) await this.settled(tag);
+  }
+
+  /** @param {string} tag */
+  async settled(tag) {
+    const { drawn, stats, samples } = await this.ask('settled', tag);
+    assert.equal(stats, samples, `The statistics are of ${stats} samples.`);
+    assert.ok(drawn > 200, `The picture has ${drawn} pixels of a cloud.`);
+    for (const count of await this.ask('coloursOf', tag)) assert.ok(count > COLOURS, `A picture has ${count} colours.`);
+  }
+
+  /** @param {string} what */
+  async keep(what) {
+    const directory = join(ROOT, 'test-results/engines');
+    mkdirSync(directory, { recursive: true });
+    writeFileSync(join(directory, `${this.name}-${what}.png`), await this.engine.screenshot());
+  }
+
+  /** @returns {Promise<string[]>} since it was opened */
+  async complaints() {
+    const noted = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).complaints.splice(0)), null);
+    return [...new Set([...noted, ...this.engine.complaints().splice(0)])];
+  }
+}
+
+/**
+ * @param {string} name of the engine
+ * @param {Engine} engine
+ * @param {string} address
+ * @returns {Promise<Result>}
+ */
+export async function check(name, engine, address) {
+  const page = new Page(name, engine, address);
+  /** @type {string[]} */
+  const failures = [];
+  let passed = 0;
+  /** @type {Record<string, string>} */
+  const states = {};
+  const attempt = async (/** @type {string} */ what, /** @type {() => Promise<unknown>} */ work) => {
+    try {
+      await work();
+      assert.deepEqual(await page.complaints(), [], 'The console has something to say.');
+      passed++;
+      console.log(`ok     ${name}: ${what}`);
+    } catch (error) {
+      failures.push(`${name}: ${what}: ${error instanceof Error ? error.message : error}`);
+      console.log(`FAILED ${failures.at(-1)}`);
+      await page.keep('failed').catch(() => {});
+    }
+  };
+
+  await attempt('the digest', () => bits(page));
+  for (const tag of Object.keys(settings)) {
+    const { handles } = figures[tag];
+    await attempt(`${tag} opens`, () => opens(page, tag));
+    for (const handle of handles) {
+      await attempt(`${tag} is dragged by its handle "${handle.name}"`, () => dragged(page, tag, handle));
+      await attempt(`the handle "${handle.name}" of ${tag} follows the keyboard`, async () => {
+        states[`${tag} by its handle "${handle.name}"`] = await handleByKeys(page, tag, handle);
+      });
+    }
+    await attempt(`sliders of ${tag} follow the keyboard`, async () => {
+      states[`${tag} by its sliders`] = await slidersByKeys(page, tag);
+    });
+  }
+  for (const map of maps()) {
+    await attempt(`a map comes as ${map.name}`, async () => {
+      states[`a map as ${map.name}`] = await mapped(page, map);
+    });
+  }
+  return { passed, failures, states };
+}
+
+/** @param {Page} page */
+async function bits(page) {
+  await page.open();
+  assert.deepEqual(differences(read('tests/digest/golden.txt'), await page.ask('wholeDigest')), []);
+}
+
+/**
+ * What a figure tells is what its settings mean, to the last bit, in Node.
+ *
+ * @param {Page} page
+ * @param {string} tag
+ * @param {import('./figures.mjs').OwnMap} [map]
+ * @returns {Promise<{ machine: any, hash: string }>} the machine in Node
+ */
+async function asInNode(page, tag, map) {
+  const { config, hash } = await page.ask('stateOf', tag);
+  const machine = await machineOf(tag, config, map);
+  assert.equal(hash, (await machineState(machine)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
+  return { machine, hash };
+}
+
+/** @type {(page: Page, tag: string) => Promise<void>} */
+async function opens(page, tag) {
+  await page.open(tag);
+  await asInNode(page, tag);
+  await page.keep(`${tag}-opened`);
+}
+
+/**
+ * Within a pixel, what is held comes where it is dragged to.
+ *
+ * @param {Page} page
+ * @param {string} tag
+ * @param {import('./figures.mjs').Handle} handle
+ */
+async function dragged(page, tag, { name, to, placeOf }) {
+  await page.open(tag);
+  const before = await page.ask('pixelsOf', tag);
+  const places = await page.ask('placesOf', { tag, handle: name, to });
+  // Pointers come in whole pixels. Taken beside its middle, what is held stays beside the pointer.
+  const from = [Math.round(places.from.x), Math.round(places.from.y)];
+  const way = [places.to.x - places.from.x, places.to.y - places.from.y];
+  const at = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((start, i) => Math.round(start + share * way[i])));
+  await page.engine.drag(Array.from({ length: STEPS + 1 }, (_, i) => at(i / STEPS)));
+  await page.settled(tag);
+  await page.keep(`${tag}-${name}-dragged`);
+  const { machine } = await asInNode(page, tag);
+  const [x, y] = placeOf(machine, to);
+  const off = Math.hypot(x - to[0], y - to[1]) / places.pixel;
+  assert.ok(off <= 1, `It is ${off.toFixed(2)} pixels beside where it was dragged.`);
+  assert.notEqual(await page.ask('pixelsOf', tag), before, 'The picture is as it was.');
+}
+
+/**
+ * @param {Page} page
+ * @param {string} tag
+ * @param {import('./figures.mjs').Handle} handle
+ */
+async function handleByKeys(page, tag, { name }) {
+  await page.open(tag);
+  const { hash: before } = await page.ask('stateOf', tag);
+  assert.ok(await page.ask('focus', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
+  for (const key of /** @type {const} */ (['ArrowUp', 'ArrowUp', 'ArrowLeft'])) await page.engine.press(key);
+  await page.settled(tag);
+  const { hash } = await asInNode(page, tag);
+  assert.notEqual(hash, before, 'Nothing has moved.');
+  return hash;
+}
+
+/** @type {(page: Page, tag: string) => Promise<string>} */
+async function slidersByKeys(page, tag) {
+  await page.open(tag);
+  const sliders = await page.ask('slidersOf', tag);
+  assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
+  for (const { key } of sliders) {
+    assert.ok(await page.ask('focus', { tag, selector: `#${key}` }), `${key} does not take the focus.`);
+    for (const arrow of /** @type {const} */ (['ArrowRight', 'ArrowRight', 'ArrowLeft'])) await page.engine.press(arrow);
+  }
+  await page.settled(tag);
+  const after = new Map((await page.ask('slidersOf', tag)).map((slider) => [slider.key, slider]));
+  for (const { key, value, shown, step } of sliders) {
+    const slider = after.get(key);
+    assert.ok(slider && Math.abs(slider.shown - shown - step) < 1e-9, `The slider of ${key} was at ${shown} and is at ${slider?.shown}.`);
+    assert.ok(slider.value > value, `${key} was ${value} and is ${slider.value}.`);
+  }
+  return (await asInNode(page, tag)).hash;
+}
+
+/** @type {(page: Page, map: import('./figures.mjs').OwnMap) => Promise<string>} */
+async function mapped(page, map) {
+  const tag = 'map-squeeze';
+  await page.open(tag);
+  const { hash: before } = await page.ask('stateOf', tag);
+  const files = map.files.map(({ name, buffer }) => ({ name, bytes: [...buffer] }));
+  assert.ok(await page.ask('drop', { tag, files }), 'It does not take files.');
+  assert.notEqual(await page.ask('changed', { tag, hash: before }), before, 'The map has not come.');
+  await page.settled(tag);
+  await page.keep(`${tag}-${map.name}`);
+  return (await asInNode(page, tag, map)).hash;
+}

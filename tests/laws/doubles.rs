@@ -1,0 +1,103 @@
+//! Doubles, poses and twists of any size, and how often a law is tried.
+
+use motion::geom::se2::SE2;
+use nalgebra::Vector3;
+use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// The same cases on every run, so that what passes here passes everywhere. Nothing is written where one fails: it fails
+/// again, and is to be a test of its own.
+pub fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases,
+        rng_seed: RngSeed::Fixed(19),
+        failure_persistence: None,
+        max_global_rejects: 10 * cases,
+        max_local_rejects: 100 * cases,
+        ..ProptestConfig::default()
+    }
+}
+
+/// Doubles of any bits, with those at which something begins or ends.
+pub fn any_double() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        2 => any::<u64>().prop_map(f64::from_bits),
+        1 => finite(),
+        1 => prop_oneof![Just(f64::INFINITY), Just(f64::NEG_INFINITY), Just(f64::NAN), Just(-f64::NAN)],
+    ]
+}
+
+/// Finite doubles: of any exponent, of everyday sizes, and edges.
+pub fn finite() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        3 => POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO,
+        3 => -100.0..100.0,
+        2 => edges(),
+    ]
+}
+
+fn edges() -> impl Strategy<Value = f64> {
+    const EDGES: [f64; 15] = [
+        0.0,
+        f64::from_bits(1),
+        f64::MIN_POSITIVE,
+        f64::EPSILON,
+        1e-6,
+        0.5,
+        1.0,
+        FRAC_PI_2,
+        PI,
+        TAU,
+        100.0,
+        1e6,
+        1e18,
+        9_007_199_254_740_993.0,
+        f64::MAX,
+    ];
+    (0..EDGES.len(), any::<bool>(), -1..=1).prop_map(|(i, negative, neighbour)| {
+        let edge = match neighbour {
+            -1 => EDGES[i].next_down(),
+            0 => EDGES[i],
+            _ if EDGES[i] == f64::MAX => EDGES[i],
+            _ => EDGES[i].next_up(),
+        };
+        if negative { -edge } else { edge }
+    })
+}
+
+/// Finite doubles up to `most` in size.
+pub fn up_to(most: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![
+        4 => finite().prop_filter("too large", move |number| number.abs() <= most),
+        1 => -most..=most,
+        1 => prop_oneof![Just(most), Just(-most)],
+    ]
+}
+
+/// Coordinates whose sums, and products with an angle, are doubles.
+pub const LARGE: f64 = 1e300;
+
+pub fn poses() -> impl Strategy<Value = SE2> {
+    (up_to(LARGE), up_to(LARGE), up_to(PI)).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
+}
+
+/// Twists that turn by up to `most`.
+pub fn twists(most: f64) -> impl Strategy<Value = Vector3<f64>> {
+    (up_to(LARGE), up_to(LARGE), up_to(most)).prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
+}
+
+/// The size of what a pose is made of.
+pub fn size(pose: &SE2) -> f64 {
+    pose.x().abs() + pose.y().abs()
+}
+
+/// The same position to `units` units in the last place of `size`, the same heading to as many of a circle.
+pub fn same_pose(a: &SE2, b: &SE2, units: f64, size: f64) -> Result<(), TestCaseError> {
+    let room = units * f64::EPSILON * size + f64::MIN_POSITIVE;
+    let turn = libm::remainder(a.theta() - b.theta(), TAU).abs();
+    let near = (a.x() - b.x()).abs() <= room && (a.y() - b.y()).abs() <= room;
+    prop_assert!(near && turn <= units * f64::EPSILON * TAU, "{:?} and {:?}, allowed {}", a, b, room);
+    Ok(())
+}

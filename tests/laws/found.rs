@@ -1,0 +1,80 @@
+//! What these laws and the fuzzing found, case by case.
+
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::map::FloorPlan;
+use motion::sim::banana::{BananaMachine, Settings};
+use motion::stats::CrossTrack;
+use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
+use std::f64::consts::PI;
+
+/// Sixth powers of residuals underflowed, and the error of the skew came out as 0.
+#[test]
+fn a_cloud_too_small_for_its_powers_has_no_skew() {
+    for (unit, has_any) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
+        let cloud = [0.0, 1.0, 3.0, 7.0].map(|y| SE2::new(unit, unit * y, 0.0));
+        let track = CrossTrack::from_poses(&cloud);
+        let figures = [track.skew, track.skew_error];
+        assert!(figures.iter().all(|figure| figure.is_finite() == has_any), "{unit}: {track:?}");
+    }
+    let command = VelocityCmd { v: 1e-60, omega: 0.5, dt: 1.0 };
+    let alphas = [0.05, 0.0, 0.05, 0.05, 0.0, 0.0];
+    let settings = Settings { command, velocity_alphas: alphas, samples: 100, ..Settings::default() };
+    let figures = *BananaMachine::new(settings).expect("allowed").figures();
+    assert!(figures.cross_track.skew.is_nan() && figures.cross_track.skew_error.is_nan(), "{figures:?}");
+}
+
+/// The direction of a chord was a division by a number whose inverse is no double, and nobody could stand there.
+#[test]
+fn an_arc_may_be_shorter_than_any_length() {
+    let plan = FloorPlan::apartment();
+    for length in [0.0, 1e-300, 9.7e-310, 5e-324, -5e-324] {
+        for turn in [0.0, 1.7e-308, 0.5, 3.0, 100.0] {
+            let start = SE2::new(2.05, 2.6, 1.0);
+            assert!(plan.arc_free(&Arc { start, length, turn }, 0.13).free, "{length} {turn}");
+            assert!(!plan.arc_free(&Arc { start: SE2::new(2.05, 0.1, 1.0), length, turn }, 0.13).free);
+        }
+    }
+}
+
+fn model(alphas: [f64; 6]) -> VelocityModel {
+    VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
+}
+
+/// 0 · ∞: a circle too long for a double, at a speed that is impossible.
+#[test]
+fn a_circle_too_long_for_a_double_is_not_driven() {
+    let model = model([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
+    let u = VelocityCmd { v: 0.0, omega: 882_194.88, dt: 1e-6 };
+    let (x, next) = (SE2::new(0.0, -3e-269, 0.0), SE2::new(5.3e17, 0.0, 0.0));
+    assert_eq!(model.pose_density(&next, &u, &x), Some(0.0));
+}
+
+/// 0 / 0: a displacement whose square is no double is none.
+#[test]
+fn a_displacement_may_be_too_small_to_be_squared() {
+    let model = model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
+    let u = VelocityCmd { v: 78.0, omega: 38.0, dt: 633_457.9 };
+    let (x, next) = (SE2::new(2.2e-308, 0.0, PI), SE2::identity());
+    assert_eq!(model.pose_density(&next, &u, &x), model.pose_density(&x, &u, &x));
+}
+
+/// 0 · ∞ again, in solving twice for what is divided by a variance below any normal number.
+#[test]
+fn a_last_turn_may_have_next_to_no_variance() {
+    let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
+    let tangent =
+        TangentNoiseModel::from_velocity(&model([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u).expect("variances");
+    let logarithm = tangent.log_prob(&SE2::new(-8.9e17, 0.0, 1e-6), &u, &SE2::identity());
+    assert!(logarithm < 0.0, "{logarithm}");
+}
+
+/// A plan more than 256 times as long as wide had no square at all to look at.
+#[test]
+fn a_narrow_plan_has_an_open_place() {
+    for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {
+        let plan = FloorPlan::new(Vec::new(), bounds).expect("bounds");
+        let place = plan.open_place(0.0).expect("nothing is in the way");
+        assert!(plan.point_free([place.x(), place.y()], 0.0).free, "{place:?}");
+    }
+}

@@ -1,0 +1,133 @@
+//! Angles, sinc and SE(2).
+//!
+//! A law that composes n maps may be off by a few units in the last place for each; 32 are allowed, as in `group_laws.rs`,
+//! here of the size of what went in, which may be 10⁻³⁰⁸ or 10³⁰⁰.
+
+use super::doubles::{LARGE, any_double, cases, finite, poses, same_pose, size, twists, up_to};
+use motion::geom::se2::{SE2, wrap_angle};
+use motion::geom::sinc::sinc;
+use nalgebra::{Matrix3, Vector3};
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+const UNITS: f64 = 32.0;
+
+proptest! {
+    #![proptest_config(cases(5000))]
+
+    /// IEEE's remainder is exact, and nearest to 0.
+    #[test]
+    fn wrapped_angles_are_remainders(angle in finite()) {
+        let wrapped = wrap_angle(angle);
+        prop_assert!(-PI < wrapped && wrapped <= PI);
+        let remainder = libm::remainder(angle, TAU);
+        prop_assert!(wrapped == remainder || (remainder == -PI && wrapped == PI), "{} {}", wrapped, remainder);
+        prop_assert_eq!(wrap_angle(wrapped).to_bits(), wrapped.to_bits());
+        let mirrored = wrap_angle(-angle);
+        prop_assert!(mirrored == -wrapped || (mirrored == PI && wrapped == PI));
+    }
+
+    #[test]
+    fn what_is_no_angle_wraps_to_none(angle in any_double()) {
+        prop_assert_eq!(wrap_angle(angle).is_nan(), !angle.is_finite());
+    }
+
+    #[test]
+    fn sinc_is_even_and_within_its_hull(t in finite()) {
+        let value = sinc(t);
+        prop_assert_eq!(value.to_bits(), sinc(-t).to_bits());
+        let most = if t == 0.0 { 1.0 } else { (1.0 / t.abs()).min(1.0) };
+        prop_assert!(value.abs() <= most * (1.0 + f64::EPSILON), "{}", value);
+        // Below 10⁻⁸ the next term of its series is rounding.
+        prop_assert!(t.abs() > 1e-8 || value == 1.0);
+    }
+
+    #[test]
+    fn composition_is_associative_and_has_inverses(a in poses(), b in poses(), c in poses()) {
+        let sizes = size(&a) + size(&b) + size(&c);
+        same_pose(&((a * b) * c), &(a * (b * c)), UNITS, sizes)?;
+        same_pose(&(a * a.inverse()), &SE2::identity(), UNITS, size(&a))?;
+        same_pose(&(a.inverse() * a), &SE2::identity(), UNITS, size(&a))?;
+        same_pose(&(a * b).inverse(), &(b.inverse() * a.inverse()), UNITS, sizes)?;
+        prop_assert_eq!(SE2::identity() * a, a);
+        prop_assert_eq!(a * SE2::identity(), a);
+    }
+
+    /// For any turn: beyond half a one the heading is rounded by 10⁻¹⁶ of it, and the arc as much shorter.
+    #[test]
+    fn a_twist_and_its_reverse_cancel(twist in twists(f64::MAX)) {
+        let there = SE2::exp(&twist);
+        prop_assert!(there.x().is_finite() && there.y().is_finite());
+        same_pose(&SE2::exp(&-twist), &there.inverse(), UNITS, twist.x.abs() + twist.y.abs())?;
+    }
+
+    #[test]
+    fn logarithms_lead_back(pose in poses()) {
+        let twist = pose.log();
+        prop_assert!(twist.z.abs() <= PI && twist.x.is_finite() && twist.y.is_finite());
+        same_pose(&SE2::exp(&twist), &pose, UNITS, 2.0 * size(&pose))?;
+    }
+
+    /// On the principal branch; the last coordinate to rounding, whatever the others are.
+    #[test]
+    fn exponentials_lead_back(twist in twists(3.1)) {
+        let back = SE2::exp(&twist).log();
+        let room = UNITS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
+        prop_assert_eq!(back.z, twist.z);
+        prop_assert!((back.x - twist.x).abs() <= room && (back.y - twist.y).abs() <= room, "{:?}", back);
+    }
+
+    #[test]
+    fn differences_are_made_up_for(a in poses(), b in poses()) {
+        let sizes = size(&a) + size(&b);
+        same_pose(&a.boxplus(b.boxminus(&a)), &b, UNITS, 2.0 * sizes)?;
+        prop_assert_eq!(a.boxplus(Vector3::zeros()), a);
+    }
+
+    #[test]
+    fn adjoints_compose_as_poses_do(a in poses(), b in poses()) {
+        close(&(a * b).adjoint(), &(a.adjoint() * b.adjoint()), size(&a) + size(&b))?;
+        close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), size(&a))?;
+    }
+
+    /// The inverse grows without bound towards a whole turn: up to half of one.
+    #[test]
+    fn jacobians_have_inverses(twist in twists(PI)) {
+        let (jacobian, inverse) = (SE2::right_jacobian(&twist), SE2::right_jacobian_inverse(&twist));
+        let sizes = twist.x.abs() + twist.y.abs();
+        close(&(jacobian * inverse), &Matrix3::identity(), sizes)?;
+        close(&(inverse * jacobian), &Matrix3::identity(), sizes)?;
+        let half = sinc(0.5 * twist.z);
+        let determinant = jacobian[(0, 0)] * jacobian[(1, 1)] - jacobian[(0, 1)] * jacobian[(1, 0)];
+        prop_assert!((determinant - half * half).abs() <= UNITS * f64::EPSILON);
+    }
+
+    /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. Sines of the turn are of its double, and
+    /// headings of the wrapped one: up to half a turn, where both are the same.
+    #[test]
+    fn left_jacobians_are_right_ones_of_the_reverse(twist in twists(PI)) {
+        let left = SE2::exp(&twist).adjoint() * SE2::right_jacobian(&twist);
+        close(&left, &SE2::right_jacobian(&-twist), twist.x.abs() + twist.y.abs())?;
+    }
+
+    /// Everything is finite as far as a robot's coordinates may reach, and 294 powers of ten further.
+    #[test]
+    fn nothing_overflows(a in poses(), twist in twists(f64::MAX), turn in up_to(1e6)) {
+        let numbers = [a.boxplus(twist), a.inverse(), SE2::exp(&twist)].map(|pose| [pose.x(), pose.y(), pose.theta()]);
+        prop_assert!(numbers.as_flattened().iter().all(|number| number.is_finite()));
+        prop_assert!(a.x().abs() <= LARGE && SE2::right_jacobian(&twist).iter().all(|entry| entry.is_finite()));
+        prop_assert!(a.log_near(turn).z.is_finite());
+    }
+}
+
+/// Equal to rounding: turns to that of 1, places to that of the `size` of what they are made of.
+fn close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), TestCaseError> {
+    for i in 0..3 {
+        for j in 0..3 {
+            let scale = if j == 2 { 1.0 + size } else { 1.0 };
+            let apart = (a[(i, j)] - b[(i, j)]).abs();
+            prop_assert!(apart <= UNITS * f64::EPSILON * scale, "{} {}: off by {:e}", a, b, apart);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,238 @@
+//! Plans, grids and files of maps.
+
+use super::doubles::{any_double, cases};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{FloorPlan, FloorPlanError, read_pgm};
+use parry2d_f64::math::Vector;
+use parry2d_f64::query::PointQuery;
+use parry2d_f64::shape::Segment as Line;
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+/// The side of the place that walls and motions are put in, m.
+const SIDE: f64 = 20.0;
+
+/// What neither side can tell of a distance here: a thousand units in the last place of a place this wide.
+const ROUNDING: f64 = 1e-12;
+
+fn points() -> impl Strategy<Value = [f64; 2]> {
+    let coordinate = || prop_oneof![2 => 0.0..=SIDE, 1 => (0..=20u8).prop_map(f64::from)];
+    [coordinate(), coordinate()]
+}
+
+fn walls() -> impl Strategy<Value = Vec<Segment>> {
+    vec((points(), points()).prop_map(|(from, to)| Segment { from, to }), 0..12)
+}
+
+fn arcs() -> impl Strategy<Value = Arc> {
+    let length = prop_oneof![-10.0..10.0, -0.1..0.1, Just(0.0)];
+    let turn = prop_oneof![-3.0..3.0, -30.0..30.0, Just(0.0), -1e-9..1e-9];
+    (points(), -3.2..3.2, length, turn).prop_map(|([x, y], theta, length, turn)| Arc {
+        start: SE2::new(x, y, theta),
+        length,
+        turn,
+    })
+}
+
+fn plan(walls: Vec<Segment>) -> FloorPlan {
+    FloorPlan::new(walls, [0.0, 0.0, SIDE, SIDE]).expect("walls inside the bounds")
+}
+
+/// Least and greatest that the distance from the way to a wall can be, by the distance of many points of the way.
+fn looked_at(arc: &Arc, walls: &[Segment]) -> [f64; 2] {
+    const CHORDS: u32 = 500;
+    let least = (0..=CHORDS).map(|i| {
+        let f = f64::from(i) / f64::from(CHORDS);
+        let at = Arc { length: f * arc.length, turn: f * arc.turn, ..*arc }.end();
+        let room = walls.iter().map(|Segment { from, to }| {
+            let line = Line::new(Vector::new(from[0], from[1]), Vector::new(to[0], to[1]));
+            line.distance_to_local_point(Vector::new(at.x(), at.y()), true)
+        });
+        room.fold(f64::INFINITY, f64::min)
+    });
+    let least = least.fold(f64::INFINITY, f64::min);
+    [least - 0.5 * arc.length.abs() / f64::from(CHORDS), least]
+}
+
+fn least_room(walls: &[Segment], distance: impl Fn(&Segment) -> f64) -> f64 {
+    walls.iter().map(distance).fold(f64::INFINITY, f64::min)
+}
+
+/// How far inside the bounds the way stays, likewise.
+fn inside(arc: &Arc) -> [f64; 2] {
+    const CHORDS: u32 = 500;
+    let depths = (0..=CHORDS).map(|i| {
+        let f = f64::from(i) / f64::from(CHORDS);
+        let at = Arc { length: f * arc.length, turn: f * arc.turn, ..*arc }.end();
+        at.x().min(at.y()).min(SIDE - at.x()).min(SIDE - at.y())
+    });
+    let least = depths.fold(f64::INFINITY, f64::min);
+    [least - 0.5 * arc.length.abs() / f64::from(CHORDS), least]
+}
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    /// Of the way as parry2d sees it, point by point; between two of them either verdict will do.
+    #[test]
+    fn verdicts_are_those_of_points_along_the_way(walls in walls(), arc in arcs(), clearance in 0.0..2.0f64) {
+        let ([nearest, near], [shallowest, shallow]) = (looked_at(&arc, &walls), inside(&arc));
+        let free = plan(walls).arc_free(&arc, clearance).free;
+        if near < clearance - ROUNDING || shallow < -ROUNDING {
+            prop_assert!(!free, "room {}, depth {}", near, shallow);
+        }
+        if nearest > clearance + ROUNDING && shallowest > ROUNDING {
+            prop_assert!(free, "room {}, depth {}", nearest, shallowest);
+        }
+    }
+
+    /// A plan is its walls, in whatever order, from whichever end, twice, and with walls of no length on top of them.
+    #[test]
+    fn plans_are_the_set_of_their_walls(
+        walls in walls(), arcs in vec(arcs(), 8), clearance in 0.0..2.0f64, order in any::<u64>(),
+    ) {
+        let mut others = walls.clone();
+        for (i, wall) in walls.iter().enumerate() {
+            let turned = Segment { from: wall.to, to: wall.from };
+            if order >> i & 1 == 1 {
+                others[i] = turned;
+            }
+            if order >> (i + 16) & 1 == 1 {
+                others.push(turned);
+            }
+            if order >> (i + 32) & 1 == 1 {
+                others.push(Segment { from: wall.from, to: wall.from });
+            }
+        }
+        let middle = (order >> 48) as usize % others.len().max(1);
+        others.rotate_left(middle);
+        others.reverse();
+        let (one, other) = (plan(walls.clone()), plan(others));
+        for arc in arcs {
+            let room = least_room(&walls, |wall| wall.distance_to_arc(&arc));
+            if (room - clearance).abs() > ROUNDING {
+                prop_assert_eq!(one.arc_free(&arc, clearance).free, other.arc_free(&arc, clearance).free, "{:?}", arc);
+            }
+            let (point, end) = (arc.end(), [arc.end().x(), arc.end().y()]);
+            let room = least_room(&walls, |wall| wall.distance_to_point(end));
+            if (room - clearance).abs() > ROUNDING {
+                prop_assert_eq!(one.point_free(end, clearance).free, other.point_free(end, clearance).free, "{:?}", point);
+            }
+        }
+    }
+
+    /// More walls and a wider robot are never freer.
+    #[test]
+    fn more_walls_leave_less_room(
+        walls in walls(), more in walls(), arcs in vec(arcs(), 8), clearance in 0.0..2.0f64, wider in 0.0..1.0f64,
+    ) {
+        let less = plan([walls.clone(), more].concat());
+        let plan = plan(walls);
+        for arc in arcs {
+            let free = plan.arc_free(&arc, clearance).free;
+            prop_assert!(free || !less.arc_free(&arc, clearance).free, "{:?}", arc);
+            prop_assert!(free || !plan.arc_free(&arc, clearance + wider + ROUNDING).free, "{:?}", arc);
+        }
+    }
+
+    /// The way back is as free as the way there.
+    #[test]
+    fn the_way_back_is_the_same(walls in walls(), arcs in vec(arcs(), 8), clearance in 0.0..2.0f64) {
+        let plan = plan(walls.clone());
+        for arc in arcs {
+            let back = Arc { start: arc.end(), length: -arc.length, turn: -arc.turn };
+            let room = least_room(&walls, |wall| wall.distance_to_arc(&arc));
+            let [deep, depth] = inside(&arc);
+            if (room - clearance).abs() > ROUNDING && (deep > ROUNDING || depth < -ROUNDING) {
+                prop_assert_eq!(plan.arc_free(&arc, clearance).free, plan.arc_free(&back, clearance).free, "{:?}", arc);
+            }
+        }
+    }
+
+    #[test]
+    fn bounds_are_taken_or_named(bounds in [any_double(), any_double(), any_double(), any_double()]) {
+        let [left, bottom, right, top] = bounds;
+        let good = bounds.iter().all(|bound| bound.abs() <= 1e6)
+            && [right - left, top - bottom].iter().all(|side| (0.01..=1e5).contains(side));
+        match FloorPlan::new(Vec::new(), bounds) {
+            Ok(plan) => prop_assert!(good && plan.bounds() == bounds),
+            Err(FloorPlanError::BadBounds(named)) => {
+                prop_assert!(!good);
+                prop_assert_eq!(named.map(f64::to_bits), bounds.map(f64::to_bits));
+            }
+            Err(error) => prop_assert!(false, "{}", error),
+        }
+    }
+
+    #[test]
+    fn walls_are_taken_or_named(walls in walls(), end in [any_double(), any_double()], at in any::<u8>(), last in any::<bool>()) {
+        let index = usize::from(at) % (walls.len() + 1);
+        let wall = if last { Segment { from: [1.0, 1.0], to: end } } else { Segment { from: end, to: [1.0, 1.0] } };
+        let mut walls = walls;
+        walls.insert(index, wall);
+        let good = end.iter().all(|coordinate| (-ROUNDING..=SIDE + ROUNDING).contains(coordinate));
+        match FloorPlan::new(walls, [0.0, 0.0, SIDE, SIDE]) {
+            Ok(_) => prop_assert!(good),
+            Err(FloorPlanError::BadWall { index: named, end: at }) => {
+                prop_assert!(!good && named == index);
+                prop_assert_eq!(at.map(f64::to_bits), end.map(f64::to_bits));
+            }
+            Err(error) => prop_assert!(false, "{}", error),
+        }
+    }
+}
+
+/// What may stand between two words of a header.
+fn gaps() -> impl Strategy<Value = String> {
+    prop_oneof![
+        "[ \t\r\n]{1,3}",
+        "[ ]?#[ -~]{0,12}\n",
+        Just("\n# made by a program\n# in two lines\n".to_owned()),
+    ]
+}
+
+proptest! {
+    #![proptest_config(cases(2000))]
+
+    /// The same picture, however its file is laid out.
+    #[test]
+    fn files_of_maps_are_read_however_they_are_laid_out(
+        (width, height) in (1..6usize, 1..6usize), greatest in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
+        gaps in vec(gaps(), 40), cut in any::<usize>(),
+    ) {
+        let values: Vec<u32> = seeds.into_iter().take(width * height).map(|seed| seed % (greatest + 1)).collect();
+        let mut plain = "P2".to_owned();
+        for (number, gap) in [width as u32, height as u32, greatest].iter().chain(&values).zip(&gaps) {
+            plain.push_str(gap);
+            plain.push_str(&number.to_string());
+        }
+        let mut binary = format!("P5{}{width}{}{height}{}{greatest}\n", gaps[0], gaps[1], gaps[2]).into_bytes();
+        for value in &values {
+            let bytes = value.to_be_bytes();
+            binary.extend(if greatest < 256 { &bytes[3..] } else { &bytes[2..] });
+        }
+        let image = read_pgm(plain.as_bytes()).expect("a plain file");
+        prop_assert_eq!(&image, &read_pgm(&binary).expect("a binary file"));
+        prop_assert_eq!((image.width, image.height), (width, height));
+        for (pixel, value) in image.pixels.iter().zip(&values) {
+            prop_assert_eq!(pixel.shade, *value as f32 / greatest as f32);
+        }
+        // Cut anywhere, a binary file is refused; a plain one too, unless the cut is in or behind its last number.
+        prop_assert!(read_pgm(&binary[..cut % binary.len()]).is_err());
+        let last = plain.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+        prop_assert!(read_pgm(&plain.as_bytes()[..cut % (last + 1)]).is_err());
+    }
+
+    #[test]
+    fn any_bytes_are_a_map_or_refused(bytes in vec(any::<u8>(), 0..80), plain in any::<bool>()) {
+        let file = [if plain { b"P2 2 2 9 " } else { b"P5 2 2 9 " }, bytes.as_slice()].concat();
+        for bytes in [&bytes, &file] {
+            match read_pgm(bytes) {
+                Ok(image) => prop_assert_eq!(image.pixels.len(), image.width * image.height),
+                Err(error) => prop_assert!(error.to_string().contains("line ")),
+            }
+        }
+    }
+}

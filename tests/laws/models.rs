@@ -1,0 +1,185 @@
+//! Noise, and how likely the models hold what happened.
+
+use super::doubles::{any_double, cases, finite, up_to};
+use motion::geom::se2::SE2;
+use motion::sim::settings::{ALPHA, DURATION};
+use motion::{
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseModel, Variance,
+    VelocityAlphas, VelocityCmd, VelocityModel,
+};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+fn kinds() -> impl Strategy<Value = NoiseKind> {
+    prop_oneof![Just(NoiseKind::Normal), Just(NoiseKind::Triangular)]
+}
+
+/// Numbers of a range of settings, its ends among them.
+fn within(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
+    let [low, high] = [*range.start(), *range.end()];
+    up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
+}
+
+fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
+    proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => within(ALPHA), 1 => Just(0.0)], N)
+        .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
+}
+
+/// As far as settings let a robot go.
+fn commands() -> impl Strategy<Value = VelocityCmd> {
+    (up_to(1e6), up_to(1e6), within(DURATION)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
+}
+
+fn places() -> impl Strategy<Value = SE2> {
+    (up_to(1e18), up_to(1e18), up_to(PI)).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
+}
+
+fn deltas() -> impl Strategy<Value = OdomDelta> {
+    (up_to(PI), up_to(1e12), up_to(PI)).prop_map(|(rot1, trans, rot2)| OdomDelta {
+        rot1,
+        trans: trans.abs(),
+        rot2,
+    })
+}
+
+/// All the odd multiples of 2⁻⁵⁴ that a draw can be, the outermost and innermost often.
+fn uniforms() -> impl Strategy<Value = f64> {
+    let scale = 1.0 / (1u64 << 53) as f64;
+    prop_oneof![
+        any::<i64>().prop_map(|bits| bits >> 11),
+        (0i64..64).prop_map(|i| (1 << 52) - 1 - i),
+        (0i64..64).prop_map(|i| i - (1 << 52)),
+        -64i64..64,
+        (0u32..53, any::<i64>()).prop_map(|(shift, bits)| bits >> 11 >> shift),
+    ]
+    .prop_map(move |whole| (whole as f64 + 0.5) * scale)
+}
+
+/// Φ by the complementary error function, of which src/ knows nothing; relative to its tail.
+fn normal_tail(z: f64) -> f64 {
+    0.5 * libm::erfc(z.abs() / 2f64.sqrt())
+}
+
+proptest! {
+    #![proptest_config(cases(5000))]
+
+    #[test]
+    fn quantiles_are_odd_and_finite_and_rise(kind in kinds(), a in uniforms(), b in uniforms()) {
+        let of = |q: f64| kind.quantile(q);
+        prop_assert_eq!(of(-a).to_bits(), (-of(a)).to_bits());
+        let edge = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
+        prop_assert!(of(a).abs() <= edge && (of(a) > 0.0) == (a > 0.0), "{}", of(a));
+        // Neighbours may be the wrong way round by the error of the approximation.
+        let [low, high] = [a.min(b), a.max(b)].map(of);
+        prop_assert!(low <= high + 2e-15 * high.abs(), "{} {}", low, high);
+    }
+
+    /// The probability beyond a quantile is what it was asked for, to its own rounding and that of the quantile, which a
+    /// tail magnifies by z².
+    #[test]
+    fn quantiles_undo_the_distribution(q in uniforms()) {
+        let z = NoiseKind::Normal.quantile(q);
+        let tail = 0.5 - q.abs();
+        let rounding = 4e-15 * (1.0 + z * z);
+        prop_assert!((normal_tail(z) - tail).abs() <= rounding * tail, "{} {}", normal_tail(z), tail);
+        let t = NoiseKind::Triangular.quantile(q).abs();
+        let room = 6f64.sqrt() - t;
+        // What is left to the edge is a difference.
+        prop_assert!((room * room / 12.0 - tail).abs() <= 2e-15 * (room + tail), "{} {}", room, tail);
+    }
+
+    /// For any residual and any variance of which six are a double.
+    #[test]
+    fn densities_are_numbers(kind in kinds(), a in finite(), b2 in up_to(1e307)) {
+        let b2 = b2.abs();
+        let (density, peak) = (kind.prob(a, Variance(b2)), kind.prob(0.0, Variance(b2)));
+        prop_assert!(density >= 0.0 && density <= peak, "{} {}", density, peak);
+        prop_assert_eq!(density.to_bits(), kind.prob(-a, Variance(b2)).to_bits());
+        prop_assert_eq!(Variance::new(b2).is_ok(), true);
+    }
+
+    #[test]
+    fn what_is_no_variance_is_refused(b2 in any_double()) {
+        prop_assert_eq!(Variance::new(b2).is_ok(), b2 >= 0.0);
+    }
+
+    #[test]
+    fn velocity_likelihoods_are_numbers(
+        kind in kinds(), alphas in alphas(), u in commands(), x in places(), next in places(),
+    ) {
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
+        likelihoods_are_numbers(&model, &u, &x, &next)?;
+        let none = model.variances(&u).iter().any(|variance| variance.0 == 0.0);
+        prop_assert_eq!(model.pose_density(&next, &u, &x).is_none(), none);
+    }
+
+    #[test]
+    fn odometry_likelihoods_are_numbers(
+        kind in kinds(), alphas in alphas(), u in deltas(), x in places(), next in places(), aware in any::<bool>(),
+    ) {
+        let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
+        if aware {
+            likelihoods_are_numbers(&ReverseAware(model), &u, &x, &next)?;
+        } else {
+            likelihoods_are_numbers(&model, &u, &x, &next)?;
+        }
+    }
+
+    /// In all four quadrants of (v, ω), forward and in reverse, to the left and to the right. Beyond half a turn another arc
+    /// leads to the same place.
+    #[test]
+    fn the_noise_free_pose_is_the_likeliest(
+        kind in kinds(), alphas in proptest::array::uniform6(1e-3..1.0), u in (-50.0..50.0, -3.0..3.0),
+        x in (-100.0..100.0, -100.0..100.0, -PI..PI), unit_noise in proptest::array::uniform3(-3.0..3.0),
+    ) {
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
+        let u = VelocityCmd { v: u.0, omega: u.1, dt: 1.0 };
+        let x = SE2::new(x.0, x.1, x.2);
+        // So slow that the bearing of its way is lost in the digits of the start.
+        prop_assume!(u.v.abs() > 1e-3);
+        let (peak, other) = (model.apply_noise(&u, &x, [0.0; 3]), model.apply_noise(&u, &x, unit_noise));
+        let [peak, other] = [peak, other].map(|next| model.prob(&next, &u, &x));
+        prop_assert!(peak >= other * (1.0 - 1e-6), "{} {}", peak, other);
+        // What the three densities are where nothing has gone otherwise than commanded.
+        let most: f64 = model.variances(&u).iter().map(|variance| kind.prob(0.0, *variance)).product();
+        prop_assert!((peak - most).abs() <= 1e-6 * most, "{} {}", peak, most);
+    }
+
+    /// Whatever the α's, commands and luck, a robot is somewhere.
+    #[test]
+    fn samples_are_poses(kind in kinds(), alphas in alphas(), u in commands(), x in places(), q in proptest::array::uniform3(uniforms())) {
+        let noise = q.map(|q| kind.quantile(q));
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
+        let next = model.apply_noise(&u, &x, noise);
+        prop_assert!(next.x().is_finite() && next.y().is_finite() && next.theta().abs() <= PI);
+        prop_assert!(model.cartesian_cov(&u, &x).iter().all(|entry| entry.is_finite()));
+        let [a, b, c, d, ..] = alphas;
+        let odometry = OdometryModel { alphas: OdomAlphas([a, b, c, d]), noise: kind };
+        let delta = OdomDelta::from_poses(&x, &next);
+        let again = odometry.apply_noise(&delta, &x, noise);
+        prop_assert!(again.x().is_finite() && again.y().is_finite() && again.theta().abs() <= PI);
+    }
+
+    #[test]
+    fn exponential_likelihoods_are_numbers(alphas in alphas(), u in commands(), x in places(), next in places()) {
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        let tangent = TangentNoiseModel::from_velocity(&model, &u).expect("variances of settings");
+        let logarithm = tangent.log_prob(&next, &u, &x);
+        prop_assert!(!logarithm.is_nan(), "{}", logarithm);
+    }
+}
+
+fn likelihoods_are_numbers<M: MotionModel>(
+    model: &M,
+    u: &M::Control,
+    x: &SE2,
+    next: &SE2,
+) -> Result<(), TestCaseError> {
+    for next in [next, x] {
+        let score = model.prob(next, u, x);
+        prop_assert!(score >= 0.0, "prob is {}", score);
+        let density = model.pose_density(next, u, x);
+        prop_assert!(density.is_none_or(|density| density >= 0.0), "pose_density is {:?}", density);
+    }
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! Arcs and legs, and their inverses.
+
+use super::doubles::{cases, finite, poses, same_pose, size, up_to};
+use motion::geom::arc::{Arc, arc_near, chord, invert_arc};
+use motion::geom::se2::SE2;
+use motion::models::OdomDelta;
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+/// Every map here composes up to eight others, each right to a few units in the last place.
+const UNITS: f64 = 64.0;
+
+fn durations() -> impl Strategy<Value = f64> {
+    prop_oneof![1e-6..1e6, Just(1e-6), Just(1e6), Just(1.0)]
+}
+
+proptest! {
+    #![proptest_config(cases(5000))]
+
+    /// Whatever the two poses are, the controls that an inversion finds lead from the one to the other.
+    #[test]
+    fn inverted_arcs_lead_there(x in poses(), next in poses(), dt in durations()) {
+        let found = invert_arc(&x, &next, dt);
+        let [length, turn, last] = [found.v_hat, found.omega_hat, found.gamma_hat].map(|rate| rate * dt);
+        let half = PI * (1.0 + 2.0 * f64::EPSILON);
+        prop_assert!(turn.abs() <= half && last.abs() <= half, "{:?}", found);
+        let (forward, left) = chord(length, turn);
+        let reached = x * SE2::new(forward, left, turn + last);
+        same_pose(&reached, &next, UNITS, size(&x) + size(&next))?;
+    }
+
+    /// From the origin, where no digit is lost in the coordinates of the start. Half a turn is driven forward or in reverse
+    /// as rounding will have it.
+    #[test]
+    fn driven_arcs_are_found_again(length in up_to(1e300), turn in up_to(3.1), last in up_to(3.1), dt in durations()) {
+        let (forward, left) = chord(length, turn);
+        // Shorter chords lose the digits of their bearing.
+        prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
+        let found = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last), dt);
+        let rounding = UNITS * f64::EPSILON;
+        prop_assert!((found.v_hat * dt - length).abs() <= rounding * length.abs(), "{:?}", found);
+        // Beside the chord, a turn that is smaller yet cannot be told.
+        let sideways = f64::MIN_POSITIVE * (1.0 + 1.0 / forward.hypot(left));
+        prop_assert!((found.omega_hat * dt - turn).abs() <= rounding * turn.abs() + sideways, "{:?}", found);
+        prop_assert!((found.gamma_hat * dt - last).abs() <= rounding * PI, "{:?}", found);
+    }
+
+    /// Round the circle as often as one likes, the arc ends at the same place.
+    #[test]
+    fn wound_arcs_end_at_the_same_place(x in -50.0..50.0, y in -50.0..50.0, near in -300.0..300.0) {
+        let next = SE2::new(x, y, 0.0);
+        let (length, turn) = arc_near(&SE2::identity(), &next, near);
+        // On a straight line there is no circle; on a nearly straight one it is longer than its end can be told on.
+        prop_assume!(length.abs() < 1e6);
+        prop_assert!(turn == 0.0 || (turn - near).abs() <= PI * (1.0 + 1e-12), "{}", turn);
+        let end = Arc { start: SE2::identity(), length, turn }.end();
+        let apart = (end.x() - x).hypot(end.y() - y);
+        prop_assert!(apart <= UNITS * f64::EPSILON * (length.abs() + size(&next)), "{:e}", apart);
+    }
+
+    #[test]
+    fn arcs_stay_in_their_box(x in up_to(1e6), y in up_to(1e6), theta in up_to(PI), length in up_to(1e12), turn in up_to(1e12)) {
+        let arc = Arc { start: SE2::new(x, y, theta), length, turn };
+        let [left, bottom, right, top] = arc.bounding_box();
+        let rounding = UNITS * f64::EPSILON * (x.abs() + y.abs() + length.abs()) + f64::MIN_POSITIVE;
+        for [x, y] in arc.points() {
+            prop_assert!(left - rounding <= x && x <= right + rounding, "{}", x);
+            prop_assert!(bottom - rounding <= y && y <= top + rounding, "{}", y);
+        }
+    }
+
+    /// A displacement below a nanometre is none for an odometry reading.
+    #[test]
+    fn readings_lead_there(prev in poses(), curr in poses()) {
+        let reading = OdomDelta::from_poses(&prev, &curr);
+        prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
+        let sizes = size(&prev) + size(&curr);
+        let spin = 1e-9 / (UNITS * f64::EPSILON);
+        same_pose(&reading.apply(&prev), &curr, UNITS, sizes + if reading.trans == 0.0 { spin } else { 0.0 })?;
+    }
+
+    /// The reading is of the odometry frame's poses alone: turned and moved with their frame they read the same.
+    #[test]
+    fn readings_know_no_frame(x in -1e3..1e3, y in -1e3..1e3, theta in -3.0..3.0, frame in (-1e3..1e3, -1e3..1e3, -3.0..3.0)) {
+        let (prev, curr) = (SE2::new(1.0, 2.0, 0.5), SE2::new(x, y, theta));
+        let frame = SE2::new(frame.0, frame.1, frame.2);
+        let (here, there) = (OdomDelta::from_poses(&prev, &curr), OdomDelta::from_poses(&(frame * prev), &(frame * curr)));
+        // Bearings of a displacement lose what it is shorter than the coordinates.
+        prop_assume!(here.trans > 1.0);
+        let rounding = UNITS * f64::EPSILON * 1e4;
+        prop_assert!((here.trans - there.trans).abs() <= rounding);
+        for (a, b) in [(here.rot1, there.rot1), (here.rot2, there.rot2)] {
+            prop_assert!(libm::remainder(a - b, 2.0 * PI).abs() <= rounding, "{} {}", a, b);
+        }
+    }
+
+    /// The chord is no longer than its arc, in any unit.
+    #[test]
+    fn chords_are_shorter(length in up_to(1e300), turn in finite()) {
+        let (forward, left) = chord(length, turn);
+        prop_assert!(forward.hypot(left) <= length.abs() * (1.0 + 4.0 * f64::EPSILON) + f64::MIN_POSITIVE);
+    }
+}

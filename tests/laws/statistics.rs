@@ -1,0 +1,241 @@
+//! Moments, skew, gains and contours: of a cloud in any order, any unit and any frame.
+
+use super::doubles::{any_double, cases};
+use motion::geom::se2::SE2;
+use motion::models::TangentNoiseError;
+use motion::stats::{
+    CartesianMoments, CrossTrack, Ellipse, ExponentialContour, ExponentialMoments, MeasuredGain,
+    predicted_cross_track_skew,
+};
+use motion::{Compounding, TangentNoiseModel};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+/// Sums of fifty terms, each right to a few units in the last place.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+
+/// Robots around a place, all within a quarter turn of a heading, which has a mean therefore.
+fn clouds() -> impl Strategy<Value = Vec<SE2>> {
+    let robot = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
+    (vec(robot, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
+        let place = SE2::new(x, y, theta);
+        robots.into_iter().map(|(x, y, theta)| place * SE2::new(x, y, theta)).collect()
+    })
+}
+
+fn frames() -> impl Strategy<Value = SE2> {
+    (-10.0..10.0, -10.0..10.0, -PI..PI).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
+}
+
+/// A covariance of everyday size, of full rank or less, as L·Lᵀ.
+fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
+    vec(prop_oneof![3 => -1.0..1.0, 1 => Just(0.0)], 6).prop_map(|l| {
+        let root = Matrix3::new(l[0], 0.0, 0.0, l[1], l[2], 0.0, l[3], l[4], l[5]);
+        root * root.transpose()
+    })
+}
+
+fn close(a: f64, b: f64, scale: f64) -> bool {
+    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= ROUNDING * scale
+}
+
+/// Where small differences of large sums are divided by each other, digits are lost in proportion to how narrow a cloud is;
+/// narrower ones than this (of those that are 1 m across) are left out.
+const NARROW: f64 = 1e-3;
+
+fn is_wide(moments: &CartesianMoments) -> bool {
+    let floor = moments.cov.fixed_view::<2, 2>(0, 0).into_owned();
+    floor.symmetric_eigenvalues().min() > NARROW && moments.cov[(2, 2)] > NARROW
+}
+
+proptest! {
+    #![proptest_config(cases(2000))]
+
+    #[test]
+    fn no_order_matters(cloud in clouds(), by in any::<usize>()) {
+        let mut other = cloud.clone();
+        other.rotate_left(by % cloud.len());
+        other.reverse();
+        let [a, b] = [&cloud, &other].map(|cloud| CartesianMoments::from_poses(cloud));
+        same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
+        let [a, b] = [&cloud, &other].map(|cloud| ExponentialMoments::from_poses(cloud, &cloud_start()));
+        same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
+        if is_wide(&CartesianMoments::from_poses(&cloud)) {
+            let [a, b] = [&cloud, &other].map(|cloud| CrossTrack::from_poses(cloud));
+            for (a, b) in [(a.skew, b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
+                prop_assert!(close(a, b, 1e6), "{} {}", a, b);
+            }
+        }
+    }
+
+    /// Told in another frame, a cloud has its mean there and the same spread, turned.
+    #[test]
+    fn no_frame_matters(cloud in clouds(), frame in frames()) {
+        let moved: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
+        let [here, there] = [&cloud, &moved].map(|cloud| CartesianMoments::from_poses(cloud));
+        let mean = frame * SE2::new(here.mean.x, here.mean.y, here.mean.z);
+        let turned = SE2::new(0.0, 0.0, frame.theta()).adjoint();
+        let cov = turned * here.cov * turned.transpose();
+        same_moments((&Vector3::new(mean.x(), mean.y(), mean.theta()), &cov), (&there.mean, &there.cov))?;
+        if is_wide(&here) {
+            let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&moved));
+            prop_assert!(close(a.skew, b.skew, 1e6), "{} {}", a.skew, b.skew);
+        }
+        let [a, b] = [(&cloud, cloud_start()), (&moved, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
+        // Near a whole turn coordinates run to infinity; and a mean heading at half a turn may be taken for either.
+        if cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
+            same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
+        }
+    }
+
+    /// A unit that is a power of two times another changes no bit of what has none: from 10⁻³⁰ m to 10³⁰ m.
+    #[test]
+    fn no_unit_matters(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
+        let (unit, side) = (2f64.powi(power), if left { 1.0 } else { -1.0 });
+        let scaled: Vec<SE2> =
+            cloud.iter().map(|pose| SE2::new(unit * pose.x(), side * unit * pose.y(), side * pose.theta())).collect();
+        let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&scaled));
+        if left {
+            prop_assert!(close(a.skew, b.skew, 0.0) && close(a.rho_heading, b.rho_heading, 0.0), "{:?} {:?}", a, b);
+            prop_assert!(close(a.skew_error, b.skew_error, 1e3 * a.skew_error), "{:?} {:?}", a, b);
+        } else if is_wide(&CartesianMoments::from_poses(&cloud)) {
+            // In the mirror the other side is heavier.
+            prop_assert!(close(a.skew, -b.skew, 1e6), "{:?} {:?}", a, b);
+        }
+    }
+
+    /// No sample of n is more lopsided than n − 1 alike and one elsewhere.
+    #[test]
+    fn figures_keep_their_limits(cloud in clouds(), outlier in -1e9..1e9) {
+        let mut cloud = cloud;
+        cloud.push(SE2::new(0.0, outlier, 0.0));
+        let n = cloud.len() as f64;
+        let track = CrossTrack::from_poses(&cloud);
+        prop_assert!(track.skew.is_nan() == (track.skew_error.is_nan()));
+        if cloud.len() > 2 && !track.skew.is_nan() {
+            prop_assert!(track.skew.abs() <= (n - 2.0) / (n - 1.0).sqrt() + 1e-6 && track.skew_error >= 0.0, "{:?}", track);
+            prop_assert!(track.rho_heading.is_nan() || track.rho_heading.abs() <= 1.0);
+        }
+        let CartesianMoments { mean, cov } = CartesianMoments::from_poses(&cloud);
+        prop_assert!(mean.iter().all(|number| number.is_finite()));
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            let most = (cov[(i, i)] * cov[(j, j)]).sqrt();
+            prop_assert!(cov.iter().all(|entry| entry.is_nan()) || cov[(i, j)].abs() <= most * (1.0 + 1e-9));
+        }
+    }
+
+    /// One robot many times is a point: it has no skew and no gain, and not an error of 0 either.
+    #[test]
+    fn a_point_has_no_shape(pose in frames(), count in 1..20usize) {
+        let cloud = vec![pose; count];
+        let track = CrossTrack::from_poses(&cloud);
+        prop_assert!([track.skew, track.skew_error, track.rho_heading].iter().all(|figure| figure.is_nan()));
+        let gain = MeasuredGain::from_poses(&cloud, &SE2::identity(), 0.0).value;
+        prop_assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{:?}", gain);
+        if count > 1 {
+            prop_assert!(CartesianMoments::from_poses(&cloud).cov.iter().all(|entry| *entry == 0.0));
+        }
+    }
+
+    /// Neither metres nor feet: both Gaussians are over the same measure.
+    #[test]
+    fn gains_have_no_unit(cloud in clouds(), power in -60..60i32) {
+        prop_assume!(cloud.len() > 4 && is_wide(&CartesianMoments::from_poses(&cloud)));
+        // Where turns are far from a whole one, and no robot stands where it began.
+        prop_assume!(cloud.iter().all(|pose| pose.theta().abs() < 2.0 && pose.x().hypot(pose.y()) > 0.1));
+        let unit = 2f64.powi(power);
+        let scaled: Vec<SE2> = cloud.iter().map(|pose| SE2::new(unit * pose.x(), unit * pose.y(), pose.theta())).collect();
+        let [a, b] = [&cloud, &scaled].map(|cloud| MeasuredGain::from_poses(cloud, &cloud_start(), 0.0));
+        // Logarithms of volumes: as many digits are lost as a volume is narrow.
+        prop_assert!(close(a.value.pose, b.value.pose, 1e6), "{:?} {:?}", a, b);
+        prop_assert!(close(a.value.floor, b.value.floor, 1e6), "{:?} {:?}", a, b);
+        prop_assert!(a.error.pose >= 0.0 && close(a.error.pose, b.error.pose, 1e7), "{:?} {:?}", a, b);
+    }
+
+    #[test]
+    fn what_is_predicted_has_a_mirror(cov in covariances(), mean in (-5.0..5.0, -5.0..5.0, -3.0..3.0)) {
+        let mean = Vector3::new(mean.0, mean.1, mean.2);
+        let skew = predicted_cross_track_skew(&mean, &cov);
+        let mirror = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
+        let mirrored = predicted_cross_track_skew(&(mirror * mean), &(mirror * cov * mirror));
+        prop_assert!(skew.is_nan() && mirrored.is_nan() || (skew + mirrored).abs() < 1e-6 * (1.0 + skew.abs()), "{} {}", skew, mirrored);
+    }
+
+    /// Two deviations from the centre in every direction, in whatever unit: just inside it holds, just outside not.
+    #[test]
+    fn ellipses_hold_what_is_inside(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
+        let unit = 2f64.powi(power);
+        let cov = Matrix2::new(a * a, rho * a * b, rho * a * b, b * b) * (unit * unit);
+        let centre = Vector2::new(centre.0, centre.1) * unit;
+        let ellipse = Ellipse::new(centre, cov);
+        let area: f64 = 4.0 * PI * a * b * (1.0 - rho * rho).sqrt() * unit * unit;
+        prop_assert!(ellipse.has_area() && (ellipse.area() - area).abs() <= 1e-12 * area, "{} {}", ellipse.area(), area);
+        prop_assert!(ellipse.contains(centre.into()));
+        let outline = ellipse.boundary(32);
+        prop_assert_eq!(outline.first(), outline.last());
+        for point in outline {
+            let at = |share: f64| (centre + (Vector2::from(point) - centre) * share).into();
+            prop_assert!(ellipse.contains(at(1.0 - 1e-9)) && !ellipse.contains(at(1.0 + 1e-9)), "{:?}", point);
+        }
+    }
+
+    #[test]
+    fn contours_close(cov in covariances(), mean in (-5.0..5.0, -5.0..5.0, -3.0..3.0), start in frames()) {
+        let moments = ExponentialMoments { mean: Vector3::new(mean.0, mean.1, mean.2), cov };
+        let contour = ExponentialContour::new(&moments, &start);
+        let outline = contour.boundary(64);
+        prop_assert!(outline.as_flattened().iter().all(|coordinate| coordinate.is_finite()));
+        prop_assert_eq!(outline.first(), outline.last());
+        let ellipse = Ellipse::new(Vector2::zeros(), Matrix2::identity());
+        let ratio = contour.area_ratio(&ellipse, 64);
+        prop_assert!(ratio >= 0.0 || (ratio.is_nan() && !contour.ellipse().has_area()), "{}", ratio);
+    }
+
+    /// Covariances grow step by step, and stay covariances.
+    #[test]
+    fn covariances_are_carried_on(sigma in covariances(), r in covariances(), tau in (-5.0..5.0, -5.0..5.0, -3.0..3.0)) {
+        let model = TangentNoiseModel::new(r).expect("a covariance");
+        let tau = Vector3::new(tau.0, tau.1, tau.2);
+        for order in [Compounding::Chapter, Compounding::FirstOrder] {
+            let next = model.propagate(&sigma, &tau, order);
+            prop_assert!((next - next.transpose()).amax() <= ROUNDING * next.amax());
+            prop_assert!(next.symmetric_eigenvalues().min() >= -ROUNDING * next.amax(), "{}", next);
+        }
+    }
+
+    #[test]
+    fn what_is_no_covariance_is_refused(cov in covariances(), at in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
+        let mut changed = cov;
+        changed[at] = number;
+        match TangentNoiseModel::new(changed) {
+            Ok(model) => prop_assert_eq!(model.r, changed),
+            Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !number.is_finite()),
+        }
+        let lowered = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + less);
+        prop_assert_eq!(TangentNoiseModel::new(lowered), Err(TangentNoiseError::NotPositiveSemidefinite));
+        if at.0 != at.1 {
+            let mut lopsided = cov;
+            lopsided[at] += less * (1.0 + cov.amax());
+            prop_assert_eq!(TangentNoiseModel::new(lopsided), Err(TangentNoiseError::NotSymmetric));
+        }
+    }
+}
+
+fn cloud_start() -> SE2 {
+    SE2::identity()
+}
+
+/// To the rounding of a cloud that reaches 20 m from the origin.
+fn same_moments(
+    (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
+    (other, other_cov): (&Vector3<f64>, &Matrix3<f64>),
+) -> Result<(), TestCaseError> {
+    let (reach, turn) = (20.0, libm::remainder(mean.z - other.z, 2.0 * PI));
+    prop_assert!(close(mean.x, other.x, reach) && close(mean.y, other.y, reach), "{} {}", mean, other);
+    prop_assert!(close(turn, 0.0, reach), "{} {}", mean, other);
+    let all = cov.iter().zip(other_cov.iter()).all(|(a, b)| close(*a, *b, reach * reach));
+    prop_assert!(all, "{} {}", cov, other_cov);
+    Ok(())
+}

@@ -1,0 +1,216 @@
+// `npm run test:mutants:figure -- SEED COUNT`: whether the browser tests notice when www/figure is wrong. A mutant is the
+// figure with one small change; all that Stryker's instrumenter makes are compiled into one build, where one at a time is
+// active, and COUNT of them, drawn at random, meet the tests.
+//
+// On the build without a mutant the tests run once, to learn which mutants each of them reaches and how long it takes. A
+// mutant then meets those that reach it, until one of them fails. One that no test reaches is not caught, nor one that
+// outlives the tests of all ROUNDS.
+
+import { appendFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { Instrumenter } from '@stryker-mutator/instrumenter';
+import { ensureBrowser } from '../../scripts/browser.mjs';
+import { build } from '../../scripts/build.mjs';
+import { filesOf } from '../../scripts/bundle.mjs';
+import { Missing, ROOT, progress, run, runAsScript } from '../../scripts/process.mjs';
+import { serve } from '../../scripts/serve.mjs';
+
+/**
+ * @typedef {{ id: string, fileName: string, mutatorName: string, replacement: string, location: { start: { line: number, column: number } } }} Mutant
+ * @typedef {{ test: string, milliseconds: number, passed: boolean, reached: Set<string> }} Trial of a test, without a mutant
+ */
+
+const COPY = join(ROOT, 'build/mutants-figure');
+const inCopy = (/** @type {string} */ path) => join(COPY, path);
+
+/** What a bundle and the tests read, besides what is in build/ itself. */
+const COPIED = ['www', 'scripts', 'python', 'examples', 'doc', 'src', 'tests', 'package.json', 'package-lock.json', 'playwright.config.js'];
+
+/** Where tests/mutants/playwright.js puts the number of a mutant. */
+const PLACE = '@mutant@';
+
+/** How many tests a mutant has met at most after each round: most are caught by the first. */
+const ROUNDS = [4, 12, 24];
+
+/** The least share that the tests have to notice. */
+const NOTICED = 0.95;
+
+/** What instrumented scripts import: which mutant is active, and who is told of those that are reached. */
+const SWITCH = `export const stryMutAct_9fa48 = (id) => id === '${PLACE}';
+export const stryCov_9fa48 = (...ids) => globalThis.reachedMutants?.(ids);
+`;
+
+/**
+ * Builds the copy, with all mutants in it.
+ *
+ * @returns {Promise<Mutant[]>}
+ */
+async function prepare() {
+  await build();
+  progress('Building a copy with every mutant in it');
+  rmSync(COPY, { recursive: true, force: true });
+  mkdirSync(COPY, { recursive: true });
+  for (const path of COPIED) cpSync(join(ROOT, path), inCopy(path), { recursive: true });
+  mkdirSync(inCopy('build'));
+  for (const path of readdirSync(join(ROOT, 'build'), { withFileTypes: true })) {
+    if (path.isFile()) cpSync(join(ROOT, 'build', path.name), inCopy(`build/${path.name}`));
+  }
+  symlinkSync(join(ROOT, 'node_modules'), inCopy('node_modules'));
+
+  const silent = { isDebugEnabled: () => false, debug() {}, info() {} };
+  const files = filesOf('www/figure').filter((path) => path.endsWith('.js'));
+  const sources = files.map((name) => ({ name, mutate: true, content: readFileSync(join(ROOT, name), 'utf8') }));
+  // All mutators, and no header, for scripts of one page share it.
+  const options = { plugins: null, excludedMutations: [], ignorers: [], noHeader: true };
+  const instrumented = await new Instrumenter(/** @type {any} */ (silent)).instrument(sources, options);
+  writeFileSync(inCopy('www/switch.js'), SWITCH);
+  const contents = new Map(instrumented.files.map(({ name, content }) => [inCopy(name), content]));
+  const { bundle } = await import(inCopy('scripts/bundle.mjs'));
+  await bundle((/** @type {string} */ path, /** @type {string} */ script) =>
+    contents.has(path) ? `import { stryCov_9fa48, stryMutAct_9fa48 } from '${inCopy('www/switch.js')}';\n${contents.get(path)}` : script,
+  );
+  cpSync(inCopy('dist'), inCopy('dist-with-all'), { recursive: true });
+
+  for (const path of readdirSync(inCopy('tests/e2e'))) {
+    const specs = readFileSync(inCopy(`tests/e2e/${path}`), 'utf8');
+    writeFileSync(inCopy(`tests/e2e/${path}`), specs.replace(/(import \{.*\} from) '@playwright\/test'/, "$1 '../mutants/playwright.js'"));
+  }
+  return /** @type {any} */ (instrumented.mutants);
+}
+
+/**
+ * A sample in a random order that a seed decides.
+ *
+ * @template T
+ * @param {T[]} all
+ * @param {number} count
+ * @param {number} seed
+ */
+function sampleOf(all, count, seed) {
+  let state = seed;
+  // Mulberry32.
+  const random = () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
+  };
+  const rest = [...all];
+  return Array.from({ length: Math.min(count, all.length) }, () => rest.splice(Math.floor(random() * rest.length), 1)[0]);
+}
+
+/**
+ * Runs the tests of the copy, which note in a file what they find.
+ *
+ * @param {string} address
+ * @param {string} notes
+ * @param {string} [plan] the file that has the mutants of each test
+ * @returns {Promise<any[]>} what they noted
+ */
+async function noted(address, notes, plan = '') {
+  const { chrome } = await ensureBrowser();
+  const options = ['test', '--config', inCopy('tests/mutants/playwright.config.js'), '--workers', '1', '--reporter', 'dot'];
+  appendFileSync(notes, '');
+  await run(process.execPath, [join(ROOT, 'node_modules/@playwright/test/cli.js'), ...options], {
+    env: { CHROME: chrome, SERVED_AT: address, MUTANTS_NOTES: notes, MUTANTS_PLAN: plan, MUTANTS_PLACE: PLACE },
+  });
+  return linesOf(notes);
+}
+
+/** @param {string} path @returns {any[]} */
+const linesOf = (path) => readFileSync(path, 'utf8').split('\n').filter(Boolean).map((line) => JSON.parse(line));
+
+/**
+ * The tests that reach a mutant, the most promising first: those that are quick, and reach what few others do around it,
+ * for that is what they are about.
+ *
+ * @param {Mutant} mutant
+ * @param {Mutant[]} mutants
+ * @param {Trial[]} trials
+ */
+function testsOf({ id, fileName }, mutants, trials) {
+  const rarity = (/** @type {Mutant} */ { id: other }) =>
+    Math.log(trials.length / trials.filter(({ reached }) => reached.has(other)).length) / (1 + Math.abs(Number(other) - Number(id)) / 3);
+  const around = mutants
+    .filter((other) => other.fileName === fileName && Math.abs(Number(other.id) - Number(id)) <= 10)
+    .map((other) => ({ id: other.id, weight: rarity(other) }));
+  const promise = (/** @type {Trial} */ { reached, milliseconds }) =>
+    (0.5 + around.reduce((sum, other) => sum + (reached.has(other.id) ? other.weight : 0), 0)) / (1000 + milliseconds);
+  return trials
+    .filter(({ passed, reached }) => passed && reached.has(id))
+    .sort((a, b) => promise(b) - promise(a))
+    .map(({ test, milliseconds }) => ({ test, milliseconds }));
+}
+
+/**
+ * The 95 % interval of a share, Wilson's.
+ *
+ * @param {number} hits
+ * @param {number} count
+ */
+function interval(hits, count) {
+  const z = 1.96;
+  const share = hits / count;
+  const middle = share + z ** 2 / (2 * count);
+  const room = z * Math.sqrt((share * (1 - share)) / count + z ** 2 / (4 * count ** 2));
+  return [middle - room, middle + room].map((bound) => bound / (1 + z ** 2 / count));
+}
+
+const percent = (/** @type {number} */ share) => `${(100 * share).toFixed(1)} %`;
+
+/**
+ * @param {Mutant[]} sample
+ * @param {Mutant[]} mutants
+ * @param {Trial[]} trials
+ * @param {string} address
+ * @returns {Promise<Map<string, string>>} tests by the mutants that they caught
+ */
+async function meet(sample, mutants, trials, address) {
+  const caught = new Map();
+  const tests = new Map(sample.map((mutant) => [mutant, testsOf(mutant, mutants, trials)]));
+  for (const [round, most] of ROUNDS.entries()) {
+    const left = sample.filter(({ id }) => !caught.has(id));
+    /** @type {Record<string, { milliseconds: number, mutants: string[] }>} */
+    const plan = {};
+    for (const mutant of left) {
+      for (const { test, milliseconds } of tests.get(mutant)?.slice(ROUNDS[round - 1] ?? 0, most) ?? []) {
+        (plan[test] ??= { milliseconds, mutants: [] }).mutants.push(mutant.id);
+      }
+    }
+    if (Object.keys(plan).length === 0) break;
+    progress(`${left.length} mutants meet ${most} tests`);
+    writeFileSync(inCopy('plan'), JSON.stringify(plan));
+    for (const each of await noted(address, inCopy('caught'), inCopy('plan'))) caught.set(each.caught, each.test);
+  }
+  return caught;
+}
+
+/** @param {string[]} args */
+async function figure([seed = '1', amount = '300']) {
+  const [start, count] = [seed, amount].map(Number);
+  if (![start, count].every((number) => Number.isInteger(number) && number > 0)) {
+    throw new Missing(`SEED and COUNT are "${seed}" and "${amount}", and have to be whole numbers from 1.`);
+  }
+  const mutants = await prepare();
+  const { address, close } = await serve(inCopy('dist'));
+  try {
+    progress('Running the tests without a mutant');
+    const trials = (await noted(address, inCopy('reached'))).map((trial) => ({ ...trial, reached: new Set(trial.reached) }));
+    const sample = sampleOf(mutants, count, start);
+    const caught = await meet(sample, mutants, trials, address);
+    progress('Not caught');
+    for (const { id, fileName, location, mutatorName, replacement } of sample.filter(({ id }) => !caught.has(id))) {
+      const reaching = trials.filter(({ reached }) => reached.has(id)).length;
+      // Lines are counted from 0.
+      console.log(`${fileName}:${location.start.line + 1}:${location.start.column + 1} ${mutatorName} ${replacement} (reached by ${reaching} tests)`);
+    }
+    const share = caught.size / sample.length;
+    const [least, most] = interval(caught.size, sample.length).map(percent);
+    progress(`${caught.size} of ${sample.length} caught, out of ${mutants.length} (seed ${start}): ${percent(share)}, 95 % interval ${least} to ${most}`);
+    if (share < NOTICED) process.exitCode = 1;
+  } finally {
+    close();
+  }
+}
+
+await runAsScript(import.meta.url, () => figure(process.argv.slice(2)));

@@ -97,7 +97,7 @@ test('a file of any name is refused in a sentence that quotes it', async ({ page
         while (note.hidden || note.textContent === before) await new Promise(requestAnimationFrame);
         return note.textContent ?? '';
       }, name + ending);
-      expect(sentence.startsWith((name + ending).slice(0, 20).toWellFormed()), sentence).toBe(true);
+      expect(sentence.startsWith(Buffer.from((name + ending).slice(0, 20)).toString()), sentence).toBe(true);
       expect(sentence).toMatch(/; (expected|a floor plan) (is|are) /);
       expect(sentence.length).toBeLessThan(700);
     }
@@ -152,7 +152,8 @@ for (const tag of NAMES) {
     for (const text of MARKUP) {
       await widget.evaluate(async (element, text) => {
         const { setMessages } = await import(/** @type {string} */ ('/motion-widgets.js'));
-        const said = (/** @type {any} */ words) => {
+        /** @type {(words: any) => any} */
+        const said = (words) => {
           if (typeof words === 'string') return text;
           if (typeof words === 'function') return () => text;
           if (Array.isArray(words)) return words.map(said);

@@ -158,6 +158,18 @@ test.describe('properties', () => {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
+  test('that are no settings leave nothing on the element', async ({ page }) => {
+    await show(page, '<banana-machine theme="dark"></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const keys = await widget.evaluate((element) => {
+      const before = Object.keys(element);
+      for (const [name, text] of [['theme', 'light'], ['share', ''], ['heading-level', '2']]) element.setAttribute(name, text);
+      return [before.includes('undefined'), Object.keys(element).filter((key) => !before.includes(key))];
+    });
+    expect(keys).toEqual([false, []]);
+  });
+
   test('mark a robot that is still to come', async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     await show(page, '<banana-machine samples="2000"></banana-machine>', { script: '' });

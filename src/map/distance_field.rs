@@ -1,8 +1,8 @@
 //! How far the nearest wall is, about, from everywhere on a map.
 
 use super::occupancy::OccupancyGrid;
+use super::wall_tree::WallTree;
 use crate::geom::lanes::{ROUND, lanes};
-use crate::geom::segment::Segment;
 use std::f64::consts::FRAC_1_SQRT_2;
 use wide::f64x4;
 
@@ -18,6 +18,8 @@ pub(super) struct DistanceField {
     last: [f64; 2],
     /// Half the diagonal of a cell, m.
     radius: f64,
+    /// How well the distance of the middle of a cell is known, m.
+    blur: f64,
     /// Row by row from the bottom, m. Negative where a wall passes through the cell or its neighbour, −∞ where the cell is
     /// inside of an occupied one, NaN where nothing is known.
     least: Vec<f32>,
@@ -29,9 +31,14 @@ const CELLS_A_WALL: f64 = 4096.0;
 const MIN_CELLS: f64 = 4096.0;
 const MAX_CELLS: f64 = 1_048_576.0;
 
-/// Walls that may be measured for one cell. Where more of them are equally near (a hundred thousand copies of one) the
-/// field would take seconds to fill; nothing is known there instead.
-const MAX_WALLS_A_CELL: usize = 32;
+/// Walls, or nodes of them, that may be measured for a block, and for each of its cells besides. Where more are near, as in
+/// the middle of a star, the field would take seconds to fill; nothing is known there instead, and the tree is asked.
+const WALLS_A_BLOCK: usize = 32;
+const WALLS_A_CELL: usize = 3;
+
+/// Where there is a tree, the distance of a block need not be known better than to this share of its radius: walls that
+/// lie closer together are measured as one.
+const BLUR: f64 = 0.125;
 
 /// The lower bound where nothing is known.
 const UNKNOWN: f32 = f32::MIN;
@@ -40,34 +47,6 @@ const UNKNOWN: f32 = f32::MIN;
 const FAR: f64 = 8.0;
 
 impl DistanceField {
-    /// The field of `walls` within `bounds` (least x, least y, greatest x, greatest y; m), and of the cells they outline.
-    pub fn new(walls: &[Segment], bounds: [f64; 4], solid: Option<&OccupancyGrid>) -> Self {
-        let [left, bottom, right, top] = bounds;
-        let (width, height) = (right - left, top - bottom);
-        let cells = (CELLS_A_WALL * walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
-        // A narrow map must not have more cells than that in a single row.
-        let side = (width * height / cells).sqrt().max(width.max(height) / cells);
-        let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
-        let mut filling = Filling {
-            field: Self {
-                corner: [left, bottom],
-                cells_per_metre: 1.0 / side,
-                columns,
-                last: [columns, rows].map(|count| count as f64 - 1.0),
-                radius: FRAC_1_SQRT_2 * side,
-                least: vec![UNKNOWN; columns * rows],
-            },
-            rows,
-            side,
-            slack: 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
-            solid,
-            lines: walls.iter().map(Line::new).collect(),
-            squares: Vec::new(),
-        };
-        filling.fill([0, 0], columns.max(rows).next_power_of_two(), 0);
-        filling.field
-    }
-
     /// Half the diagonal of a cell, m: how well the field knows where the walls are.
     pub fn radius(&self) -> f64 {
         self.radius
@@ -101,95 +80,202 @@ impl DistanceField {
         // With the middle of the cell at distance d from the wall, `least` is d − radius and the upper bound d + radius.
         // In a block that was not divided d is known to d/8: at most (1 + 1/8)/(1 − 1/8) times as far.
         let radius = 1.001 * self.radius;
-        let most = (FAR + 1.0) / (FAR - 1.0) * (least + radius) + radius;
+        let most = (FAR + 1.0) / (FAR - 1.0) * (least + radius + self.blur) + radius;
         if least == f64::from(UNKNOWN) { f64::INFINITY } else { most }
     }
 }
 
-/// A wall, ready to be measured many times.
-#[derive(Clone, Copy)]
-struct Line {
-    from: [f64; 2],
-    along: [f64; 2],
-    /// 1/|along|²; 0 for a wall without length.
-    per_square: f64,
-}
-
-impl Line {
-    fn new(wall: &Segment) -> Self {
-        let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
-        let per_square = 1.0 / (along[0] * along[0] + along[1] * along[1]);
-        Self { from: wall.from, along, per_square: if per_square.is_finite() { per_square } else { 0.0 } }
-    }
-
-    /// The square of the distance to a point, m².
-    #[inline(always)]
-    fn square(&self, point: [f64; 2]) -> f64 {
-        let Self { from, along, per_square } = *self;
-        let offset = [point[0] - from[0], point[1] - from[1]];
-        let t = ((offset[0] * along[0] + offset[1] * along[1]) * per_square).clamp(0.0, 1.0);
-        let [x, y] = [offset[0] - t * along[0], offset[1] - t * along[1]];
-        x * x + y * y
-    }
-}
-
-struct Filling<'a> {
+/// A field that is being filled.
+#[derive(Clone, Debug)]
+pub(super) struct Filling {
     field: DistanceField,
     rows: usize,
     side: f64,
     /// More than the rounding of any coordinate on the map, m.
     slack: f64,
-    solid: Option<&'a OccupancyGrid>,
-    /// The walls near the present block, after those near the blocks that it is in.
-    lines: Vec<Line>,
-    /// The squared distances of `lines` from the middle of the block.
-    squares: Vec<f64>,
+    /// What may be nearest to a point of the blocks that are to be filled, for one after the other.
+    near: Vec<Near>,
+    blocks: Vec<Block>,
+    /// Of the present block: what is to be measured, and what was.
+    open: Vec<Near>,
+    measured: Vec<(f64, Near)>,
+    filled: usize,
 }
 
-impl Filling<'_> {
-    /// Fills a block of `size` · `size` cells from `first` on; the walls that may be the nearest to any of its points are
-    /// among `lines` from index `from` on.
-    fn fill(&mut self, first: [usize; 2], size: usize, from: usize) {
-        let [left, bottom] = first;
-        if left >= self.field.columns || bottom >= self.rows {
-            return;
+/// `size` · `size` cells.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    first: [usize; 2],
+    size: usize,
+    /// What may be the nearest to any of its points is in `near`, from here to there.
+    range: [usize; 2],
+}
+
+/// A wall, or all those of a node of the tree.
+#[derive(Clone, Copy, Debug)]
+enum Near {
+    Wall(u32),
+    Node(u32),
+}
+
+impl Filling {
+    /// The empty field of the walls of a tree within `bounds` (least x, least y, greatest x, greatest y; m).
+    pub fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
+        let [left, bottom, right, top] = bounds;
+        let (width, height) = (right - left, top - bottom);
+        let cells = (CELLS_A_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
+        // A narrow map must not have more cells than that in a single row.
+        let side = (width * height / cells).sqrt().max(width.max(height) / cells);
+        let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
+        let radius = FRAC_1_SQRT_2 * side;
+        let near = if tree.is_leaf(1) {
+            tree.members(1).map(|wall| Near::Wall(wall as u32)).collect()
+        } else {
+            vec![Near::Node(1)]
+        };
+        let size = columns.max(rows).next_power_of_two();
+        let all = Block { first: [0, 0], size, range: [0, near.len()] };
+        Self {
+            field: DistanceField {
+                corner: [left, bottom],
+                cells_per_metre: 1.0 / side,
+                columns,
+                last: [columns, rows].map(|count| count as f64 - 1.0),
+                radius,
+                blur: if tree.is_leaf(1) { 0.0 } else { BLUR * radius },
+                least: vec![UNKNOWN; columns * rows],
+            },
+            rows,
+            side,
+            slack: 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
+            near,
+            blocks: vec![all],
+            open: Vec::new(),
+            measured: Vec::new(),
+            filled: 0,
         }
-        let centre = self.centre(first, size);
-        self.squares.clear();
-        self.squares.extend(self.lines[from..].iter().map(|line| line.square(centre)));
-        let distance = self.squares.iter().copied().fold(f64::INFINITY, f64::min).sqrt();
+    }
+
+    /// Fills as much of it as `work` allows (about that many distances computed); whether it is complete. `solid` are the
+    /// cells that the walls outline.
+    pub fn fill(&mut self, tree: &WallTree, solid: Option<&OccupancyGrid>, work: &mut usize) -> bool {
+        while *work > 0 {
+            let Some(block) = self.blocks.pop() else { return true };
+            let spent = self.fill_block(tree, solid, block);
+            *work = work.saturating_sub(spent);
+        }
+        self.blocks.is_empty()
+    }
+
+    /// How much of it is filled, from 0 to 1.
+    pub fn filled(&self) -> f64 {
+        self.filled as f64 / self.field.least.len() as f64
+    }
+
+    /// The field, once all of it is filled.
+    pub fn finish(self) -> DistanceField {
+        self.field
+    }
+
+    /// Fills a block or divides it; what it took.
+    fn fill_block(&mut self, tree: &WallTree, solid: Option<&OccupancyGrid>, block: Block) -> usize {
+        let Block { first: [left, bottom], size, range } = block;
+        if left >= self.field.columns || bottom >= self.rows {
+            return 1;
+        }
+        let [right, top] = [(left + size).min(self.field.columns), (bottom + size).min(self.rows)];
+        let centre = self.centre(block.first, size);
         let radius = size as f64 * self.field.radius;
-        if size > 1 && distance <= FAR * radius {
-            let end = self.lines.len();
-            if end - from > MAX_WALLS_A_CELL * size * size {
-                return;
-            }
-            let reach = distance + 2.0 * radius + self.slack;
-            for (i, square) in self.squares.iter().enumerate() {
-                if *square <= reach * reach {
-                    self.lines.push(self.lines[from + i]);
-                }
-            }
+        let blur = size as f64 * self.field.blur;
+        // What the blocks before had is of no use to this one.
+        self.near.truncate(range[1]);
+        let mut spent = 0;
+        let Some([least, most]) = self.measure(tree, centre, block, blur, &mut spent) else {
+            self.filled += (right - left) * (top - bottom);
+            return spent;
+        };
+        if size > 1 && least <= FAR * radius + blur / BLUR {
+            let reach = most + 2.0 * radius + self.slack;
+            self.near
+                .extend(self.measured.iter().filter(|(least, _)| *least <= reach).map(|(_, near)| *near));
+            let range = [range[1], self.near.len()];
             let half = size / 2;
-            for [column, row] in [[0, 0], [half, 0], [0, half], [half, half]] {
-                self.fill([left + column, bottom + row], half, end);
+            for [column, row] in [[half, half], [0, half], [half, 0], [0, 0]] {
+                self.blocks.push(Block { first: [left + column, bottom + row], size: half, range });
             }
-            self.lines.truncate(end);
-            return;
+            return spent;
         }
         // No wall passes through the block where this holds, so that all of it is on one side of every outline.
-        let buried = distance > radius && self.solid.is_some_and(|solid| solid.holds(centre));
-        for row in bottom..(bottom + size).min(self.rows) {
-            for column in left..(left + size).min(self.field.columns) {
+        let buried = least > radius && solid.is_some_and(|solid| solid.holds(centre));
+        for row in bottom..top {
+            for column in left..right {
                 let [x, y] = self.centre([column, row], 1);
                 let off = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
                 // A millionth is more than a float rounds.
-                let least =
-                    if buried { f64::NEG_INFINITY } else { distance * (1.0 - 1e-6) - off - self.slack };
+                let least = if buried { f64::NEG_INFINITY } else { least * (1.0 - 1e-6) - off - self.slack };
                 self.field.least[row * self.field.columns + column] = least as f32;
             }
         }
+        let cells = (right - left) * (top - bottom);
+        self.filled += cells;
+        spent + cells
+    }
+
+    /// Between which two values the distance from the middle of a block to the nearest wall lies, at most `blur` apart (m);
+    /// None where too many walls are near. `measured` has what may be the nearest from there then.
+    fn measure(
+        &mut self,
+        tree: &WallTree,
+        point: [f64; 2],
+        block: Block,
+        blur: f64,
+        spent: &mut usize,
+    ) -> Option<[f64; 2]> {
+        let Self { near, open, measured, .. } = self;
+        let Block { size, range: [from, to], .. } = block;
+        // What is nearer to another point of the block than the wall nearest to its middle is no further from there.
+        let reach = 2.0 * size as f64 * self.field.radius + self.slack;
+        measured.clear();
+        open.clear();
+        open.extend_from_slice(&near[from..to]);
+        let mut most = f64::INFINITY;
+        while let Some(near) = open.pop() {
+            *spent += 1;
+            if *spent > WALLS_A_BLOCK + WALLS_A_CELL * size * size {
+                return None;
+            }
+            let to = |wall: usize| tree.line(wall).square(point).sqrt();
+            let least = match near {
+                Near::Wall(wall) => to(wall as usize),
+                Near::Node(node) => tree.node(node as usize).least(point),
+            };
+            if least > most + reach {
+                continue;
+            }
+            if least < most {
+                most = most.min(match near {
+                    Near::Wall(_) => least,
+                    Near::Node(node) => to(tree.members(node as usize).start),
+                });
+            }
+            if size == 1 && most <= blur {
+                return Some([0.0, most]);
+            }
+            match near {
+                Near::Node(node)
+                    if least < most - blur || tree.node(node as usize).thickness > 0.5 * reach =>
+                {
+                    if tree.is_leaf(node as usize) {
+                        open.extend(tree.members(node as usize).map(|wall| Near::Wall(wall as u32)));
+                    } else {
+                        open.extend([2 * node, 2 * node + 1].map(Near::Node));
+                    }
+                }
+                _ => measured.push((least, near)),
+            }
+        }
+        Some([measured.iter().map(|(least, _)| *least).fold(most, f64::min), most])
     }
 
     fn centre(&self, first: [usize; 2], size: usize) -> [f64; 2] {

@@ -1,12 +1,13 @@
 //! A floor plan, and whether a round robot fits.
 
 use super::apartment;
-use super::distance_field::DistanceField;
+use super::distance_field::{DistanceField, Filling};
 use super::occupancy::OccupancyGrid;
+use super::wall_tree::{Node, WallTree};
 use crate::geom::arc::{Arc, Course, Departure, Driven, Unrolled};
 use crate::geom::lanes::{LANES, any};
 use crate::geom::segment::Segment;
-use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use std::cell::OnceCell;
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
@@ -18,12 +19,47 @@ pub struct FloorPlan {
     walls: Vec<Segment>,
     /// Least x, least y, greatest x, greatest y, m.
     bounds: [f64; 4],
-    /// Pieces of walls by their bounding boxes, and the wall of each piece; None where there are none.
-    index: Option<(StaticAABB2DIndex<f64>, Vec<u32>)>,
     /// The cells that the walls outline, where they do: inside of one nobody is free, however far its sides.
     solid: Option<OccupancyGrid>,
-    /// Made when the first motion is judged.
-    field: OnceLock<DistanceField>,
+    /// Made when the first motion is judged, or before that in slices.
+    survey: OnceLock<Survey>,
+    surveying: Option<Surveying>,
+}
+
+/// What verdicts are looked up in.
+#[derive(Clone, Debug)]
+struct Survey {
+    tree: WallTree,
+    field: DistanceField,
+}
+
+/// A survey that is being made.
+#[derive(Clone, Debug)]
+struct Surveying {
+    tree: WallTree,
+    /// Once the tree is there.
+    filling: Option<Filling>,
+}
+
+impl Surveying {
+    fn new(plan: &FloorPlan) -> Self {
+        Self { tree: WallTree::seed(&plan.walls, plan.bounds), filling: None }
+    }
+
+    fn advance(&mut self, plan: &FloorPlan, work: &mut usize) -> bool {
+        let Self { tree, filling } = self;
+        tree.grow(work)
+            && filling.get_or_insert_with(|| Filling::new(tree, plan.bounds)).fill(
+                tree,
+                plan.solid.as_ref(),
+                work,
+            )
+    }
+
+    fn finish(self) -> Option<Survey> {
+        let Self { tree, filling } = self;
+        filling.map(|filling| Survey { tree, field: filling.finish() })
+    }
 }
 
 /// Why a floor plan is refused.
@@ -133,8 +169,7 @@ impl FloorPlan {
                 return Err(FloorPlanError::BadWall { index, end });
             }
         }
-        let index = (!walls.is_empty()).then(|| index_of(&walls));
-        Ok(Self { walls, bounds, index, solid, field: OnceLock::new() })
+        Ok(Self { walls, bounds, solid, survey: OnceLock::new(), surveying: None })
     }
 
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
@@ -171,8 +206,13 @@ impl FloorPlan {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
-        let free = self
-            .walls_keep(point, clearance, &mut wall_tests, |wall| wall.distance_to_point(point) > clearance);
+        let free = self.walls_keep(
+            point,
+            clearance,
+            &mut wall_tests,
+            |node| node.is_beyond(point, clearance),
+            |wall| wall.distance_to_point(point) > clearance,
+        );
         Verdict { free, wall_tests }
     }
 
@@ -194,15 +234,47 @@ impl FloorPlan {
             field: self.field(),
             arc: &driven.arc,
             clearance,
-            unrolled: None,
+            unrolled: OnceCell::new(),
             wall_tests: end.wall_tests,
         };
         let free = driven.courses().all(|course| sweep.free(&course, -course.half, course.half));
         Verdict { free, wall_tests: sweep.wall_tests }
     }
 
+    fn survey(&self) -> &Survey {
+        self.survey.get_or_init(|| {
+            let mut surveying = Surveying::new(self);
+            surveying.advance(self, &mut { usize::MAX });
+            surveying.finish().unwrap_or_else(|| unreachable!("nothing is left to do"))
+        })
+    }
+
     pub(super) fn field(&self) -> &DistanceField {
-        self.field.get_or_init(|| DistanceField::new(&self.walls, self.bounds, self.solid.as_ref()))
+        &self.survey().field
+    }
+
+    /// Does before the first motion is judged what would be done then, as far as `work` allows (about that many distances
+    /// computed); whether all is done.
+    pub fn prepare(&mut self, work: &mut usize) -> bool {
+        if self.survey.get().is_some() {
+            return true;
+        }
+        let mut surveying = self.surveying.take().unwrap_or_else(|| Surveying::new(self));
+        if !surveying.advance(self, work) {
+            self.surveying = Some(surveying);
+            return false;
+        }
+        surveying.finish().is_some_and(|survey| self.survey.set(survey).is_ok())
+    }
+
+    /// How much of that is done, from 0 to 1.
+    pub fn prepared(&self) -> f64 {
+        match &self.surveying {
+            _ if self.survey.get().is_some() => 1.0,
+            Some(Surveying { filling: Some(filling), .. }) => 0.5 + 0.5 * filling.filled(),
+            Some(Surveying { tree, .. }) => 0.5 * tree.grown(),
+            None => 0.0,
+        }
     }
 
     /// Whether a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
@@ -248,32 +320,27 @@ impl FloorPlan {
         })
     }
 
-    /// Whether every wall that has a piece whose box comes within `reach` (m) of the point, by both coordinates, is
-    /// `free`.
+    /// Whether every wall whose box comes within `reach` (m) of the point, by both coordinates, is `free`; but for those in
+    /// nodes of the tree that are known to be.
     fn walls_keep(
         &self,
         [x, y]: [f64; 2],
         reach: f64,
         wall_tests: &mut usize,
+        node_free: impl FnMut(&Node) -> bool,
         mut free: impl FnMut(&Segment) -> bool,
     ) -> bool {
-        let Some((index, wall_of)) = &self.index else { return true };
-        let mut all_free = true;
-        // Pieces of one wall tend to come one after the other.
-        let mut last = None;
-        let mut visit = |piece: usize| {
-            let wall = wall_of[piece] as usize;
-            if last.replace(wall) == Some(wall) {
-                return Control::Continue;
+        self.survey().tree.all(node_free, |wall| {
+            let Segment { from, to } = wall;
+            let is_near = from[0].min(to[0]) <= x + reach
+                && from[0].max(to[0]) >= x - reach
+                && from[1].min(to[1]) <= y + reach
+                && from[1].max(to[1]) >= y - reach;
+            !is_near || {
+                *wall_tests += 1;
+                free(wall)
             }
-            *wall_tests += 1;
-            all_free = free(&self.walls[wall]);
-            if all_free { Control::Continue } else { Control::Break(()) }
-        };
-        // A stack of its own would be allocated even where a plan has but one node.
-        let mut stack = Vec::new();
-        index.visit_query_with_stack(x - reach, y - reach, x + reach, y + reach, &mut visit, &mut stack);
-        all_free
+        })
     }
 }
 
@@ -284,7 +351,7 @@ struct Sweep<'a> {
     arc: &'a Arc,
     clearance: f64,
     /// The arc as walls are measured to it, once there is one to measure.
-    unrolled: Option<Unrolled>,
+    unrolled: OnceCell<Unrolled>,
     wall_tests: usize,
 }
 
@@ -322,50 +389,25 @@ impl Sweep<'_> {
     /// decides on most.
     fn measure(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
-        let unrolled = &mut self.unrolled;
+        let unrolled = || self.unrolled.get_or_init(|| arc.unrolled());
         let (near, touching) = (reach + clearance, (clearance - error).max(0.0));
-        self.plan.walls_keep(middle, near, &mut self.wall_tests, |wall| {
-            let square = wall.squared_distance_to_point(middle);
-            if square > near * near || square < touching * touching {
-                return square > near * near;
-            }
-            wall.distance_to_unrolled(unrolled.get_or_insert_with(|| arc.unrolled())) > clearance
-        })
+        self.plan.walls_keep(
+            middle,
+            near,
+            &mut self.wall_tests,
+            |node| {
+                node.is_beyond(middle, near)
+                    // Worth it where the walls of a node are more alike than what can be told by the piece.
+                    || node.thickness < reach
+                        && node.line().distance_to_unrolled(unrolled()) - node.thickness > clearance
+            },
+            |wall| {
+                let square = wall.squared_distance_to_point(middle);
+                if square > near * near || square < touching * touching {
+                    return square > near * near;
+                }
+                wall.distance_to_unrolled(unrolled()) > clearance
+            },
+        )
     }
-}
-
-/// Pieces that walls which lie across the axes are cut into, for each wall on average and in all besides: their boxes
-/// would otherwise be large and mostly empty. Fewer would leave larger boxes, more would need more memory.
-const PIECES_A_WALL: usize = 4;
-const PIECES_BESIDES: usize = 256;
-
-/// The boxes of all walls, cut into pieces, and the wall of each.
-fn index_of(walls: &[Segment]) -> (StaticAABB2DIndex<f64>, Vec<u32>) {
-    // The lesser side of a wall's box: 0 where it lies along an axis.
-    let lesser = |Segment { from, to }: &Segment| (to[0] - from[0]).abs().min((to[1] - from[1]).abs());
-    let pieces = (PIECES_A_WALL * walls.len() + PIECES_BESIDES) as f64;
-    let longest = walls.iter().map(lesser).sum::<f64>() / pieces;
-    let count =
-        |wall: &Segment| if longest > 0.0 { (lesser(wall) / longest).ceil().max(1.0) as u32 } else { 1 };
-    let total: u32 = walls.iter().map(count).sum();
-    // A small plan such as the apartment is one node: there is then nothing to descend. 16 is the index's own choice.
-    let node_size = if total <= 32 { 32 } else { 16 };
-    let mut builder = StaticAABB2DIndexBuilder::new_with_node_size(total as usize, node_size);
-    let mut wall_of = Vec::with_capacity(total as usize);
-    for (index, wall) in walls.iter().enumerate() {
-        let count = count(wall);
-        let at = |i: u32, axis: usize| {
-            // Exact at both ends, and the same for the two pieces that meet.
-            let fraction = f64::from(i) / f64::from(count);
-            wall.from[axis] * (1.0 - fraction) + wall.to[axis] * fraction
-        };
-        for i in 0..count {
-            let [x, y] =
-                [0, 1].map(|axis| [at(i, axis).min(at(i + 1, axis)), at(i, axis).max(at(i + 1, axis))]);
-            builder.add(x[0], y[0], x[1], y[1]);
-            wall_of.push(index as u32);
-        }
-    }
-    let Ok(index) = builder.build() else { unreachable!("as many boxes as announced, and not none") };
-    (index, wall_of)
 }

@@ -10,7 +10,7 @@ use crate::map::{
     RESOLUTION, read_pgm,
 };
 use crate::sim::settings::{QUANTITY, Words};
-use js_sys::{RangeError, Uint8Array, Uint8ClampedArray};
+use js_sys::{ArrayBuffer, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 use web_sys::ImageData;
 
@@ -25,11 +25,24 @@ impl From<FloorPlanError> for JsValue {
     }
 }
 
-/// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as a JSON floor plan has them.
+/// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as a JSON floor plan has them, or with the walls in one
+/// Float64Array, as a machine tells them.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = numbers("bounds", &fields.value("bounds")?)?;
     let walls = fields.value("walls")?;
+    // What only looks like an array of numbers is no view of a memory.
+    if let Some(numbers) = walls.dyn_ref::<Float64Array>().filter(|walls| ArrayBuffer::is_view(walls)) {
+        let (count, rest) = (numbers.length() as usize / 4, numbers.length() % 4);
+        if rest > 0 {
+            return Err(type_error("walls", &walls, "a list of four numbers a wall"));
+        }
+        if count > FloorPlan::MAX_WALLS {
+            return Err(FloorPlanError::TooManyWalls(count).into());
+        }
+        let segment = |wall: &[f64]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
+        return Ok(FloorPlan::new(numbers.to_vec().chunks_exact(4).map(segment).collect(), bounds)?);
+    }
     let count = length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
     if count > FloorPlan::MAX_WALLS {
         return Err(FloorPlanError::TooManyWalls(count).into());

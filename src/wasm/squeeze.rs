@@ -9,7 +9,7 @@ use super::values::{
 };
 use crate::geom::segment::Segment;
 use crate::map::{Cell, Cost, FloorPlan, MAX_DRAWS, OccupancyGrid, Sampler, Wedged};
-use crate::sim::settings::{ALPHA, Word};
+use crate::sim::settings::{ALPHA, MAX_SEED, Word};
 use crate::sim::squeeze::{
     Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, PRESETS, Settings, Stats, alphas_of_noise,
     most_draws,
@@ -71,9 +71,15 @@ impl JsMapSqueeze {
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
         options: &JsValue,
     ) -> Result<Self, JsValue> {
-        let settings = Settings::default();
-        let settings = if options.is_undefined() { settings } else { read_settings(&settings, options)? };
-        Ok(Self(Held::new(MapSqueeze::new(settings)?)))
+        Ok(Self(Held::new(MapSqueeze::new(opening(options)?)?)))
+    }
+
+    /// A machine as the constructor makes it, of whose samples none is tried yet.
+    pub fn empty(
+        #[wasm_bindgen(unchecked_optional_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
+        options: &JsValue,
+    ) -> Result<Self, JsValue> {
+        Ok(Self(Held::new(MapSqueeze::empty(opening(options)?)?)))
     }
 
     /// Largest `samples`.
@@ -106,6 +112,39 @@ impl JsMapSqueeze {
     ) -> Result<(), JsValue> {
         let settings = read_settings(&self.settings(), settings)?;
         Ok(self.0.with(move |machine| machine.configure(settings))?)
+    }
+
+    /// As `configure`, in slices: `advance` is to be called until it says true. Until then only some of the samples are
+    /// shown.
+    pub fn begin(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
+        settings: &JsValue,
+    ) -> Result<(), JsValue> {
+        let settings = read_settings(&self.settings(), settings)?;
+        Ok(self.0.with(move |machine| machine.begin(settings))?)
+    }
+
+    /// Looks at the map, where that is a new one, and works on what was begun, for computing about as many distances;
+    /// whether all is done.
+    pub fn advance(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] distances: &JsValue,
+    ) -> Result<bool, JsValue> {
+        let distances = whole("distances", distances, 1..=MAX_SEED)?;
+        let distances = usize::try_from(distances).unwrap_or(usize::MAX);
+        Ok(self.0.with(move |machine| machine.advance(distances)))
+    }
+
+    /// How much is done of looking at the map or, after that, of the samples; from 0 to 1.
+    #[wasm_bindgen(getter)]
+    pub fn progress(&self) -> f64 {
+        self.0.with(|machine| machine.progress())
+    }
+
+    /// Gives up what was begun: the settings and samples are the former ones.
+    pub fn stop(&self) {
+        self.0.with(MapSqueeze::stop);
     }
 
     /// A copy; changing it changes nothing.
@@ -212,6 +251,17 @@ impl JsMapSqueeze {
         Ok(self.0.with(move |machine| machine.grow(count)))
     }
 
+    /// As `grow`, in slices like `begin`.
+    #[wasm_bindgen(js_name = beginToGrow)]
+    pub fn begin_to_grow(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
+    ) -> Result<(), JsValue> {
+        let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
+        self.0.with(move |machine| machine.begin_to_grow(count));
+        Ok(())
+    }
+
     /// Shows none; the same attempts come again.
     pub fn restart(&self) {
         self.0.with(MapSqueeze::restart);
@@ -302,6 +352,12 @@ impl JsMapSqueeze {
     fn settings(&self) -> Settings {
         self.0.with(|machine| *machine.settings())
     }
+}
+
+/// The settings that a machine opens with.
+fn opening(options: &JsValue) -> Result<Settings, JsValue> {
+    let settings = Settings::default();
+    if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
 }
 
 /// The refusal of a trial that would take too many draws.

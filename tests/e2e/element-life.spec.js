@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
-import { FRESH, STILL, boxOf, frames, pictureOf, pixelsOf, state, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, pictureOf, state, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -60,7 +60,10 @@ test.describe('far from the window', () => {
     await show(page, [above, seen, below].map((style) => `<div style="width: 600px; ${style}"><banana-machine></banana-machine></div>`).join(''));
     const widgets = page.locator('banana-machine');
     await ready(widgets.nth(1));
-    expect(await pixelsOf(widgets.nth(1).locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+    const plane = widgets.nth(1).locator('canvas.plane');
+    const opening = await pictureOf(plane);
+    await widgets.nth(1).getByRole('button', { name: 'Straight' }).click();
+    await expect.poll(() => pictureOf(plane)).not.toBe(opening);
     for (const i of [0, 2]) expect(await property(widgets.nth(i), 'machine')).toBe(undefined);
   });
 

@@ -155,6 +155,14 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     expect(thrown).toContain(message);
     expect(await stateOf(widget)).toEqual(before);
   }
+  const ofFunction = await page.locator('banana-machine').evaluate((element) => {
+    try {
+      /** @type {any} */ (element).setState({ widget: element.localName, version: () => 1 });
+    } catch (error) {
+      return String(error);
+    }
+  });
+  expect(ofFunction).toBe('RangeError: state.version is a function; allowed is 1');
 });
 
 test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {

@@ -15,7 +15,7 @@ import { FRESH, frames, test } from './support.js';
  * @typedef {(page: Page, luck: Luck) => Promise<string>} Deed one that says what it did
  */
 
-const EVENTS = Number(process.env.MONKEY_EVENTS ?? 1500);
+const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);
 const SEED = Number(process.env.MONKEY_SEED ?? 1);
 
 /** Events between two looks at what they led to. */
@@ -27,7 +27,7 @@ const PARTS = 'button, summary, input, .handle, canvas, .chart-marker, textarea,
 const NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
 const KEYS = ['Tab', 'Shift+Tab', 'Enter', ' ', 'Escape', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', 'c', 'C', '5', 'Backspace', 'Delete'];
 const TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '\u0000', 'velocity', 'odometry', 'normal', 'triangular', 'close', 'whole', 'endpoint', 'whole-arc', 'sub-stepped', 'free', 'occupied', 'unknown', 'command ellipse', 'Banana', 'Hard arc', 'doorway', ...NUMBERS];
-const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'x'];
+const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
 const SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
 
 const HALL = pgm('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
@@ -36,6 +36,7 @@ const FILES = [
   [yaml('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL],
   [file('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [0, 0, 5, 0, 5, 0, 5, 4, 5, 4, 0, 4, 0, 4, 0, 0] }))],
   [HALL],
+  [file('hall.yaml', 'image: &a [*a]')],
   [file('cut.pgm', HALL.buffer.subarray(0, 200))],
   [file('plan.json', '{"walls": 7}')],
   [file('notes.txt', 'no map')],

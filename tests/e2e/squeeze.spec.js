@@ -178,9 +178,9 @@ test.describe('the robot', () => {
     const calls = await body(widget).evaluate(async (handle, from) => {
       const root = /** @type {ShadowRoot} */ (handle.getRootNode());
       const { machine } = /** @type {MapSqueezeElement} */ (root.host);
-      const configure = machine.configure.bind(machine);
+      const begin = machine.begin.bind(machine);
       let count = 0;
-      machine.configure = (settings) => (count++, configure(settings));
+      machine.begin = (settings) => (count++, begin(settings));
       for (let i = 1; i <= 12; i++) {
         handle.dispatchEvent(new PointerEvent('pointermove', { clientX: from.x + 2 * i, clientY: from.y }));
       }

@@ -1,10 +1,14 @@
 /**
  * The engines, each with one page that is read and touched in the same way whatever protocol it speaks: WebDriver BiDi where there
- * is one (Chromium, Firefox), WebDriver (WebKit).
+ * is one (Chromium, Firefox), WebDriver (WebKit). All of them are told that the reader has asked for less motion, who gets a complete
+ * cloud at once: how fast one grows is a matter of frames, of which a busy machine has few.
  *
  * @module
  */
 
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import puppeteer from 'puppeteer-core';
 import { Builder, Capabilities, Key } from 'selenium-webdriver';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
@@ -71,19 +75,22 @@ async function byBiDi(options) {
 /** @returns {Promise<Engine>} */
 async function chromium() {
   const { chrome } = await ensureBrowser();
-  return byBiDi({ browser: 'chrome', executablePath: chrome, args: CHROME_ARGUMENTS });
+  return byBiDi({ browser: 'chrome', executablePath: chrome, args: [...CHROME_ARGUMENTS, '--force-prefers-reduced-motion'] });
 }
 
 /** @returns {Promise<Engine>} */
 async function firefox() {
-  return byBiDi({ browser: 'firefox', executablePath: await ensureFirefox() });
+  return byBiDi({ browser: 'firefox', executablePath: await ensureFirefox(), extraPrefsFirefox: { 'ui.prefersReducedMotion': 1 } });
 }
 
 /** @returns {Promise<Engine>} */
 async function webkit() {
   const { driver, browser, display } = await ensureWebKit();
   const screen = await displayOf(display);
-  const env = { DISPLAY: screen.name };
+  const config = mkdtempSync(join(tmpdir(), 'motion-engines-'));
+  mkdirSync(join(config, 'gtk-3.0'));
+  writeFileSync(join(config, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
+  const env = { DISPLAY: screen.name, XDG_CONFIG_HOME: config };
   const server = await program((port) => [driver, [`--port=${port}`], env], '/status')('', {
     start: (command, args) => start(command, args, { env }),
     run: () => Promise.reject(new Error('It runs nothing.')),
@@ -91,6 +98,7 @@ async function webkit() {
   const stop = async () => {
     await server.stop();
     await screen.stop();
+    rmSync(config, { recursive: true });
   };
   try {
     return await byWebDriver(server.url.replace('/status', ''), browser, stop);

@@ -170,7 +170,6 @@ async function meet(sample, mutants, trials, address) {
   const tests = new Map(sample.map((mutant) => [mutant, testsOf(mutant, mutants, trials)]));
   for (const [round, most] of ROUNDS.entries()) {
     const left = sample.filter(({ id }) => !caught.has(id));
-    progress(`${left.length} mutants meet ${most} tests`);
     /** @type {Record<string, { milliseconds: number, mutants: string[] }>} */
     const plan = {};
     for (const mutant of left) {
@@ -178,6 +177,8 @@ async function meet(sample, mutants, trials, address) {
         (plan[test] ??= { milliseconds, mutants: [] }).mutants.push(mutant.id);
       }
     }
+    if (Object.keys(plan).length === 0) break;
+    progress(`${left.length} mutants meet ${most} tests`);
     writeFileSync(inCopy('plan'), JSON.stringify(plan));
     for (const each of await noted(address, inCopy('caught'), inCopy('plan'))) caught.set(each.caught, each.test);
   }

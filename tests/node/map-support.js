@@ -31,6 +31,9 @@ export async function opened(...files) {
   return machine;
 }
 
+/** Where maps are tried that nobody asks of afterwards. */
+const machine = new motion.MapSqueeze({ samples: 1 });
+
 /**
  * Why files are refused; empty where they are not. Whatever else is thrown is not caught.
  *
@@ -39,7 +42,7 @@ export async function opened(...files) {
  */
 export async function refusalOf(files, language = 'en') {
   try {
-    (await opened(...files)).free();
+    (await readMapFiles(files)).apply(machine);
   } catch (error) {
     if (error instanceof MapFileError) return error.sentence({ en, de }[language].refused);
     throw error;

@@ -18,6 +18,11 @@ export class Announcer {
     this.#text = sentence();
   }
 
+  /** @param {string} text that is worth saying now */
+  tell(text) {
+    this.#text = text;
+  }
+
   render() {
     return html`<p class="visually-hidden" role="status">${this.#text}</p>`;
   }

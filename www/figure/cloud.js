@@ -147,7 +147,12 @@ export class Cloud extends Part {
 
   /** Whether the marked sample is there, or comes. */
   get #isWanted() {
-    return this.index >= 0 && this.index < markable(this.#machine, this.growing);
+    return this.index >= 0 && this.index < this.markable;
+  }
+
+  /** How many samples can be marked: one that is to come can be, and is from when it is there. */
+  get markable() {
+    return this.growing ? this.#machine.config.samples : this.#machine.shown;
   }
 
   /** A mark of what is not there, and does not come, goes. */
@@ -219,31 +224,20 @@ export class Cloud extends Part {
 }
 
 /**
- * Shows the first samples of a machine's cloud only.
+ * How many samples a state shows.
  *
- * @param {Growing} machine
- * @param {number} shown of a state
+ * @param {Growing} machine in that state
+ * @param {number} shown
  */
-export function showOnly(machine, shown) {
-  wholeNumber('state.shown', shown, 0, machine.config.samples);
-  if (shown < machine.shown) machine.restart();
-  machine.grow(shown - machine.shown);
+export function shownOf(machine, shown) {
+  return wholeNumber('state.shown', shown, 0, machine.config.samples);
 }
-
-/**
- * How many samples can be marked: one that is to come can be, and is from when it is there.
- *
- * @param {Growing} machine
- * @param {boolean} growing
- */
-const markable = ({ config, shown }, growing) => (growing ? config.samples : shown);
 
 /** What of the state of an element with a cloud is its own. @type {Record<string, import('./state.js').Owned>} */
 export const cloudState = {
   marked: {
     opening: null,
-    check: (field, marked, machine, growing) =>
-      marked === null ? null : wholeNumber(field, marked, 0, markable(machine, growing) - 1),
+    check: (field, marked, machine, markable) => (marked === null ? null : wholeNumber(field, marked, 0, markable - 1)),
   },
 };
 

@@ -18,9 +18,10 @@ import { Lettering } from './lettering.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
 import { placeholder } from './placeholder.js';
 import { Presentation } from './presentation.js';
+import { Progress, progressStyles } from './progress.js';
 import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
-import { Settings } from './settings.js';
+import { LONGEST_WORK, Settings } from './settings.js';
 import { Stage } from './stage.js';
 import { State } from './state.js';
 import { CopyMenu, embedding } from './takeaway/copy.js';
@@ -69,6 +70,7 @@ addEnglish(en);
  * @csspart readouts - The figures about the cloud.
  * @csspart table - A table of figures.
  * @csspart fold - What is folded away, with its name.
+ * @csspart progress - How much is done of what takes longer, with the button that stops it.
  * @csspart exports - Pictures and data to take along.
  * @csspart copies - The page's address and HTML to copy.
  *
@@ -90,7 +92,7 @@ addEnglish(en);
  * @template {{ config: Values }} Reading
  */
 export class FigureElement extends LitElement {
-  static styles = [theme, schemeStyles, presentationStyles];
+  static styles = [theme, schemeStyles, presentationStyles, progressStyles];
 
   /** The widget's settings, as declared. @type {import('../settings.js').Declaration[]} */
   static declared = [];
@@ -113,6 +115,7 @@ export class FigureElement extends LitElement {
   reflection = new Reflection(this, this.kind.attributes, this.kind.basis);
   link = new Link(this);
   announcer = new Announcer();
+  progress = new Progress(this);
   copies = new CopyMenu(this);
   typing = new Typing(this);
   lettering = new Lettering(this);
@@ -231,7 +234,8 @@ export class FigureElement extends LitElement {
   get fresh() {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);
-    this.settings.settle();
+    // A machine that is still in the making is no change of this one.
+    this.settings.settle(this.settings.next ? 0 : Infinity);
     if (this.settings.stale) this.refresh();
     return this.reading;
   }
@@ -253,7 +257,7 @@ export class FigureElement extends LitElement {
 
   /** What the reader changed has come to rest: put it into effect and say what it led to. */
   commit() {
-    this.runtime.attempt(() => this.settings.settle());
+    this.runtime.attempt(() => this.settings.settle(LONGEST_WORK));
     this.announcer.expect();
     this.settings.stale = true;
     this.gesture.end();
@@ -483,7 +487,7 @@ export class FigureElement extends LitElement {
     return html`
       <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
       <div class="surface ${this.presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
-        ${this.lettering.title()} ${this.#content()} ${this.lettering.caption()} ${this.presenting.render()}
+        ${this.lettering.title()} ${this.#content()} ${this.progress.render()} ${this.lettering.caption()} ${this.presenting.render()}
       </div>
     `;
   }

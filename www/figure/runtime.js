@@ -134,7 +134,8 @@ export class Runtime extends Part {
   }
 
   #abandon() {
-    if (this.machine) abandon(this.machine);
+    for (const machine of [this.machine, this.host.settings.next]) if (machine) abandon(machine);
+    this.host.settings.reset();
     this.machine = this.motion = undefined;
   }
 

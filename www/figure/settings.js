@@ -5,27 +5,45 @@
 
 import { Part } from './part.js';
 
-/** @typedef {Record<string, any>} Values settings by name */
+/**
+ * @typedef {Record<string, any>} Values settings by name
+ *
+ * @typedef {Generator<number, void>} Job a few milliseconds' work a step; how much of it is done, from 0 to 1
+ */
 
 /** Longest work in a frame, milliseconds: with the pictures, a touch is answered within 50. */
 export const LONGEST_WORK = 25;
 
-/** Samples between two looks at the clock: a millisecond's work, ten on a slow phone. */
+/** What a machine does between two looks at the clock: a millisecond's work, ten on a slow phone. */
 const SLICE = 50_000;
+
+/**
+ * Lets a machine finish what it has begun.
+ *
+ * @param {any} machine
+ * @returns {Job}
+ */
+export function* advancing(machine) {
+  while (machine.advance?.(SLICE) === false) yield machine.progress ?? 0;
+}
 
 export class Settings extends Part {
   /** Whether what is shown is no longer what the machine would say. */
   stale = true;
   /** The reader's changes that wait for the next frame. @type {Values} */
   #pending = {};
-  /** Whether the machine is in the middle of what it has begun. */
-  #working = false;
+  /** What is being done. @type {Job | undefined} */
+  #job;
+  /** The machine that it is done with, where that is to take the place of the present one. @type {any} */
+  next;
+  /** How much of it is done, from 0 to 1. */
+  done = 0;
   #showing = false;
 
   /** Another machine is there: nothing waits for it. */
   reset() {
     this.stale = true;
-    this.#working = false;
+    this.#job = this.next = undefined;
     this.#pending = {};
   }
 
@@ -70,8 +88,8 @@ export class Settings extends Part {
   assign(values) {
     this.host.runtime.attempt(() => {
       this.settle();
-      this.host.machine?.configure(values);
-      this.stale = true;
+      this.#begin(values);
+      this.#proceed(LONGEST_WORK);
       this.host.reflection.tell();
       this.show();
     });
@@ -85,7 +103,7 @@ export class Settings extends Part {
    */
   settle(limit = Infinity) {
     if (limit === Infinity) this.#proceed(limit);
-    if (!this.#working && Object.keys(this.#pending).length > 0) {
+    if (!this.#job && Object.keys(this.#pending).length > 0) {
       const pending = this.#pending;
       this.#pending = {};
       this.host.runtime.tolerate(() => this.#begin(pending));
@@ -106,9 +124,16 @@ export class Settings extends Part {
     this.stale = true;
   }
 
-  /** To be called when the machine has begun something that `settle` is to go on with. */
-  work() {
-    this.#working = true;
+  /**
+   * To be called when something has begun that `settle` is to go on with.
+   *
+   * @param {Job} job
+   * @param {any} [next] the machine that it is done with, if that is to take the place of the present one
+   */
+  work(job = advancing(this.host.machine), next = undefined) {
+    this.#job = job;
+    this.next = next;
+    this.done = 0;
   }
 
   /**
@@ -116,25 +141,77 @@ export class Settings extends Part {
    * @returns {boolean} whether nothing is left to do
    */
   #proceed(limit) {
-    if (!this.#working) return true;
     const end = performance.now() + limit;
-    while (this.host.machine?.advance?.(SLICE) === false) {
-      if (performance.now() > end) return false;
+    while (this.#job) {
+      const job = this.#job;
+      let step;
+      try {
+        step = job.next();
+      } catch (error) {
+        this.#drop();
+        throw error;
+      }
+      if (!step.done) {
+        this.done = step.value;
+        if (performance.now() < end) continue;
+        this.host.progress.tell();
+        return false;
+      }
+      // Its end may have been the beginning of another.
+      if (this.#job !== job) continue;
+      this.stale = true;
+      this.#job = this.next = undefined;
+      this.host.progress.rest();
     }
-    this.#working = false;
-    this.stale = true;
     return true;
+  }
+
+  /** Nothing goes on any more, and the machine that was in the making is freed. */
+  #drop() {
+    const { next } = this;
+    this.#job = this.next = undefined;
+    this.host.progress.rest();
+    next?.free();
+  }
+
+  /** Whether what is being done can be stopped. */
+  get canStop() {
+    return this.next !== undefined || this.host.machine?.stop !== undefined;
+  }
+
+  /** The reader does not want to wait: all is as it was before. */
+  stop() {
+    const { runtime, reflection, cloud } = this.host;
+    runtime.attempt(() => {
+      if (!this.#job || !this.canStop) return;
+      if (!this.next) {
+        this.host.machine.stop();
+        if (cloud) cloud.playing = false;
+      }
+      this.#drop();
+      this.stale = true;
+      reflection.tell();
+      this.show();
+    });
   }
 
   /** Shows what the page changed, also to one who listens while the element is out of sight. */
   show() {
-    const { stage, runtime } = this.host;
-    stage.wake();
-    if (stage.inSight || this.#showing) return;
+    this.host.stage.wake();
+    if (this.host.stage.inSight || this.#showing) return;
     this.#showing = true;
-    queueMicrotask(() => {
-      this.#showing = false;
-      if (this.stale && !stage.inSight) runtime.attemptOrFail(() => this.host.refresh());
-    });
+    queueMicrotask(this.#showUnseen);
   }
+
+  #showUnseen = () => {
+    const { stage, runtime } = this.host;
+    this.#showing = false;
+    if (stage.inSight) return;
+    runtime.attemptOrFail(() => {
+      if (!this.settle(LONGEST_WORK)) {
+        this.#showing = true;
+        setTimeout(this.#showUnseen);
+      } else if (this.stale) this.host.refresh();
+    });
+  };
 }

@@ -157,13 +157,16 @@ export class Stage extends Part {
   #draw(elapsed) {
     const host = this.host;
     const began = performance.now();
-    // A large cloud takes several frames: the former one is shown until then.
-    if (!host.settings.settle(LONGEST_WORK) || host.cloud?.grow() === false) {
+    // A large cloud takes several frames: the former one is shown until then. So is the machine that another one is to
+    // replace, also where nothing of it has been drawn yet.
+    const settled = host.settings.settle(LONGEST_WORK);
+    if (!settled) this.wake();
+    if (settled ? host.cloud?.grow() === false : !host.settings.next || this.#told) {
       this.wake();
       return;
     }
     const { scene } = host;
-    const how = { elapsed, still: host.held, atOnce: isCalm() };
+    const how = { elapsed, still: host.held, atOnce: isCalm(), piecemeal: !this.#printing };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();

@@ -3,6 +3,7 @@
 import { object, refusal, word } from './checks.js';
 import { Part } from './part.js';
 import { orFree } from './runtime.js';
+import { LONGEST_WORK, advancing } from './settings.js';
 
 /**
  * @import { Figure } from './figure.js'
@@ -11,8 +12,8 @@ import { orFree } from './runtime.js';
  *
  * @typedef {object} Owned something in the state that is the element's and not its machine's
  * @property {unknown} opening what it is when the widget opens
- * @property {(field: string, value: any, machine: any, growing: boolean) => any} check what is taken of a value, of a figure
- *   whose cloud has samples still to come or not; throws
+ * @property {(field: string, value: any, machine: any, markable: number) => any} check what is taken of a value, of a figure
+ *   with so many samples that can be marked; throws
  */
 
 /** Version of the states that `getState` gives; `setState` refuses any other. */
@@ -65,6 +66,15 @@ export class State extends Part {
     host.machineChanged();
     host.settings.reset();
     if (this.kept) this.#adopt(this.kept);
+    host.settings.work(this.#resuming());
+    host.settings.settle(LONGEST_WORK);
+    host.settings.show();
+  }
+
+  *#resuming() {
+    const { host } = this;
+    yield* advancing(host.machine);
+    host.settings.reset();
     host.reflection.catchUp();
     host.link.catchUp();
     // It may have trapped.
@@ -87,15 +97,28 @@ export class State extends Part {
     });
     const whole = { ...present, ...host.completed(present, given) };
     const machine = orFree(host.createMachine(host.motion, whole), (made) => {
-      for (const [name, { check }] of Object.entries(this.#owned)) {
-        whole[name] = check(`state.${name}`, whole[name], made, whole.playing);
-      }
       host.cloud?.check(whole);
+      const markable = whole.playing ? made.config.samples : whole.shown;
+      for (const [name, { check }] of Object.entries(this.#owned)) {
+        whole[name] = check(`state.${name}`, whole[name], made, markable);
+      }
     });
+    host.settings.work(this.#entering(machine, whole), machine);
+    host.settings.settle(LONGEST_WORK);
+    host.settings.show();
+  }
+
+  /**
+   * @param {any} machine in a state
+   * @param {Values} whole the state
+   */
+  *#entering(machine, whole) {
+    yield* advancing(machine);
+    const { host } = this;
     this.#adopt(whole);
     host.runtime.replace(machine);
-    host.machineChanged();
     host.settings.reset();
+    host.machineChanged();
     this.#introduced = true;
     this.#introduce(whole);
   }
@@ -117,7 +140,7 @@ export class State extends Part {
    */
   assign(name, value) {
     const { machine, cloud, reflection, stage } = this.host;
-    this.own[name] = this.#owned[name].check(name, value, machine, cloud?.growing ?? false);
+    this.own[name] = this.#owned[name].check(name, value, machine, cloud?.markable ?? 0);
     reflection.tell();
     stage.wake();
   }

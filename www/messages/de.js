@@ -28,6 +28,13 @@ export const de = {
     svgTitle: 'Das Bild als Vektorgrafik',
     csvTitle: 'Jede Stichprobe, mit den Parametern und dem Startwert',
   },
+  progress: {
+    label: 'Wird berechnet',
+    begins: 'Das dauert einen Augenblick. Escape bricht es ab.',
+    stop: 'Abbrechen',
+    stopTitle: 'Alles bleibt, wie es war (Escape)',
+    stopped: 'Abgebrochen: Alles ist, wie es war.',
+  },
   presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', end: 'Verlassen' },
   copies: {
     label: 'Abbildung weitergeben',

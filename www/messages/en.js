@@ -37,6 +37,13 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     svgTitle: 'The picture as vector graphics',
     csvTitle: 'Every sample, with the parameters and the seed',
   },
+  progress: {
+    label: 'Computing',
+    begins: 'This takes a moment. Escape stops it.',
+    stop: 'Stop',
+    stopTitle: 'Everything stays as it was (Escape)',
+    stopped: 'Stopped: everything is as it was.',
+  },
   presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', end: 'Leave' },
   copies: {
     label: 'Share the figure',

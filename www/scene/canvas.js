@@ -17,6 +17,7 @@
  * @property {import('../ui/theme.js').Palette} palette
  * @property {number} ratio device pixels a pixel of the view
  * @property {string} font of the canvas's style
+ * @property {boolean} [piecemeal] whether what takes longer than a frame is left to the next ones
  */
 
 /** Height of a picture's letters, pixels of its view; those of the figure have 16: see the style of canvases. */

@@ -11,6 +11,7 @@ import { brushOn } from './canvas.js';
  * @property {number} [elapsed] milliseconds since the frame before
  * @property {boolean} [still] whether the view stays aimed at what it is aimed at
  * @property {boolean} [atOnce] whether the view goes there without easing
+ * @property {boolean} [piecemeal] whether what takes longer than a frame is left to the next ones
  */
 
 /**
@@ -18,6 +19,9 @@ import { brushOn } from './canvas.js';
  * @template {string} [Name=string]
  */
 export class Picture {
+  /** Whether something was left to the next frame. */
+  unfinished = false;
+
   /**
    * @param {Name} name class of its canvas
    * @param {View} view
@@ -41,14 +45,15 @@ export class Picture {
    * @param {Scene} scene
    * @param {Palette} palette
    * @param {Easing} [easing]
-   * @returns {boolean} whether the view is still moving
+   * @returns {boolean} whether the view is still moving, or not all is drawn
    */
-  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false } = {}) {
-    const brush = brushOn(surface, this.view, palette);
+  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false, piecemeal = false } = {}) {
+    const brush = { ...brushOn(surface, this.view, palette), piecemeal };
     if (!still || !this.view.aimed) this.fit(scene);
     const moving = this.view.ease(elapsed, atOnce);
+    this.unfinished = false;
     this.paint(brush, scene);
-    return moving;
+    return moving || this.unfinished;
   }
 
   /**

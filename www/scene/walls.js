@@ -24,8 +24,20 @@ const OUTLINE = 0.75;
 /** Walls that are stroked at once: browsers take far longer for one path of many. */
 const WALLS_A_STROKE = 500;
 
+/**
+ * What is stroked in a frame at most, pixels of the view, and what a wall counts besides its length: a hundredth of a second
+ * or two where a browser draws without a graphics processor.
+ */
+const STROKED = 200_000;
+const A_WALL = 8;
+
+/** Walls whose ends are nearer to each other than this look the same, pixels of the view. */
+const ALIKE = 0.25;
+
 /** So few are stroked with every picture: to copy a layer takes longer. */
 const FEW_WALLS = 50;
+
+/** @typedef {Pick<Brush, 'view' | 'palette'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} Bare */
 
 export class WallLayer {
   #plan;
@@ -38,6 +50,8 @@ export class WallLayer {
   #layer = new OffscreenCanvas(1, 1);
   /** What the layer shows. */
   #shown = '';
+  /** The first coordinate of the first wall that the layer does not show yet. */
+  #next = 0;
 
   /**
    * @param {Plan} plan
@@ -53,27 +67,38 @@ export class WallLayer {
     this.solid = grid !== null;
   }
 
-  /** @param {Brush} brush */
+  /**
+   * @param {Brush} brush
+   * @returns {boolean} whether walls are left to the next frames
+   */
   draw(brush) {
-    const { context, view, palette, ratio } = brush;
+    const { context, view, palette, ratio, piecemeal } = brush;
     const { extent, frame, width, height } = view;
-    if (!this.#grid && ('vector' in context || this.#plan.walls.length <= 4 * FEW_WALLS)) {
-      this.#outline(brush);
-      return;
+    const { walls } = this.#plan;
+    if (!this.#grid && ('vector' in context || walls.length <= 4 * FEW_WALLS)) {
+      this.#border(brush);
+      this.#stroke(brush, 0, Infinity);
+      return false;
     }
     const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
     if (wanted !== this.#shown) {
       this.#shown = wanted;
       this.#paint(brush);
     }
+    if (this.#next < walls.length) {
+      const layer = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#layer.getContext('2d'));
+      this.#next = this.#stroke({ context: layer, view, palette }, this.#next, piecemeal ? STROKED : Infinity);
+    }
     context.drawImage(this.#layer, 0, 0, width, height);
+    return this.#next < walls.length;
   }
 
-  /** @param {Brush} brush */
+  /** All but the walls. @param {Brush} brush */
   #paint({ view, palette, ratio }) {
     // A new size clears it.
     this.#layer.width = Math.round(view.width * ratio);
     this.#layer.height = Math.round(view.height * ratio);
+    this.#next = 0;
     const context = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#layer.getContext('2d'));
     context.scale(ratio, ratio);
     if (this.#grid) {
@@ -86,7 +111,7 @@ export class WallLayer {
       }
       fillCells(context, view, this.#grid, this.#mask('occupied', palette.truth));
     }
-    this.#outline({ context, view, palette });
+    this.#border({ context, view, palette });
   }
 
   /**
@@ -100,26 +125,51 @@ export class WallLayer {
     return mask.canvas;
   }
 
-  /** @param {Pick<Brush, 'view' | 'palette'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} brush */
-  #outline({ context, view, palette }) {
-    const { bounds, walls } = this.#plan;
+  /** @param {Bare} brush */
+  #border({ context, view, palette }) {
+    const { bounds } = this.#plan;
     const [left, top] = [view.toPixelX(bounds[0]), view.toPixelY(bounds[3])];
     context.strokeStyle = palette.rule;
+    context.lineWidth = 1;
     context.strokeRect(left, top, view.toPixelX(bounds[2]) - left, view.toPixelY(bounds[1]) - top);
+  }
 
+  /**
+   * Strokes walls; not those that look as the one before, and none out of view.
+   *
+   * @param {Bare} brush
+   * @param {number} next where the coordinates of the first one are
+   * @param {number} most to stroke, in pixels
+   * @returns {number} where those of the next one are that is to be stroked
+   */
+  #stroke({ context, view, palette }, next, most) {
+    const { walls } = this.#plan;
+    const { width, height } = view;
+    const margin = this.#width;
     context.strokeStyle = palette.truth;
     context.lineWidth = this.#width;
     context.lineCap = this.solid ? 'butt' : 'round';
-    for (let first = 0; first < walls.length; first += 4 * WALLS_A_STROKE) {
-      const last = Math.min(walls.length, first + 4 * WALLS_A_STROKE);
+    let [fromX, fromY, toX, toY] = [NaN, NaN, NaN, NaN];
+    let stroked = 0;
+    while (next < walls.length && stroked < most) {
+      const end = Math.min(walls.length, next + 4 * WALLS_A_STROKE);
       context.beginPath();
-      for (let i = first; i < last; i += 4) {
-        context.moveTo(view.toPixelX(walls[i]), view.toPixelY(walls[i + 1]));
-        context.lineTo(view.toPixelX(walls[i + 2]), view.toPixelY(walls[i + 3]));
+      for (; next < end && stroked < most; next += 4) {
+        const [x0, y0] = [view.toPixelX(walls[next]), view.toPixelY(walls[next + 1])];
+        const [x1, y1] = [view.toPixelX(walls[next + 2]), view.toPixelY(walls[next + 3])];
+        stroked++;
+        if (Math.max(Math.abs(x0 - fromX), Math.abs(y0 - fromY), Math.abs(x1 - toX), Math.abs(y1 - toY)) < ALIKE) continue;
+        if (Math.max(x0, x1) < -margin || Math.min(x0, x1) > width + margin) continue;
+        if (Math.max(y0, y1) < -margin || Math.min(y0, y1) > height + margin) continue;
+        [fromX, fromY, toX, toY] = [x0, y0, x1, y1];
+        context.moveTo(x0, y0);
+        context.lineTo(x1, y1);
+        stroked += A_WALL + Math.min(Math.hypot(x1 - x0, y1 - y0), width + height);
       }
       context.stroke();
     }
     context.lineCap = 'butt';
+    return next;
   }
 }
 

@@ -15,7 +15,7 @@ use super::settings::{Allowed, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
 use crate::map::{
-    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned, OccupancyGrid, Sampler, Wedged,
+    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MAX_WORK, MapConditioned, OccupancyGrid, Sampler, Wedged,
 };
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
@@ -92,15 +92,40 @@ pub struct MapSqueeze {
     plan: FloorPlan,
     settings: Settings,
     draws: Draws,
-    attempts: Vec<Attempt>,
-    tally: Tally,
-    gave_up: bool,
+    shown: Shown,
+    /// As it was before what was begun, until that is complete.
+    former: Option<Former>,
+    /// Memory for attempts to come: they take turns.
+    spare: Vec<Attempt>,
     picture: Picture,
+}
+
+/// The attempts shown.
+#[derive(Clone, Debug, Default)]
+struct Shown {
+    attempts: Vec<Attempt>,
+    /// How many there are to be.
+    goal: usize,
+    tally: Tally,
+    /// See [`Cost::work`].
+    work: usize,
+    gave_up: bool,
+}
+
+#[derive(Clone, Debug)]
+struct Former {
+    /// Where it is another one now.
+    plan: Option<FloorPlan>,
+    settings: Settings,
+    shown: Shown,
 }
 
 /// Draws a part of a motion on average before the machine gives up: an acceptance of 5 % over all attempts. Fewer
 /// would give up where a patient filter still works; more would keep a page waiting for seconds.
 const PATIENCE: usize = 20;
+
+/// What a draw takes, in distances to a point.
+const WORK: usize = 8;
 
 impl MapSqueeze {
     /// A machine in the apartment, all of its samples attempted.
@@ -108,16 +133,28 @@ impl MapSqueeze {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        let mut machine = Self::empty(settings)?;
+        machine.grow(settings.samples);
+        Ok(machine)
+    }
+
+    /// A machine in the apartment that shows nothing yet: whoever puts the robot into another map need not wait for this
+    /// one first.
+    ///
+    /// # Errors
+    /// As [`MapSqueeze::new`].
+    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut machine = Self {
             plan: FloorPlan::apartment(),
-            settings: Settings { samples: 0, ..settings },
+            settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
-            attempts: Vec::new(),
-            tally: Tally::default(),
-            gave_up: false,
+            shown: Shown::default(),
+            former: None,
+            spare: Vec::new(),
             picture: Picture::default(),
         };
-        machine.configure(settings)?;
+        machine.begin(settings)?;
+        machine.former = None;
         Ok(machine)
     }
 
@@ -132,9 +169,9 @@ impl MapSqueeze {
     /// Puts the robot into another map, where it stands and with the luck it has.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
-        let shown = self.shown_of(self.settings.samples);
+        let goal = self.goal_of(self.settings.samples);
         self.restart();
-        self.grow(shown);
+        self.grow(goal);
     }
 
     /// Puts the robot into a grid, as [`MapSqueeze::set_plan`] does into a plan; what is unknown there is as the settings say.
@@ -147,9 +184,9 @@ impl MapSqueeze {
     }
 
     /// How many attempts to show when there are `samples` from now on.
-    fn shown_of(&self, samples: usize) -> usize {
-        let complete = self.gave_up || self.attempts.len() == self.settings.samples;
-        if complete { samples } else { self.attempts.len().min(samples) }
+    fn goal_of(&self, samples: usize) -> usize {
+        let Shown { goal, gave_up, .. } = self.shown;
+        if gave_up || goal == self.settings.samples { samples } else { goal.min(samples) }
     }
 
     /// Changes the settings; the draws stay the same. A complete cloud stays complete; one that is still growing keeps
@@ -159,6 +196,16 @@ impl MapSqueeze {
     /// As [`MapSqueeze::new`], and where the unknown cells of the map cannot be what they are to be; nothing has changed
     /// then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        self.begin(settings)?;
+        self.finish();
+        Ok(())
+    }
+
+    /// As [`MapSqueeze::configure`], in slices: [`MapSqueeze::advance`] is to be called until it says true.
+    ///
+    /// # Errors
+    /// As [`MapSqueeze::configure`].
+    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
         let changed = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
         let plan = changed.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
@@ -171,67 +218,126 @@ impl MapSqueeze {
                 allowed: "free, as the cells of this map would have more than 100000 sides",
             },
         })?;
-        let shown = self.shown_of(settings.samples);
-        self.attempts
-            .try_reserve_exact(settings.samples.saturating_sub(self.attempts.len()))
-            .map_err(|_| SettingsError::no_memory(settings.samples))?;
-        self.draws.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
-        self.draws.restart(settings.seed, NoiseKind::Normal);
-        self.draws.extend_to(settings.samples);
-        self.settings = settings;
-        if let Some(plan) = plan {
-            self.plan = plan;
+        let attempts = std::mem::take(&mut self.spare);
+        let mut shown = Shown { attempts, goal: self.goal_of(settings.samples), ..Shown::default() };
+        let no_memory = |_| SettingsError::no_memory(settings.samples);
+        shown.attempts.try_reserve_exact(settings.samples).map_err(no_memory)?;
+        self.draws.reserve(settings.samples).map_err(no_memory)?;
+        let former = Former {
+            plan: plan.map(|plan| std::mem::replace(&mut self.plan, plan)),
+            settings: std::mem::replace(&mut self.settings, settings),
+            shown: std::mem::replace(&mut self.shown, shown),
+        };
+        match &mut self.former {
+            // What was begun before was not completed either.
+            Some(first) => first.plan = first.plan.take().or(former.plan),
+            None => self.former = Some(former),
         }
-        self.restart();
-        self.grow(shown);
+        self.draw();
         Ok(())
     }
 
-    /// Takes every attempt off the picture; the draws remain.
-    pub fn restart(&mut self) {
-        self.attempts.clear();
-        self.tally = Tally::default();
-        self.gave_up = false;
+    /// The draws of the settings.
+    fn draw(&mut self) {
+        self.draws.restart(self.settings.seed, NoiseKind::Normal);
+        self.draws.extend_to(self.settings.samples);
     }
 
-    /// Shows up to `count` attempts more; returns how many are shown. Stops for good where the robot is wedged.
-    pub fn grow(&mut self, count: usize) -> usize {
-        let end = self.attempts.len().saturating_add(count).min(self.settings.samples);
+    /// Looks at the map, where that is a new one, and goes on with what was begun, as far as `work` allows (about that many
+    /// distances computed); whether all is done.
+    pub fn advance(&mut self, mut work: usize) -> bool {
+        if !self.plan.prepare(&mut work) {
+            return false;
+        }
         let steps = self.settings.parts() as usize;
-        let Self { plan, settings, draws, attempts, tally, gave_up, .. } = self;
+        let Self { plan, settings, draws, shown, .. } = self;
+        let Shown { attempts, goal, tally, gave_up, .. } = shown;
         let model = conditioned(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
-        while attempts.len() < end && !*gave_up {
-            driver.drive_some(attempts.len()..end, |attempt, cost| {
+        while attempts.len() < *goal && !*gave_up && work > 0 {
+            driver.drive_some(attempts.len()..*goal, |attempt, cost| {
                 tally.draws += cost.draws;
                 tally.wall_tests += cost.wall_tests;
                 tally.accepted += usize::from(attempt.accepted);
                 tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
+                shown.work += cost.work();
+                work = work.saturating_sub(WORK * cost.work());
                 attempts.push(attempt);
             });
-            *gave_up = tally.draws > MAX_DRAWS + PATIENCE * steps * attempts.len();
+            *gave_up = tally.draws > MAX_DRAWS + PATIENCE * steps * attempts.len() || shown.work > MAX_WORK;
         }
-        self.attempts.len()
+        let done = attempts.len() >= *goal || *gave_up;
+        if let Some(former) = self.former.take_if(|_| done) {
+            self.spare = former.shown.attempts;
+            self.spare.clear();
+        }
+        done
+    }
+
+    /// Makes all attempts that there are to be. Where there are none, nobody looks at the map.
+    fn finish(&mut self) {
+        while self.shown.goal > 0 && !self.advance(usize::MAX) {}
+        self.former = None;
+    }
+
+    /// How much is done of looking at the map or, after that, of the attempts; from 0 to 1.
+    pub fn progress(&self) -> f64 {
+        let Shown { attempts, goal, .. } = &self.shown;
+        let prepared = self.plan.prepared();
+        if prepared < 1.0 { prepared } else { attempts.len() as f64 / (*goal).max(1) as f64 }
+    }
+
+    /// Gives up what was begun: all is as it was before, but for a map that was looked at in part.
+    pub fn stop(&mut self) {
+        let Some(Former { plan, settings, shown }) = self.former.take() else {
+            self.shown.goal = self.shown.attempts.len();
+            return;
+        };
+        if let Some(plan) = plan {
+            self.plan = plan;
+        }
+        (self.settings, self.shown) = (settings, shown);
+        self.draw();
+    }
+
+    /// Takes every attempt off the picture; the draws remain.
+    pub fn restart(&mut self) {
+        let mut attempts = std::mem::take(&mut self.shown.attempts);
+        attempts.clear();
+        self.shown = Shown { attempts, ..Shown::default() };
+        self.former = None;
+    }
+
+    /// Shows up to `count` attempts more; returns how many are shown. Stops for good where the robot is wedged.
+    pub fn grow(&mut self, count: usize) -> usize {
+        self.begin_to_grow(count);
+        self.finish();
+        self.shown.attempts.len()
+    }
+
+    /// As [`MapSqueeze::grow`], in slices like [`MapSqueeze::begin`].
+    pub fn begin_to_grow(&mut self, count: usize) {
+        self.shown.goal = self.shown.goal.saturating_add(count).min(self.settings.samples);
     }
 
     /// The attempts shown, in sample order.
     pub fn attempts(&self) -> &[Attempt] {
-        &self.attempts
+        &self.shown.attempts
     }
 
     pub fn tally(&self) -> &Tally {
-        &self.tally
+        &self.shown.tally
     }
 
     /// Whether the machine stopped short of its samples because too few draws were accepted.
     pub fn gave_up(&self) -> bool {
-        self.gave_up
+        self.shown.gave_up
     }
 
     pub fn stats(&self) -> Stats {
-        let tally = &self.tally;
+        let tally = &self.shown.tally;
         Stats {
-            attempts: self.attempts.len(),
+            attempts: self.shown.attempts.len(),
             drawn: tally.draws,
             accepted: tally.accepted,
             acceptance_rate: tally.acceptance_rate(self.settings.parts()),
@@ -240,7 +346,7 @@ impl MapSqueeze {
             through_wall_interval: tally.through_wall_interval(),
             draws_per_accepted: share(tally.draws, tally.accepted),
             wall_tests_per_accepted: share(tally.wall_tests, tally.accepted),
-            gave_up: self.gave_up,
+            gave_up: self.shown.gave_up,
         }
     }
 
@@ -250,19 +356,19 @@ impl MapSqueeze {
     /// # Errors
     /// Where memory does not suffice for the cells.
     pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; KINDS]) -> Result<&[[u8; 4]], TryReserveError> {
-        self.picture.paint(&self.attempts, grid, ramps)
+        self.picture.paint(&self.shown.attempts, grid, ramps)
     }
 
     /// The attempt that ends nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
-        self.attempts.iter().for_each(|attempt| nearest.see([attempt.pose.x(), attempt.pose.y()]));
+        self.shown.attempts.iter().for_each(|attempt| nearest.see([attempt.pose.x(), attempt.pose.y()]));
         nearest.index()
     }
 
     /// The arcs driven in an attempt that is shown.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
-        if index >= self.attempts.len() {
+        if index >= self.shown.attempts.len() {
             return Vec::new();
         }
         let model = conditioned(&self.settings, &self.plan, self.settings.sampler);
@@ -279,11 +385,10 @@ impl MapSqueeze {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total = Cost::default();
         for _ in 0..count {
-            let Cost { draws, wall_tests } =
-                conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
-            total.draws += draws;
-            total.wall_tests += wall_tests;
-            if total.draws > most_draws(sampler, count) {
+            let cost = conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
+            total.draws += cost.draws;
+            total.wall_tests += cost.wall_tests;
+            if total.draws > most_draws(sampler, count) || total.work() > MAX_WORK {
                 return Err(Wedged(total));
             }
         }

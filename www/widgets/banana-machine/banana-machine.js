@@ -5,7 +5,7 @@
 
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
-import { Cloud, showOnly } from '../../figure/cloud.js';
+import { Cloud, shownOf } from '../../figure/cloud.js';
 import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
@@ -81,7 +81,7 @@ export class BananaMachineElement extends FigureElement {
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configure({ model: other, alphas: alphas[other] });
       machine.configure({ ...this.settings.declared(state), alphas: alphas[model] });
-      showOnly(machine, shown);
+      machine.grow(shownOf(machine, shown));
     });
   };
 

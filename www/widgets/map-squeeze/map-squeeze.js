@@ -1,12 +1,13 @@
 /** <map-squeeze>: motion conditioned on a map, and what the condition cannot see. */
 
 import { html, nothing } from 'lit';
-import { Cloud, showOnly } from '../../figure/cloud.js';
+import { Cloud, shownOf } from '../../figure/cloud.js';
 import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
+import { LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
 import { fold } from '../../ui/fold.js';
@@ -61,12 +62,11 @@ export class MapSqueezeElement extends FigureElement {
 
   /** @type {FigureElement<Machine, Reading>['createMachine']} */
   createMachine = (motion, state) => {
-    const machine = new motion.MapSqueeze();
-    if (!state) return machine;
-    return orFree(machine, () => {
-      if (state.map !== null) applyMap(machine, state.map);
+    if (!state) return new motion.MapSqueeze();
+    return orFree(motion.MapSqueeze.empty(), (machine) => {
       machine.configure(this.settings.declared(state));
-      showOnly(machine, state.shown);
+      if (state.map !== null) applyMap(machine, state.map);
+      machine.beginToGrow(shownOf(machine, state.shown));
     });
   };
 
@@ -153,7 +153,7 @@ export class MapSqueezeElement extends FigureElement {
       if (given === null) {
         this.#leave();
         this.#findRoom();
-      } else this.#enter({ name: given.name ?? '', apply: (machine) => applyMap(machine, given) });
+      } else this.#enter({ name: given.name ?? '', apply: (machine) => applyMap(machine, given) }, () => this.reflection.tell());
       this.reflection.tell();
       this.settings.show();
     });
@@ -219,9 +219,11 @@ export class MapSqueezeElement extends FigureElement {
   /** The reader wants the robot in a map of their own. @param {OwnMap & { start?: Pose }} map */
   open(map) {
     if (!this.machine) return;
-    this.runtime.attempt(() => this.#enter(map));
-    this.gesture.step();
-    this.commit();
+    this.runtime.attempt(() => this.#enter(map, () => {
+      this.gesture.step();
+      this.commit();
+    }));
+    this.stage.wake();
   }
 
   /** Leaves the reader's own map, if it is there. */
@@ -237,25 +239,45 @@ export class MapSqueezeElement extends FigureElement {
 
   /**
    * Puts the robot into another map. A machine of its own tries it: the present one stays as it is where
-   * the map, or the place in it, is refused.
+   * the map, or the place in it, is refused, or the reader does not want to wait.
    *
    * @param {OwnMap & { start?: Pose }} map with the place in it, where that is known
+   * @param {() => void} arrived is called when it is there
    */
-  #enter(map) {
-    const { motion } = this;
+  #enter(map, arrived) {
+    const { motion, settings } = this;
     if (!motion) return;
-    this.settings.settle();
-    let data = null;
-    const next = orFree(this.createMachine(motion, this.snapshot()), (machine) => {
-      map.apply(machine);
-      if (map.start) machine.configure({ start: map.start });
-      else if (!machine.startFree || machine.grid) machine.configure({ start: this.#putInTheOpen(machine) });
-      showOnly(machine, this.cloud.asked);
-      data = mapData(machine, map.name);
+    settings.settle();
+    const machine = orFree(motion.MapSqueeze.empty(), (made) => {
+      made.configure(settings.declared(settings.present));
+      map.apply(made);
     });
-    this.runtime.replace(next);
+    settings.work(this.#entering(machine, map, arrived), machine);
+    settings.settle(LONGEST_WORK);
+  }
+
+  /**
+   * @param {Machine} machine in another map
+   * @param {OwnMap & { start?: Pose }} map
+   * @param {() => void} arrived
+   * @returns {import('../../figure/settings.js').Job}
+   */
+  *#entering(machine, { name, start }, arrived) {
+    yield* advancing(machine);
+    yield 1;
+    if (start) machine.configure({ start });
+    else if (!machine.startFree || machine.grid) machine.configure({ start: this.#putInTheOpen(machine) });
+    machine.beginToGrow(this.cloud.asked);
+    yield 0;
+    yield* advancing(machine);
+    yield 1;
+    const data = mapData(machine, name);
+    yield 1;
+    this.runtime.replace(machine);
+    this.settings.reset();
     this.#left = null;
     this.#moved(data);
+    arrived();
   }
 
   /** In the apartment the robot goes to where it opens if it has no room where it is. */

@@ -9,6 +9,9 @@ import { limits } from '../../../settings.js';
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
 
+/** The most that the core takes. */
+const MAX_WALLS = 100_000;
+
 /** Shades of a cell in the image that a grid is handed over as, white being occupied. */
 const [OCCUPIED, UNKNOWN] = [2, 1];
 
@@ -27,7 +30,25 @@ export function mapData(machine, name) {
     return unknown.includes(1) ? { ...data, unknown: packBits(unknown) } : data;
   }
   const { bounds, walls } = machine.plan;
-  return { name, bounds: [...bounds], walls: Array.from({ length: walls.length / 4 }, (_, i) => [...walls.subarray(4 * i, 4 * i + 4)]) };
+  const listed = [];
+  for (let i = 0; i < walls.length; i += 4) listed.push([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]);
+  return { name, bounds: [...bounds], walls: listed };
+}
+
+/**
+ * The walls of a floor plan as the core reads them soonest, one after the other; as they are where they are something else
+ * than such a list, of which the core says what is wrong.
+ *
+ * @param {unknown} walls
+ */
+export function inOneList(walls) {
+  if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
+  const numbers = new Float64Array(4 * walls.length);
+  for (const [i, wall] of walls.entries()) {
+    if (!Array.isArray(wall) || wall.length !== 4 || !wall.every((each) => typeof each === 'number')) return walls;
+    numbers.set(wall, 4 * i);
+  }
+  return numbers;
 }
 
 /**
@@ -42,7 +63,7 @@ export function applyMap(machine, data) {
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    machine.setPlan({ bounds: map.bounds, walls: map.walls });
+    machine.setPlan({ bounds: map.bounds, walls: inOneList(map.walls) });
     return;
   }
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
@@ -87,5 +108,7 @@ function unpackBits(field, text, count) {
     throw refusal(field, text, allowed);
   }
   if (bytes.length !== length) throw refusal(field, text, allowed);
-  return Uint8Array.from({ length: count }, (_, i) => (bytes[i >> 3] >> (7 - (i & 7))) & 1);
+  const cells = new Uint8Array(count);
+  for (let i = 0; i < count; i++) cells[i] = (bytes[i >> 3] >> (7 - (i & 7))) & 1;
+  return cells;
 }

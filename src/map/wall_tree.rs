@@ -1,0 +1,277 @@
+//! The walls of a plan in a tree, so that few of them are looked at, wherever they are.
+
+use crate::geom::segment::Segment;
+use std::ops::Range;
+
+/// Walls by where they are and where they lead. Each node knows a capsule, all points within its thickness of one line,
+/// that holds its walls: long walls side by side are as few to look at as short ones in one place, walls that are nearly
+/// the same are looked at as one, and equal ones are one.
+///
+/// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
+#[derive(Clone, Debug)]
+pub(super) struct WallTree {
+    /// Those of every node side by side.
+    walls: Vec<Segment>,
+    /// Each of them, ready to be measured; once the tree is grown.
+    lines: Vec<Line>,
+    nodes: Vec<Node>,
+    /// How often the walls are halved.
+    depth: u32,
+    /// More than the rounding of any distance on the map, m.
+    slack: f64,
+}
+
+/// A part of the walls.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    hull: Line,
+    /// No wall gets further from the line than this, m.
+    pub thickness: f64,
+    /// Whether the walls are all the same.
+    is_one: bool,
+}
+
+/// Walls of a leaf at most, and of a tree that is one leaf: fewer would be more nodes to look at, more more walls.
+const LEAF: usize = 16;
+const ONLY_LEAF: usize = 32;
+
+impl WallTree {
+    /// A tree that is still to be grown, of walls within `bounds`.
+    pub fn seed(walls: &[Segment], bounds: [f64; 4]) -> Self {
+        let leaves =
+            if walls.len() <= ONLY_LEAF { 1 } else { walls.len().div_ceil(LEAF).next_power_of_two() };
+        Self {
+            walls: walls.to_vec(),
+            lines: Vec::new(),
+            // The root is looked at in any case, and there is nothing beside it.
+            nodes: vec![Node { hull: Line::POINT, thickness: f64::INFINITY, is_one: false }; 2],
+            depth: leaves.ilog2(),
+            slack: 1e-9 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
+        }
+    }
+
+    /// Grows on, as far as `work` allows (about that many distances computed); whether it is complete.
+    pub fn grow(&mut self, work: &mut usize) -> bool {
+        let complete = 2 << self.depth;
+        while *work > 0 && self.nodes.len() < complete {
+            let parent = self.nodes.len() / 2;
+            self.halve(parent);
+            self.nodes.extend([2 * parent, 2 * parent + 1].map(|child| self.node_of(child)));
+            *work = work.saturating_sub(WORK_A_WALL * self.range(parent).len());
+        }
+        if self.nodes.len() < complete {
+            return false;
+        }
+        if self.lines.is_empty() {
+            self.lines.extend(self.walls.iter().map(Line::new));
+        }
+        true
+    }
+
+    /// How much of it is there, from 0 to 1.
+    pub fn grown(&self) -> f64 {
+        // Every level is as much work as any other.
+        f64::from((self.nodes.len() / 2).ilog2()) / f64::from(self.depth.max(1))
+    }
+
+    /// Puts the walls of a node in the order of its children: half of them left or right, below or above, longer or
+    /// shorter, or more upright, as they differ most.
+    fn halve(&mut self, at: usize) {
+        let (range, middle) = (self.range(at), self.range(2 * at).end);
+        let walls = &mut self.walls[range.clone()];
+        let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
+        for wall in &*walls {
+            for ([least, most], place) in ends.iter_mut().zip(place(wall)) {
+                (*least, *most) = (least.min(place), most.max(place));
+            }
+        }
+        let spread = ends.map(|[least, most]| most - least);
+        let axis = (1..4).fold(0, |widest, axis| if spread[axis] > spread[widest] { axis } else { widest });
+        part(walls, middle - range.start, axis);
+    }
+
+    fn node_of(&self, at: usize) -> Node {
+        let walls = &self.walls[self.range(at)];
+        // Along what most of the walls lead, or along an axis: as it makes the narrowest.
+        let sum = walls.iter().map(place).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
+        let length = libm::hypot(sum[0], sum[1]);
+        let mean = if length > 0.0 { sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
+        let mut narrowest = (f64::INFINITY, Line::POINT);
+        for [x, y] in [mean, [1.0, 0.0], [0.0, 1.0]] {
+            let mut extent = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+            for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
+                let (along, off) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
+                extent = [extent[0].min(along), extent[1].min(off), extent[2].max(along), extent[3].max(off)];
+            }
+            let [back, right, front, left] = extent;
+            let (middle, width) = (0.5 * (right + left), left - right);
+            // The ends of a capsule are round: what is as wide as it is long is a disc.
+            let round = (0.25 * width).min(0.5 * (front - back));
+            let at = |along: f64| [along * x - middle * y, along * y + middle * x];
+            if width < narrowest.0 {
+                narrowest = (width, Line::new(&Segment { from: at(back + round), to: at(front - round) }));
+            }
+        }
+        let hull = narrowest.1;
+        // No point of a wall is further from the line than the further one of its ends.
+        let ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
+        let furthest = ends.map(|end| hull.square(end)).fold(0.0, f64::max).sqrt();
+        Node { hull, thickness: furthest + self.slack, is_one: walls.iter().all(|wall| *wall == walls[0]) }
+    }
+
+    /// Where the walls of a node are.
+    fn range(&self, at: usize) -> Range<usize> {
+        let depth = at.ilog2();
+        let (count, place) = (self.walls.len() as u64, (at - (1 << depth)) as u64);
+        let end = |place: u64| ((count * place) >> depth) as usize;
+        end(place)..end(place + 1)
+    }
+
+    /// The walls of a node by their numbers, equal ones once.
+    pub fn members(&self, at: usize) -> Range<usize> {
+        let range = self.range(at);
+        if self.nodes[at].is_one { range.start..range.start + 1 } else { range }
+    }
+
+    pub fn line(&self, wall: usize) -> &Line {
+        &self.lines[wall]
+    }
+
+    pub fn node(&self, at: usize) -> &Node {
+        &self.nodes[at]
+    }
+
+    /// How many walls there are.
+    pub fn count(&self) -> usize {
+        self.walls.len()
+    }
+
+    /// Whether there is nothing to descend to.
+    pub fn is_leaf(&self, at: usize) -> bool {
+        at >> self.depth > 0 || self.nodes[at].is_one
+    }
+
+    /// Whether all walls are `kept`, but for those in nodes that are `far`.
+    #[inline(always)]
+    pub fn all(&self, mut far: impl FnMut(&Node) -> bool, mut kept: impl FnMut(&Segment) -> bool) -> bool {
+        let mut at = 1;
+        loop {
+            if at == 1 || !far(&self.nodes[at]) {
+                if !self.is_leaf(at) {
+                    at *= 2;
+                    continue;
+                }
+                if !self.walls[self.members(at)].iter().all(&mut kept) {
+                    return false;
+                }
+            }
+            // The next one that is no child of it: a right child is its parent's last.
+            at += 1;
+            at >>= at.trailing_zeros();
+            if at == 1 {
+                return true;
+            }
+        }
+    }
+}
+
+/// What it takes to put a wall in order once, in distances that are computed meanwhile.
+const WORK_A_WALL: usize = 8;
+
+impl Node {
+    /// The line that the walls are around, to be measured as a wall is.
+    pub fn line(&self) -> Segment {
+        let Line { from, along, .. } = self.hull;
+        Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
+    }
+
+    /// Whether no wall of the node comes within `reach` (m) of a point.
+    #[inline(always)]
+    pub fn is_beyond(&self, point: [f64; 2], reach: f64) -> bool {
+        let reach = reach + self.thickness;
+        self.hull.square(point) > reach * reach
+    }
+
+    /// No wall of the node is nearer to a point than this, m.
+    #[inline(always)]
+    pub fn least(&self, point: [f64; 2]) -> f64 {
+        (self.hull.square(point).sqrt() - self.thickness).max(0.0)
+    }
+}
+
+/// A wall, ready to be measured many times.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    from: [f64; 2],
+    along: [f64; 2],
+    /// 1/|along|²; 0 for a wall without length.
+    per_square: f64,
+}
+
+impl Line {
+    const POINT: Self = Self { from: [0.0; 2], along: [0.0; 2], per_square: 0.0 };
+
+    fn new(wall: &Segment) -> Self {
+        let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
+        let per_square = 1.0 / (along[0] * along[0] + along[1] * along[1]);
+        Self { from: wall.from, along, per_square: if per_square.is_finite() { per_square } else { 0.0 } }
+    }
+
+    /// The square of the distance to a point, m².
+    #[inline(always)]
+    pub fn square(&self, point: [f64; 2]) -> f64 {
+        let Self { from, along, per_square } = *self;
+        let offset = [point[0] - from[0], point[1] - from[1]];
+        let t = ((offset[0] * along[0] + offset[1] * along[1]) * per_square).clamp(0.0, 1.0);
+        let [x, y] = [offset[0] - t * along[0], offset[1] - t * along[1]];
+        x * x + y * y
+    }
+}
+
+/// Brings the first `count` walls by a coordinate before the others, by Hoare's selection: in as many rounds as are usual at
+/// most. Were walls made to need more, their tree would have other parts and be none the less right.
+fn part(walls: &mut [Segment], count: usize, axis: usize) {
+    let (mut low, mut high) = (0, walls.len());
+    for _ in 0..ROUNDS {
+        if high - low < 2 {
+            return;
+        }
+        let of = |wall: &Segment| place(wall)[axis];
+        let pivot = of(&walls[(low + high) / 2]);
+        let (mut left, mut right) = (low, high);
+        loop {
+            while of(&walls[left]) < pivot {
+                left += 1;
+            }
+            while of(&walls[right - 1]) > pivot {
+                right -= 1;
+            }
+            if left < right {
+                walls.swap(left, right - 1);
+                (left, right) = (left + 1, right - 1);
+            }
+            if left >= right {
+                break;
+            }
+        }
+        // All before `right` are up to the pivot, all from `left` on at least.
+        if count < right {
+            high = right;
+        } else if count > left {
+            low = left;
+        } else {
+            return;
+        }
+    }
+}
+
+const ROUNDS: usize = 64;
+
+/// Coordinates of a wall among others: twice its middle, and the way from its left end to the right one. It does not
+/// matter which end is called the first.
+fn place(wall: &Segment) -> [f64; 4] {
+    let Segment { from: [x0, y0], to: [x1, y1] } = *wall;
+    let (x, y) = (x1 - x0, y1 - y0);
+    let [x, y] = if x < 0.0 || (x == 0.0 && y < 0.0) { [-x, -y] } else { [x, y] };
+    [x0 + x1, y0 + y1, x, y]
+}

@@ -1,0 +1,51 @@
+/** Bytes that are nearly right, the same for the same seed. */
+
+import { Buffer } from 'node:buffer';
+
+/** What formats and languages stumble over. */
+const TOKENS = [
+  ...['\0', '\n', '\r\n', '\t', ' ', '"', "'", '#', ',', ':', ': ', '- ', '? ', '|\n', '>', '[', ']', '{', '}', '&a ', '*a', '<<: ', '---\n', '...', '%', '\\', '/'],
+  ...['-', '0', '-0', '1e999', '-1', '0x10', '.nan', '.inf', 'NaN', 'null', 'true', '16777216', '65536', '4294967295', '99999999999999999999'],
+  ...['__proto__', 'constructor', 'toString', 'image', 'resolution', 'origin', 'negate', 'mode', 'bounds', 'walls', 'map', '!!js/function ', '!!binary '],
+  ...['<script>alert(1)</script>', '"><img src=x onerror=alert(1)>', ']]>', '&lt;', '\u202e', '\ufeff', '\u2028', '\u{1f916}', 'é'],
+  ...['IHDR', 'PLTE', 'tRNS', 'IDAT', 'IEND', 'P2', 'P5'],
+].map((token) => Buffer.from(token));
+
+/** Bytes that lie at the ends of ranges. */
+const BYTES = [0, 1, 2, 3, 4, 8, 16, 32, 127, 128, 255];
+
+/** Bytes that mutants grow to. */
+const LONGEST = 4096;
+
+/**
+ * @param {Uint8Array[]} corpus
+ * @param {() => number} random from 0 to 1
+ * @returns {Buffer<ArrayBuffer>} one of the corpus, changed in one to four places
+ */
+export function mutantOf(corpus, random) {
+  const below = (/** @type {number} */ count) => Math.floor(count * random());
+  const one = (/** @type {ArrayLike<any>} */ from) => from[below(from.length)];
+  /** @type {Buffer<ArrayBuffer>} */
+  let bytes = Buffer.from(one(corpus));
+  /** @param {Uint8Array} middle instead of what is between two places */
+  const put = (middle, from = below(bytes.length + 1), to = from) => {
+    bytes = Buffer.concat([bytes.subarray(0, from), middle, bytes.subarray(to)]).subarray(0, LONGEST);
+  };
+  for (let changes = 1 + below(4); changes > 0; changes--) {
+    const [from, to] = [below(bytes.length + 1), below(bytes.length + 1)].sort((a, b) => a - b);
+    const kinds = [
+      () => put(Buffer.of(below(256)), from, from + 1),
+      () => put(Buffer.of(one(BYTES)), from, from + 1),
+      () => put(Buffer.of((bytes[from] ?? 0) ^ (1 << below(8))), from, from + 1),
+      () => put(one(TOKENS)),
+      () => put(one(TOKENS), from, Math.min(to, from + 8)),
+      () => put(Buffer.alloc(0), from, Math.min(to, from + 16)),
+      () => put(bytes.subarray(from, to)),
+      () => put(Buffer.concat(Array(1 + below(40)).fill(bytes.subarray(from, Math.min(to, from + 8))))),
+      () => put(one(corpus).subarray(from, to)),
+      () => (bytes = bytes.subarray(0, to)),
+    ];
+    one(kinds)();
+  }
+  return bytes;
+}

@@ -1,0 +1,199 @@
+/**
+ * Everything that www/ parses itself, each as a function of bytes. It returns whether they were taken; what they are refused
+ * with is looked at, and whatever else is thrown is a failure.
+ */
+
+import assert from 'node:assert/strict';
+import { Buffer } from 'node:buffer';
+import { deflateRawSync, deflateSync } from 'node:zlib';
+import { load } from '../../dist/core.js';
+import { attributesOf, isSetting } from '../../www/figure/attributes.js';
+import { pack, unpack } from '../../www/figure/packing.js';
+import { settings } from '../../www/settings.js';
+import { applyMap, mapData } from '../../www/widgets/map-squeeze/maps/data.js';
+import { description, file, refusalOf } from '../node/map-support.js';
+import { SIGNATURE, chunk, header, pngOf, rasterOf } from '../png.js';
+
+/**
+ * @typedef {object} Target
+ * @property {Uint8Array[]} corpus that is taken, most of it
+ * @property {(bytes: Buffer<ArrayBuffer>) => Promise<boolean>} run
+ */
+
+const motion = await load();
+
+const squeeze = new motion.MapSqueeze({ samples: 1 });
+
+/**
+ * The machines that attributes are of, and how they open.
+ *
+ * @type {{ attributes: ReturnType<typeof attributesOf>, machine: any, opening: any }[]}
+ */
+const machines = [
+  { attributes: attributesOf(settings['banana-machine']), machine: new motion.BananaMachine({ samples: 1 }) },
+  { attributes: attributesOf(settings['map-squeeze']), machine: squeeze },
+].map((each) => ({ ...each, opening: each.machine.config }));
+
+/** Characters of a sentence: what it quotes is cut. */
+const LONGEST = 700;
+
+/** What every refusal says. */
+const SENTENCE = /(; (allowed|expected) (is|are) |: there are no fields in it; expected )/;
+
+/** @param {string} sentence */
+function look(sentence) {
+  assert.match(sentence, SENTENCE);
+  assert.ok(sentence.length <= LONGEST, `${sentence.length} characters: ${sentence}`);
+}
+
+/** @param {File[]} files */
+async function filesAreTaken(...files) {
+  const sentence = await refusalOf(files);
+  if (sentence === '') return true;
+  assert.ok(sentence.startsWith(files[0].name.replace(/\..*/, '')), sentence);
+  look(sentence);
+  return false;
+}
+
+/**
+ * Whether what the core is given is taken.
+ *
+ * @param {() => void} give
+ */
+function isTaken(give) {
+  try {
+    give();
+    return true;
+  } catch (error) {
+    if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
+    look(error.message);
+    return false;
+  }
+}
+
+/** A PNG image with the checksums of its chunks put right, as far as it has chunks. @param {Buffer} bytes */
+function mended(bytes) {
+  const parts = [bytes.subarray(0, SIGNATURE.length)];
+  let at = SIGNATURE.length;
+  while (at + 12 <= bytes.length) {
+    const end = at + 12 + bytes.readUInt32BE(at);
+    if (end > bytes.length) break;
+    parts.push(chunk(bytes.toString('latin1', at + 4, at + 8), bytes.subarray(at + 8, end - 4)));
+    at = end;
+  }
+  return Buffer.concat([...parts, bytes.subarray(at)]);
+}
+
+const texts = (/** @type {string[]} */ ...all) => all.map((text) => Buffer.from(text));
+
+const YAMLS = texts(
+  'image: map.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n',
+  '# by hand\nimage: "maps/map.pgm"\nresolution: 5e-2\norigin:\n  - 1\n  - -2.5\n  - 1.57\nmode: scale\nnegate: no\n',
+  '{image: map.pgm, resolution: .1, origin: [0, 0, 0], mode: raw, negate: true}',
+  "? image\n: 'map.pgm'\nresolution: !!float 0.1\norigin: &o [0, 0, 0]\n",
+);
+
+const PLANS = texts(
+  '{"bounds": [0, 0, 6, 4], "walls": [[0, 0, 6, 0], [6, 0, 6, 4], [3, 0, 3, 1.5]]}',
+  '{\n  # by hand\n  bounds: [-1e2, -3, 6, 4],\n  walls: [],\n}',
+);
+
+const [column, row] = [(/** @type {number} */ x) => x % 2, (/** @type {number} */ _, /** @type {number} */ y) => y % 2];
+
+/** @type {Record<string, Target>} */
+export const targets = {
+  png: {
+    corpus: [
+      pngOf({ width: 5, height: 4, sample: (x, y) => (40 * x + y) % 256, filter: (y) => y, pieces: 2 }),
+      pngOf({ width: 9, height: 9, depth: 1, interlaced: true, sample: column, before: [['gAMA', [0, 0, 0xb1, 0x8f]]] }),
+      pngOf({ width: 3, height: 3, depth: 2, colour: 3, sample: row, before: [['PLTE', [0, 0, 0, 255, 255, 255]], ['tRNS', [7]]] }),
+      pngOf({ width: 3, height: 2, depth: 16, colour: 6, interlaced: true, sample: (x, y, part) => 9999 * part + x + y }),
+      pngOf({ width: 4, height: 2, colour: 4, sample: (x) => 60 * x }),
+      pngOf({ width: 4, height: 2, colour: 2, sample: (x) => 60 * x, before: [['tRNS', [0, 60, 0, 60, 0, 60]]] }),
+    ],
+    run: (bytes) => filesAreTaken(description(), file('map.png', bytes.length % 4 ? mended(bytes) : bytes)),
+  },
+  pixels: {
+    corpus: [Buffer.alloc(42), Buffer.from([...Array(6)].flatMap((_, y) => [y, 1, 2, 3, 4, 5, 250]))],
+    // What an image inflates to, behind a header that its first bytes choose.
+    run: (bytes) => {
+      const kinds = [0, 2, 3, 4, 6].flatMap((colour) => [1, 2, 4, 8, 16].map((depth) => ({ colour, depth })));
+      const { colour, depth } = kinds[(bytes[0] ?? 0) % kinds.length];
+      const [width, height, interlaced] = [1 + ((bytes[1] ?? 0) % 8), 1 + ((bytes[2] ?? 0) % 8), ((bytes[0] ?? 0) & 128) > 0];
+      // As long as it should be, but for one in eight.
+      const { length } = rasterOf({ width, height, depth, colour, interlaced, sample: () => 0 });
+      const raster = bytes.length % 8 ? Buffer.concat([bytes, Buffer.alloc(length)]).subarray(0, length) : bytes;
+      const palette = colour === 3 ? [chunk('PLTE', bytes.subarray(0, 6))] : [];
+      const parts = [header({ width, height, depth, colour, interlaced }), ...palette, chunk('IDAT', deflateSync(raster)), chunk('IEND', [])];
+      return filesAreTaken(description(), file('map.png', Buffer.concat([SIGNATURE, ...parts])));
+    },
+  },
+  pgm: {
+    corpus: texts('P2\n# by hand\n4 3\n255\n0 255 51 7\n102 153 204 8\n1 2 3 4\n', 'P5\n3 2\n255\nabcdef', 'P5 2 2 65535\nabcdefgh'),
+    run: (bytes) => filesAreTaken(description({ image: 'map.pgm' }), file('map.pgm', bytes)),
+  },
+  yaml: { corpus: YAMLS, run: (bytes) => filesAreTaken(file('map.yaml', bytes), file('map.pgm', 'P5 2 1 255\nab')) },
+  plan: { corpus: PLANS, run: (bytes) => filesAreTaken(file('map.json', bytes)) },
+  link: {
+    corpus: [...texts(...(await Promise.all(states().map(pack)))), ...texts(...states().map((state) => JSON.stringify(state)))],
+    async run(bytes) {
+      const text = bytes.length % 2 ? deflateRawSync(bytes).toString('base64url') : bytes.toString('latin1');
+      try {
+        await unpack(text);
+        return true;
+      } catch (error) {
+        assert.ok(error instanceof RangeError);
+        look(error.message);
+        return false;
+      }
+    },
+  },
+  state: {
+    corpus: states().map((state) => Buffer.from(JSON.stringify(state))),
+    async run(bytes) {
+      let state;
+      try {
+        state = JSON.parse(bytes.toString());
+      } catch {
+        return false;
+      }
+      const { map = null, ...rest } = Object(state);
+      // An element has looked at it already.
+      delete rest.widget;
+      const before = mapData(squeeze, '');
+      const taken = map === null || isTaken(() => applyMap(squeeze, map));
+      if (!taken) assert.deepEqual(mapData(squeeze, ''), before);
+      const configured = isTaken(() => squeeze.configure(rest));
+      squeeze.configure(machines[1].opening);
+      return taken && configured;
+    },
+  },
+  attributes: {
+    corpus: texts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0'),
+    async run(bytes) {
+      const [name, ...rest] = bytes.toString().split('=');
+      let taken = false;
+      for (const { attributes, machine, opening } of machines) {
+        const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
+        if (!isSetting(attribute)) continue;
+        const present = () => ({ config: machine.config, machine });
+        if (!isTaken(() => machine.configure(attribute.change(attribute.kind.parse(rest.join('=')), present())))) continue;
+        assert.equal(typeof attribute.kind.print(attribute.get(present())), 'string');
+        machine.configure(opening);
+        taken = true;
+      }
+      return taken;
+    },
+  },
+};
+
+/** States that links carry. */
+function states() {
+  const machine = new motion.MapSqueeze({ samples: 1 });
+  const { config } = machine;
+  const plan = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
+  machine.setGrid({ resolution: 0.5, origin: [0, 0, 0.5] }, Buffer.from('P5 3 2 255\n\0\xff\x80\0\xff\xff', 'latin1'));
+  const grid = mapData(machine, 'map.yaml');
+  machine.free();
+  return [{ ...config, map: null }, { ...config, map: plan }, { widget: 'map-squeeze', samples: 1, map: grid }];
+}

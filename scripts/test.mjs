@@ -84,7 +84,7 @@ const LINT_RULES = ['--', '-D', 'warnings'];
 /** @type {Record<string, Part>} */
 const PARTS = {
   rustfmt: {
-    prepare: async (more) => lint(await native(), 'fmt', ['--check', ...more, '--', ...filesOf('scripts/bind/src')]),
+    prepare: async (more) => lint(await native(), 'fmt', ['--check', ...more, '--', ...filesOf('scripts/bind/src'), ...filesOf('fuzz/fuzz_targets')]),
   },
   eslint: {
     async prepare(more) {

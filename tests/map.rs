@@ -237,7 +237,7 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
         offsets.map(end).map(|(far, near)| wall(near, far, far, near)).collect()
     };
     let pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
-    let pixels = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
+    let pixels: Vec<_> = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
     let interpretation =
         Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
     let image = Image { width: 40, height: 40, pixels };

@@ -123,15 +123,10 @@ async function meetTests(together, bodies, alone) {
     console.log(`${by === undefined ? 'MISSED' : 'caught'} ${name}  ${by ?? ''} ${how}`);
   };
   const tests = await readTests();
-  const waiting = [...together];
-  const work = async () => {
-    for (let entry = waiting.shift(); entry !== undefined; entry = waiting.shift()) {
-      const [number, { name }] = entry;
-      const body = /** @type {number} */ (bodies.get(number));
-      tell({ name, ...(await meeting(tests.filter(({ reached }) => reached.has(body)), `${number}`)) });
-    }
-  };
-  await Promise.all(Array.from({ length: availableParallelism() }, work));
+  await onAllCores([...together], async ([number, { name }]) => {
+    const body = /** @type {number} */ (bodies.get(number));
+    tell({ name, ...(await meeting(tests.filter(({ reached }) => reached.has(body)), `${number}`)) });
+  });
   for (const mutant of alone) {
     await copyWith(mutant);
     await programs();
@@ -214,16 +209,29 @@ async function readTests() {
   const tests = [];
   for (const program of await programs()) {
     const { stdout } = await run(program, ['--list', '--format', 'terse'], { quiet: true });
-    for (const [, name] of stdout.matchAll(/^(.+): test$/gm)) {
-      const test = { program, name, seconds: Infinity, reached: new Set() };
-      const start = Date.now();
-      const { ok, output } = await runTest(test, TELL);
-      if (!ok) throw new Error(`A test fails without a mutant:\n${output}`);
-      for (const [, body] of output.matchAll(/^reached (\d+)$/gm)) test.reached.add(Number(body));
-      tests.push({ ...test, seconds: (Date.now() - start) / 1000 });
-    }
+    for (const [, name] of stdout.matchAll(/^(.+): test$/gm)) tests.push({ program, name, seconds: Infinity, reached: new Set() });
   }
+  await onAllCores(tests, async (test) => {
+    const start = Date.now();
+    const { ok, output } = await runTest(test, TELL);
+    if (!ok) throw new Error(`A test fails without a mutant:\n${output}`);
+    for (const [, body] of output.matchAll(/^reached (\d+)$/gm)) test.reached.add(Number(body));
+    test.seconds = (Date.now() - start) / 1000;
+  });
   return tests.sort((a, b) => a.seconds - b.seconds);
+}
+
+/**
+ * @template T
+ * @param {T[]} items
+ * @param {(item: T) => Promise<void>} work
+ */
+async function onAllCores(items, work) {
+  const waiting = items.values();
+  const core = async () => {
+    for (const item of waiting) await work(item);
+  };
+  await Promise.all(Array.from({ length: availableParallelism() }, core));
 }
 
 /**

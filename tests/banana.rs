@@ -571,3 +571,15 @@ fn the_opening_cloud_shows_the_exact_skew() {
     assert!(present < 0.005);
     assert!((0..10).all(|seed| off(seed) >= present));
 }
+
+/// One robot has no spread to be drawn; what is known of the model without a cloud is drawn all the same.
+#[test]
+fn one_robot_has_no_contours() {
+    for (samples, drawn) in [(1, false), (2, true)] {
+        let contours = machine(Settings { samples, ..Settings::default() }).contours();
+        for of_cloud in [contours.ellipse, contours.exponential, contours.twist_ellipse] {
+            assert_eq!(!of_cloud.is_empty(), drawn, "{samples}");
+        }
+        assert!(!contours.linearized.is_empty() && !contours.additive.is_empty());
+    }
+}

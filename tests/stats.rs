@@ -8,6 +8,7 @@ mod common;
 
 use common::{KINDS, SIGMAS, Table, mean, seeded, uniform, variance, with_standard_error};
 use motion::geom::se2::{SE2, wrap_angle};
+use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
     CartesianMoments, CrossTrack, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
     cross_track_skew, predicted_cross_track_skew,
@@ -461,4 +462,40 @@ fn degenerate_clouds_give_nan() {
     let still = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
     assert!(ExactMoments::of_velocity(&still, &U).cross_track_skew.is_nan());
     assert!(ExactMoments::of_velocity(&along, &straight).cross_track_skew.is_nan());
+}
+
+/// A breadth that is rounding beside the cloud's length counts as none, also where the robots drive to either side of the start
+/// and their mean is as good as there: the length of each is known to a thousandth of a metre, the turn to `turn`.
+#[test]
+fn a_cloud_whose_breadth_is_rounding_is_a_line() {
+    const SPEED: f64 = 1e-6;
+    let of = |turn: f64| {
+        let by_speed = turn / SPEED;
+        let velocity_alphas = [1e6, 0.0, by_speed * by_speed, 0.0, 0.0, 0.0];
+        let command = VelocityCmd { v: SPEED, omega: 0.0, dt: 1.0 };
+        let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
+        let machine = BananaMachine::new(settings).expect("a valid setting");
+        let poses: Vec<SE2> = machine.poses().collect();
+        [machine.figures().cross_track.skew, CrossTrack::from_poses(&poses).skew]
+    };
+    // Half of it is the bearing: 5e-14 of the length across.
+    assert!(of(1e-13).into_iter().all(f64::is_nan));
+    let [fused, plain] = of(1e-9);
+    assert!((fused - plain).abs() < 1e-9 && plain.is_finite(), "{fused}, not {plain}");
+}
+
+/// Likewise where it is rounding beside the cloud's distance: a kilometre out, coordinates are known to 1e-13 m.
+#[test]
+fn a_cloud_whose_breadth_is_rounding_of_its_place_is_a_line() {
+    const BREADTH: f64 = 1e-10;
+    let skew = |[x, y]: [f64; 2]| {
+        let mut rng = seeded(146);
+        let mut beside = || uniform(&mut rng, -BREADTH, BREADTH);
+        let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + beside(), y + beside(), 0.3)).collect();
+        cross_track_skew(&poses)
+    };
+    for far in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {
+        assert!(skew(far).is_nan(), "{far:?}");
+    }
+    assert!(skew([0.0, 0.0]).is_finite() && skew([1.0, -1.0]).is_finite());
 }

@@ -280,22 +280,40 @@ fn describe(value: &JsValue) -> String {
 extern "C" {
     #[wasm_bindgen(catch, js_namespace = ["Uint8Array", "prototype", "set"], js_name = call)]
     fn set_bytes(target: &mut [u8], source: &JsValue) -> Result<(), JsValue>;
+
+    #[wasm_bindgen(catch, js_namespace = ["Float64Array", "prototype", "set"], js_name = call)]
+    fn set_doubles(target: &mut [f64], source: &JsValue) -> Result<(), JsValue>;
 }
 
 /// A copy of the `length` bytes of an array of bytes.
 pub fn bytes(field: &str, source: &JsValue, length: usize) -> Result<Vec<u8>, JsValue> {
-    let mut bytes = Vec::new();
-    bytes.try_reserve_exact(length).map_err(|_| no_memory(&format!("{field}.length")))?;
-    bytes.resize(length, 0);
+    let mut bytes = room(field, length, 0)?;
     copy_bytes(field, source, &mut bytes)?;
     Ok(bytes)
 }
 
 /// Fills `target` with the bytes of an array of bytes.
 pub fn copy_bytes(field: &str, source: &JsValue, target: &mut [u8]) -> Result<(), JsValue> {
+    copied(field, source, || set_bytes(target, source))
+}
+
+/// A copy of the `length` numbers of an array of doubles.
+pub fn doubles(field: &str, source: &JsValue, length: usize) -> Result<Vec<f64>, JsValue> {
+    let mut doubles = room(field, length, 0.0)?;
+    copied(field, source, || set_doubles(&mut doubles, source))?;
+    Ok(doubles)
+}
+
+fn room<T: Clone>(field: &str, length: usize, empty: T) -> Result<Vec<T>, JsValue> {
+    let mut room = Vec::new();
+    room.try_reserve_exact(length).map_err(|_| no_memory(&format!("{field}.length")))?;
+    room.resize(length, empty);
+    Ok(room)
+}
+
+fn copied(field: &str, source: &JsValue, copy: impl FnOnce() -> Result<(), JsValue>) -> Result<(), JsValue> {
     // What only looks like one may have numbers that are objects with code of the caller's.
-    let copied = ArrayBuffer::is_view(source) && set_bytes(target, source).is_ok();
-    if copied {
+    if ArrayBuffer::is_view(source) && copy().is_ok() {
         return Ok(());
     }
     let message = format!(

@@ -1,7 +1,7 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, boolean, bytes, in_range, item, length, numbers, printed, type_error, whole, word,
+    Fields, boolean, bytes, doubles, in_range, item, length, numbers, printed, type_error, whole, word,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -32,16 +32,18 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let bounds = numbers("bounds", &fields.value("bounds")?)?;
     let walls = fields.value("walls")?;
     // What only looks like an array of numbers is no view of a memory.
-    if let Some(numbers) = walls.dyn_ref::<Float64Array>().filter(|walls| ArrayBuffer::is_view(walls)) {
-        let (count, rest) = (numbers.length() as usize / 4, numbers.length() % 4);
-        if rest > 0 {
-            return Err(type_error("walls", &walls, "a list of four numbers a wall"));
+    if walls.is_instance_of::<Float64Array>() && ArrayBuffer::is_view(&walls) {
+        let allowed = "an array of walls, or a Float64Array of four numbers a wall";
+        let length = length("walls", &walls, allowed)?;
+        if length % 4 > 0 {
+            return Err(type_error("walls", &walls, allowed));
         }
-        if count > FloorPlan::MAX_WALLS {
-            return Err(FloorPlanError::TooManyWalls(count).into());
+        if length / 4 > FloorPlan::MAX_WALLS {
+            return Err(FloorPlanError::TooManyWalls(length / 4).into());
         }
         let segment = |wall: &[f64]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
-        return Ok(FloorPlan::new(numbers.to_vec().chunks_exact(4).map(segment).collect(), bounds)?);
+        let walls = doubles("walls", &walls, length)?.chunks_exact(4).map(segment).collect();
+        return Ok(FloorPlan::new(walls, bounds)?);
     }
     let count = length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
     if count > FloorPlan::MAX_WALLS {

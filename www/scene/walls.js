@@ -86,7 +86,7 @@ export class WallLayer {
       this.#paint(brush);
     }
     if (this.#next < walls.length) {
-      const layer = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#layer.getContext('2d'));
+      const layer = contextOf(this.#layer);
       this.#next = this.#stroke({ context: layer, view, palette }, this.#next, piecemeal ? STROKED : Infinity);
     }
     context.drawImage(this.#layer, 0, 0, width, height);

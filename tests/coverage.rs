@@ -1,5 +1,9 @@
 //! Whether errors and intervals are what they say: over ten thousand seeds, those of 95 % hold the exact value 9400 to 9600
 //! times. Such a count scatters by 22 around 9500, so that one that is right passes on any seeds.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "an expected value may come from the platform's own mathematics"
+)]
 
 mod common;
 

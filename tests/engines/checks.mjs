@@ -57,6 +57,14 @@ class Page {
     if (tag !== undefined) await this.settled(tag);
   }
 
+  /** One after the other, each drawn before the next comes. @param {Parameters<Engine['press']>[0][]} keys */
+  async press(...keys) {
+    for (const key of keys) {
+      await this.engine.press(key);
+      await this.ask('drawn');
+    }
+  }
+
   /** @param {string} tag */
   async settled(tag) {
     const { drawn, stats, samples } = await this.ask('settled', tag);
@@ -190,7 +198,7 @@ async function handleByKeys(page, tag, { name }) {
   await page.open(tag);
   const { hash: before } = await page.ask('stateOf', tag);
   assert.ok(await page.ask('focus', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
-  for (const key of /** @type {const} */ (['ArrowUp', 'ArrowUp', 'ArrowLeft'])) await page.engine.press(key);
+  await page.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
   await page.settled(tag);
   const { hash } = await asInNode(page, tag);
   assert.notEqual(hash, before, 'Nothing has moved.');
@@ -204,7 +212,7 @@ async function slidersByKeys(page, tag) {
   assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
   for (const { key } of sliders) {
     assert.ok(await page.ask('focus', { tag, selector: `#${key}` }), `${key} does not take the focus.`);
-    for (const arrow of /** @type {const} */ (['ArrowRight', 'ArrowRight', 'ArrowLeft'])) await page.engine.press(arrow);
+    await page.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
   }
   await page.settled(tag);
   const after = new Map((await page.ask('slidersOf', tag)).map((slider) => [slider.key, slider]));

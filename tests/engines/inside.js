@@ -21,6 +21,11 @@ const frame = () => new Promise(requestAnimationFrame);
 /** Frames for which nothing has moved, until nothing will. */
 const STILL = 10;
 
+/** Until what was asked for has been drawn. */
+export async function drawn() {
+  for (let i = 0; i < 3; i++) await frame();
+}
+
 /**
  * Brings a figure into sight and waits until its cloud is complete and its picture rests.
  *

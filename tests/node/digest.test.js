@@ -84,5 +84,6 @@ test('every map is used, and what differs is named', () => {
 
 /** What tells nothing, or nothing twice, or comes to what another way comes to as well: tests/banana.rs and tests/squeeze.rs hold it to that. */
 const OTHERWISE = new Set([
-  'constructor', 'free', '__destroy_into_raw', 'config', 'configure', 'begin', 'advance', 'grow', 'beginToGrow', 'restart', 'alphasOfModels', 'randomSeed',
+  'constructor', 'free', '__destroy_into_raw', 'config', 'configure', 'begin', 'advance', 'grow', 'beginToGrow', 'restart', 'progress', 'stop', 'alphasOfModels',
+  'randomSeed',
 ]);

@@ -230,7 +230,8 @@ for (const name of NAMES) {
 test('a process for graphics that dies leaves no blank picture', async ({ baseURL }) => {
   // A canvas that the processor draws has nothing to lose: these have the canvases drawn as by a graphics card.
   const args = [...CHROME_ARGUMENTS.filter((argument) => argument !== '--disable-gpu'), '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--enable-gpu-rasterization'];
-  test.slow();
+  // Ten times what it takes where nothing else runs: graphics are computed here, and their process begins anew.
+  test.setTimeout(200_000);
   await withBrowser(String(baseURL), { args }, async (page) => {
     await show(page, '<map-squeeze></map-squeeze>');
     const widget = page.locator('map-squeeze');

@@ -374,3 +374,25 @@ fn the_bounding_box_holds_the_arc_and_its_points_lie_on_it() {
         }
     }
 }
+
+/// Between two points that are drawn, an arc of a metre that turns by a radian rises by 0.05 mm: a fiftieth of a radian each,
+/// s·φ/8 of it. Beyond two turns the circle repeats itself, and its chords may be longer.
+#[test]
+fn an_arc_is_drawn_by_chords_of_a_degree() {
+    for (length, turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {
+        let arc = Arc { start: SE2::new(1.0, -2.0, 0.7), length, turn };
+        let points = arc.points();
+        let chords = points.len() - 1;
+        let middle = |i: usize| along(&arc, (i as f64 + 0.5) / chords as f64);
+        for (i, ends) in points.windows(2).enumerate() {
+            let [x, y] = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
+            let [mx, my] = middle(i);
+            let rise = norm([x - arc.start.x() - mx, y - arc.start.y() - my]);
+            assert!(
+                rise <= 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001,
+                "{turn}: {rise}"
+            );
+        }
+        assert!(chords <= 640);
+    }
+}

@@ -50,8 +50,9 @@ fn judged_once(sampler: Sampler) -> Sampler {
 }
 
 fn call(machine: &mut MapSqueeze, input: &mut Input) {
-    match input.choice(9) {
-        0 | 1 => configure(machine, input),
+    match input.choice(10) {
+        0 => configure(machine, input),
+        1 => in_slices(machine, input),
         2 => {
             if let Some(plan) = plan::read(input) {
                 machine.set_plan(plan);
@@ -80,6 +81,7 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
             assert!(found.is_none_or(|index| index < machine.attempts().len()));
         }
         // To look along 72 headings takes as long as ten other calls.
+        8 => as_if_new(machine),
         _ if input.choice(8) == 1 => in_the_open(machine),
         _ => {}
     }
@@ -97,6 +99,42 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
     assert!(machine.configure(settings).is_err());
     assert_eq!(*machine.settings(), before);
     assert_eq!(machine.attempts(), attempts);
+}
+
+/// Slices lead to what one call leads to, and back where they are stopped.
+fn in_slices(machine: &mut MapSqueeze, input: &mut Input) {
+    let settings = few(changed(machine.settings(), input), false);
+    if !allowed(&settings) {
+        return;
+    }
+    let (before, attempts) = (*machine.settings(), machine.attempts().to_vec());
+    let mut other = machine.clone();
+    other.configure(settings).expect("allowed");
+    machine.begin(settings).expect("allowed");
+    let patience = input.choice(16);
+    let mut work = 1 + usize::from(u16::from_le_bytes(input.bytes()));
+    for slice in 0.. {
+        if machine.advance(work) {
+            assert_eq!(machine.attempts(), other.attempts());
+            return;
+        }
+        assert!(slice < 40 && (0.0..=1.0).contains(&machine.progress()), "{slice} slices");
+        if slice == patience {
+            machine.stop();
+            assert_eq!(*machine.settings(), before);
+            assert_eq!(machine.attempts(), attempts);
+            return;
+        }
+        work *= 2;
+    }
+}
+
+/// A machine is what its settings and its map are, whatever came before.
+fn as_if_new(machine: &MapSqueeze) {
+    let mut other = MapSqueeze::empty(*machine.settings()).expect("allowed");
+    other.set_plan(machine.plan().clone());
+    other.grow(machine.attempts().len());
+    assert_eq!(other.attempts(), machine.attempts());
 }
 
 /// The place in the open is one.

@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 const UNITS: f64 = 32.0;
 
 proptest! {
-    #![proptest_config(cases(5000))]
+    #![proptest_config(cases(2000))]
 
     /// IEEE's remainder is exact, and nearest to 0.
     #[test]

@@ -73,7 +73,7 @@ fn inside(arc: &Arc) -> [f64; 2] {
 }
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(cases(300))]
 
     /// Of the way as parry2d sees it, point by point; between two of them either verdict will do.
     #[test]
@@ -194,7 +194,7 @@ fn gaps() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(cases(2000))]
+    #![proptest_config(cases(1500))]
 
     /// The same picture, however its file is laid out.
     #[test]

@@ -80,7 +80,7 @@ fn few_attempts() -> squeeze::Settings {
 }
 
 proptest! {
-    #![proptest_config(cases(1500))]
+    #![proptest_config(cases(1000))]
 
     #[test]
     fn the_banana_machine_takes_a_number_or_names_it(place in 0..places::<banana::Settings>(), value in any_double(), odometry in any::<bool>()) {

@@ -51,7 +51,7 @@ fn is_wide(moments: &CartesianMoments) -> bool {
 }
 
 proptest! {
-    #![proptest_config(cases(2000))]
+    #![proptest_config(cases(1500))]
 
     #[test]
     fn no_order_matters(cloud in clouds(), by in any::<usize>()) {

@@ -158,6 +158,14 @@ test.describe('properties', () => {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
+  test('that the present model has none of are refused with the name of the last', async ({ page }) => {
+    await show(page, '<banana-machine model="odometry"></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    expect(await assign(widget, 'alpha5', 0.1)).toBe('RangeError: alpha5 is 0.1; allowed is none, as the last one at present is alpha4');
+    expect(await assign(widget, 'alpha4', 0.1)).toBe('');
+  });
+
   test('that are no settings leave nothing on the element', async ({ page }) => {
     await show(page, '<banana-machine theme="dark"></banana-machine>');
     const widget = page.locator('banana-machine');

@@ -6,6 +6,5 @@ export default {
   testDir: '../e2e',
   outputDir: '../../test-results',
   webServer: undefined,
-  expect: { timeout: 3000 },
-  use: { ...base.use, actionTimeout: 5000 },
+  use: { ...base.use, actionTimeout: 10_000 },
 };

@@ -77,7 +77,7 @@ const trying = plain.extend(/** @type {any} */ ({
       const mutant = mutantOf(info);
       info.skip(isCaught(mutant));
       activate(mutant);
-      info.setTimeout(15_000 + 5 * Number(info.annotations.find(({ type }) => type === 'takes')?.description));
+      info.setTimeout(30_000 + 10 * Number(info.annotations.find(({ type }) => type === 'takes')?.description));
       await use();
       if (info.status !== info.expectedStatus) caught(info, info.error?.message ?? `${info.status}`);
     },

@@ -11,19 +11,15 @@ import { STILL, centreOf, frames, pictureOf, pixelsOf, test } from './support.js
 
 test.use(STILL);
 
-/** A plan of so many walls that they are kept as a layer of their own. */
-const WALLS = Array.from({ length: 120 }, (_, i) => [0.1 * i, 0.5 * (i % 7), 0.1 * i + 0.05, 0.5 * (i % 7)]);
-const MAP = { bounds: [0, -1, 12, 5], walls: WALLS };
-
 /**
  * Work in a browser of its own, with other arguments than the tests' has.
  *
  * @param {string} address of the tests' server
- * @param {{ args?: string[], ignoreDefaultArgs?: string[] }} options
+ * @param {{ ignoreDefaultArgs?: string[] }} options
  * @param {(page: Page) => Promise<void>} work
  */
-async function withBrowser(address, { args = CHROME_ARGUMENTS, ignoreDefaultArgs }, work) {
-  const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args, ignoreDefaultArgs });
+async function withBrowser(address, { ignoreDefaultArgs }, work) {
+  const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS, ignoreDefaultArgs });
   try {
     await work(await browser.newPage({ baseURL: address, reducedMotion: 'reduce' }));
   } finally {
@@ -226,39 +222,6 @@ for (const name of NAMES) {
     await expect.poll(() => pictureOf(canvas)).toBe(wanted);
   });
 }
-
-test('a process for graphics that dies leaves no blank picture', async ({ baseURL }) => {
-  // A canvas that the processor draws has nothing to lose: these have the canvases drawn as by a graphics card.
-  const args = [...CHROME_ARGUMENTS.filter((argument) => argument !== '--disable-gpu'), '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--enable-gpu-rasterization'];
-  // Ten times what it takes where nothing else runs: graphics are computed here, and their process begins anew.
-  test.setTimeout(200_000);
-  await withBrowser(String(baseURL), { args }, async (page) => {
-    await show(page, '<map-squeeze></map-squeeze>');
-    const widget = page.locator('map-squeeze');
-    await ready(widget);
-    await widget.evaluate((element, map) => Object.assign(element, { map, samples: 5000 }), MAP);
-    await ready(widget);
-    const canvas = widget.locator('canvas.plane');
-    /** How many pixels are drawn on: colours may be rounded otherwise the next time. */
-    const inked = () =>
-      canvas.evaluate(async (/** @type {HTMLCanvasElement} */ element) => {
-        const { width, height } = /** @type {HTMLCanvasElement} */ (element);
-        const copy = new OffscreenCanvas(width, height);
-        const context = /** @type {OffscreenCanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
-        // A copy: a canvas that is read itself is drawn by the processor from then on.
-        context.drawImage(await createImageBitmap(element), 0, 0);
-        return context.getImageData(0, 0, width, height).data.filter((value, i) => i % 4 === 3 && value > 0).length;
-      });
-    const before = await inked();
-    expect(before).toBeGreaterThan(10_000);
-    const restored = canvas.evaluate((element) => new Promise((resolve) => element.addEventListener('contextrestored', () => resolve(true))));
-    const session = await /** @type {import('@playwright/test').Browser} */ (page.context().browser()).newBrowserCDPSession();
-    await session.send('Browser.crashGpuProcess');
-    expect(await restored).toBe(true);
-    await frames(page);
-    expect(await inked()).toBe(before);
-  });
-});
 
 test('a page that comes back from the back-forward cache is alive', async ({ baseURL }) => {
   await withBrowser(String(baseURL), { ignoreDefaultArgs: ['--disable-back-forward-cache'] }, async (page) => {

@@ -575,6 +575,6 @@ test('a hard plan takes a moment, in slices too, and can be given up', () => {
   assert.ok(sliced.shown < 2000);
   sliced.stop();
   assert.deepEqual(told(sliced), told(whole));
-  assert.throws(() => sliced.setPlan({ bounds: [0, 0, 12, 9], walls: new Float64Array(3) }), /^TypeError: walls is an object; allowed is a list of four numbers a wall$/);
+  assert.throws(() => sliced.setPlan({ bounds: [0, 0, 12, 9], walls: new Float64Array(3) }), /^TypeError: walls is an object; allowed is an array of walls, or a Float64Array of four numbers a wall$/);
   for (const machine of [whole, sliced]) machine.free();
 });

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-MADE = ["src/motion_widgets/_elements.py", "src/motion_widgets/anywidget.js", "LICENSE-MIT", "LICENSE-APACHE"]
+MADE = ["src/motion_widgets/_elements.py", "src/motion_widgets/anywidget.js", "LICENSE-MIT", "LICENSE-APACHE", "LICENSE-third-party.txt"]
 
 
 class Made(BuildHookInterface):

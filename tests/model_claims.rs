@@ -139,7 +139,7 @@ fn the_two_shares_inside_the_outline_differ_as_told() {
 /// Of twenty thousand clouds of ten.
 #[test]
 fn ten_samples_have_half_the_skew() {
-    document().says("at ten samples the measured skew is on average about half the exact one.");
+    document().says("at ten samples the measured skew is on average about half the exact one;");
     let many = machine(Settings { samples: 200_000, ..Settings::default() });
     let poses: Vec<SE2> = many.poses().collect();
     let skews: Vec<f64> = poses.chunks(10).map(cross_track_skew).collect();

@@ -101,7 +101,7 @@ impl std::error::Error for Wedged {}
 /// use to a filter; more draws would freeze a page.
 pub const MAX_DRAWS: usize = 10_000;
 
-/// [`Cost::work`] after which one counts as wedged in any case: about a second. Only plans that are made to
+/// [`Cost::work`] for one sample after which one counts as wedged in any case: about a second. Only plans that are made to
 /// be hard, and motions of a thousand parts of which hardly one is accepted, come near.
 pub const MAX_WORK: usize = 8_000_000;
 

@@ -362,7 +362,7 @@ fn opening(options: &JsValue) -> Result<Settings, JsValue> {
 
 /// The refusal of a trial that would take too many draws.
 fn too_dear(sampler: Sampler, count: usize, wedged: &Wedged) -> RangeError {
-    let most = most_draws(sampler, count);
+    let most = most_draws(sampler.parts() as usize * count);
     RangeError::new(&format!(
         "sampler is {}, by which {wedged}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {most} for \
          {count} of them",

@@ -1,7 +1,8 @@
-// The limits of the pages in doc/model.md: where a picture or a sentence becomes another one.
+// The limits of the pages in doc/model.md: where a picture or a sentence becomes another one; and the tests that
+// doc/reliability.md names.
 
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 
 const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
@@ -22,4 +23,15 @@ test('doc/model.md has the limits of the pages', () => {
     assert.ok(set, `${name} of ${file}`);
     assert.equal(told.match(sentence)?.[1], set, `${name} of ${file}`);
   }
+});
+
+test('doc/reliability.md names files and commands that are there', () => {
+  const told = read('doc/reliability.md');
+  const { scripts } = JSON.parse(read('package.json'));
+  const commands = [...told.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
+  assert.ok(commands.length >= 4, commands.join(', '));
+  for (const name of commands) assert.ok(Object.hasOwn(scripts, name), name);
+  const files = [...told.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
+  assert.ok(files.length > 15, files.join(', '));
+  for (const path of files) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
 });

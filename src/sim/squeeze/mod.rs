@@ -124,6 +124,10 @@ struct Former {
 /// would give up where a patient filter still works; more would keep a page waiting for seconds.
 const PATIENCE: usize = 20;
 
+/// [`Cost::work`] of a draw on average before the machine gives up: some 25 walls are measured for it, where buildings
+/// and maps of rooms have one to five.
+const WORK_A_DRAW: usize = 100;
+
 /// What a draw takes, in distances to a point.
 const WORK: usize = 8;
 
@@ -264,7 +268,8 @@ impl MapSqueeze {
                 work = work.saturating_sub(WORK * cost.work());
                 attempts.push(attempt);
             });
-            *gave_up = tally.draws > MAX_DRAWS + PATIENCE * steps * attempts.len() || shown.work > MAX_WORK;
+            let parts = steps * attempts.len();
+            *gave_up = tally.draws > most_draws(parts) || shown.work > most_work(parts);
         }
         let done = attempts.len() >= *goal || *gave_up;
         if let Some(former) = self.former.take_if(|_| done) {
@@ -384,11 +389,12 @@ impl MapSqueeze {
         let conditioned = conditioned(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total = Cost::default();
+        let parts = sampler.parts() as usize * count;
         for _ in 0..count {
             let cost = conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total.draws += cost.draws;
             total.wall_tests += cost.wall_tests;
-            if total.draws > most_draws(sampler, count) || total.work() > MAX_WORK {
+            if total.draws > most_draws(parts) || total.work() > most_work(parts) {
                 return Err(Wedged(total));
             }
         }
@@ -413,9 +419,14 @@ impl MapSqueeze {
     }
 }
 
-/// Draws that [`MapSqueeze::trial`] takes at most for `count` accepted samples of a sampler.
-pub fn most_draws(sampler: Sampler, count: usize) -> usize {
-    MAX_DRAWS + PATIENCE * sampler.parts() as usize * count
+/// Draws at most for so many parts of motions, before the machine gives up.
+pub fn most_draws(parts: usize) -> usize {
+    MAX_DRAWS + PATIENCE * parts
+}
+
+/// [`Cost::work`] at most for so many parts.
+fn most_work(parts: usize) -> usize {
+    MAX_WORK + PATIENCE * WORK_A_DRAW * parts
 }
 
 /// The model under these settings in a plan, by a sampler.

@@ -23,7 +23,7 @@ function within(name, paths, limit) {
  * Kilobytes: the budget of a page with one widget, and what else is loaded, held where it is and rounded up. See "The size of
  * the module" in doc/implementation-notes.md.
  */
-const LIMITS = { page: 110, moduleOfWidget: 55, module: 80, bundle: 159, classicScript: 161, notebook: 164 };
+const LIMITS = { page: 110, moduleOfWidget: 55, module: 80, bundle: 159, classicScript: 161, notebook: 165 };
 
 test('what a page loads does not grow', () => {
   const loaded = loadedByWidgets();

@@ -344,3 +344,24 @@ test.describe('Isolate', () => {
     expect(await pictureOf(plane)).not.toBe(fan);
   });
 });
+
+test('controls show what the reader did last, whenever they are rendered', async ({ page }) => {
+  const widget = await openWhole(page);
+  const { values, v } = await widget.evaluate(async (element) => {
+    const figure = /** @type {any} */ (element);
+    const root = /** @type {ShadowRoot} */ (element.shadowRoot);
+    const slider = /** @type {HTMLInputElement} */ (root.querySelector('#v'));
+    const values = [];
+    for (const step of ['stepUp', 'stepUp', 'stepDown']) {
+      /** @type {any} */ (slider)[step]();
+      slider.dispatchEvent(new Event('input'));
+      // Before the frame in which the machine hears of it.
+      figure.requestUpdate();
+      await figure.updateComplete;
+      values.push(slider.valueAsNumber);
+    }
+    return { values, v: figure.v };
+  });
+  expect(values).toEqual([1.01, 1.02, 1.01]);
+  expect(v).toBe(1.01);
+});

@@ -35,7 +35,7 @@ export function slider(figure, key, otherwise) {
   const { symbol, decimals, value, ...look } = looks[key];
   const { name, effect } = wordsFor(figure, key);
   const { unit } = declared.find((setting) => setting.key === key) ?? {};
-  const { config } = figure.reading;
+  const config = figure.settings.told;
   const setting = /** @type {Setting} */ (attributes[key]);
   return typeable(figure, key, symbol, {
     ...look,
@@ -123,7 +123,7 @@ export function sliders(figure, looks) {
  * @param {Record<string, string>} labels of its words
  */
 export function choices(figure, key, labels) {
-  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.reading.config[key], (word) => figure.decide({ [key]: word }));
+  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.settings.told[key], (word) => figure.decide({ [key]: word }));
 }
 
 /**
@@ -132,7 +132,7 @@ export function choices(figure, key, labels) {
  * @param {unknown} label
  */
 export function check(figure, key, label) {
-  return toggle({ label, checked: figure.reading.config[key], change: (on) => figure.decide({ [key]: on }) });
+  return toggle({ label, checked: figure.settings.told[key], change: (on) => figure.decide({ [key]: on }) });
 }
 
 /** What may be taken along of a figure, in folds, and the way to a full screen. @param {Figure} figure */
@@ -147,7 +147,7 @@ export function takeAlong(figure) {
  * @param {readonly number[]} counts the sizes that the slider offers
  */
 export function cloudControls(figure, counts) {
-  const { samples } = figure.reading.config;
+  const { samples } = figure.settings.told;
   const { cloud: say } = wordsOf(figure);
   const { name, effect } = wordsFor(figure, 'samples');
   const last = counts.length - 1;

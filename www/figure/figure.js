@@ -224,7 +224,7 @@ export class FigureElement extends LitElement {
     if (!machine) return;
     speak(this);
     this.reading = this.read(machine);
-    this.settings.stale = false;
+    this.settings.read();
     this.announcer.say(() => this.announcement(this.reading));
     this.state.keep();
     this.dispatchEvent(new CustomEvent('stats', { detail: machine.stats, bubbles: true, composed: true }));

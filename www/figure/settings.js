@@ -32,6 +32,8 @@ export class Settings extends Part {
   stale = true;
   /** The reader's changes that wait for the next frame. @type {Values} */
   #pending = {};
+  /** Changes that the machine has begun with, and that have not been read of it. @type {Values} */
+  #begun = {};
   /** What is being done. @type {Job | undefined} */
   #job;
   /** The machine that it is done with, where that is to take the place of the present one. @type {any} */
@@ -45,6 +47,7 @@ export class Settings extends Part {
     this.stale = true;
     this.#job = this.next = undefined;
     this.#pending = {};
+    this.#begun = {};
   }
 
   /** Those of some values that are declared settings of the machine. @param {Values} values */
@@ -62,6 +65,17 @@ export class Settings extends Part {
   /** Those in effect with the changes that wait. @returns {Values} */
   get wanted() {
     return { ...this.present, ...this.#pending };
+  }
+
+  /** What controls show: what was read of the machine, with the changes that are on their way. @returns {Values} */
+  get told() {
+    return { ...this.host.reading.config, ...this.#begun, ...this.#pending };
+  }
+
+  /** The machine has been read. */
+  read() {
+    this.stale = false;
+    this.#begun = {};
   }
 
   /**
@@ -121,6 +135,7 @@ export class Settings extends Part {
     } else {
       machine.configure(values);
     }
+    Object.assign(this.#begun, values);
     this.stale = true;
   }
 
@@ -170,6 +185,7 @@ export class Settings extends Part {
   #drop() {
     const { next } = this;
     this.#job = this.next = undefined;
+    this.#begun = {};
     this.host.progress.rest();
     next?.free();
   }

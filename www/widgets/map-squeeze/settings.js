@@ -49,7 +49,7 @@ export function presetNamed(name) {
 /** Of what the robot is told and what it is. @type {Record<string, import('../../figure/controls.js').Look>} */
 export const MOTION = {
   ...commandLooks(4),
-  noise: { symbol: '*n*', role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas }) => alphas[0] },
+  noise: { symbol: '*n*', role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
   clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
 };
 

@@ -260,7 +260,8 @@ for (const name of NAMES) {
         return content.call(widget, reading);
       };
       widget.requestUpdate();
-      for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+      // All of that is before anything else of the page has its turn, which might ask for an update too.
+      for (let i = 0; i < 10; i++) await widget.updateComplete;
       return count;
     });
     expect(rendered).toBe(2);

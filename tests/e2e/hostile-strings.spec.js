@@ -38,6 +38,8 @@ const FOREIGN = 'script, img, iframe, b, [onerror], [onfocus]';
  * @param {import('@playwright/test').Locator} widget
  */
 async function shapeOf(widget) {
+  // What samplers cost is measured after every change.
+  await expect(widget.locator('[aria-busy=true]')).toHaveCount(0);
   await frames(widget.page());
   return widget.evaluate((element, foreign) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);

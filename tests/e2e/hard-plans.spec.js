@@ -125,8 +125,10 @@ test('a short link with as many walls as are allowed is no more than a moment’
 
 test('what is said of the work is accessible', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await giveStar(widget);
-  await expect(progress(widget)).toHaveAccessibleName('Computing');
-  await expect(widget.getByRole('button', { name: 'Stop' })).toBeVisible();
-  await expectAccessible(page);
+  await slowly(page, async () => {
+    await giveStar(widget);
+    await expect(progress(widget)).toHaveAccessibleName('Computing');
+    await expect(widget.getByRole('button', { name: 'Stop' })).toBeVisible();
+    await expectAccessible(page);
+  });
 });

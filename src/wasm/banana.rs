@@ -1,6 +1,6 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{in_range, no_memory, number, read_settings, whole, word};
+use super::fields::{in_range, no_memory, number, read_opening, read_settings, whole, word};
 use super::held::Held;
 use super::pictures::{RADIUS, place_of, read_grid, read_ramps, view_of};
 use super::values::{Plain, doubles, float64_array, gathered, list, object, settings_to_js, whole_numbers};
@@ -138,14 +138,14 @@ impl JsBananaMachine {
     pub fn new(
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(Self(Held::new(BananaMachine::new(opening(options)?)?)))
+        Ok(Self(Held::new(BananaMachine::new(read_opening(options)?)?)))
     }
 
     /// A machine as the constructor makes it, of whose samples none is shown yet.
     pub fn empty(
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(Self(Held::new(BananaMachine::empty(opening(options)?)?)))
+        Ok(Self(Held::new(BananaMachine::empty(read_opening(options)?)?)))
     }
 
     /// Largest `samples`.
@@ -412,12 +412,6 @@ impl JsBananaMachine {
 
 fn legs_to_js(OdomDelta { rot1, trans, rot2 }: OdomDelta) -> Result<JsValue, JsValue> {
     object(&[("rot1", rot1.into()), ("trans", trans.into()), ("rot2", rot2.into())])
-}
-
-/// The settings that a machine opens with.
-fn opening(options: &JsValue) -> Result<Settings, JsValue> {
-    let settings = Settings::default();
-    if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
 }
 
 impl JsBananaMachine {

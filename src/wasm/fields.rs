@@ -141,6 +141,11 @@ pub fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result
     Ok(())
 }
 
+/// The settings that a machine opens with: the default ones but for those that `options` names, if there are any.
+pub fn read_opening<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
+    if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
+}
+
 /// The present settings with those that `options` names. Ranges of doubles are left to the simulation.
 pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;

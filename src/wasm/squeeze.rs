@@ -1,6 +1,6 @@
 //! `MapSqueeze` for JavaScript.
 
-use super::fields::{in_range, no_memory, number, quoted, read_settings, whole, word};
+use super::fields::{in_range, no_memory, number, quoted, read_opening, read_settings, whole, word};
 use super::held::Held;
 use super::maps::{read_map, read_plan};
 use super::pictures::{RADIUS, place_of, read_grid, read_ramps, view_of};
@@ -71,7 +71,7 @@ impl JsMapSqueeze {
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
         options: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(Self(Held::new(MapSqueeze::new(opening(options)?)?)))
+        Ok(Self(Held::new(MapSqueeze::new(read_opening(options)?)?)))
     }
 
     /// A machine as the constructor makes it, of whose samples none is tried yet.
@@ -79,7 +79,7 @@ impl JsMapSqueeze {
         #[wasm_bindgen(unchecked_optional_param_type = "Partial<MapSqueezeSettings> & { noise?: number }")]
         options: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(Self(Held::new(MapSqueeze::empty(opening(options)?)?)))
+        Ok(Self(Held::new(MapSqueeze::empty(read_opening(options)?)?)))
     }
 
     /// Largest `samples`.
@@ -352,12 +352,6 @@ impl JsMapSqueeze {
     fn settings(&self) -> Settings {
         self.0.with(|machine| *machine.settings())
     }
-}
-
-/// The settings that a machine opens with.
-fn opening(options: &JsValue) -> Result<Settings, JsValue> {
-    let settings = Settings::default();
-    if options.is_undefined() { Ok(settings) } else { read_settings(&settings, options) }
 }
 
 /// The refusal of a trial that would take too many draws.

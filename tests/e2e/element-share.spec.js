@@ -222,7 +222,6 @@ test('a link that is followed while the figure starts is heard', async ({ page }
       // It has read the address, and there is no machine yet.
       location.hash = second;
       await new Promise((resolve) => addEventListener('hashchange', resolve, { once: true }));
-      await new Promise((resolve) => setTimeout(resolve, 100));
     };
     const loaded = new Promise((resolve) => element.addEventListener('load', resolve));
     document.body.prepend(element);

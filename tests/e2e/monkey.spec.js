@@ -4,6 +4,7 @@
 // MONKEY_EVENTS and MONKEY_SEED ask for more, and for another one; a failure names what replays it.
 
 import { expect } from '@playwright/test';
+import { generator } from '../random.js';
 import { NAMES, ready } from './element-support.js';
 import { file, pgm, yaml } from './squeeze-support.js';
 import { FRESH, frames, test } from './support.js';
@@ -42,15 +43,9 @@ const FILES = [
   [file('notes.txt', 'no map')],
 ];
 
-/** @param {number} seed @returns {Luck} Mulberry32's */
+/** @param {number} seed @returns {Luck} */
 function luckOf(seed) {
-  let state = seed;
-  const next = () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
-    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
+  const next = generator(seed);
   const below = (/** @type {number} */ end) => Math.floor(end * next());
   return { below, one: (of) => of[below(of.length)] };
 }

@@ -14,6 +14,7 @@ import { build } from '../../scripts/build.mjs';
 import { filesOf } from '../../scripts/bundle.mjs';
 import { Missing, ROOT, progress, run, runAsScript } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
+import { generator } from '../random.js';
 
 /**
  * @typedef {{ id: string, fileName: string, mutatorName: string, replacement: string, location: { start: { line: number, column: number } } }} Mutant
@@ -87,14 +88,7 @@ async function prepare() {
  * @param {number} seed
  */
 function sampleOf(all, count, seed) {
-  let state = seed;
-  // Mulberry32.
-  const random = () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
-    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
+  const random = generator(seed);
   const rest = [...all];
   return Array.from({ length: Math.min(count, all.length) }, () => rest.splice(Math.floor(random() * rest.length), 1)[0]);
 }

@@ -4,7 +4,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { inspect } from 'node:util';
-import { freshModule, generator } from './support.js';
+import { generator } from '../random.js';
+import { freshModule } from './support.js';
 
 const { BananaMachine, commandReaching } = await (await freshModule()).load();
 

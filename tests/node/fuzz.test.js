@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { mutantOf } from '../fuzz/mutate.js';
 import { targets } from '../fuzz/targets.js';
-import { generator } from './support.js';
+import { generator } from '../random.js';
 
 const EXECUTIONS = Number(process.env.FUZZ_EXECUTIONS ?? 1000);
 const SEED = Number(process.env.FUZZ_SEED ?? 1);

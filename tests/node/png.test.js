@@ -6,7 +6,7 @@ import { deflateSync } from 'node:zlib';
 import { decodePng } from '../../www/widgets/map-squeeze/maps/png.js';
 import { SAMPLES, SIGNATURE, chunk, header, pngOf, rasterOf } from '../png.js';
 import { description, file, opened, refusalOf } from './map-support.js';
-import { generator } from './support.js';
+import { generator } from '../random.js';
 
 /** @typedef {import('../png.js').Image} Image */
 

@@ -37,14 +37,3 @@ export function declaredOpening(tag) {
 export function near(value, expected, tolerance, message = '') {
   assert.ok(Math.abs(value - expected) <= tolerance, `${message} ${value} is not ${expected} ± ${tolerance}`);
 }
-
-/** A small generator (mulberry32): the same inputs on every run. @param {number} seed */
-export function generator(seed) {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
-    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
-}

@@ -210,7 +210,7 @@ test('a link that is followed while the figure starts is heard', async ({ page }
     links.push(new URL(await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink())).hash);
   }
   const [pivot, straight] = links;
-  const command = await page.evaluate(async ([first, second]) => {
+  await page.evaluate(async ([first, second]) => {
     document.querySelector('banana-machine')?.remove();
     location.hash = first;
     await new Promise((resolve) => addEventListener('hashchange', resolve, { once: true }));
@@ -226,9 +226,9 @@ test('a link that is followed while the figure starts is heard', async ({ page }
     const loaded = new Promise((resolve) => element.addEventListener('load', resolve));
     document.body.prepend(element);
     await loaded;
-    return element.getState()?.command;
   }, [pivot, straight]);
-  expect(command).toEqual({ v: 1, omega: 0, dt: 2 });
+  const command = () => page.evaluate(() => /** @type {any} */ (document.querySelector('banana-machine')).getState()?.command);
+  await expect.poll(command).toEqual({ v: 1, omega: 0, dt: 2 });
 });
 
 test('figures in shadow roots, closed ones too, have parts of their own in the address', async ({ page }) => {

@@ -11,8 +11,8 @@ use motion::sim::settings::QUANTITY;
 use motion::sim::views::{EXTENT, Grid};
 
 /// Samples and calls of a run at most: enough for every branch, few enough for many runs.
-const SAMPLES: usize = 40;
-const CALLS: usize = 6;
+const SAMPLES: usize = 12;
+const CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);

@@ -53,7 +53,7 @@ for (const name of NAMES) {
       Object.assign(window, { machines });
     });
     await heard(page);
-    // The quickest of several: what else runs on the machine is not the figure's.
+    // The median of several: what else runs on the machine is not the figure's.
     const times = await widget.evaluate(async (element) => {
       const figure = /** @type {any} */ (element);
       const [picture] = figure.pictures;
@@ -77,7 +77,7 @@ for (const name of NAMES) {
       return times.sort((one, other) => one - other);
     });
     console.log(`${name}: drawn again after ${times.map((time) => time.toFixed(0)).join(', ')} ms`);
-    expect(times[0]).toBeLessThan(100);
+    expect(times[times.length >> 1]).toBeLessThan(100);
     expect([await digest(widget), await pictureOf(widget.locator('canvas.plane'))]).toEqual(before);
     expect((await heard(page)).map(({ name, target }) => [name, target])).toEqual(times.map(() => ['error', name]));
     // Not one of them was made anew.
@@ -103,23 +103,39 @@ for (const name of NAMES) {
     expect(await pictureOf(canvas)).toBe(before);
   });
 
-  test(`${name} comes back from a size of zero as it was, and draws nothing meanwhile`, async ({ page }) => {
+  test(`${name} comes back from a size of zero with what was set meanwhile`, async ({ page }) => {
     await show(page, `<div id="box" style="width: 900px"><${name}></${name}></div>`);
     const widget = page.locator(name);
     await ready(widget);
+    const box = page.locator('#box');
     const canvas = widget.locator('canvas.plane');
-    const before = await pictureOf(canvas);
+    /** @param {number | null} omega */
+    const turning = (omega) => widget.evaluate((element, value) => void (/** @type {any} */ (element).omega = value), omega);
+    /** The picture with a view that is fitted anew, as it is to another size. */
+    const fitted = async () => {
+      for (const width of ['800px', '900px']) {
+        await box.evaluate((element, value) => element.style.setProperty('width', value), width);
+        await frames(page);
+      }
+      return pictureOf(canvas);
+    };
+    const before = await fitted();
+    await turning(1.25);
+    // The view holds still while a setting changes.
+    const wanted = [await pictureOf(canvas), await fitted()];
+    expect(wanted).not.toContain(before);
+    await turning(null);
+    expect(await fitted()).toBe(before);
     for (const [property, none] of [['display', 'none'], ['width', '0'], ['zoom', '0.001'], ['content-visibility', 'hidden']]) {
-      const box = page.locator('#box');
       await box.evaluate((element, [key, value]) => element.style.setProperty(key, value), [property, none]);
       await frames(page);
-      // What is set meanwhile is there afterwards.
-      await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
+      await turning(1.25);
       await frames(page);
-      await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = /** @type {any} */ (null)));
       await box.evaluate((element, key) => element.style.removeProperty(key), property);
       await box.evaluate((element) => element.style.setProperty('width', '900px'));
-      await expect.poll(() => pictureOf(canvas), property).toBe(before);
+      await expect.poll(async () => wanted.includes(await pictureOf(canvas)), property).toBe(true);
+      await turning(null);
+      expect(await fitted(), property).toBe(before);
     }
     expect(await heard(page, ['error'])).toEqual([]);
   });
@@ -193,7 +209,7 @@ for (const name of NAMES) {
     const wanted = await pictureOf(canvas);
     await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = /** @type {any} */ (null)));
     const before = await pictureOf(canvas);
-    const requested = await widget.evaluate(async (element) => {
+    const [meanwhile, afterwards] = await widget.evaluate(async (element) => {
       const hide = (/** @type {boolean} */ value) => {
         Object.defineProperty(document, 'hidden', { configurable: true, value });
         document.dispatchEvent(new Event('visibilitychange'));
@@ -213,11 +229,12 @@ for (const name of NAMES) {
       }
       figure.omega = 1.25;
       const meanwhile = requested;
-      window.requestAnimationFrame = request;
       hide(false);
-      return meanwhile;
+      window.requestAnimationFrame = request;
+      return [meanwhile, requested];
     });
-    expect(requested).toBe(0);
+    expect(meanwhile).toBe(0);
+    expect(afterwards).toBeGreaterThan(0);
     expect(before).not.toBe(wanted);
     await expect.poll(() => pictureOf(canvas)).toBe(wanted);
   });

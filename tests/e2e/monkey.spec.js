@@ -35,7 +35,7 @@ const HALL = pgm('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row %
 /** Files as they come, the first of them a map. */
 const FILES = [
   [yaml('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL],
-  [file('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [0, 0, 5, 0, 5, 0, 5, 4, 5, 4, 0, 4, 0, 4, 0, 0] }))],
+  [file('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
   [HALL],
   [file('hall.yaml', 'image: &a [*a]')],
   [file('cut.pgm', HALL.buffer.subarray(0, 200))],

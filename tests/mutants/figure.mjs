@@ -12,6 +12,7 @@ import { Instrumenter } from '@stryker-mutator/instrumenter';
 import { ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
 import { filesOf } from '../../scripts/bundle.mjs';
+import { wilson } from '../../scripts/mutants.mjs';
 import { Missing, ROOT, progress, run, runAsScript } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 import { generator } from '../random.js';
@@ -136,20 +137,6 @@ function testsOf({ id, fileName }, mutants, trials) {
     .map(({ test, milliseconds }) => ({ test, milliseconds }));
 }
 
-/**
- * The 95 % interval of a share, Wilson's.
- *
- * @param {number} hits
- * @param {number} count
- */
-function interval(hits, count) {
-  const z = 1.96;
-  const share = hits / count;
-  const middle = share + z ** 2 / (2 * count);
-  const room = z * Math.sqrt((share * (1 - share)) / count + z ** 2 / (4 * count ** 2));
-  return [middle - room, middle + room].map((bound) => bound / (1 + z ** 2 / count));
-}
-
 const percent = (/** @type {number} */ share) => `${(100 * share).toFixed(1)} %`;
 
 /**
@@ -199,7 +186,7 @@ async function figure([seed = '1', amount = '300']) {
       console.log(`${fileName}:${location.start.line + 1}:${location.start.column + 1} ${mutatorName} ${replacement} (reached by ${reaching} tests)`);
     }
     const share = caught.size / sample.length;
-    const [least, most] = interval(caught.size, sample.length).map(percent);
+    const [least, most] = wilson(caught.size, sample.length).map(percent);
     progress(`${caught.size} of ${sample.length} caught, out of ${mutants.length} (seed ${start}): ${percent(share)}, 95 % interval ${least} to ${most}`);
     if (share < NOTICED) process.exitCode = 1;
   } finally {

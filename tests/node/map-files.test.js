@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { instantiate } from '../../dist/core.js';
+import { limits } from '../../www/settings.js';
 import { description, file, opened, refusalOf } from './map-support.js';
 
 const PGM = file('map.pgm', 'P5 2 1 255\n\x00\x7f');
@@ -63,7 +64,7 @@ test('a value of any kind or length is refused by a sentence that can be read', 
 });
 
 test('how large files are is looked at before they are read', async () => {
-  for (const [name, most] of /** @type {[string, number][]} */ ([['plan.json', 10_000_000], ['map.yaml', 100_000], ['map.pgm', 100_667_392]])) {
+  for (const [name, most] of /** @type {[string, number][]} */ ([['plan.json', 10_000_000], ['map.yaml', 100_000], ['map.pgm', limits.bytes]])) {
     const large = file(name, '');
     Object.defineProperty(large, 'size', { value: most + 1 });
     large.arrayBuffer = () => assert.fail(`${name} is read.`);

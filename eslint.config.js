@@ -16,7 +16,7 @@ export default [
   { files: ['www/**', 'examples/**'], languageOptions: { globals: globals.browser } },
   // They run in Node and in a page.
   { files: ['benches/**', 'tests/digest/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
-  { files: ['scripts/**', 'tests/node/**', '*.config.js', 'examples/**/*.config.js'], languageOptions: { globals: globals.node } },
+  { files: ['scripts/**', 'tests/fuzz/**', 'tests/node/**', '*.config.js', 'examples/**/*.config.js'], languageOptions: { globals: globals.node } },
   // Browser tests run in Node and pass functions into the page.
   { files: ['tests/e2e/**', 'tests/embeddings/**', 'tests/engines/**', 'tests/mutants/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 ];

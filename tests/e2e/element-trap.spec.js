@@ -54,7 +54,7 @@ for (const name of NAMES) {
       ['a pointer over the picture', () => widget.locator('canvas.plane').hover({ position: { x: 20, y: 20 } })],
       ['a button', () => widget.getByRole('button', { name: 'Step' }).dispatchEvent('click')],
       ['a slider', () => widget.locator('#dt').evaluate((slider) => slider.dispatchEvent(new Event('input', { bubbles: true, composed: true })))],
-      ['a frame', () => widget.evaluate((element) => /** @type {any} */ (element).commit())],
+      ['a frame', () => widget.evaluate((element) => /** @type {any} */ (element).gesture.commit())],
       // At once: what goes on by itself, as the measuring of costs, may find the damage first and have it mended.
       [
         'a property',
@@ -152,7 +152,7 @@ test('a core that traps again and again ends in a sentence, not in a loop', asyn
       return machine;
     };
     widget.machine.__wbg_ptr = 0x7ffffff0;
-    widget.commit();
+    widget.gesture.commit();
   });
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   const errors = (await heard(page, ['error'])).length;

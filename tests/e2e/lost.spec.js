@@ -69,7 +69,7 @@ for (const name of NAMES) {
             return moving;
           };
         });
-        figure.commit();
+        figure.gesture.commit();
         times.push((await drawn) - start);
         delete picture.constructor.prototype.draw;
         await new Promise(requestAnimationFrame);
@@ -224,7 +224,7 @@ for (const name of NAMES) {
       const figure = /** @type {AnyElement} */ (element);
       for (let i = 0; i < 10; i++) {
         figure.omega = 1.25 + i / 100;
-        /** @type {any} */ (figure).commit();
+        /** @type {any} */ (figure).gesture.commit();
         await new Promise((resolve) => setTimeout(resolve, 20));
       }
       figure.omega = 1.25;

@@ -194,7 +194,7 @@ export class Cloud extends Part {
 
   reseed() {
     this.host.settings.want(() => ({ seed: this.host.motion.randomSeed() }));
-    this.host.commit();
+    this.host.gesture.commit();
   }
 
   /**
@@ -207,7 +207,7 @@ export class Cloud extends Part {
       act();
       this.playing = playing;
       this.host.gesture.step();
-      this.host.commit();
+      this.host.gesture.commit();
     });
   }
 

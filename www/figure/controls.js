@@ -46,7 +46,7 @@ export function slider(figure, key, otherwise) {
     show: (shown) => typed(shown, decimals) + (unit ? ` ${unit}` : ''),
     effect: effect && rich(effect),
     input: (number) => want(figure, key, number),
-    commit: () => figure.commit(),
+    commit: () => figure.gesture.commit(),
     ...otherwise,
   });
 }
@@ -123,7 +123,7 @@ export function sliders(figure, looks) {
  * @param {Record<string, string>} labels of its words
  */
 export function choices(figure, key, labels) {
-  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.settings.told[key], (word) => figure.decide({ [key]: word }));
+  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.settings.told[key], (word) => figure.gesture.decide({ [key]: word }));
 }
 
 /**
@@ -132,7 +132,7 @@ export function choices(figure, key, labels) {
  * @param {unknown} label
  */
 export function check(figure, key, label) {
-  return toggle({ label, checked: figure.settings.told[key], change: (on) => figure.decide({ [key]: on }) });
+  return toggle({ label, checked: figure.settings.told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 }
 
 /** What may be taken along of a figure, in folds, and the way to a full screen. @param {Figure} figure */
@@ -173,7 +173,7 @@ export function cloudControls(figure, counts) {
         effect,
         role: 'truth',
         input: (index) => want(figure, 'samples', counts[index]),
-        commit: () => figure.commit(),
+        commit: () => figure.gesture.commit(),
       },
       (count) => want(figure, 'samples', count),
       counted,

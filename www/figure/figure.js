@@ -3,27 +3,25 @@
  * a page can read and set. Each of the parts that a figure is composed of has a file of its own.
  */
 
-import { LitElement, html, noChange, nothing } from 'lit';
+import { LitElement, nothing } from 'lit';
 import { en } from '../messages/en.js';
-import { addEnglish, speak, words } from '../messages/registry.js';
+import { addEnglish, speak } from '../messages/registry.js';
 import { presentationStyles } from '../ui/presentation.js';
 import { theme } from '../ui/theme.js';
 import { Announcer } from './announcer.js';
 import { COMMON, HEADING_LEVELS } from './attributes.js';
-import { word } from './checks.js';
 import { Gesture } from './gesture.js';
-import { keepUsed, stop } from './inside.js';
 import { Link } from './link.js';
 import { Lettering } from './lettering.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
-import { placeholder } from './placeholder.js';
 import { Presentation } from './presentation.js';
 import { Progress, progressStyles } from './progress.js';
 import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
-import { LONGEST_WORK, Settings } from './settings.js';
+import { Settings } from './settings.js';
 import { Stage } from './stage.js';
 import { State } from './state.js';
+import { surface } from './surface.js';
 import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
 import { Typing } from './typing.js';
@@ -255,34 +253,6 @@ export class FigureElement extends LitElement {
     return answer ?? null;
   }
 
-  /** What the reader changed has come to rest: put it into effect and say what it led to. */
-  commit() {
-    this.runtime.attempt(() => this.settings.settle(LONGEST_WORK));
-    this.announcer.expect();
-    this.settings.stale = true;
-    this.gesture.end();
-    this.stage.wake();
-  }
-
-  /** The reader has decided on other settings. @param {Values | ((wanted: Values) => Values)} change */
-  decide(change) {
-    this.settings.want(change);
-    this.commit();
-  }
-
-  /**
-   * The reader chooses something of the element's own.
-   *
-   * @param {string} name
-   * @param {unknown} value
-   */
-  choose(name, value) {
-    this.state.own[name] = value;
-    this.gesture.step();
-    this.gesture.end();
-    this.stage.wake();
-  }
-
   // What a page has of every figure.
 
   /**
@@ -301,7 +271,7 @@ export class FigureElement extends LitElement {
   }
 
   set theme(theme) {
-    this.#say('theme', theme);
+    this.reflection.say('theme', theme);
   }
 
   /** Whether the page's address carries the state. */
@@ -330,14 +300,7 @@ export class FigureElement extends LitElement {
   }
 
   set headingLevel(level) {
-    this.#say('heading-level', level);
-  }
-
-  /** Says a property by its attribute, or by none. @param {string} name of the attribute @param {unknown} value */
-  #say(name, value) {
-    const { words: allowed = [], property = name } = COMMON[name];
-    if (value === null || value === undefined) this.removeAttribute(name);
-    else this.runtime.tolerate(() => this.setAttribute(name, word(property, typeof value === 'number' ? String(value) : value, allowed)));
+    this.reflection.say('heading-level', level);
   }
 
   /**
@@ -430,8 +393,6 @@ export class FigureElement extends LitElement {
     if (old === text) return;
     this.reflection.hear(name, text);
     if (!(name in COMMON)) return;
-    const { words: allowed } = COMMON[name];
-    if (allowed && text !== null) this.runtime.tolerate(() => word(name, text, allowed));
     this.presenting.follow();
     this.requestUpdate();
     this.stage.recolour();
@@ -482,31 +443,6 @@ export class FigureElement extends LitElement {
   }
 
   render() {
-    speak(this);
-    const recolour = () => this.stage.recolour();
-    return html`
-      <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
-      <div class="surface ${this.presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
-        ${this.lettering.title()} ${this.#content()} ${this.progress.render()} ${this.lettering.caption()} ${this.presenting.render()}
-      </div>
-    `;
-  }
-
-  /** What was shown stays while there is no machine: it is made again after a trap, or the element is not on the page. */
-  #content() {
-    const { failure } = this.runtime;
-    if (failure !== undefined) return html`<p class="failure" role="alert">${sorry(failure)}</p>`;
-    if (this.machine) return [this.content(this.reading), this.announcer.render()];
-    return this.reading ? noChange : placeholder(this);
-  }
-}
-
-/** The sentence in the place of a figure that cannot run. @param {string} reason */
-function sorry(reason) {
-  try {
-    return `${words.failure(reason)}`;
-  } catch {
-    // Another language's words come from the page.
-    return en.failure(reason);
+    return surface(this);
   }
 }

@@ -1,9 +1,12 @@
 /**
- * What the reader does, as a page hears of it: `input` for each step and `change` where it ends, once
- * each, however many settings a step changed.
+ * What the reader does, and what a page hears of it: `input` for each step and `change` where it ends, once each,
+ * however many settings a step changed.
  */
 
 import { Part } from './part.js';
+import { LONGEST_WORK } from './settings.js';
+
+/** @import { Values } from './settings.js' */
 
 export class Gesture extends Part {
   #step = false;
@@ -14,7 +17,7 @@ export class Gesture extends Part {
 
   /** What leaves the page is let go of. */
   hostDisconnected() {
-    if (this.#open) this.host.commit();
+    if (this.#open) this.commit();
   }
 
   /** Something has changed, and it may go on. */
@@ -24,8 +27,36 @@ export class Gesture extends Part {
     this.#queue();
   }
 
-  /** What has changed has come to rest. */
-  end() {
+  /** What the reader changed has come to rest: put it into effect and say what it led to. */
+  commit() {
+    const { runtime, settings, announcer, stage } = this.host;
+    runtime.attempt(() => settings.settle(LONGEST_WORK));
+    announcer.expect();
+    settings.stale = true;
+    this.#rest();
+    stage.wake();
+  }
+
+  /** The reader has decided on other settings. @param {Values | ((wanted: Values) => Values)} change */
+  decide(change) {
+    this.host.settings.want(change);
+    this.commit();
+  }
+
+  /**
+   * The reader chooses something of the element's own.
+   *
+   * @param {string} name
+   * @param {unknown} value
+   */
+  choose(name, value) {
+    this.host.state.own[name] = value;
+    this.step();
+    this.#rest();
+    this.host.stage.wake();
+  }
+
+  #rest() {
     this.#end = true;
     this.#queue();
   }

@@ -1,6 +1,7 @@
 /** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
 
-import { groupsOf, isSetting, renamed } from './attributes.js';
+import { COMMON, groupsOf, isSetting, renamed } from './attributes.js';
+import { word } from './checks.js';
 import { cloudProperties } from './cloud.js';
 import { Part } from './part.js';
 
@@ -108,12 +109,27 @@ export class Reflection extends Part {
   }
 
   /**
+   * Says a property that every figure has by its attribute, or by none.
+   *
+   * @param {string} attribute
+   * @param {unknown} value
+   */
+  say(attribute, value) {
+    const { host } = this;
+    const { words = [], property = attribute } = COMMON[attribute];
+    if (value === null || value === undefined) host.removeAttribute(attribute);
+    else host.runtime.tolerate(() => host.setAttribute(attribute, word(property, typeof value === 'number' ? String(value) : value, words)));
+  }
+
+  /**
    * An attribute says something else.
    *
    * @param {string} attribute in lower case
    * @param {string | null} text
    */
   hear(attribute, text) {
+    const { words } = COMMON[attribute] ?? {};
+    if (words && text !== null) this.host.runtime.tolerate(() => word(attribute, text, words));
     const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
     if (this.#writing || name === undefined) return;
     if (this.host.machine) this.#take(name, text);

@@ -164,7 +164,7 @@ export class BananaMachineElement extends FigureElement {
   /** Leaves one α alone in effect. @param {number} number from 1 */
   leaveAlone(number) {
     this.state.own.isolateChoice = number;
-    this.decide({ isolate: number });
+    this.gesture.decide({ isolate: number });
   }
 
   /**
@@ -241,7 +241,7 @@ export class BananaMachineElement extends FigureElement {
       remark: { x: 0, text: chartRemark },
       measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
       move: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
-      commit: () => this.commit(),
+      commit: () => this.gesture.commit(),
     });
   }
 }

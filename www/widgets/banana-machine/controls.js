@@ -18,7 +18,7 @@ export function presetButtons(figure) {
     ${PRESETS.map(({ name }) =>
       button(
         words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
-        () => figure.decide((config) => presetNamed(name, /** @type {any} */ (config))),
+        () => figure.gesture.decide((config) => presetNamed(name, /** @type {any} */ (config))),
         { pressed: name === present },
       ),
     )}
@@ -46,7 +46,7 @@ export function modelControls(figure) {
     ${toggle({
       label: say.isolate,
       checked: isolate !== null,
-      change: (on) => figure.decide({ isolate: on ? chosen : null }),
+      change: (on) => figure.gesture.decide({ isolate: on ? chosen : null }),
     })}
   </fieldset>`;
 }
@@ -95,7 +95,7 @@ export function overlayToggles(figure) {
           <span>${words.banana.overlays[name]}</span>`,
         checked: shown.includes(name),
         change: (checked) =>
-          figure.choose('overlays', OVERLAYS.filter((each) => (each === name ? checked : shown.includes(each)))),
+          figure.gesture.choose('overlays', OVERLAYS.filter((each) => (each === name ? checked : shown.includes(each)))),
       }),
     )}
   </div>`;

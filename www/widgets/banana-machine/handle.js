@@ -23,7 +23,7 @@ export class ArcHandle extends Handle {
         figure.reach(x + step * way[0], y + step * way[1]);
         return true;
       },
-      commit: () => figure.commit(),
+      commit: () => figure.gesture.commit(),
     });
   }
 

@@ -45,7 +45,7 @@ export function placeControls(figure) {
 /** @param {Figure} figure */
 export function viewChoice(figure) {
   const { settings: { view: { name } }, views } = words.squeeze;
-  return radioGroup(name ?? '', 'view', views, figure.state.own.view, (view) => figure.choose('view', view));
+  return radioGroup(name ?? '', 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view));
 }
 
 /** What the cells are of which the map says nothing. @param {Figure} figure */
@@ -67,7 +67,7 @@ export function judgeControls(figure) {
           group: 'sampler',
           label: say.samplers[name],
           checked: name === sampler,
-          choose: () => figure.decide({ sampler: name }),
+          choose: () => figure.gesture.decide({ sampler: name }),
         }),
       )}
     </div>

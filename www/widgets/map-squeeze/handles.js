@@ -24,7 +24,7 @@ const MARGIN = 12;
 
 /** @extends {Part<import('./map-squeeze.js').MapSqueezeElement>} */
 export class RobotHandles extends Part {
-  #hooks = { view: () => this.host.picture.view, commit: () => this.host.commit() };
+  #hooks = { view: () => this.host.picture.view, commit: () => this.host.gesture.commit() };
   #body = new Handle('body', {
     ...this.#hooks,
     at: () => [this.#start.x, this.#start.y],

@@ -176,7 +176,7 @@ export class MapSqueezeElement extends FigureElement {
 
   /** The reader wants the robot at a place in the present map, or in the apartment. @param {Pose} start */
   go(start) {
-    this.decide({ start });
+    this.gesture.decide({ start });
   }
 
   /** The reader wants the robot in the open. */
@@ -221,7 +221,7 @@ export class MapSqueezeElement extends FigureElement {
     if (!this.machine) return;
     this.runtime.attempt(() => this.#enter(map, () => {
       this.gesture.step();
-      this.commit();
+      this.gesture.commit();
     }));
     this.stage.wake();
   }

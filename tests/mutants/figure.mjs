@@ -177,6 +177,9 @@ async function figure([seed = '1', amount = '300']) {
   try {
     progress('Running the tests without a mutant');
     const trials = (await noted(address, inCopy('reached'))).map((trial) => ({ ...trial, reached: new Set(trial.reached) }));
+    const passed = trials.filter((trial) => trial.passed).length;
+    if (passed === 0) throw new Missing('No test passes on the build without a mutant: see above.');
+    progress(`${passed} of ${trials.length} tests pass`);
     const sample = sampleOf(mutants, count, start);
     const caught = await meet(sample, mutants, trials, address);
     progress('Not caught');

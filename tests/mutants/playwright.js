@@ -7,9 +7,9 @@
 
 import { appendFileSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { expect, test as plain } from '@playwright/test';
+import { test as plain } from '@playwright/test';
 
-export { expect };
+export * from '@playwright/test';
 
 const { MUTANTS_PLAN = '', MUTANTS_NOTES = '', MUTANTS_PLACE = '' } = process.env;
 

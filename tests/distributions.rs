@@ -2,7 +2,7 @@
 //! distribution by Kolmogorov and Smirnov. The noises by themselves are in `noise.rs`, and what robots execute, in
 //! the tests of each model.
 //!
-//! A right sampler passes one comparison with probability 0.999, and all 99 with 0.9: on these seeds it does.
+//! A right sampler passes one comparison with probability 0.999, and all 102 with 0.9: on these seeds it does.
 #![allow(
     clippy::disallowed_methods,
     reason = "an expected value may come from the platform's own mathematics"
@@ -189,11 +189,14 @@ fn poses_of_the_odometry_model_also_in_reverse() {
 #[test]
 fn poses_of_the_tangent_model() {
     let (x, noise) = (SE2::new(1.5, -2.0, 0.3), NoiseKind::Normal);
-    let velocity = VelocityModel { alphas: ALPHAS, noise };
-    let model = TangentNoiseModel::from_velocity(&velocity, &GENTLE).expect("variances");
     let mut rng = seeded(930);
-    let poses: Vec<SE2> = (0..MILLION).map(|_| model.sample(&GENTLE, &x, &mut rng)).collect();
-    compare_velocity("of the velocity model", &poses, &velocity, &GENTLE, &x);
+    // With the turn after the arc a small part of the heading's noise, and most of it.
+    for alphas in [ALPHAS, VelocityAlphas([0.05, 0.05, 0.005, 0.005, 0.05, 0.05])] {
+        let velocity = VelocityModel { alphas, noise };
+        let model = TangentNoiseModel::from_velocity(&velocity, &GENTLE).expect("variances");
+        let poses: Vec<SE2> = (0..MILLION).map(|_| model.sample(&GENTLE, &x, &mut rng)).collect();
+        compare_velocity("of the velocity model", &poses, &velocity, &GENTLE, &x);
+    }
 
     // All three directions noisy, each with the others.
     let r = Matrix3::new(0.05, 0.004, -0.01, 0.004, 0.01, 0.006, -0.01, 0.006, 0.07);

@@ -227,11 +227,6 @@ pub struct Shape {
     sums: Sums<17>,
 }
 
-/// Robots from which the standard errors of the gains are estimated; the first are as good as any. All of the widget's
-/// opening cloud are among them, and of a hundred thousand they cost three percent of the figures. Fewer would show in the
-/// first digit of the error, more would be felt at every event.
-pub const ERROR_SAMPLE: usize = 2048;
-
 /// All that is known of a cloud.
 #[derive(Clone, Copy, Debug)]
 pub struct CloudFigures {
@@ -298,8 +293,12 @@ impl Shape {
         self.sums.close_block();
     }
 
-    /// The figures of `count` poses, of which `first` yields the first ones.
-    pub fn finish(&self, count: usize, first: impl Iterator<Item = (FourPoses, FourArcs)>) -> CloudFigures {
+    /// The figures of `count` poses; the errors of the gains are those that `sample` has, each with its weight.
+    pub fn finish(
+        &self,
+        count: usize,
+        sample: impl Iterator<Item = (FourPoses, FourArcs, f64x4)>,
+    ) -> CloudFigures {
         let n = count as f64;
         let means = self.sums.finish().map(|sum| sum / n);
         let [
@@ -348,8 +347,7 @@ impl Shape {
             log_jacobians,
         );
         let mut differences = Differences::new(charts);
-        let mut left = count.min(ERROR_SAMPLE);
-        for (poses, arcs) in first.take(left.div_ceil(LANES)) {
+        for (poses, arcs, weights) in sample {
             let FourPoses { x, y, along, lateral, half, sinc, .. } = poses;
             let turn = wrapped(half * 2.0 - self.spread.mean_turn);
             let robots = FourRobots {
@@ -358,8 +356,7 @@ impl Shape {
                 arc: [arcs.length, arcs.half * 2.0, f64x4::splat(0.0)],
                 jacobians: [sinc * sinc, arcs.length.abs() * 0.5 * (arcs.sinc * arcs.sinc)],
             };
-            differences.add(&robots, LANES.min(left));
-            left = left.saturating_sub(LANES);
+            differences.add(&robots, weights);
         }
         let share = |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
         CloudFigures {

@@ -79,7 +79,7 @@ impl MeasuredGain {
             };
             let jacobians = [0, 1].map(|i| lanes(|lane| jacobians(&four[lane % four.len()])[i]));
             let robots = FourRobots { plain: each(&plain), twist: each(&twist), arc: each(&arc), jacobians };
-            differences.add(&robots, four.len());
+            differences.add(&robots, lanes(|lane| if lane < four.len() { 1.0 } else { 0.0 }));
         }
         differences.finish(steps.len())
     }
@@ -131,44 +131,41 @@ impl Charts {
 #[derive(Clone, Debug)]
 pub(super) struct Differences {
     charts: Charts,
-    count: f64,
-    /// Of the difference at a robot from the gain, for pose and floor: sum, and sum of squares.
-    sums: [[f64x4; 2]; 2],
+    weights: f64x4,
+    /// Squares of the difference at a robot from the gain, for pose and floor. The mean difference is the gain, that of
+    /// all robots, so that their sum is not needed.
+    squares: [f64x4; 2],
 }
 
 impl Differences {
     pub fn new(charts: Charts) -> Self {
-        Self { charts, count: 0.0, sums: [[f64x4::splat(0.0); 2]; 2] }
+        Self { charts, weights: f64x4::splat(0.0), squares: [f64x4::splat(0.0); 2] }
     }
 
-    /// Adds the first `count` of four.
+    /// Adds four robots, each of which stands for `weights` of them: for none, if it is not there.
     #[inline(never)]
-    pub fn add(&mut self, robots: &FourRobots, count: usize) {
+    pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
         let Charts { plain, twist, arc, gain } = &self.charts;
-        let mask = lanes(|lane| if lane < count { f64::from_bits(u64::MAX) } else { 0.0 });
+        let there = weights.simd_gt(f64x4::splat(0.0));
         let of_plain = plain.squared_distances(&robots.plain);
         let of_twist = twist.squared_distances(&robots.twist)[2];
         let of_arc = arc.squared_distances(&robots.arc)[1];
         let constants = [2, 1].map(|last| plain.log_volumes[last]);
         let (bent, gains) = ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
-        let squares = [of_plain[2] - of_twist, of_plain[1] - of_arc];
+        let distances = [of_plain[2] - of_twist, of_plain[1] - of_arc];
         for i in 0..2 {
             let volumes = constants[i] - bent[i] - gains[i];
-            let differences = (squares[i] * 0.5 - log(robots.jacobians[i]) + volumes) & mask;
-            self.sums[i][0] += differences;
-            self.sums[i][1] += differences * differences;
+            let differences = (distances[i] * 0.5 - log(robots.jacobians[i]) + volumes) & there;
+            self.squares[i] += differences * differences * weights;
         }
-        self.count += count as f64;
+        self.weights += weights;
     }
 
     /// The gain of a cloud of `count` poses, of which those added are a fair sample.
     pub fn finish(&self, count: usize) -> MeasuredGain {
-        let error = |sums: [f64x4; 2]| {
-            let [sum, squares] = sums.map(f64x4::reduce_add);
-            let variance = (squares - sum * (sum / self.count)) / (self.count - 1.0);
-            (variance / count as f64).sqrt()
-        };
-        let [pose, floor] = self.sums.map(error);
+        let degrees = self.weights.reduce_add() - 1.0;
+        let [pose, floor] =
+            self.squares.map(|squares| (squares.reduce_add() / degrees / count as f64).sqrt());
         MeasuredGain { value: self.charts.gain, error: LikelihoodGain { pose, floor } }
     }
 }

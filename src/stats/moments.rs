@@ -49,17 +49,9 @@ impl ExponentialMoments {
     pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
         let mean_turn = wrap_angle(mean_heading(poses) - start.theta());
         let back = start.inverse();
-        Self::of(poses.iter().map(|pose| (back * *pose).log_near(mean_turn)), poses.len())
-    }
-
-    /// The moments of exponential coordinates computed before.
-    pub fn from_twists(twists: &[Vector3<f64>]) -> Self {
-        Self::of(twists.iter().copied(), twists.len())
-    }
-
-    fn of(twists: impl Iterator<Item = Vector3<f64>> + Clone, count: usize) -> Self {
+        let twists = poses.iter().map(|pose| (back * *pose).log_near(mean_turn));
         let first = twists.clone().next().unwrap_or_else(Vector3::zeros);
-        let (offset, cov) = mean_and_cov(twists.map(|twist| twist - first), count);
+        let (offset, cov) = mean_and_cov(twists.map(|twist| twist - first), poses.len());
         Self { mean: first + offset, cov }
     }
 }

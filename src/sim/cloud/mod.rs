@@ -115,8 +115,11 @@ impl Cloud {
                     }
                     sums.close_block();
                     if ended {
-                        let first = draws.fours().iter().map(|noise| drive.robots(noise));
-                        let figures = sums.finish(*goal, first);
+                        let robots = draws.sample(*goal).map(|(noise, weights)| {
+                            let (poses, arcs) = drive.robots(noise);
+                            (poses, arcs, weights)
+                        });
+                        let figures = sums.finish(*goal, robots);
                         *pass = Pass::Done;
                         return Some(figures);
                     }

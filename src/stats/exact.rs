@@ -43,10 +43,10 @@ impl RayMoments {
     pub fn add(&mut self, weight: f64, unit: [f64; 2], excess_turn: f64) {
         let [x, y] = *self.reference.get_or_insert(unit);
         let point = Vector3::new(unit[0] - x, unit[1] - y, excess_turn);
-        let weighted = point * weight;
         self.total += weight;
-        self.mean += weighted;
-        self.square += point * weighted.transpose();
+        self.mean += point * weight;
+        // Weighted last, it is symmetric to the last bit.
+        self.square += point * point.transpose() * weight;
     }
 
     /// Mean and covariance of L·u and the turn, for an independent length L of this mean and standard deviation.

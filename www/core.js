@@ -198,8 +198,9 @@ function makeSafe(name, { prototype }) {
     // The glue's own begin with __.
     if (/^(constructor$|__)/.test(String(key))) continue;
     property[kind] = function (/** @type {unknown[]} */ ...args) {
-      // The address in the core's memory, 0 once it is freed.
-      const address = Object.prototype.isPrototypeOf.call(prototype, this) ? this.__wbg_ptr : undefined;
+      // The address in the core's memory, 0 once it is freed. What has it of another object would free that one's machine.
+      const own = Object.prototype.isPrototypeOf.call(prototype, this) && Object.hasOwn(this, '__wbg_ptr');
+      const address = own ? this.__wbg_ptr : undefined;
       if (address === 0 && work === free) return undefined;
       const what = address === undefined ? 'something else' : address === 0 ? 'a freed one' : busy.has(this) && 'one that is reading its arguments';
       if (what) throw new TypeError(`${name}.${String(key)} is called on ${what}; allowed is a ${name} of the same core, in use`);

@@ -82,6 +82,7 @@ test('a hard map is looked at in slices, with progress, and the page goes on', a
 for (const [way, act] of /** @type {[string, (widget: Locator) => Promise<void>][]} */ ([
   ['the button', (widget) => widget.getByRole('button', { name: 'Stop' }).click()],
   ['Escape', (widget) => widget.getByRole('slider', { name: 'Robot', exact: true }).press('Escape')],
+  ['Escape where nothing has the focus', (widget) => widget.page().keyboard.press('Escape')],
 ])) {
   test(`${way} stops it, and all is as it was`, async ({ page }) => {
     const widget = await openSqueeze(page);
@@ -104,6 +105,36 @@ for (const [way, act] of /** @type {[string, (widget: Locator) => Promise<void>]
     expect((await squeezed(widget)).walls).toEqual([0, 0, 6, 0]);
   });
 }
+
+test('another map does not wait for what is being done, which begins anew where the map is stopped', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const worked = await widget.evaluate((element) => {
+    const squeeze = /** @type {Element} */ (element);
+    const { prototype } = squeeze.machine.constructor;
+    const { advance } = prototype;
+    const machines = new Set();
+    prototype.advance = function (/** @type {number} */ work) {
+      machines.add(this);
+      return advance.call(this, work);
+    };
+    // Seconds of work each.
+    squeeze.samples = 1_000_000;
+    const beside = Array.from({ length: 60_000 }, (_, i) => [5, 5, 5 + 4 * Math.cos(i), 5 + 4 * Math.sin(i)]);
+    machines.clear();
+    for (const name of ['one', 'two']) squeeze.map = /** @type {any} */ ({ name, bounds: [0, 0, 10, 10], walls: beside });
+    const { size } = machines;
+    const own = machines.has(squeeze.machine);
+    prototype.advance = advance;
+    return { size, own, config: squeeze.machine.config.samples, map: squeeze.map };
+  });
+  expect(worked).toEqual({ size: 2, own: false, config: 600, map: null });
+  await slowly(page, async () => {
+    await expect(progress(widget)).toBeVisible();
+    await widget.getByRole('button', { name: 'Stop' }).click();
+  });
+  await expect.poll(() => widget.evaluate((element) => /** @type {Element} */ (element).machine.config.samples)).toBe(1_000_000);
+  expect(await widget.evaluate((element) => /** @type {Element} */ (element).map)).toBe(null);
+});
 
 test('a short link with as many walls as are allowed is no more than a moment’s work', FRESH, async ({ page }) => {
   const widget = await openSqueeze(page);

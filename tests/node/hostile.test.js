@@ -217,7 +217,7 @@ for (const name of Object.keys(METHODS)) {
     freed.free();
     const other = new motion[Object.keys(METHODS).find((each) => each !== name) ?? '']({ samples: 5 });
     const elsewhere = new /** @type {any} */ (await core.instantiate())[name]({ samples: 5 });
-    const strangers = [other, elsewhere, {}, Object.create(Machine.prototype), Machine.prototype, undefined, null, 1, 'x', new Proxy({}, {})];
+    const strangers = [other, elsewhere, {}, Object.create(machine), Object.create(Machine.prototype), Machine.prototype, undefined, null, 1, 'x', new Proxy({}, {})];
     for (const [key, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(Machine.prototype))) {
       const work = get ?? value;
       if (/^(constructor$|__)/.test(key)) continue;

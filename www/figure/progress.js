@@ -48,17 +48,23 @@ export class Progress extends Part {
   #since;
   #shown = false;
 
+  /** Where keys are heard. @type {Document | undefined} */
+  #document;
+
   hostConnected() {
+    this.#document = this.host.ownerDocument;
     // Before the page or the figure takes it for something else.
-    this.host.addEventListener('keydown', this.#key, { capture: true });
+    this.#document.addEventListener('keydown', this.#key, { capture: true });
   }
 
   hostDisconnected() {
-    this.host.removeEventListener('keydown', this.#key, { capture: true });
+    this.#document?.removeEventListener('keydown', this.#key, { capture: true });
   }
 
   #key = (/** @type {KeyboardEvent} */ event) => {
     if (event.key !== 'Escape' || !this.#shown) return;
+    // What has the focus is the figure, or nothing: a file was dropped, or what had it is gone.
+    if (event.target !== this.#document?.body && !event.composedPath().includes(this.host)) return;
     event.preventDefault();
     event.stopPropagation();
     this.#stop();

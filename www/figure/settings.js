@@ -62,9 +62,9 @@ export class Settings extends Part {
     return this.stale ? machine?.config : reading.config;
   }
 
-  /** Those in effect with the changes that wait. @returns {Values} */
+  /** Those in effect with the changes that are on their way. @returns {Values} */
   get wanted() {
-    return { ...this.present, ...this.#pending };
+    return { ...this.present, ...this.#begun, ...this.#pending };
   }
 
   /** What controls show: what was read of the machine, with the changes that are on their way. @returns {Values} */
@@ -140,15 +140,28 @@ export class Settings extends Part {
   }
 
   /**
-   * To be called when something has begun that `settle` is to go on with.
+   * To be called when something has begun that `settle` is to go on with. It takes the place of what is being done.
    *
    * @param {Job} job
    * @param {any} [next] the machine that it is done with, if that is to take the place of the present one
    */
   work(job = advancing(this.host.machine), next = undefined) {
+    this.#giveWay();
     this.#job = job;
     this.next = next;
     this.done = 0;
+  }
+
+  /** What is being done is given up. If what comes instead is stopped, the present machine begins anew with what it had begun. */
+  #giveWay() {
+    if (!this.#job) return;
+    if (this.next) {
+      this.next.free();
+    } else {
+      this.host.machine.stop();
+      this.#pending = { ...this.#begun, ...this.#pending };
+      this.#begun = {};
+    }
   }
 
   /**

@@ -247,9 +247,8 @@ export class MapSqueezeElement extends FigureElement {
   #enter(map, arrived) {
     const { motion, settings } = this;
     if (!motion) return;
-    settings.settle();
     const machine = orFree(motion.MapSqueeze.empty(), (made) => {
-      made.configure(settings.declared(settings.present));
+      made.configure(settings.declared(settings.wanted));
       map.apply(made);
     });
     settings.work(this.#entering(machine, map, arrived), machine);

@@ -57,12 +57,9 @@ class Page {
     if (tag !== undefined) await this.settled(tag);
   }
 
-  /** One after the other, each drawn before the next comes. @param {Parameters<Engine['press']>[0][]} keys */
+  /** One after the other, as they come from a hand that waits for no picture. @param {Parameters<Engine['press']>[0][]} keys */
   async press(...keys) {
-    for (const key of keys) {
-      await this.engine.press(key);
-      await this.ask('drawn');
-    }
+    for (const key of keys) await this.engine.press(key);
   }
 
   /** @param {string} tag */

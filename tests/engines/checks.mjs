@@ -205,6 +205,7 @@ async function handleByKeys(page, tag, { name }) {
 /** @type {(page: Page, tag: string) => Promise<string>} */
 async function slidersByKeys(page, tag) {
   await page.open(tag);
+  await page.ask('renderSteps', tag);
   const sliders = await page.ask('slidersOf', tag);
   assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
   for (const { key } of sliders) {

@@ -97,6 +97,12 @@ export function focus({ tag, selector }) {
   return rootOf(tag).activeElement === part;
 }
 
+/** From now on a figure is rendered between each step of the reader's and its frame, as anything may have it. @param {string} tag */
+export function renderSteps(tag) {
+  const figure = /** @type {any} */ (figureOf(tag));
+  figure.addEventListener('input', () => figure.requestUpdate());
+}
+
 /** @param {string} tag @returns {Promise<string>} a hash of every pixel of the first picture */
 export const pixelsOf = (tag) => hashOf(dataOf(canvasOf(tag)));
 

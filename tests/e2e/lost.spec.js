@@ -15,16 +15,41 @@ test.use(STILL);
  * Work in a browser of its own, with other arguments than the tests' has.
  *
  * @param {string} address of the tests' server
- * @param {{ ignoreDefaultArgs?: string[] }} options
- * @param {(page: Page) => Promise<void>} work
+ * @param {{ args?: string[], ignoreDefaultArgs?: string[] }} options
+ * @param {(page: Page, browser: import('@playwright/test').Browser) => Promise<void>} work
  */
-async function withBrowser(address, { ignoreDefaultArgs }, work) {
-  const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS, ignoreDefaultArgs });
+async function withBrowser(address, { args = CHROME_ARGUMENTS, ignoreDefaultArgs }, work) {
+  const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args, ignoreDefaultArgs });
   try {
-    await work(await browser.newPage({ baseURL: address, reducedMotion: 'reduce' }));
+    await work(await browser.newPage({ baseURL: address, reducedMotion: 'reduce' }), browser);
   } finally {
     await browser.close();
   }
+}
+
+/** The canvases are drawn as by a graphics card, in a process of its own: what the processor draws has nothing to lose. */
+const BY_GRAPHICS = [
+  ...CHROME_ARGUMENTS.filter((argument) => argument !== '--disable-gpu'),
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--ignore-gpu-blocklist',
+  '--enable-gpu-rasterization',
+];
+
+/** Every pixel of a figure's pictures. @param {Locator} widget @returns {Promise<number[][]>} */
+async function pixelsIn(widget) {
+  await frames(widget.page());
+  return widget.evaluate((element) =>
+    Promise.all(
+      [...(element.shadowRoot?.querySelectorAll('canvas') ?? [])].map(async (canvas) => {
+        const copy = new OffscreenCanvas(canvas.width, canvas.height);
+        const context = /** @type {OffscreenCanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+        // A canvas that is read itself is drawn by the processor from then on.
+        context.drawImage(await createImageBitmap(canvas), 0, 0);
+        return [...context.getImageData(0, 0, copy.width, copy.height).data];
+      }),
+    ),
+  );
 }
 
 /** The digest of everything that a figure shows. @param {Locator} widget */
@@ -239,6 +264,37 @@ for (const name of NAMES) {
     await expect.poll(() => pictureOf(canvas)).toBe(wanted);
   });
 }
+
+test('pictures are drawn again when the process for graphics has died', async ({ baseURL }) => {
+  // Ten times what it takes where nothing else runs: a processor stands in for the graphics card.
+  test.setTimeout(200_000);
+  await withBrowser(String(baseURL), { args: BY_GRAPHICS }, async (page, browser) => {
+    await show(page, '<banana-machine></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const before = await pixelsIn(widget);
+    expect(before).toHaveLength(2);
+    const restored = widget.evaluate(async (element) => {
+      const figure = /** @type {any} */ (element);
+      const drawn = (/** @type {HTMLCanvasElement} */ canvas) =>
+        new Promise((resolve) =>
+          canvas.addEventListener('contextrestored', () => {
+            // The next frame may come before anything else is back.
+            figure.stage.frame(0);
+            resolve(true);
+          }),
+        );
+      await Promise.all([...figure.renderRoot.querySelectorAll('canvas')].map(drawn));
+    });
+    const session = await browser.newBrowserCDPSession();
+    await session.send('Browser.crashGpuProcess');
+    await restored;
+    const after = await pixelsIn(widget);
+    // The process that follows rounds some colours otherwise, by 2 of 255; what is lost differs by all of its ink.
+    const lost = after.map((pixels, i) => pixels.filter((value, j) => Math.abs(value - before[i][j]) > 8).length);
+    expect(lost).toEqual([0, 0]);
+  });
+});
 
 test('a page that comes back from the back-forward cache is alive', async ({ baseURL }) => {
   await withBrowser(String(baseURL), { ignoreDefaultArgs: ['--disable-back-forward-cache'] }, async (page) => {

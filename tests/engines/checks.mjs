@@ -57,12 +57,9 @@ class Page {
     if (tag !== undefined) await this.settled(tag);
   }
 
-  /** One after the other, each drawn before the next comes. @param {Parameters<Engine['press']>[0][]} keys */
+  /** One after the other, as they come from a hand that waits for no picture. @param {Parameters<Engine['press']>[0][]} keys */
   async press(...keys) {
-    for (const key of keys) {
-      await this.engine.press(key);
-      await this.ask('drawn');
-    }
+    for (const key of keys) await this.engine.press(key);
   }
 
   /** @param {string} tag */
@@ -208,6 +205,7 @@ async function handleByKeys(page, tag, { name }) {
 /** @type {(page: Page, tag: string) => Promise<string>} */
 async function slidersByKeys(page, tag) {
   await page.open(tag);
+  await page.ask('renderSteps', tag);
   const sliders = await page.ask('slidersOf', tag);
   assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
   for (const { key } of sliders) {

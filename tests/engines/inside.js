@@ -21,11 +21,6 @@ const frame = () => new Promise(requestAnimationFrame);
 /** Frames for which nothing has moved, until nothing will. */
 const STILL = 10;
 
-/** Until what was asked for has been drawn. */
-export async function drawn() {
-  for (let i = 0; i < 3; i++) await frame();
-}
-
 /**
  * Brings a figure into sight and waits until its cloud is complete and its picture rests.
  *
@@ -96,11 +91,16 @@ export function placesOf({ tag, handle, to: [x, y] }) {
 }
 
 /** @param {{ tag: string, selector: string }} given what is to have the focus */
-export async function focus({ tag, selector }) {
+export function focus({ tag, selector }) {
   const part = /** @type {HTMLElement} */ (rootOf(tag).querySelector(selector));
   part.focus();
-  await frame();
   return rootOf(tag).activeElement === part;
+}
+
+/** From now on a figure is rendered between each step of the reader's and its frame, as anything may have it. @param {string} tag */
+export function renderSteps(tag) {
+  const figure = /** @type {any} */ (figureOf(tag));
+  figure.addEventListener('input', () => figure.requestUpdate());
 }
 
 /** @param {string} tag @returns {Promise<string>} a hash of every pixel of the first picture */

@@ -43,6 +43,16 @@ export function pointOn(element, view, { clientX, clientY }) {
 }
 
 /**
+ * Of a canvas that is copied to those that are seen. The processor draws it: a graphics card may lose what it has, and this
+ * would not be back when those are drawn again.
+ *
+ * @param {OffscreenCanvas} canvas
+ */
+export function hiddenContext(canvas) {
+  return /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d', { willReadFrequently: true }));
+}
+
+/**
  * Clears a canvas and gives the view its size.
  *
  * @param {HTMLCanvasElement | Surface} canvas

@@ -7,6 +7,7 @@ import { ticks } from 'd3-array';
 import { limits } from '../settings.js';
 import { tick } from '../ui/format.js';
 import { channels } from '../ui/theme.js';
+import { hiddenContext } from './canvas.js';
 
 /**
  * @import { Brush } from './canvas.js'
@@ -262,8 +263,7 @@ export function drawPixels({ context, view }, grid, pixels, columns) {
   const inked = inkedPart(pixels, columns, rows);
   if (!inked) return;
   const [x, y, width, height] = inked;
-  const surface = /** @type {OffscreenCanvasRenderingContext2D} */ (grid.getContext('2d'));
-  surface.putImageData(new ImageData(pixels, columns, rows), 0, 0, x, y, width, height);
+  hiddenContext(grid).putImageData(new ImageData(pixels, columns, rows), 0, 0, x, y, width, height);
   const { left, right, top, bottom } = view.frame;
   const [across, down] = [(right - left) / columns, (bottom - top) / rows];
   context.imageSmoothingEnabled = true;

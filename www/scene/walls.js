@@ -4,7 +4,7 @@
  */
 
 import { channels } from '../ui/theme.js';
-import { LONGEST_SIDE } from './canvas.js';
+import { LONGEST_SIDE, hiddenContext } from './canvas.js';
 
 /**
  * @import { View } from './view.js'
@@ -86,7 +86,7 @@ export class WallLayer {
       this.#paint(brush);
     }
     if (this.#next < walls.length) {
-      const layer = contextOf(this.#layer);
+      const layer = hiddenContext(this.#layer);
       this.#next = this.#stroke({ context: layer, view, palette }, this.#next, piecemeal ? STROKED : Infinity);
     }
     context.drawImage(this.#layer, 0, 0, width, height);
@@ -99,7 +99,7 @@ export class WallLayer {
     this.#layer.width = Math.round(view.width * ratio);
     this.#layer.height = Math.round(view.height * ratio);
     this.#next = 0;
-    const context = contextOf(this.#layer);
+    const context = hiddenContext(this.#layer);
     context.scale(ratio, ratio);
     if (this.#grid) {
       if (this.#hasUnknown) {
@@ -173,11 +173,6 @@ export class WallLayer {
   }
 }
 
-/** Drawn by the processor: what a graphics card has it may lose, and what is kept here is not drawn anew then. @param {OffscreenCanvas} canvas */
-function contextOf(canvas) {
-  return /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d', { willReadFrequently: true }));
-}
-
 /**
  * A pixel a cell, the lowest row first, coloured where the cell is.
  *
@@ -191,7 +186,7 @@ function maskOf({ columns, rows }, cells, colour) {
   const [pixel] = new Uint32Array(Uint8Array.of(...channels(colour), 255).buffer);
   for (let i = 0; i < cells.length; i++) pixels[i] = pixel * cells[i];
   const canvas = new OffscreenCanvas(columns, rows);
-  contextOf(canvas).putImageData(image, 0, 0);
+  hiddenContext(canvas).putImageData(image, 0, 0);
   return canvas;
 }
 

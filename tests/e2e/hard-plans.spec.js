@@ -109,7 +109,7 @@ for (const [way, act] of /** @type {[string, (widget: Locator) => Promise<void>]
 test('another map does not wait for what is being done, which begins anew where the map is stopped', async ({ page }) => {
   const widget = await openSqueeze(page);
   const worked = await widget.evaluate((element) => {
-    const squeeze = /** @type {Element} */ (element);
+    const squeeze = /** @type {any} */ (element);
     const { prototype } = squeeze.machine.constructor;
     const { advance } = prototype;
     const machines = new Set();
@@ -121,7 +121,7 @@ test('another map does not wait for what is being done, which begins anew where 
     squeeze.samples = 1_000_000;
     const beside = Array.from({ length: 60_000 }, (_, i) => [5, 5, 5 + 4 * Math.cos(i), 5 + 4 * Math.sin(i)]);
     machines.clear();
-    for (const name of ['one', 'two']) squeeze.map = /** @type {any} */ ({ name, bounds: [0, 0, 10, 10], walls: beside });
+    for (const name of ['one', 'two']) squeeze.map = { name, bounds: [0, 0, 10, 10], walls: beside };
     const { size } = machines;
     const own = machines.has(squeeze.machine);
     prototype.advance = advance;
@@ -132,7 +132,7 @@ test('another map does not wait for what is being done, which begins anew where 
     await expect(progress(widget)).toBeVisible();
     await widget.getByRole('button', { name: 'Stop' }).click();
   });
-  await expect.poll(() => widget.evaluate((element) => /** @type {Element} */ (element).machine.config.samples)).toBe(1_000_000);
+  await expect.poll(() => widget.evaluate((element) => /** @type {any} */ (element).machine.config.samples)).toBe(1_000_000);
   expect(await widget.evaluate((element) => /** @type {Element} */ (element).map)).toBe(null);
 });
 

@@ -127,6 +127,8 @@ impl OccupancyGrid {
         // Into cells at once: the pixels of a large image take several times their memory.
         let mut fill = |four_colours: bool| {
             let mut transparent = false;
+            let white = Pixel { shade: 1.0, opacity: 1.0 };
+            let mut last = (white, interpretation.cell(white));
             let mut pixels = pixels.clone().into_iter();
             for row in cells.chunks_mut(width.max(1)).rev() {
                 for (cell, mut pixel) in row.iter_mut().zip(&mut pixels) {
@@ -134,7 +136,11 @@ impl OccupancyGrid {
                     if four_colours {
                         pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
                     }
-                    *cell = interpretation.cell(pixel);
+                    // Neighbours are alike, mostly.
+                    if pixel != last.0 {
+                        last = (pixel, interpretation.cell(pixel));
+                    }
+                    *cell = last.1;
                 }
             }
             transparent

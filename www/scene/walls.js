@@ -29,7 +29,7 @@ const WALLS_A_STROKE = 500;
  * or two where a browser draws without a graphics processor.
  */
 const STROKED = 200_000;
-const A_WALL = 8;
+const A_WALL = 40;
 
 /** Walls whose ends are nearer to each other than this look the same, pixels of the view. */
 const ALIKE = 0.25;
@@ -45,7 +45,7 @@ export class WallLayer {
   #grid;
   #hasUnknown;
   #width;
-  /** Those cells in that colour. @type {Record<string, { canvas: OffscreenCanvas, colour: string } | undefined>} */
+  /** Those cells in that colour. @type {Record<string, { mask: ReturnType<typeof maskOf>, colour: string } | undefined>} */
   #masks = {};
   #layer = new OffscreenCanvas(1, 1);
   /** What the layer shows. */
@@ -102,14 +102,16 @@ export class WallLayer {
     const context = contextOf(this.#layer);
     context.scale(ratio, ratio);
     if (this.#grid) {
+      // What is smaller than a pixel is not drawn apart: of a map of millions of cells the view shows thousands.
+      const side = Math.max(1, Math.floor(1 / (this.#grid.resolution * view.scaleX * ratio)));
       if (this.#hasUnknown) {
         // The mask says where, the hatching goes there.
-        fillCells(context, view, this.#grid, this.#mask('unknown', palette.muted));
+        fillCells(context, view, this.#grid, this.#mask('unknown', palette.muted, side));
         context.globalCompositeOperation = 'source-in';
         hatch(context, view, palette.muted);
         context.globalCompositeOperation = 'source-over';
       }
-      fillCells(context, view, this.#grid, this.#mask('occupied', palette.truth));
+      fillCells(context, view, this.#grid, this.#mask('occupied', palette.truth, side));
     }
     this.#border({ context, view, palette });
   }
@@ -117,12 +119,15 @@ export class WallLayer {
   /**
    * @param {'occupied' | 'unknown'} kind of cell
    * @param {string} colour
+   * @param {number} side in cells, of what is one pixel
    */
-  #mask(kind, colour) {
+  #mask(kind, colour, side) {
     const grid = /** @type {Grid} */ (this.#grid);
-    let mask = this.#masks[kind];
-    if (mask?.colour !== colour) mask = this.#masks[kind] = { canvas: maskOf(grid, grid[kind], colour), colour };
-    return mask.canvas;
+    let made = this.#masks[kind];
+    if (made?.colour !== colour || made.mask.side !== side) {
+      made = this.#masks[kind] = { mask: maskOf(grid, grid[kind], colour, side), colour };
+    }
+    return made.mask;
   }
 
   /** @param {Bare} brush */
@@ -179,20 +184,29 @@ function contextOf(canvas) {
 }
 
 /**
- * A pixel a cell, the lowest row first, coloured where the cell is.
+ * A pixel for a square of cells, the lowest row first, as opaque as many of them are.
  *
  * @param {Grid} grid
  * @param {Uint8Array} cells 1 where they are
  * @param {string} colour
+ * @param {number} side of the square, in cells
  */
-function maskOf({ columns, rows }, cells, colour) {
-  const image = new ImageData(columns, rows);
+function maskOf({ columns, rows }, cells, colour, side) {
+  const [width, height] = [columns, rows].map((count) => Math.ceil(count / side));
+  const image = new ImageData(width, height);
   const pixels = new Uint32Array(image.data.buffer);
-  const [pixel] = new Uint32Array(Uint8Array.of(...channels(colour), 255).buffer);
-  for (let i = 0; i < cells.length; i++) pixels[i] = pixel * cells[i];
-  const canvas = new OffscreenCanvas(columns, rows);
+  for (let row = 0, i = 0; row < rows; row++) {
+    const first = width * Math.floor(row / side);
+    for (let column = 0; column < columns; column += side) {
+      for (const end = i + Math.min(side, columns - column); i < end; i++) pixels[first + column / side] += cells[i];
+    }
+  }
+  const shades = Array.from({ length: side ** 2 + 1 }, (_, count) => Uint8Array.of(...channels(colour), (255 * count) / side ** 2));
+  const colours = shades.map((shade) => new Uint32Array(shade.buffer)[0]);
+  for (let i = 0; i < pixels.length; i++) pixels[i] = colours[pixels[i]];
+  const canvas = new OffscreenCanvas(width, height);
   contextOf(canvas).putImageData(image, 0, 0);
-  return canvas;
+  return { canvas, side };
 }
 
 /**
@@ -219,9 +233,9 @@ function hatch(context, { width, height }, colour) {
  * @param {OffscreenCanvasRenderingContext2D} context
  * @param {View} view
  * @param {Grid} grid
- * @param {OffscreenCanvas} mask
+ * @param {ReturnType<typeof maskOf>} mask
  */
-function fillCells(context, view, grid, mask) {
+function fillCells(context, view, grid, { canvas, side }) {
   const [x, y, yaw] = grid.origin;
   const [along, up] = [grid.resolution * Math.cos(yaw), grid.resolution * Math.sin(yaw)];
   /** Where a corner of a cell is drawn. */
@@ -241,6 +255,6 @@ function fillCells(context, view, grid, mask) {
   );
   // Cells that are large on the screen have edges.
   context.imageSmoothingEnabled = Math.hypot(right[0] - from[0], right[1] - from[1]) < 2;
-  context.drawImage(mask, 0, 0);
+  context.drawImage(canvas, 0, 0, side * canvas.width, side * canvas.height);
   context.restore();
 }

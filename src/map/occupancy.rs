@@ -245,45 +245,36 @@ impl OccupancyGrid {
     /// distance to the cells for everyone outside of one. First those along the rows, then those along the columns.
     ///
     /// # Errors
-    /// How many there are so far, once there are more than `most`.
+    /// So many there are at least, where there are more than `most`.
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
-        let mut sides = Vec::new();
-        let limit = |count: usize| if count > most { Err(count) } else { Ok(()) };
-        // Between cells on either side of a grid line there is an outline where just one is in the way.
-        let mut below = vec![false; self.width];
+        let (mut sides, mut upright) = (Vec::new(), Vec::new());
+        // Between cells on either side of a grid line there is an outline where just one is in the way. Row by row, as the cells lie
+        // in memory: of each grid line between columns, where its present outline began.
+        let mut below = vec![false; self.width + 1];
+        let mut began = vec![None; self.width + 1];
         for row in 0..=self.height {
-            let mut from = None;
+            let (mut left, mut from) = (false, None);
             let blocked = self.in_the_way(self.row(row)).chain(repeat(false));
-            for (column, (below, blocked)) in below.iter_mut().zip(blocked).enumerate() {
-                let is_edge = *below != blocked;
-                *below = blocked;
-                if is_edge != from.is_some() {
+            for (column, ((below, began), blocked)) in
+                below.iter_mut().zip(&mut began).zip(blocked).enumerate()
+            {
+                if (*below != blocked) != from.is_some() {
                     match from.take() {
                         Some(from) => sides.push(self.side([from, row], [column, row])),
                         None => from = Some(column),
                     }
                 }
-            }
-            sides.extend(from.map(|from| self.side([from, row], [self.width, row])));
-            limit(sides.len())?;
-        }
-        // Row by row too, as the cells lie in memory: for each grid line, where its present outline began, and the others.
-        let mut from = vec![None; self.width + 1];
-        let mut upright = Vec::new();
-        for row in 0..=self.height {
-            let mut left = false;
-            let blocked = self.in_the_way(self.row(row)).chain(repeat(false));
-            for (column, (from, blocked)) in from.iter_mut().zip(blocked).enumerate() {
-                let is_edge = left != blocked;
-                left = blocked;
-                if is_edge != from.is_some() {
-                    match from.take() {
-                        Some(from) => upright.push([column, from, row]),
-                        None => *from = Some(row),
+                if (left != blocked) != began.is_some() {
+                    match began.take() {
+                        Some(began) => upright.push([column, began, row]),
+                        None => *began = Some(row),
                     }
                 }
+                (left, *below) = (blocked, blocked);
             }
-            limit(sides.len() + upright.len())?;
+            if sides.len() + upright.len() > most {
+                return Err(most + 1);
+            }
         }
         // In the order of the grid lines, those of each as they are.
         let mut places = vec![0; self.width + 2];

@@ -64,8 +64,10 @@ export async function* inflated(parts, format) {
 /** As many arguments as any engine takes. */
 const ARGUMENTS = 4096;
 
-/** @param {Uint8Array} bytes */
+/** @param {Uint8Array & { toBase64?: () => string }} bytes */
 export function toBase64(bytes) {
+  // In a hundredth of the time, where the browser has it.
+  if (bytes.toBase64) return bytes.toBase64();
   let text = '';
   for (let at = 0; at < bytes.length; at += ARGUMENTS) text += String.fromCharCode(...bytes.subarray(at, at + ARGUMENTS));
   return btoa(text);

@@ -31,6 +31,9 @@ const WALLS_A_STROKE = 500;
 const STROKED = 200_000;
 const A_WALL = 40;
 
+/** Cells of a picture that are counted in a frame: ten milliseconds' work, before the engine has compiled it. */
+const COUNTED = 1_000_000;
+
 /** Walls whose ends are nearer to each other than this look the same, pixels of the view. */
 const ALIKE = 0.25;
 
@@ -45,7 +48,7 @@ export class WallLayer {
   #grid;
   #hasUnknown;
   #width;
-  /** Those cells in that colour. @type {Record<string, { mask: ReturnType<typeof maskOf>, colour: string } | undefined>} */
+  /** By kinds of cells. @type {Record<string, Mask | undefined>} */
   #masks = {};
   #layer = new OffscreenCanvas(1, 1);
   /** What the layer shows. */
@@ -82,8 +85,11 @@ export class WallLayer {
     }
     const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
     if (wanted !== this.#shown) {
+      const unknown = this.#grid && this.#hasUnknown ? this.#mask('unknown', palette.muted, brush) : undefined;
+      const occupied = this.#grid && this.#mask('occupied', palette.truth, brush);
+      if ([unknown, occupied].some((mask) => mask && !mask.canvas)) return true;
       this.#shown = wanted;
-      this.#paint(brush);
+      this.#paint(brush, unknown, occupied);
     }
     if (this.#next < walls.length) {
       const layer = contextOf(this.#layer);
@@ -93,41 +99,46 @@ export class WallLayer {
     return this.#next < walls.length;
   }
 
-  /** All but the walls. @param {Brush} brush */
-  #paint({ view, palette, ratio }) {
+  /**
+   * All but the walls.
+   *
+   * @param {Brush} brush
+   * @param {Mask} [unknown]
+   * @param {Mask} [occupied]
+   */
+  #paint({ view, palette, ratio }, unknown, occupied) {
     // A new size clears it.
     this.#layer.width = Math.round(view.width * ratio);
     this.#layer.height = Math.round(view.height * ratio);
     this.#next = 0;
     const context = contextOf(this.#layer);
     context.scale(ratio, ratio);
-    if (this.#grid) {
-      // What is smaller than a pixel is not drawn apart: of a map of millions of cells the view shows thousands.
-      const side = Math.max(1, Math.floor(1 / (this.#grid.resolution * view.scaleX * ratio)));
-      if (this.#hasUnknown) {
-        // The mask says where, the hatching goes there.
-        fillCells(context, view, this.#grid, this.#mask('unknown', palette.muted, side));
-        context.globalCompositeOperation = 'source-in';
-        hatch(context, view, palette.muted);
-        context.globalCompositeOperation = 'source-over';
-      }
-      fillCells(context, view, this.#grid, this.#mask('occupied', palette.truth, side));
+    if (this.#grid && unknown) {
+      // The mask says where, the hatching goes there.
+      fillCells(context, view, this.#grid, unknown);
+      context.globalCompositeOperation = 'source-in';
+      hatch(context, view, palette.muted);
+      context.globalCompositeOperation = 'source-over';
     }
+    if (this.#grid && occupied) fillCells(context, view, this.#grid, occupied);
     this.#border({ context, view, palette });
   }
 
   /**
-   * @param {'occupied' | 'unknown'} kind of cell
+   * The picture of cells of a kind; makes as much of it as a frame has time for, if it is not there yet.
+   *
+   * @param {'occupied' | 'unknown'} kind
    * @param {string} colour
-   * @param {number} side in cells, of what is one pixel
+   * @param {Brush} brush
    */
-  #mask(kind, colour, side) {
+  #mask(kind, colour, { view, ratio, piecemeal }) {
     const grid = /** @type {Grid} */ (this.#grid);
-    let made = this.#masks[kind];
-    if (made?.colour !== colour || made.mask.side !== side) {
-      made = this.#masks[kind] = { mask: maskOf(grid, grid[kind], colour, side), colour };
-    }
-    return made.mask;
+    // What is smaller than a pixel is not drawn apart: of a map of millions of cells a view shows thousands.
+    const side = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));
+    let mask = this.#masks[kind];
+    if (mask?.colour !== colour || mask.side !== side) mask = this.#masks[kind] = new Mask(grid, grid[kind], colour, side);
+    if (!mask.canvas) mask.grow(piecemeal ? COUNTED : Infinity);
+    return mask;
   }
 
   /** @param {Bare} brush */
@@ -183,30 +194,62 @@ function contextOf(canvas) {
   return /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d', { willReadFrequently: true }));
 }
 
-/**
- * A pixel for a square of cells, the lowest row first, as opaque as many of them are.
- *
- * @param {Grid} grid
- * @param {Uint8Array} cells 1 where they are
- * @param {string} colour
- * @param {number} side of the square, in cells
- */
-function maskOf({ columns, rows }, cells, colour, side) {
-  const [width, height] = [columns, rows].map((count) => Math.ceil(count / side));
-  const image = new ImageData(width, height);
-  const pixels = new Uint32Array(image.data.buffer);
-  for (let row = 0, i = 0; row < rows; row++) {
-    const first = width * Math.floor(row / side);
-    for (let column = 0; column < columns; column += side) {
-      for (const end = i + Math.min(side, columns - column); i < end; i++) pixels[first + column / side] += cells[i];
-    }
+/** A picture of some cells: a pixel for a square of them, the lowest row first, as opaque as many of them are. */
+class Mask {
+  /** Once all cells are counted. @type {OffscreenCanvas | undefined} */
+  canvas;
+  colour;
+  side;
+  #cells;
+  #columns;
+  #width;
+  #height;
+  /** How many cells each pixel has. */
+  #counts;
+  /** The first row that is not counted yet. */
+  #row = 0;
+
+  /**
+   * @param {Grid} grid
+   * @param {Uint8Array} cells 1 where they are
+   * @param {string} colour
+   * @param {number} side of the square, in cells
+   */
+  constructor({ columns, rows }, cells, colour, side) {
+    this.colour = colour;
+    this.side = side;
+    this.#cells = cells;
+    this.#columns = columns;
+    this.#width = Math.ceil(columns / side);
+    this.#height = Math.ceil(rows / side);
+    this.#counts = new Uint32Array(this.#width * this.#height);
   }
-  const shades = Array.from({ length: side ** 2 + 1 }, (_, count) => Uint8Array.of(...channels(colour), (255 * count) / side ** 2));
-  const colours = shades.map((shade) => new Uint32Array(shade.buffer)[0]);
-  for (let i = 0; i < pixels.length; i++) pixels[i] = colours[pixels[i]];
-  const canvas = new OffscreenCanvas(width, height);
-  contextOf(canvas).putImageData(image, 0, 0);
-  return { canvas, side };
+
+  /** Counts up to so many cells, by rows, and makes the picture once that is done. @param {number} most */
+  grow(most) {
+    const [cells, counts, columns, side] = [this.#cells, this.#counts, this.#columns, this.side];
+    const last = Math.min(cells.length, (this.#row + Math.max(1, Math.floor(most / columns))) * columns);
+    for (; this.#row * columns < last; this.#row++) {
+      const end = (this.#row + 1) * columns;
+      let pixel = this.#width * Math.floor(this.#row / side);
+      for (let i = this.#row * columns; i < end; pixel++) {
+        let count = 0;
+        for (const next = Math.min(i + side, end); i < next; i++) count += cells[i];
+        counts[pixel] += count;
+      }
+    }
+    if (last === cells.length) this.#paint();
+  }
+
+  #paint() {
+    const most = this.side ** 2;
+    const shades = Array.from({ length: most + 1 }, (_, count) => Uint8Array.of(...channels(this.colour), (255 * count) / most));
+    const colours = shades.map((shade) => new Uint32Array(shade.buffer)[0]);
+    const image = new ImageData(this.#width, this.#height);
+    new Uint32Array(image.data.buffer).set(this.#counts.map((count) => colours[count]));
+    this.canvas = new OffscreenCanvas(this.#width, this.#height);
+    contextOf(this.canvas).putImageData(image, 0, 0);
+  }
 }
 
 /**
@@ -233,9 +276,10 @@ function hatch(context, { width, height }, colour) {
  * @param {OffscreenCanvasRenderingContext2D} context
  * @param {View} view
  * @param {Grid} grid
- * @param {ReturnType<typeof maskOf>} mask
+ * @param {Mask} mask
  */
 function fillCells(context, view, grid, { canvas, side }) {
+  if (!canvas) return;
   const [x, y, yaw] = grid.origin;
   const [along, up] = [grid.resolution * Math.cos(yaw), grid.resolution * Math.sin(yaw)];
   /** Where a corner of a cell is drawn. */

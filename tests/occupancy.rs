@@ -597,3 +597,36 @@ fn a_place_is_found_where_there_is_one() {
     }
     assert!(found > 300 && none > 100, "{found} {none}");
 }
+
+/// Where nothing is known to be free, the robot is put into the first cell, row by row from the bottom, in whose middle it fits.
+#[test]
+fn the_first_place_with_room_is_found() {
+    let mut rng = seeded(27_183);
+    let (mut first, mut later, mut none) = (0, 0, 0);
+    for _ in 0..2000 {
+        let cells = Cells::random(&mut rng);
+        let clearance = cells.resolution * uniform(&mut rng, 0.0, 4.0);
+        let grey = Pixel { shade: 205.0 / 255.0, ..WHITE };
+        let pixels = cells.occupied.iter().map(|occupied| if *occupied { BLACK } else { grey });
+        let image = Image { width: cells.width, height: cells.height, pixels };
+        let [x, y, yaw] = cells.origin;
+        let grid = OccupancyGrid::new(&image, &TRINARY, cells.resolution, SE2::new(x, y, yaw));
+        let plan = FloorPlan::from_grid(grid).expect("a small grid");
+        let middles = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (column, row)));
+        let expected = middles
+            .enumerate()
+            .map(|(i, (column, row))| (i, cells.in_map(column as f64 + 0.5, row as f64 + 0.5)))
+            .find(|(_, middle)| plan.point_free(*middle, clearance).free);
+        let place = plan.open_place(clearance).map(|place| [place.x(), place.y()]);
+        match (expected, place) {
+            (Some((i, [x, y])), Some(place)) => {
+                // Coordinates up to 56 m, rounded by a few of their last bits.
+                assert!((place[0] - x).abs().max((place[1] - y).abs()) < 1e-12, "{place:?} {x} {y}");
+                *if i == 0 { &mut first } else { &mut later } += 1;
+            }
+            (None, None) => none += 1,
+            (expected, place) => panic!("{place:?} instead of {expected:?}"),
+        }
+    }
+    assert!(first > 100 && later > 300 && none > 300, "{first} {later} {none}");
+}

@@ -3,6 +3,7 @@
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
+use std::iter::repeat;
 use std::ops::RangeInclusive;
 
 /// How pixels become cells, as `map_server` reads its YAML file.
@@ -77,14 +78,15 @@ impl Interpretation {
         let occupancy = if self.negate { shade } else { 1.0 - shade };
         // Rounded as the shade is, so that a pixel at a threshold is not beyond it.
         let (occupied, free) = (self.occupied_thresh as f32, self.free_thresh as f32);
-        let value = (shade * 255.0).round();
+        // Rounding takes long where there is no instruction for it.
+        let value = || (shade * 255.0).round();
         match self.mode {
             Mode::Scale if opacity < 1.0 => Cell::Unknown,
             Mode::Trinary | Mode::Scale if occupancy > occupied => Cell::Occupied,
             // 1 less a rounded shade may be below the threshold that the shade is at.
             Mode::Trinary if occupancy > free - f32::EPSILON => Cell::Unknown,
-            Mode::Raw if value == 100.0 => Cell::Occupied,
-            Mode::Raw if value > 100.0 => Cell::Unknown,
+            Mode::Raw if value() == 100.0 => Cell::Occupied,
+            Mode::Raw if value() > 100.0 => Cell::Unknown,
             _ => Cell::Free,
         }
     }
@@ -125,6 +127,8 @@ impl OccupancyGrid {
         // Into cells at once: the pixels of a large image take several times their memory.
         let mut fill = |four_colours: bool| {
             let mut transparent = false;
+            let white = Pixel { shade: 1.0, opacity: 1.0 };
+            let mut last = (white, interpretation.cell(white));
             let mut pixels = pixels.clone().into_iter();
             for row in cells.chunks_mut(width.max(1)).rev() {
                 for (cell, mut pixel) in row.iter_mut().zip(&mut pixels) {
@@ -132,7 +136,11 @@ impl OccupancyGrid {
                     if four_colours {
                         pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
                     }
-                    *cell = interpretation.cell(pixel);
+                    // Neighbours are alike, mostly.
+                    if pixel != last.0 {
+                        last = (pixel, interpretation.cell(pixel));
+                    }
+                    *cell = last.1;
                 }
             }
             transparent
@@ -213,7 +221,7 @@ impl OccupancyGrid {
         (column < self.width && row < self.height).then(|| self.cells[row * self.width + column])
     }
 
-    fn blocks(&self, column: usize, row: usize) -> bool {
+    pub(super) fn blocks(&self, column: usize, row: usize) -> bool {
         match self.cell(column, row) {
             Some(Cell::Occupied) => true,
             Some(Cell::Unknown) => self.unknown == Unknown::Blocked,
@@ -221,45 +229,67 @@ impl OccupancyGrid {
         }
     }
 
+    /// Which of some cells are in a robot's way.
+    pub(super) fn in_the_way<'a>(&self, cells: &'a [Cell]) -> impl Iterator<Item = bool> + Clone + use<'a> {
+        let unknown = self.unknown == Unknown::Blocked;
+        cells.iter().map(move |cell| *cell == Cell::Occupied || (unknown && *cell == Cell::Unknown))
+    }
+
+    /// The cells of a row, counted from the bottom; none of a row off the grid.
+    pub(super) fn row(&self, row: usize) -> &[Cell] {
+        let from = row.saturating_mul(self.width).min(self.cells.len());
+        &self.cells[from..(from + self.width).min(self.cells.len())]
+    }
+
     /// The outlines of the cells that are in a robot's way, neighbouring sides joined: the distance to them is the
-    /// distance to the cells for everyone outside of one.
+    /// distance to the cells for everyone outside of one. First those along the rows, then those along the columns.
     ///
     /// # Errors
-    /// How many there are so far, once there are more than `most`.
+    /// So many there are at least, where there are more than `most`.
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
-        let mut sides = Vec::new();
-        // Between cells on either side of a grid line there is an outline where just one is in the way.
-        let before = |i: usize| i.wrapping_sub(1);
+        let (mut sides, mut upright) = (Vec::new(), Vec::new());
+        // Between cells on either side of a grid line there is an outline where just one is in the way. Row by row, as the cells lie
+        // in memory: of each grid line between columns, where its present outline began.
+        let mut below = vec![false; self.width + 1];
+        let mut began = vec![None; self.width + 1];
         for row in 0..=self.height {
-            let edge = |column: usize| self.blocks(column, row) != self.blocks(column, before(row));
-            for (from, to) in runs(self.width, edge) {
-                sides.push(Segment { from: self.corner(from, row), to: self.corner(to, row) });
+            let (mut left, mut from) = (false, None);
+            let blocked = self.in_the_way(self.row(row)).chain(repeat(false));
+            for (column, ((below, began), blocked)) in
+                below.iter_mut().zip(&mut began).zip(blocked).enumerate()
+            {
+                if (*below != blocked) != from.is_some() {
+                    match from.take() {
+                        Some(from) => sides.push(self.side([from, row], [column, row])),
+                        None => from = Some(column),
+                    }
+                }
+                if (left != blocked) != began.is_some() {
+                    match began.take() {
+                        Some(began) => upright.push([column, began, row]),
+                        None => *began = Some(row),
+                    }
+                }
+                (left, *below) = (blocked, blocked);
             }
-            if sides.len() > most {
-                return Err(sides.len());
+            if sides.len() + upright.len() > most {
+                return Err(most + 1);
             }
         }
-        for column in 0..=self.width {
-            let edge = |row: usize| self.blocks(column, row) != self.blocks(before(column), row);
-            for (from, to) in runs(self.height, edge) {
-                sides.push(Segment { from: self.corner(column, from), to: self.corner(column, to) });
-            }
-            if sides.len() > most {
-                return Err(sides.len());
-            }
+        // In the order of the grid lines, those of each as they are.
+        let mut places = vec![0; self.width + 2];
+        upright.iter().for_each(|[column, ..]| places[column + 1] += 1);
+        (0..=self.width).for_each(|column| places[column + 1] += places[column]);
+        let first = sides.len();
+        sides.resize(first + upright.len(), Segment { from: [0.0; 2], to: [0.0; 2] });
+        for [column, from, to] in upright {
+            sides[first + places[column]] = self.side([column, from], [column, to]);
+            places[column] += 1;
         }
         Ok(sides)
     }
-}
 
-/// The maximal runs from..to of consecutive indices below `count` for which `holds`.
-fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for i in (0..count).filter(|i| holds(*i)) {
-        match runs.last_mut() {
-            Some((_, end)) if *end == i => *end += 1,
-            _ => runs.push((i, i + 1)),
-        }
+    fn side(&self, from: [usize; 2], to: [usize; 2]) -> Segment {
+        Segment { from: self.corner(from[0], from[1]), to: self.corner(to[0], to[1]) }
     }
-    runs
 }

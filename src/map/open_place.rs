@@ -19,7 +19,10 @@ impl FloorPlan {
         let squares = Squares::of(self);
         let open = squares.middle_of_largest().map(|middle| squares.point(middle));
         let fits = |point: &[f64; 2]| self.point_free(*point, clearance).free;
-        let [x, y] = open.filter(fits).or_else(|| squares.middles().find(fits))?;
+        let [x, y] = open.filter(fits).or_else(|| match self.grid() {
+            Some(grid) => first_with_room(grid, clearance).map(|middle| squares.point(middle)).filter(fits),
+            None => squares.middles().find(fits),
+        })?;
         Some(SE2::new(x, y, squares.longest_way([x, y], fits)))
     }
 }
@@ -126,4 +129,51 @@ impl<'a> Squares<'a> {
         let [column, row] = self.grid().map_or(on_plan, |grid| grid.cell_coordinates([x, y]));
         column >= 0.0 && row >= 0.0 && self.free(column as usize, row as usize)
     }
+}
+
+/// The first cell in whose middle a disc of radius `clearance` (m) fits, in cells from the lower left corner: row by row from the
+/// bottom, and with nothing but rounding to spare nowhere. The distances of millions of points would take seconds; those of
+/// cells to cells are whole numbers, in two directions one after the other.
+fn first_with_room(grid: &OccupancyGrid, clearance: f64) -> Option<[f64; 2]> {
+    let [columns, rows] = grid.size();
+    let furthest = grid.corners().as_flattened().iter().fold(clearance, |most, x| most.max(x.abs()));
+    let reach = (clearance + 1e-12 * furthest) / grid.resolution();
+    // Of a cell in the way so many rows off: how many columns off it is in the disc's way, and 1.
+    let widths: Vec<usize> = (0..=(reach + 0.5) as usize)
+        .map(|row| {
+            let off = (row as f64 - 0.5).max(0.0);
+            ((reach * reach - off * off).max(0.0).sqrt() + 0.5) as usize + 1
+        })
+        .collect();
+    let width = |off: usize| widths.get(off).copied().unwrap_or(0);
+    // For each column, the rows from the last one below that is in the way, and the next one above: so far as that matters.
+    let mut below = vec![usize::MAX; columns];
+    let mut above = vec![0; columns];
+    let mut blocked = vec![0; columns];
+    for row in 0..rows {
+        let end = rows.min(row + widths.len());
+        let mut left = 0usize;
+        for (column, is_blocked) in grid.in_the_way(grid.row(row)).enumerate() {
+            let (below, above) = (&mut below[column], &mut above[column]);
+            *below = if is_blocked { 0 } else { below.saturating_add(1) };
+            *above = row.max(*above);
+            while *above < end && !grid.blocks(column, *above) {
+                *above += 1;
+            }
+            let off = if *above < end { *below.min(&mut (*above - row)) } else { *below };
+            left = width(off).max(left.saturating_sub(1));
+            blocked[column] = left;
+        }
+        let (mut right, mut first) = (0usize, None);
+        for (column, left) in blocked.iter().enumerate().rev() {
+            right = (*left).max(right.saturating_sub(1));
+            if right == 0 {
+                first = Some(column);
+            }
+        }
+        if let Some(column) = first {
+            return Some([column, row].map(|at| at as f64 + 0.5));
+        }
+    }
+    None
 }

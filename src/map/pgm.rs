@@ -2,7 +2,7 @@
 
 use super::occupancy::{Image, Pixel};
 use std::fmt;
-use std::slice::ChunksExact;
+use std::slice::{ChunksExact, Iter};
 
 /// Why bytes are not a PGM image.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,7 +65,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
                 ("the length of the raster in bytes", reader.line, raster.len().to_string());
             return Err(PgmError { field, line, value, allowed });
         };
-        Raster::Binary(raster.chunks_exact(size))
+        if size == 1 { Raster::Bytes(raster.iter()) } else { Raster::Words(raster.chunks_exact(size)) }
     };
     Ok(Image { width, height, pixels: Shades { left: count, greatest, raster } })
 }
@@ -83,19 +83,22 @@ pub struct Shades<'a> {
 enum Raster<'a> {
     /// All numbers in it are as they should be.
     Plain(Reader<'a>),
-    /// Of one or two bytes a pixel.
-    Binary(ChunksExact<'a, u8>),
+    Bytes(Iter<'a, u8>),
+    /// Two bytes a pixel, the higher one first.
+    Words(ChunksExact<'a, u8>),
 }
 
 impl Iterator for Shades<'_> {
     type Item = Pixel;
 
+    #[inline(always)]
     fn next(&mut self) -> Option<Pixel> {
         self.left = self.left.checked_sub(1)?;
         let value = match &mut self.raster {
-            Raster::Plain(reader) => number(reader.token())?,
-            Raster::Binary(chunks) => {
-                chunks.next()?.iter().fold(0, |value, byte| value * 256 + usize::from(*byte))
+            Raster::Plain(reader) => reader.usual_number().or_else(|| number(reader.token()))?,
+            Raster::Bytes(bytes) => usize::from(*bytes.next()?),
+            Raster::Words(words) => {
+                words.next()?.iter().fold(0, |value, byte| value * 256 + usize::from(*byte))
             }
         };
         Some(Pixel { shade: value.min(self.greatest) as f32 / self.greatest as f32, opacity: 1.0 })
@@ -116,6 +119,9 @@ fn number(token: &[u8]) -> Option<usize> {
     })?;
     (!token.is_empty()).then_some(value)
 }
+
+/// Of a number that is read the short way: of any that is allowed.
+const USUAL_DIGITS: usize = 8;
 
 #[derive(Clone, Debug)]
 struct Reader<'a> {
@@ -147,7 +153,36 @@ impl<'a> Reader<'a> {
         &self.bytes[from..self.at]
     }
 
+    /// The next token, where no comment is before it, as a number of a few digits; None for any other, which is still to come
+    /// then. Nearly all of a plain image are of this kind, of which there may be millions.
+    #[inline(always)]
+    fn usual_number(&mut self) -> Option<usize> {
+        let Self { bytes, mut at, mut line } = *self;
+        while let Some(byte) = bytes.get(at).filter(|byte| byte.is_ascii_whitespace()) {
+            line += usize::from(*byte == b'\n');
+            at += 1;
+        }
+        let (from, mut value) = (at, 0);
+        while let Some(digit) = bytes.get(at).filter(|byte| byte.is_ascii_digit()) {
+            value = value * 10 + usize::from(digit - b'0');
+            at += 1;
+            if at - from > USUAL_DIGITS {
+                return None;
+            }
+        }
+        let ends = bytes.get(at).is_none_or(|byte| byte.is_ascii_whitespace() || *byte == b'#');
+        (ends && at > from).then(|| {
+            *self = Self { bytes, at, line };
+            value
+        })
+    }
+
     fn number(&mut self, field: &'static str, least: usize, most: usize) -> Result<usize, PgmError> {
+        let mut usual = self.clone();
+        if let Some(number) = usual.usual_number().filter(|number| (least..=most).contains(number)) {
+            *self = usual;
+            return Ok(number);
+        }
         let token = self.token();
         number(token)
             .filter(|number| (least..=most).contains(number))

@@ -29,6 +29,15 @@ const STRINGS = [
   'a'.repeat(1e6),
 ];
 
+/**
+ * Characters of a link at most: of the longest string deflate leaves a thousandth, in base64 a third more; and as much again for
+ * the rest of the state.
+ */
+const LINK = (2 * 4 * 1e6) / 1000 / 3;
+
+/** Characters of a sentence on a file at most: three quotations of 100 (maps/files.js), and words of its own. */
+const SENTENCE = 3 * 100 + 400;
+
 /** What no text makes: an element that is not of the figure. */
 const FOREIGN = 'script, img, iframe, b, [onerror], [onfocus]';
 
@@ -61,7 +70,7 @@ test('a map of any name has the figure, the picture and the data of any other', 
       /** @type {any} */ (element).map = { name, bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
     }, name);
     await frames(page);
-    const figure = await widget.evaluate(async (element, name) => {
+    const figure = await widget.evaluate(async (element, { name, longest }) => {
       const squeeze = /** @type {any} */ (element);
       const count = (/** @type {string} */ html) => new DOMParser().parseFromString(html, 'text/html').querySelectorAll('*').length;
       return {
@@ -70,9 +79,9 @@ test('a map of any name has the figure, the picture and the data of any other', 
         svg: count(squeeze.toSVG()),
         lines: squeeze.toCSV().split(/[\r\n]/).length,
         code: count(squeeze.embedCode()),
-        link: (await squeeze.shareLink()).length < 40_000,
+        link: (await squeeze.shareLink()).length < longest,
       };
-    }, name);
+    }, { name, longest: LINK });
     return { ...figure, ...(await shapeOf(widget)) };
   };
   const plain = await taken('room');
@@ -101,7 +110,7 @@ test('a file of any name is refused in a sentence that quotes it', async ({ page
       }, name + ending);
       expect(sentence.startsWith(Buffer.from((name + ending).slice(0, 20)).toString()), sentence).toBe(true);
       expect(sentence).toMatch(/; (expected|a floor plan) (is|are) /);
-      expect(sentence.length).toBeLessThan(700);
+      expect(sentence.length).toBeLessThan(SENTENCE);
     }
     const shape = await shapeOf(widget);
     plain ??= shape;
@@ -118,6 +127,9 @@ for (const tag of NAMES) {
     const plain = await shapeOf(widget);
     const names = await widget.evaluate((element) => /** @type {any} */ (element.constructor).observedAttributes);
     expect(names.length).toBeGreaterThan(15);
+    // Two quotations of 40 characters of two units (checks.js), the keys of a state or the names of attributes, and a few words.
+    const keys = await widget.evaluate((element) => Object.keys(/** @type {AnyElement} */ (element).getState()));
+    const longest = 2 * 2 * 40 + Math.max(keys.join(', ').length, names.join(', ').length) + 200;
     for (const text of STRINGS) {
       const refusals = await widget.evaluate(
         async (element, { names, text }) => {
@@ -146,7 +158,7 @@ for (const tag of NAMES) {
       const errors = (await heard(page, ['error'])).map(({ message }) => message);
       for (const sentence of [...refusals, ...errors]) {
         expect(sentence).toMatch(/allowed (is|are) /);
-        expect(sentence.length).toBeLessThan(1000);
+        expect(sentence.length).toBeLessThan(longest);
       }
     }
     expect(await shapeOf(widget)).toEqual(plain);

@@ -141,3 +141,60 @@ test('the largest pictures take what was asked for, and no more than 256 MiB bes
     machine.free();
   }
 });
+
+/** Milliseconds of the processor that anything may take that is allowed; the hardest known take two thirds of it. */
+const WAIT = 1000;
+
+const SIDE = 4096;
+/** @param {(column: number, row: number) => boolean} occupied */
+const cells = (occupied) => Uint8Array.from({ length: SIDE ** 2 }, (_, i) => (occupied(i % SIDE, Math.floor(i / SIDE)) ? 0 : 254));
+/** @param {string} magic @param {Uint8Array} pixels */
+const pgm = (magic, pixels) => new Uint8Array(Buffer.concat([Buffer.from(`${magic} ${SIDE} ${SIDE} 255\n`), pixels]));
+const DESCRIPTION = { resolution: 0.01, origin: [0, 0, 0] };
+/** As many cells apart from each other as have 100,000 sides, and every other row. */
+const dots = cells((column, row) => column % 26 === 0 && row % 26 === 0);
+const lines = cells((_, row) => row % 2 === 0);
+
+/** @type {[string, (machine: any) => void, (machine: any) => unknown][]} */
+const HARD = [
+  ['a plan of 100,000 walls through one point', () => {}, (machine) => machine.setPlan(star())],
+  ['a map of 4096 × 4096 cells with 100,000 sides', () => {}, (machine) => machine.setGrid(DESCRIPTION, pgm('P5', dots))],
+  ['the same as a plain image', () => {}, (machine) => machine.setGrid(DESCRIPTION, plain)],
+  ['a place where there is none', ready(lines, 0.16), (machine) => assert.equal(machine.openPlace, null)],
+  ['a place for a robot that hardly fits anywhere', ready(dots, 2), (machine) => assert.equal(machine.openPlace, null)],
+  ['other unknown cells', ready(dots, 0.1), (machine) => machine.configure({ unknown: 'blocked' })],
+];
+
+const plain = pgm('P2', new Uint8Array(Buffer.from(Array.from(dots, (shade) => (shade ? '254 ' : '000 ')).join(''))));
+
+function star() {
+  const walls = new Float64Array(400_000).fill(5);
+  for (let i = 0; i < walls.length; i += 4) {
+    walls[i + 2] += 5 * Math.cos(i);
+    walls[i + 3] += 5 * Math.sin(i);
+  }
+  return { bounds: [0, 0, 10, 10], walls };
+}
+
+/** @param {Uint8Array} pixels @param {number} clearance @returns {(machine: any) => void} */
+function ready(pixels, clearance) {
+  return (machine) => {
+    machine.configure({ clearance });
+    machine.setGrid(DESCRIPTION, pgm('P5', pixels));
+  };
+}
+
+for (const [name, prepare, act] of HARD) {
+  test(`${name} keeps nobody waiting`, () => {
+    const times = Array.from({ length: 3 }, () => {
+      const machine = new MapSqueeze({ samples: 2000 });
+      prepare(machine);
+      const before = process.cpuUsage();
+      act(machine);
+      const { user, system } = process.cpuUsage(before);
+      machine.free();
+      return (user + system) / 1000;
+    });
+    assert.ok(Math.min(...times) < WAIT, `${times} ms`);
+  });
+}

@@ -63,6 +63,16 @@ test('a value of any kind or length is refused by a sentence that can be read', 
   }
 });
 
+test('a plan that is not quite JSON is forgiven as long as it may be written by hand', async () => {
+  /** @param {number} count */
+  const plan = (count) => file('plan.json', `{"bounds": [0, 0, 9, 9], "walls": [${'[0, 0, 1.5, 1.5],'.repeat(count)}]}`);
+  assert.equal((await opened(plan(1000))).plan.walls.length, 4000);
+  // The library that forgives takes seconds for as many walls as are allowed; what is JSON, it is not asked for.
+  assert.match(await refusalOf([plan(100_000)]), /^plan\.json: this is not JSON \(.+\); expected is \{"bounds"/);
+  const whole = JSON.stringify({ bounds: [0, 0, 9, 9], walls: Array(100_000).fill([0, 0, 1.5, 1.5]) });
+  assert.equal((await opened(file('plan.json', whole))).plan.walls.length, 400_000);
+});
+
 test('how large files are is looked at before they are read', async () => {
   for (const [name, most] of /** @type {[string, number][]} */ ([['plan.json', 10_000_000], ['map.yaml', 100_000], ['map.pgm', limits.bytes]])) {
     const large = file(name, '');

@@ -61,10 +61,15 @@ export async function* inflated(parts, format) {
   }
 }
 
-/** @param {Uint8Array} bytes */
+/** As many arguments as any engine takes. */
+const ARGUMENTS = 4096;
+
+/** @param {Uint8Array & { toBase64?: () => string }} bytes */
 export function toBase64(bytes) {
+  // In a hundredth of the time, where the browser has it.
+  if (bytes.toBase64) return bytes.toBase64();
   let text = '';
-  for (const byte of bytes) text += String.fromCharCode(byte);
+  for (let at = 0; at < bytes.length; at += ARGUMENTS) text += String.fromCharCode(...bytes.subarray(at, at + ARGUMENTS));
   return btoa(text);
 }
 
@@ -73,5 +78,8 @@ export function toBase64(bytes) {
  * @throws {DOMException} if it is not base64
  */
 export function fromBase64(text) {
-  return Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const characters = atob(text);
+  const bytes = new Uint8Array(characters.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = characters.charCodeAt(i);
+  return bytes;
 }

@@ -29,7 +29,10 @@ const WALLS_A_STROKE = 500;
  * or two where a browser draws without a graphics processor.
  */
 const STROKED = 200_000;
-const A_WALL = 8;
+const A_WALL = 40;
+
+/** Cells of a picture that are counted in a frame: ten milliseconds' work, before the engine has compiled it. */
+const COUNTED = 1_000_000;
 
 /** Walls whose ends are nearer to each other than this look the same, pixels of the view. */
 const ALIKE = 0.25;
@@ -45,7 +48,7 @@ export class WallLayer {
   #grid;
   #hasUnknown;
   #width;
-  /** Those cells in that colour. @type {Record<string, { canvas: OffscreenCanvas, colour: string } | undefined>} */
+  /** By kinds of cells. @type {Record<string, Mask | undefined>} */
   #masks = {};
   #layer = new OffscreenCanvas(1, 1);
   /** What the layer shows. */
@@ -82,8 +85,11 @@ export class WallLayer {
     }
     const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
     if (wanted !== this.#shown) {
+      const unknown = this.#grid && this.#hasUnknown ? this.#mask('unknown', palette.muted, brush) : undefined;
+      const occupied = this.#grid && this.#mask('occupied', palette.truth, brush);
+      if ([unknown, occupied].some((mask) => mask && !mask.canvas)) return true;
       this.#shown = wanted;
-      this.#paint(brush);
+      this.#paint(brush, unknown, occupied);
     }
     if (this.#next < walls.length) {
       const layer = hiddenContext(this.#layer);
@@ -93,36 +99,46 @@ export class WallLayer {
     return this.#next < walls.length;
   }
 
-  /** All but the walls. @param {Brush} brush */
-  #paint({ view, palette, ratio }) {
+  /**
+   * All but the walls.
+   *
+   * @param {Brush} brush
+   * @param {Mask} [unknown]
+   * @param {Mask} [occupied]
+   */
+  #paint({ view, palette, ratio }, unknown, occupied) {
     // A new size clears it.
     this.#layer.width = Math.round(view.width * ratio);
     this.#layer.height = Math.round(view.height * ratio);
     this.#next = 0;
     const context = hiddenContext(this.#layer);
     context.scale(ratio, ratio);
-    if (this.#grid) {
-      if (this.#hasUnknown) {
-        // The mask says where, the hatching goes there.
-        fillCells(context, view, this.#grid, this.#mask('unknown', palette.muted));
-        context.globalCompositeOperation = 'source-in';
-        hatch(context, view, palette.muted);
-        context.globalCompositeOperation = 'source-over';
-      }
-      fillCells(context, view, this.#grid, this.#mask('occupied', palette.truth));
+    if (this.#grid && unknown) {
+      // The mask says where, the hatching goes there.
+      fillCells(context, view, this.#grid, unknown);
+      context.globalCompositeOperation = 'source-in';
+      hatch(context, view, palette.muted);
+      context.globalCompositeOperation = 'source-over';
     }
+    if (this.#grid && occupied) fillCells(context, view, this.#grid, occupied);
     this.#border({ context, view, palette });
   }
 
   /**
-   * @param {'occupied' | 'unknown'} kind of cell
+   * The picture of cells of a kind; makes as much of it as a frame has time for, if it is not there yet.
+   *
+   * @param {'occupied' | 'unknown'} kind
    * @param {string} colour
+   * @param {Brush} brush
    */
-  #mask(kind, colour) {
+  #mask(kind, colour, { view, ratio, piecemeal }) {
     const grid = /** @type {Grid} */ (this.#grid);
+    // What is smaller than a pixel is not drawn apart: of a map of millions of cells a view shows thousands.
+    const side = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));
     let mask = this.#masks[kind];
-    if (mask?.colour !== colour) mask = this.#masks[kind] = { canvas: maskOf(grid, grid[kind], colour), colour };
-    return mask.canvas;
+    if (mask?.colour !== colour || mask.side !== side) mask = this.#masks[kind] = new Mask(grid, grid[kind], colour, side);
+    if (!mask.canvas) mask.grow(piecemeal ? COUNTED : Infinity);
+    return mask;
   }
 
   /** @param {Bare} brush */
@@ -173,21 +189,62 @@ export class WallLayer {
   }
 }
 
-/**
- * A pixel a cell, the lowest row first, coloured where the cell is.
- *
- * @param {Grid} grid
- * @param {Uint8Array} cells 1 where they are
- * @param {string} colour
- */
-function maskOf({ columns, rows }, cells, colour) {
-  const image = new ImageData(columns, rows);
-  const pixels = new Uint32Array(image.data.buffer);
-  const [pixel] = new Uint32Array(Uint8Array.of(...channels(colour), 255).buffer);
-  for (let i = 0; i < cells.length; i++) pixels[i] = pixel * cells[i];
-  const canvas = new OffscreenCanvas(columns, rows);
-  hiddenContext(canvas).putImageData(image, 0, 0);
-  return canvas;
+/** A picture of some cells: a pixel for a square of them, the lowest row first, as opaque as many of them are. */
+class Mask {
+  /** Once all cells are counted. @type {OffscreenCanvas | undefined} */
+  canvas;
+  colour;
+  side;
+  #cells;
+  #columns;
+  #width;
+  #height;
+  /** How many cells each pixel has. */
+  #counts;
+  /** The first row that is not counted yet. */
+  #row = 0;
+
+  /**
+   * @param {Grid} grid
+   * @param {Uint8Array} cells 1 where they are
+   * @param {string} colour
+   * @param {number} side of the square, in cells
+   */
+  constructor({ columns, rows }, cells, colour, side) {
+    this.colour = colour;
+    this.side = side;
+    this.#cells = cells;
+    this.#columns = columns;
+    this.#width = Math.ceil(columns / side);
+    this.#height = Math.ceil(rows / side);
+    this.#counts = new Uint32Array(this.#width * this.#height);
+  }
+
+  /** Counts up to so many cells, by rows, and makes the picture once that is done. @param {number} most */
+  grow(most) {
+    const [cells, counts, columns, side] = [this.#cells, this.#counts, this.#columns, this.side];
+    const last = Math.min(cells.length, (this.#row + Math.max(1, Math.floor(most / columns))) * columns);
+    for (; this.#row * columns < last; this.#row++) {
+      const end = (this.#row + 1) * columns;
+      let pixel = this.#width * Math.floor(this.#row / side);
+      for (let i = this.#row * columns; i < end; pixel++) {
+        let count = 0;
+        for (const next = Math.min(i + side, end); i < next; i++) count += cells[i];
+        counts[pixel] += count;
+      }
+    }
+    if (last === cells.length) this.#paint();
+  }
+
+  #paint() {
+    const most = this.side ** 2;
+    const shades = Array.from({ length: most + 1 }, (_, count) => Uint8Array.of(...channels(this.colour), (255 * count) / most));
+    const colours = shades.map((shade) => new Uint32Array(shade.buffer)[0]);
+    const image = new ImageData(this.#width, this.#height);
+    new Uint32Array(image.data.buffer).set(this.#counts.map((count) => colours[count]));
+    this.canvas = new OffscreenCanvas(this.#width, this.#height);
+    hiddenContext(this.canvas).putImageData(image, 0, 0);
+  }
 }
 
 /**
@@ -214,9 +271,10 @@ function hatch(context, { width, height }, colour) {
  * @param {OffscreenCanvasRenderingContext2D} context
  * @param {View} view
  * @param {Grid} grid
- * @param {OffscreenCanvas} mask
+ * @param {Mask} mask
  */
-function fillCells(context, view, grid, mask) {
+function fillCells(context, view, grid, { canvas, side }) {
+  if (!canvas) return;
   const [x, y, yaw] = grid.origin;
   const [along, up] = [grid.resolution * Math.cos(yaw), grid.resolution * Math.sin(yaw)];
   /** Where a corner of a cell is drawn. */
@@ -236,6 +294,6 @@ function fillCells(context, view, grid, mask) {
   );
   // Cells that are large on the screen have edges.
   context.imageSmoothingEnabled = Math.hypot(right[0] - from[0], right[1] - from[1]) < 2;
-  context.drawImage(mask, 0, 0);
+  context.drawImage(canvas, 0, 0, side * canvas.width, side * canvas.height);
   context.restore();
 }

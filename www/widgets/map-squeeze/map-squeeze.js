@@ -70,13 +70,14 @@ export class MapSqueezeElement extends FigureElement {
     });
   };
 
-  machineChanged() {
+  /** @param {Machine['grid']} [grid] of the machine, by who has it: to ask for it takes long where it is large */
+  machineChanged(grid = this.machine?.grid ?? null) {
     const { machine } = this;
     if (!machine) return;
     this.#opener.forgive();
     this.#meter.outdate();
     this.#unknown = machine.config.unknown;
-    this.picture = new FloorPicture(machine.plan, machine.grid, this.picture);
+    this.picture = new FloorPicture(machine.plan, grid, this.picture);
     this.pictures = [this.picture];
   }
 
@@ -234,7 +235,7 @@ export class MapSqueezeElement extends FigureElement {
     if (!map) return;
     this.#left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);
-    this.#moved(null);
+    this.#moved(null, null);
   }
 
   /**
@@ -264,18 +265,20 @@ export class MapSqueezeElement extends FigureElement {
   *#entering(machine, { name, start }, arrived) {
     yield* advancing(machine);
     yield 1;
+    const { grid } = machine;
+    yield 1;
     if (start) machine.configure({ start });
-    else if (!machine.startFree || machine.grid) machine.configure({ start: this.#putInTheOpen(machine) });
+    else if (!machine.startFree || grid) machine.configure({ start: this.#putInTheOpen(machine) });
     machine.beginToGrow(this.cloud.asked);
     yield 0;
     yield* advancing(machine);
     yield 1;
-    const data = mapData(machine, name);
+    const data = mapData(machine, name, grid);
     yield 1;
     this.runtime.replace(machine);
     this.settings.reset();
     this.#left = null;
-    this.#moved(data);
+    this.#moved(data, grid);
     arrived();
   }
 
@@ -285,10 +288,13 @@ export class MapSqueezeElement extends FigureElement {
     if (machine && !machine.startFree) this.settings.assign({ start: PRESETS[0].start });
   }
 
-  /** @param {MapData | null} map that the machine has now */
-  #moved(map) {
+  /**
+   * @param {MapData | null} map that the machine has now
+   * @param {Machine['grid']} grid
+   */
+  #moved(map, grid) {
     this.state.own.map = map;
-    this.machineChanged();
+    this.machineChanged(grid);
     this.settings.stale = true;
     this.cloud.mark(-1);
   }

@@ -256,13 +256,14 @@ function freeCorner(view, width, height, commanded) {
 /** The corners of the box of cells of which a grid says something, as x, y pairs. @param {Grid} grid */
 function knownCorners({ columns, unknown, resolution, origin: [x, y, yaw] }) {
   const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
-  for (let i = 0; i < unknown.length; i++) {
-    if (unknown[i]) continue;
-    const [column, row] = [i % columns, Math.floor(i / columns)];
-    if (column < box.left) box.left = column;
-    if (column + 1 > box.right) box.right = column + 1;
-    if (row < box.bottom) box.bottom = row;
-    if (row + 1 > box.top) box.top = row + 1;
+  for (let row = 0; row * columns < unknown.length; row++) {
+    const cells = unknown.subarray(row * columns, (row + 1) * columns);
+    const first = cells.indexOf(0);
+    if (first < 0) continue;
+    box.left = Math.min(box.left, first);
+    box.right = Math.max(box.right, cells.lastIndexOf(0) + 1);
+    box.bottom = Math.min(box.bottom, row);
+    box.top = row + 1;
   }
   if (box.left > box.right) return [];
   const { left, bottom, right, top } = box;

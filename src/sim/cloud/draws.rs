@@ -21,6 +21,7 @@ const FARTHEST: f64 = 20.0;
 const REACH: [usize; 3] = [512, 16_384, usize::MAX];
 
 /// The number of fours from which those as far as this one are taken.
+#[inline(never)]
 fn reach([a, b, c]: &[f64x4; 3]) -> usize {
     let squares = *a * *a + *b * *b + *c * *c;
     let shell = [FAR, FARTHEST].iter().filter(|least| any(squares.simd_gt(f64x4::splat(**least)))).count();
@@ -37,11 +38,11 @@ pub struct Draws {
     rng: Xoshiro256PlusPlus,
     /// Four samples an entry.
     unit_noise: Vec<[f64x4; 3]>,
-    /// The farthest entries, in ascending order, after those among which the far ones are found.
-    farthest: Vec<usize>,
     /// Over the first `summed` entries, whole blocks of them. They stay when a slider moves the robots.
     sums: PairSums,
     summed: usize,
+    /// The farthest of those entries, in ascending order, but for those among which the far ones are found.
+    farthest: Vec<usize>,
 }
 
 impl Draws {
@@ -52,9 +53,9 @@ impl Draws {
             noise,
             rng,
             unit_noise: Vec::new(),
-            farthest: Vec::new(),
             sums: PairSums::new(),
             summed: 0,
+            farthest: Vec::new(),
         }
     }
 
@@ -66,17 +67,15 @@ impl Draws {
     /// Makes these the draws of a seed and kind.
     pub fn restart(&mut self, seed: u64, noise: NoiseKind) {
         if self.seed != seed || self.noise != noise {
-            let (unit_noise, farthest) =
-                (std::mem::take(&mut self.unit_noise), std::mem::take(&mut self.farthest));
-            *self = Self { unit_noise, farthest, ..Self::new(seed, noise) };
+            let unit_noise = std::mem::take(&mut self.unit_noise);
+            *self = Self { unit_noise, ..Self::new(seed, noise) };
             self.unit_noise.clear();
-            self.farthest.clear();
         }
     }
 
     /// Draws what is missing of `count` samples, for which there must be room.
     pub fn extend_to(&mut self, count: usize) {
-        let Self { noise, rng, unit_noise, farthest, .. } = self;
+        let Self { noise, rng, unit_noise, .. } = self;
         let (first, end) = (unit_noise.len(), count.div_ceil(LANES));
         while unit_noise.len() < end {
             let mut uniforms = [[0.0; LANES]; 3];
@@ -86,17 +85,17 @@ impl Draws {
             unit_noise.push(uniforms.map(f64x4::from));
         }
         noise.quantiles(unit_noise.get_mut(first..).unwrap_or_default().as_flattened_mut());
-        let late = first.max(REACH[1])..unit_noise.len();
-        farthest.extend(late.filter(|four| reach(&unit_noise[*four]) > REACH[1]));
     }
 
-    /// Sums over the first `fours` entries, as far as they fill blocks.
+    /// Sums over the first `fours` entries, and finds the farthest, as far as they fill blocks.
     #[inline(never)]
     pub fn sum_to(&mut self, fours: usize) {
         while fours >= self.summed + BLOCK {
             let block = self.unit_noise[self.summed..][..BLOCK].iter();
             block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL)));
             self.sums.close_block();
+            let late = self.summed.max(REACH[1])..self.summed + BLOCK;
+            self.farthest.extend(late.filter(|four| reach(&self.unit_noise[*four]) > REACH[1]));
             self.summed += BLOCK;
         }
     }
@@ -107,6 +106,7 @@ impl Draws {
         let fours = count / LANES;
         if self.summed > fours {
             (self.sums, self.summed) = (PairSums::new(), 0);
+            self.farthest.clear();
         }
         self.sum_to(fours);
         let mut sums = self.sums.clone();
@@ -123,11 +123,11 @@ impl Draws {
         &self.unit_noise
     }
 
-    /// A sample of `count` robots that have been drawn, in fours: their noise, and how many robots each of them stands for, none
-    /// if it is not there. Up to 2048 robots are all in it.
+    /// A sample of the `count` robots that were summed last, in fours: their noise, and how many robots each of them stands
+    /// for, none if it is not there. Up to 2048 robots are all in it.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let fours = count.div_ceil(LANES);
-        let late = self.farthest.iter().copied().take_while(move |four| *four < fours);
+        let late = self.farthest.iter().copied().chain(self.summed.max(REACH[1])..fours);
         (0..fours.min(REACH[1])).chain(late).filter_map(move |four| {
             let noise = &self.unit_noise[four];
             let reach = reach(noise);

@@ -91,7 +91,7 @@ enum Raster<'a> {
 impl Iterator for Shades<'_> {
     type Item = Pixel;
 
-    #[inline(always)]
+    #[inline]
     fn next(&mut self) -> Option<Pixel> {
         self.left = self.left.checked_sub(1)?;
         let value = match &mut self.raster {
@@ -177,6 +177,7 @@ impl<'a> Reader<'a> {
         })
     }
 
+    #[inline(never)]
     fn number(&mut self, field: &'static str, least: usize, most: usize) -> Result<usize, PgmError> {
         let mut usual = self.clone();
         if let Some(number) = usual.usual_number().filter(|number| (least..=most).contains(number)) {

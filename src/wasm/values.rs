@@ -75,7 +75,7 @@ pub fn list(numbers: &[f64]) -> Result<JsValue, JsValue> {
 pub fn gathered<T>(items: impl ExactSizeIterator<Item = T>) -> Option<Vec<T>> {
     let mut gathered = Vec::new();
     gathered.try_reserve_exact(items.len()).ok()?;
-    gathered.extend(items);
+    items.for_each(|item| gathered.push(item));
     Some(gathered)
 }
 

@@ -2,7 +2,6 @@
 
 import { LONGEST_SIDE } from '../../../scene/canvas.js';
 import { limits } from '../../../settings.js';
-import { inOneList } from './data.js';
 
 /**
  * @import { MapSqueeze } from '../../../types.d.ts'
@@ -118,11 +117,10 @@ function quoted(text) {
 export async function readPlan(name, text) {
   checkSize(name, text.length, PLAN_BYTES);
   const plan = await planOf(name, text);
-  const listed = isObject(plan) && 'walls' in plan ? { ...plan, walls: inOneList(plan.walls) } : plan;
   return {
     name,
     apply: (machine) =>
-      retold(name, () => machine.setPlan(listed ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
+      retold(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
   };
 }
 

@@ -155,7 +155,7 @@ impl<'a> Reader<'a> {
 
     /// The next token, where no comment is before it, as a number of a few digits; None for any other, which is still to come
     /// then. Nearly all of a plain image are of this kind, of which there may be millions.
-    #[inline(always)]
+    #[inline(never)]
     fn usual_number(&mut self) -> Option<usize> {
         let Self { bytes, mut at, mut line } = *self;
         while let Some(byte) = bytes.get(at).filter(|byte| byte.is_ascii_whitespace()) {
@@ -177,7 +177,6 @@ impl<'a> Reader<'a> {
         })
     }
 
-    #[inline(never)]
     fn number(&mut self, field: &'static str, least: usize, most: usize) -> Result<usize, PgmError> {
         let mut usual = self.clone();
         if let Some(number) = usual.usual_number().filter(|number| (least..=most).contains(number)) {

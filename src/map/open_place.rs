@@ -145,34 +145,29 @@ fn first_with_room(grid: &OccupancyGrid, clearance: f64) -> Option<[f64; 2]> {
             ((reach * reach - off * off).max(0.0).sqrt() + 0.5) as usize + 1
         })
         .collect();
-    let width = |off: usize| widths.get(off).copied().unwrap_or(0);
-    // For each column, the rows from the last one below that is in the way, and the next one above: so far as that matters.
-    let mut below = vec![usize::MAX; columns];
-    let mut above = vec![0; columns];
-    let mut blocked = vec![0; columns];
-    for row in 0..rows {
-        let end = rows.min(row + widths.len());
-        let mut left = 0usize;
-        for (column, is_blocked) in grid.in_the_way(grid.row(row)).enumerate() {
-            let (below, above) = (&mut below[column], &mut above[column]);
-            *below = if is_blocked { 0 } else { below.saturating_add(1) };
-            *above = row.max(*above);
-            while *above < end && !grid.blocks(column, *above) {
-                *above += 1;
-            }
-            let off = if *above < end { *below.min(&mut (*above - row)) } else { *below };
-            left = width(off).max(left.saturating_sub(1));
-            blocked[column] = left;
+    // The rows from each cell to the nearest in its column that is in the way: no disc reaches as far as they count.
+    let mut off = vec![u16::MAX; columns * rows];
+    for (i, blocked) in grid.in_the_way(grid.cells()).enumerate() {
+        let below = i.checked_sub(columns).map_or(u16::MAX, |below| off[below].saturating_add(1));
+        off[i] = if blocked { 0 } else { below };
+    }
+    for i in (columns..off.len()).rev() {
+        off[i - columns] = off[i - columns].min(off[i].saturating_add(1));
+    }
+    // How many columns to either side are in the way of what is in one.
+    let mut right = vec![0; columns];
+    for (row, off) in off.chunks(columns).enumerate() {
+        let width = |column: usize| widths.get(usize::from(off[column])).copied().unwrap_or(0);
+        let (mut after, mut before) = (0usize, 0usize);
+        for column in (0..columns).rev() {
+            after = width(column).max(after.saturating_sub(1));
+            right[column] = after;
         }
-        let (mut right, mut first) = (0usize, None);
-        for (column, left) in blocked.iter().enumerate().rev() {
-            right = (*left).max(right.saturating_sub(1));
-            if right == 0 {
-                first = Some(column);
+        for column in 0..columns {
+            before = width(column).max(before.saturating_sub(1));
+            if before.max(right[column]) == 0 {
+                return Some([column, row].map(|at| at as f64 + 0.5));
             }
-        }
-        if let Some(column) = first {
-            return Some([column, row].map(|at| at as f64 + 0.5));
         }
     }
     None

@@ -115,8 +115,9 @@ impl Charts {
         let (plain, twist, arc) = (Normal::new(&plain, 2), Normal::new(&twist, 2), Normal::new(&arc, 1));
         let gain = |dimensions: usize, bent: &Normal| {
             let (plain, bent) = (plain.log_volumes[dimensions - 1], bent.log_volumes[dimensions - 1]);
-            // Where the plain Gaussian is flat, there is nothing to gain on.
-            if plain == f64::NEG_INFINITY { f64::NAN } else { plain - bent - log_jacobians[3 - dimensions] }
+            let gain = plain - bent - log_jacobians[3 - dimensions];
+            // Where the plain Gaussian is flat, or as narrow as doubles are told apart, there is nothing to gain on.
+            if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
         let gain = LikelihoodGain { pose: gain(3, &twist), floor: gain(2, &arc) };
         Self { plain, twist, arc, gain }

@@ -77,6 +77,22 @@ test.describe('attributes', () => {
     expect(await attributes(squeeze)).toEqual({ preset: 'wall', x: '3.3', conditioned: 'false' });
   });
 
+  test('say by "true" what they say by nothing, and words with any space between them and around', async ({ page }) => {
+    await show(page, '<banana-machine overlays=" linearized\n  command "></banana-machine><map-squeeze conditioned="true"></map-squeeze>');
+    const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+    await ready(banana);
+    expect(await property(banana, 'overlays')).toEqual(['command', 'linearized']);
+    await banana.evaluate((element) => element.setAttribute('overlays', ''));
+    expect(await property(banana, 'overlays')).toEqual([]);
+    await squeeze.scrollIntoViewIfNeeded();
+    await ready(squeeze);
+    for (const [text, value] of /** @type {const} */ ([['false', false], ['true', true], ['false', false], ['', true]])) {
+      await squeeze.evaluate((element, given) => element.setAttribute('conditioned', given), text);
+      expect(await property(squeeze, 'conditioned')).toBe(value);
+    }
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
   test('and the page that they are copied to shows the same', async ({ page }) => {
     await show(page, '<banana-machine></banana-machine>');
     const widget = page.locator('banana-machine').first();
@@ -287,9 +303,9 @@ test.describe('properties', () => {
     await show(page, '<banana-machine v="2" alpha1="0.2" overlays="ellipse" isolate="2" theme="dark"></banana-machine>');
     const widget = page.locator('banana-machine');
     await ready(widget);
-    const opening = { v: 1, alpha1: 0.05, overlays: ['command', 'ellipse', 'exponential'], isolate: null, theme: 'auto', alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] };
+    const opening = { v: 1, alpha1: 0.05, overlays: ['command', 'ellipse', 'exponential'], isolate: null, marked: null, theme: 'auto', alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] };
     for (const none of [null, undefined]) {
-      await widget.evaluate((element) => Object.assign(element, { v: 3, alphas: Array(6).fill(0.1), overlays: ['ellipse'], isolate: 2, theme: 'light' }));
+      await widget.evaluate((element) => Object.assign(element, { v: 3, alphas: Array(6).fill(0.1), overlays: ['ellipse'], isolate: 2, marked: 3, theme: 'light' }));
       const values = await widget.evaluate((element, [names, value]) => {
         for (const name of names) Reflect.set(element, name, value);
         return Object.fromEntries(names.map((name) => [name, Reflect.get(element, name)]));

@@ -146,6 +146,28 @@ test('a ground that fades arrives where the page does, also where the text has c
   }
 });
 
+test('what fades elsewhere has nothing drawn', async ({ page }) => {
+  await show(page, '<button>Elsewhere</button><banana-machine></banana-machine>', { head: '<style>button { transition: background-color 50ms }</style>' });
+  await ready(page.locator('banana-machine'));
+  await frames(page);
+  const asked = await page.evaluate(async () => {
+    const request = window.requestAnimationFrame;
+    let count = 0;
+    window.requestAnimationFrame = (callback) => {
+      count++;
+      return request(callback);
+    };
+    const button = /** @type {HTMLElement} */ (document.querySelector('button'));
+    // The window hears of it last.
+    const faded = new Promise((resolve) => addEventListener('transitionend', resolve, { once: true }));
+    button.style.backgroundColor = 'rgb(1, 2, 3)';
+    await faded;
+    window.requestAnimationFrame = request;
+    return count;
+  });
+  expect(asked).toBe(0);
+});
+
 test('a theme that its surroundings have not gives a figure paper and ink of its own', async ({ page }) => {
   const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
   await show(page, '<banana-machine theme="dark"></banana-machine>', { head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });

@@ -81,6 +81,8 @@ for (const name of NAMES) {
       expect(errors[0].message, way).toMatch(/memory access out of bounds|unreachable/);
       expect(told.some(({ name }) => name === 'load')).toBe(false);
       expect(await stateOf(widget), way).toEqual(before);
+      // It is not freed in its damaged memory when nothing refers to it any more.
+      expect(await page.evaluate(() => Reflect.get(window, 'damaged').__wbg_ptr), way).toBe(0);
       // Compared on the page: they are many.
       const [count, different] = await widget.evaluate((element) => {
         const [before, now] = [Reflect.get(window, 'posesBefore'), /** @type {AnyElement} */ (element).poses ?? []];

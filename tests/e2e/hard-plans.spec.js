@@ -51,7 +51,7 @@ test('a hard map is looked at in slices, with progress, and the page goes on', a
   const widget = await openSqueeze(page);
   const before = await pictureOf(widget.locator('canvas.plane'));
   // Frames in which the page could do something else, and how far the work was in them.
-  /** @type {(number | undefined)[]} */
+  /** @type {([number, string] | undefined)[]} */
   let told = [];
   await slowly(page, async () => {
     await giveStar(widget);
@@ -60,15 +60,19 @@ test('a hard map is looked at in slices, with progress, and the page goes on', a
       const shares = [];
       while (squeeze.map === null) {
         await new Promise(requestAnimationFrame);
-        shares.push(squeeze.shadowRoot?.querySelector('progress')?.value);
+        const bar = squeeze.shadowRoot?.querySelector('progress');
+        shares.push(bar ? /** @type {[number, string]} */ ([bar.value, bar.nextElementSibling?.textContent ?? '']) : undefined);
       }
       return shares;
     });
   });
   const shares = told.filter((share) => share !== undefined);
   expect(shares.length).toBeGreaterThan(10);
-  expect(new Set(shares).size).toBeGreaterThan(5);
-  for (const share of shares) expect(share).toBeGreaterThanOrEqual(0);
+  expect(new Set(shares.map(([share]) => share)).size).toBeGreaterThan(5);
+  for (const [share, text] of shares) {
+    expect(share).toBeGreaterThanOrEqual(0);
+    expect(text).toBe(`Computing ${Math.floor(100 * share)} %`);
+  }
   await frames(page);
   await expect(progress(widget)).toHaveCount(0);
   const { config, stats } = await widget.evaluate((element) => {
@@ -105,6 +109,53 @@ for (const [way, act] of /** @type {[string, (widget: Locator) => Promise<void>]
     expect((await squeezed(widget)).walls).toEqual([0, 0, 6, 0]);
   });
 }
+
+test('many samples in the map that is there are drawn in slices too, and stopped', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  await slowly(page, async () => {
+    // Seconds of work.
+    await widget.evaluate((element) => void (/** @type {Element} */ (element).samples = 1_000_000));
+    await expect(progress(widget)).toBeVisible();
+    await widget.getByRole('button', { name: 'Stop' }).click();
+  });
+  await expect(progress(widget)).toHaveCount(0);
+  expect(await squeezed(widget)).toEqual(before);
+});
+
+test('a cloud that grows slowly takes several frames for a step', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await widget.evaluate((element) => void (/** @type {Element} */ (element).samples = 15_000));
+  await widget.getByRole('button', { name: 'Reset' }).click();
+  await frames(page);
+  await widget.evaluate((element) => {
+    const { machine } = /** @type {MapSqueezeElement} */ (element);
+    const { advance } = machine;
+    const slices = /** @type {number[]} */ ([]);
+    let count = 0;
+    // A few distances at a time, and long over them.
+    machine.advance = () => {
+      const end = performance.now() + 10;
+      while (performance.now() < end);
+      count++;
+      return advance.call(machine, 20);
+    };
+    // Of each frame, until the first step is drawn.
+    const note = () => {
+      slices.push(count);
+      count = 0;
+      if (machine.shown === 0) requestAnimationFrame(note);
+      else Object.assign(window, { slices });
+    };
+    requestAnimationFrame(note);
+  });
+  await widget.getByRole('button', { name: 'Play' }).click();
+  await page.waitForFunction(() => 'slices' in window);
+  const slices = /** @type {number[]} */ (await page.evaluate(() => Reflect.get(window, 'slices')));
+  // Three are longer than the 25 ms that a frame has for it.
+  expect(Math.max(...slices)).toBe(3);
+  expect(slices.filter((count) => count > 0).length).toBeGreaterThan(5);
+});
 
 test('another map does not wait for what is being done, which begins anew where the map is stopped', async ({ page }) => {
   const widget = await openSqueeze(page);

@@ -302,6 +302,23 @@ test.describe('on paper', () => {
     await page.emulateMedia({ colorScheme: 'dark', media: 'screen' });
     expect(await pictureOf(canvas)).not.toBe(light);
   });
+
+  test('the figure is light where the browser says that it prints before its styles are those of paper', async ({ page }) => {
+    await page.emulateMedia({ colorScheme: 'light' });
+    const widget = await open(page);
+    const canvas = widget.locator('canvas.plane');
+    const light = await pictureOf(canvas);
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await expect.poll(() => pictureOf(canvas)).not.toBe(light);
+    // At once: no frame comes between.
+    const printed = await canvas.evaluate((element) => {
+      dispatchEvent(new Event('beforeprint'));
+      return /** @type {HTMLCanvasElement} */ (element).toDataURL();
+    });
+    expect(printed).toBe(light);
+    await page.evaluate(() => void dispatchEvent(new Event('afterprint')));
+    expect(await pictureOf(canvas)).not.toBe(light);
+  });
 });
 
 test.describe('theming', () => {

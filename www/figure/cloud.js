@@ -134,7 +134,7 @@ export class Cloud extends Part {
       const { machine, held } = this.host;
       // A finger that moves scrolls the page; one that taps comes as a click.
       if (!machine || held || (event.pointerType === 'touch' && event.type !== 'click')) return;
-      const [x, y] = pointOn(/** @type {Element} */ (event.currentTarget ?? event.target), picture.view, event);
+      const [x, y] = pointOn(/** @type {Element} */ (event.currentTarget), picture.view, event);
       const index = picture.nearest(machine, x, y);
       if (index >= 0 || event.type === 'click') this.mark(index);
     });

@@ -109,7 +109,7 @@ function addressWith(key, text) {
   const at = all.findIndex((each) => each.startsWith(`${key}=`));
   const next = at < 0 ? [...all, part] : all.with(at, part);
   // In full: a base element of the page does not matter then.
-  return `${location.href.replace(/#.*$/s, '')}#${next.join('&')}`;
+  return `${location.href.replace(/#.*/, '')}#${next.join('&')}`;
 }
 
 function parts() {

@@ -22,7 +22,6 @@ async function goInto(figure, origin) {
   if (!figure.machine || (document.activeElement !== figure && document.activeElement !== document.body)) return;
   const stops = [...figure.renderRoot.querySelectorAll(STOPS)].filter((stop) => stop.checkVisibility());
   // Backwards, if the reader came from what is below.
-  const from = origin instanceof Node && origin !== document.body ? origin : figure;
-  const below = figure.compareDocumentPosition(from) & Node.DOCUMENT_POSITION_FOLLOWING;
+  const below = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
   /** @type {HTMLElement | undefined} */ (stops.at(below ? -1 : 0))?.focus();
 }

@@ -205,7 +205,7 @@ export class Settings extends Part {
 
   /** Whether what is being done can be stopped. */
   get canStop() {
-    return this.next !== undefined || this.host.machine?.stop !== undefined;
+    return this.next !== undefined || this.host.machine.stop !== undefined;
   }
 
   /** The reader does not want to wait: all is as it was before. */

@@ -75,7 +75,7 @@ export function svgOf(element) {
   const name = `figure-${hash(JSON.stringify(settings))}`;
   const svg = new SvgContext(name);
   const { canvas, view, width, height } = drawOn(element, 1, () => svg);
-  const description = canvas.getAttribute('aria-label') ?? '';
+  const description = /** @type {string} */ (canvas.getAttribute('aria-label'));
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" role="img" aria-labelledby="${name}-title ${name}-text">
 <title id="${name}-title">${escaped(title)}</title>
 <desc id="${name}-text">${escaped(description)}</desc>

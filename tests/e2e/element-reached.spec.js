@@ -1,0 +1,76 @@
+// A figure that the reader comes to from the keyboard before it has started.
+
+import { expect } from '@playwright/test';
+import { NAMES, property, ready, show } from './element-support.js';
+import { STILL, frames, test } from './support.js';
+
+/** @typedef {import('@playwright/test').Page} Page */
+
+test.use(STILL);
+
+/**
+ * A page with a figure that nothing starts but the reader's coming, between two things of the page.
+ *
+ * @param {Page} page
+ * @param {string} name
+ */
+async function showFar(page, name) {
+  await page.addInitScript(() => {
+    window.IntersectionObserver = /** @type {any} */ (
+      class {
+        observe() {}
+        unobserve() {}
+      }
+    );
+  });
+  await show(
+    page,
+    `<a id="before" tabindex="-1">Before</a><div style="position: absolute; top: 4000px; width: 600px"><${name}></${name}></div><button id="after">After</button>`,
+    { script: '<script type="module" src="/external.js"></script>' },
+  );
+  const widget = page.locator(name);
+  await widget.locator('.reserved').waitFor({ state: 'attached' });
+  expect(await property(widget, 'machine')).toBe(undefined);
+  return widget;
+}
+
+for (const name of NAMES) {
+  for (const [way, origin, key] of /** @type {const} */ ([
+    ['above', '#before', 'Tab'],
+    ['below', '#after', 'Shift+Tab'],
+    ['nowhere', undefined, 'Tab'],
+  ])) {
+    test(`${name} that is reached from ${way} has the focus where it would be, had the figure been there`, async ({ page }) => {
+      const widget = await showFar(page, name);
+      const stop = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
+      if (origin) await page.locator(origin).focus();
+      await page.keyboard.press(key);
+      await ready(widget);
+      const reached = await stop();
+      await page.locator(origin ?? '#before').focus();
+      await page.keyboard.press(key);
+      expect(reached).toBe(await stop());
+      expect(reached).toBeTruthy();
+    });
+  }
+
+  test(`${name} that starts when the reader has gone on leaves the focus where it is`, async ({ page }) => {
+    /** @type {() => void} */
+    let arrive = () => {};
+    const arrived = new Promise((resolve) => (arrive = () => resolve(undefined)));
+    await page.route('**/*.wasm', async (route) => {
+      await arrived;
+      await route.continue();
+    });
+    const widget = await showFar(page, name);
+    const asked = page.waitForRequest(/\.wasm$/);
+    await page.locator('#before').focus();
+    await page.keyboard.press('Tab');
+    await asked;
+    await page.keyboard.press('Tab');
+    arrive();
+    await ready(widget);
+    await frames(page);
+    await expect(page.locator('#after')).toBeFocused();
+  });
+}

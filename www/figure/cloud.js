@@ -29,6 +29,8 @@ const BATCHES = 150;
 
 export class Cloud extends Part {
   playing = false;
+  /** Whether a step has begun that has not been shown. */
+  #begun = false;
   #gaveUp;
 
   /**
@@ -163,13 +165,16 @@ export class Cloud extends Part {
   /** @returns {boolean} whether there is nothing left to do in this frame: a large cloud may take more than one */
   grow() {
     if (!this.playing) return true;
-    if (!this.complete) {
+    // A step that took several frames is shown before the next begins.
+    if (!this.#begun && !this.complete) {
+      this.#begun = true;
       const machine = this.#machine;
       if (machine.beginToGrow) machine.beginToGrow(this.#batch);
       else machine.grow(this.#batch);
       this.host.settings.work();
       if (!this.host.settings.settle(LONGEST_WORK)) return false;
     }
+    this.#begun = false;
     this.host.settings.stale = true;
     if (this.complete) {
       this.playing = false;

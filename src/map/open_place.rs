@@ -162,9 +162,9 @@ fn first_with_room(grid: &OccupancyGrid, clearance: f64) -> Option<[f64; 2]> {
             after = width(column).max(after.saturating_sub(1));
             right[column] = after;
         }
-        for column in 0..columns {
+        for (column, after) in right.iter().enumerate() {
             before = width(column).max(before.saturating_sub(1));
-            if before.max(right[column]) == 0 {
+            if before.max(*after) == 0 {
                 return Some([column, row].map(|at| at as f64 + 0.5));
             }
         }

@@ -1,5 +1,6 @@
 //! How far the nearest wall is, about, from everywhere on a map.
 
+use super::floor_plan::rounding;
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::WallTree;
 use crate::geom::lanes::{ROUND, lanes};
@@ -153,7 +154,7 @@ impl Filling {
             },
             rows,
             side,
-            slack: 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
+            slack: rounding(&bounds),
             near,
             blocks: vec![all],
             open: Vec::new(),

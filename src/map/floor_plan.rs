@@ -114,6 +114,12 @@ impl Verdict {
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
+/// More than the rounding of any coordinate among these, m.
+#[inline(never)]
+pub(super) fn rounding(coordinates: &[f64]) -> f64 {
+    1e-12 * coordinates.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()))
+}
+
 /// Where bounds may lie, m: as far out as a robot's coordinates may.
 const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
 /// How far bounds may be apart, m: what a screen can show.
@@ -160,7 +166,7 @@ impl FloorPlan {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
         }
         // Rounding may set the corner of a turned grid a little outside its own bounds.
-        let slack = 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
+        let slack = rounding(&bounds);
         let inside = |[x, y]: [f64; 2]| {
             (left - slack..=right + slack).contains(&x) && (bottom - slack..=top + slack).contains(&y)
         };
@@ -313,7 +319,7 @@ impl FloorPlan {
         }
         // Both ends are inside. An arc that touches an edge, or leaves from one, stays inside as far as anybody can tell.
         let corners = self.corners();
-        let slack = 1e-12 * corners.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let slack = rounding(corners.as_flattened());
         (0..4).any(|i| {
             let edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };
             edge.passed_by(arc) > slack

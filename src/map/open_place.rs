@@ -1,6 +1,6 @@
 //! Where a robot is put that comes into a map.
 
-use super::floor_plan::FloorPlan;
+use super::floor_plan::{FloorPlan, rounding};
 use super::occupancy::OccupancyGrid;
 use crate::geom::se2::SE2;
 use std::f64::consts::TAU;
@@ -136,8 +136,7 @@ impl<'a> Squares<'a> {
 /// cells to cells are whole numbers, in two directions one after the other.
 fn first_with_room(grid: &OccupancyGrid, clearance: f64) -> Option<[f64; 2]> {
     let [columns, rows] = grid.size();
-    let furthest = grid.corners().as_flattened().iter().fold(clearance, |most, x| most.max(x.abs()));
-    let reach = (clearance + 1e-12 * furthest) / grid.resolution();
+    let reach = (clearance + rounding(grid.corners().as_flattened())) / grid.resolution();
     // Of a cell in the way so many rows off: how many columns off it is in the disc's way, and 1.
     let widths: Vec<usize> = (0..=(reach + 0.5) as usize)
         .map(|row| {
@@ -163,9 +162,9 @@ fn first_with_room(grid: &OccupancyGrid, clearance: f64) -> Option<[f64; 2]> {
             after = width(column).max(after.saturating_sub(1));
             right[column] = after;
         }
-        for column in 0..columns {
+        for (column, after) in right.iter().enumerate() {
             before = width(column).max(before.saturating_sub(1));
-            if before.max(right[column]) == 0 {
+            if before.max(*after) == 0 {
                 return Some([column, row].map(|at| at as f64 + 0.5));
             }
         }

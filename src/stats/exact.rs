@@ -53,7 +53,11 @@ impl RayMoments {
     #[inline(never)]
     pub fn finish(&self, [length, deviation]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
         let mean = self.mean / self.total;
-        let spread = self.square / self.total - mean * mean.transpose();
+        let mut spread = self.square / self.total - mean * mean.transpose();
+        for i in 0..3 {
+            // Rounding may leave less than nothing.
+            spread[(i, i)] = spread[(i, i)].max(0.0);
+        }
         let [x, y] = self.reference.unwrap_or_default();
         let unit = [mean.x + x, mean.y + y, 0.0];
         let scale = [length, length, 1.0];

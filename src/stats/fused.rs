@@ -152,6 +152,11 @@ impl Spread {
         let cov = |product: f64, first: f64, second: f64| {
             if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
         };
+        // Rounding may leave less than nothing of a variance.
+        let variance = |square: f64, sum: f64| {
+            let variance = cov(square, sum, sum);
+            if variance < 0.0 { 0.0 } else { variance }
+        };
         let [x0, y0, along, lateral, half, length, half_turn] = self.reference;
         // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
         let (sin, cos) = libm::sincos(2.0 * half);
@@ -160,10 +165,10 @@ impl Spread {
         // Equal headings have no spread, whatever rounding leaves of their sines.
         let turn = if hh == 0.0 { 0.0 } else { libm::atan2(turned.0, turned.1) };
         let mean_turn = 2.0 * half + turn;
-        let position = [cov(xx, x, x), cov(xy, x, y), cov(yy, y, y)];
-        let [aa, al, ll] = [cov(aa, a, a), cov(al, a, l), cov(ll, l, l)];
-        let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * cov(hh, h, h)];
-        let [ss, st, tt] = [cov(ss, s, s), 2.0 * cov(st, s, t), 4.0 * cov(tt, t, t)];
+        let position = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
+        let [aa, al, ll] = [variance(aa, a), cov(al, a, l), variance(ll, l)];
+        let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * variance(hh, h)];
+        let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
         // The last four are scaled even where they are fewer.
         let scaled = count.next_multiple_of(LANES) as f64;
         let [chart, floor] = [0, 1].map(|i| (self.logs[i] - scaled * libm::log(self.scale[i])) / n);

@@ -256,7 +256,8 @@ export class FigureElement extends LitElement {
   // What a page has of every figure.
 
   /**
-   * The statistics as they are; null before there are any.
+   * The statistics as they are; null before there are any. What is being computed is finished for it: who can wait
+   * for that listens for `stats`.
    *
    * @public
    * @returns {Machine['stats'] | null}

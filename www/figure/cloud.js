@@ -18,7 +18,7 @@ import { isCalm } from './stage.js';
  * @property {{ samples: number, seed: number }} config
  * @property {number} shown
  * @property {(count: number) => number} grow
- * @property {(count: number) => void} [beginToGrow] as grow, where it may take longer than a frame
+ * @property {(count: number) => void} beginToGrow as grow, in slices
  * @property {() => void} restart
  *
  * @typedef {{ play: string, step: (batch: string) => string, reset: string, reseed: string }} CloudWords
@@ -168,9 +168,7 @@ export class Cloud extends Part {
     // A step that took several frames is shown before the next begins.
     if (!this.#begun && !this.complete) {
       this.#begun = true;
-      const machine = this.#machine;
-      if (machine.beginToGrow) machine.beginToGrow(this.#batch);
-      else machine.grow(this.#batch);
+      this.#machine.beginToGrow(this.#batch);
       this.host.settings.work();
       if (!this.host.settings.settle(LONGEST_WORK)) return false;
     }

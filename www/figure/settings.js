@@ -24,7 +24,7 @@ const SLICE = 50_000;
  * @returns {Job}
  */
 export function* advancing(machine) {
-  while (machine.advance?.(SLICE) === false) yield machine.progress ?? 0;
+  while (machine.advance(SLICE) === false) yield machine.progress ?? 0;
 }
 
 export class Settings extends Part {
@@ -129,12 +129,8 @@ export class Settings extends Part {
   #begin(values) {
     const { machine } = this.host;
     if (!machine) return;
-    if (machine.begin) {
-      machine.begin(values);
-      this.work();
-    } else {
-      machine.configure(values);
-    }
+    machine.begin(values);
+    this.work();
     Object.assign(this.#begun, values);
     this.stale = true;
   }

@@ -181,7 +181,8 @@ impl OccupancyGrid {
     /// Whether a point of the plane lies in a cell that is in a robot's way.
     pub fn holds(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
-        column >= 0.0 && row >= 0.0 && self.blocks(column as usize, row as usize)
+        let cell = || self.cell(column as usize, row as usize);
+        column >= 0.0 && row >= 0.0 && cell().is_some_and(|cell| self.in_the_way(&[cell]).any(|is| is))
     }
 
     /// Whether a cell is known to be free; cells off the grid are not.
@@ -219,14 +220,6 @@ impl OccupancyGrid {
 
     fn cell(&self, column: usize, row: usize) -> Option<Cell> {
         (column < self.width && row < self.height).then(|| self.cells[row * self.width + column])
-    }
-
-    pub(super) fn blocks(&self, column: usize, row: usize) -> bool {
-        match self.cell(column, row) {
-            Some(Cell::Occupied) => true,
-            Some(Cell::Unknown) => self.unknown == Unknown::Blocked,
-            Some(Cell::Free) | None => false,
-        }
     }
 
     /// Which of some cells are in a robot's way.

@@ -1,6 +1,7 @@
 //! Moments of a model itself instead of a cloud of it: one quadrature over the heading noise, everything else closed.
 
 use super::cross_track::NO_SPREAD;
+use super::moments::no_less_than_none;
 use super::quadrature::nodes;
 use crate::geom::se2::wrap_angle;
 use crate::geom::sinc::chord_factors;
@@ -55,8 +56,7 @@ impl RayMoments {
         let mean = self.mean / self.total;
         let mut spread = self.square / self.total - mean * mean.transpose();
         for i in 0..3 {
-            // Rounding may leave less than nothing.
-            spread[(i, i)] = spread[(i, i)].max(0.0);
+            spread[(i, i)] = no_less_than_none(spread[(i, i)]);
         }
         let [x, y] = self.reference.unwrap_or_default();
         let unit = [mean.x + x, mean.y + y, 0.0];

@@ -7,7 +7,7 @@
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrack, TrackMoments};
 use super::gain::{Charts, Differences, FourRobots, MeasuredGain, Moments};
-use super::moments::{CartesianMoments, ExponentialMoments};
+use super::moments::{CartesianMoments, ExponentialMoments, no_less_than_none};
 use super::sums::{PairSums, Sums, add};
 use crate::geom::angle::wrap_angle;
 use crate::geom::lanes::{LANES, any, halves};
@@ -152,11 +152,7 @@ impl Spread {
         let cov = |product: f64, first: f64, second: f64| {
             if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
         };
-        // Rounding may leave less than nothing of a variance.
-        let variance = |square: f64, sum: f64| {
-            let variance = cov(square, sum, sum);
-            if variance < 0.0 { 0.0 } else { variance }
-        };
+        let variance = |square: f64, sum: f64| no_less_than_none(cov(square, sum, sum));
         let [x0, y0, along, lateral, half, length, half_turn] = self.reference;
         // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
         let (sin, cos) = libm::sincos(2.0 * half);

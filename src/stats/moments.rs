@@ -69,6 +69,11 @@ pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
     wrap_angle(first.theta() + libm::atan2(sin, cos))
 }
 
+/// A variance that was computed as a difference, of which rounding may leave less than nothing. NaN stays NaN.
+pub(super) fn no_less_than_none(variance: f64) -> f64 {
+    if variance < 0.0 { 0.0 } else { variance }
+}
+
 /// Mean and covariance over n − 1, in two passes.
 pub(super) fn mean_and_cov(
     vectors: impl Iterator<Item = Vector3<f64>> + Clone,

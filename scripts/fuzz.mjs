@@ -85,7 +85,7 @@ async function inRust(target, runs, seed) {
 async function inJavaScript(target, runs, seed) {
   const { ok, output, stdout } = await run(process.execPath, ['tests/fuzz/guided.mjs', target.replace('js-', ''), runs, seed], { quiet: true });
   if (!ok) console.error(output);
-  return { target, ok, ...(ok ? JSON.parse(stdout) : {}) };
+  return { target, ok, ...(ok ? JSON.parse(stdout.trimEnd().split('\n').pop() ?? '') : {}) };
 }
 
 /**

@@ -66,7 +66,5 @@ export async function execute(name, count, seed, reached) {
   }
   const grown = 1024 * (process.resourceUsage().maxRSS - before);
   assert.ok(grown < MOST_BYTES, `${grown} bytes`);
-  // Neither does everything get in, nor is everything turned away before it is read.
-  assert.ok(taken > 0 && taken < count, `${taken} of ${count} are taken`);
   return { runs: done, taken, inputs: inputs.length, slowest, megabytes: grown / 2 ** 20 };
 }

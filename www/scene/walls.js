@@ -48,7 +48,7 @@ export class WallLayer {
   #grid;
   #hasUnknown;
   #width;
-  /** By kinds of cells. @type {Record<string, Mask | undefined>} */
+  /** By kinds of cells: the one that is drawn, and the one that is to be. @type {Record<string, { complete?: Mask, coming?: Mask }>} */
   #masks = {};
   #layer = new OffscreenCanvas(1, 1);
   /** What the layer shows. */
@@ -84,11 +84,12 @@ export class WallLayer {
       return false;
     }
     const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
+    let coming = false;
     if (wanted !== this.#shown) {
       const unknown = this.#grid && this.#hasUnknown ? this.#mask('unknown', palette.muted, brush) : undefined;
       const occupied = this.#grid && this.#mask('occupied', palette.truth, brush);
-      if ([unknown, occupied].some((mask) => mask && !mask.canvas)) return true;
-      this.#shown = wanted;
+      coming = Object.values(this.#masks).some((mask) => mask.coming);
+      this.#shown = coming ? '' : wanted;
       this.#paint(brush, unknown, occupied);
     }
     if (this.#next < walls.length) {
@@ -96,7 +97,7 @@ export class WallLayer {
       this.#next = this.#stroke({ context: layer, view, palette }, this.#next, piecemeal ? STROKED : Infinity);
     }
     context.drawImage(this.#layer, 0, 0, width, height);
-    return this.#next < walls.length;
+    return coming || this.#next < walls.length;
   }
 
   /**
@@ -125,7 +126,8 @@ export class WallLayer {
   }
 
   /**
-   * The picture of cells of a kind; makes as much of it as a frame has time for, if it is not there yet.
+   * The picture of cells of a kind. If the right one is not there yet, as much of it is made as a frame has time for, and the
+   * former one is drawn until then.
    *
    * @param {'occupied' | 'unknown'} kind
    * @param {string} colour
@@ -134,11 +136,19 @@ export class WallLayer {
   #mask(kind, colour, { view, ratio, piecemeal }) {
     const grid = /** @type {Grid} */ (this.#grid);
     // What is smaller than a pixel is not drawn apart: of a map of millions of cells a view shows thousands.
-    const side = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));
-    let mask = this.#masks[kind];
-    if (mask?.colour !== colour || mask.side !== side) mask = this.#masks[kind] = new Mask(grid, grid[kind], colour, side);
-    if (!mask.canvas) mask.grow(piecemeal ? COUNTED : Infinity);
-    return mask;
+    // By powers of two, or every step of a view on its way would want another one.
+    const cells = Math.min(1 / (grid.resolution * view.scaleX * ratio), LONGEST_SIDE);
+    const side = 2 ** Math.max(0, Math.floor(Math.log2(cells)));
+    const isRight = (/** @type {Mask | undefined} */ mask) => mask?.colour === colour && mask.side === side;
+    let { complete, coming } = this.#masks[kind] ?? {};
+    if (isRight(complete)) coming = undefined;
+    else {
+      if (!isRight(coming)) coming = new Mask(grid, grid[kind], colour, side);
+      coming?.grow(piecemeal ? COUNTED : Infinity);
+      if (coming?.canvas) [complete, coming] = [coming, undefined];
+    }
+    this.#masks[kind] = { complete, coming };
+    return complete;
   }
 
   /** @param {Bare} brush */
@@ -237,11 +247,9 @@ class Mask {
   }
 
   #paint() {
-    const most = this.side ** 2;
-    const shades = Array.from({ length: most + 1 }, (_, count) => Uint8Array.of(...channels(this.colour), (255 * count) / most));
-    const colours = shades.map((shade) => new Uint32Array(shade.buffer)[0]);
     const image = new ImageData(this.#width, this.#height);
-    new Uint32Array(image.data.buffer).set(this.#counts.map((count) => colours[count]));
+    new Uint32Array(image.data.buffer).fill(new Uint32Array(Uint8Array.of(...channels(this.colour), 0).buffer)[0]);
+    this.#counts.forEach((count, i) => (image.data[4 * i + 3] = (255 * count) / this.side ** 2));
     this.canvas = new OffscreenCanvas(this.#width, this.#height);
     hiddenContext(this.canvas).putImageData(image, 0, 0);
   }

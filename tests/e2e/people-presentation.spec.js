@@ -7,6 +7,33 @@ import { STILL, boxOf, centreOf, frames, test } from './support.js';
 
 test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 
+for (const controls of [false, true]) {
+  test(`on a phone the Banana Machine shows both pictures, equally large, ${controls ? 'with' : 'without'} controls`, async ({ page }) => {
+    await page.setViewportSize({ width: 375, height: 667 });
+    await show(page, '<banana-machine></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    // A picture whose size follows from its pixels, which follow from its size, never comes to rest.
+    const loops = page.evaluate(() => {
+      /** @type {string[]} */
+      const told = [];
+      addEventListener('error', ({ message }) => told.push(message));
+      return new Promise((resolve) => document.addEventListener('keyup', ({ key }) => key === 'F9' && resolve(told)));
+    });
+    await widget.evaluate((element) => element.setAttribute('presentation', ''));
+    if (controls) await page.keyboard.press('c');
+    await frames(page);
+    const boxes = () => Promise.all(['plane', 'twist'].map((name) => boxOf(widget.locator(`canvas.${name}`))));
+    const [plane, twist] = await boxes();
+    expect(plane.height).toBeGreaterThan(100);
+    expect(twist.height).toBe(plane.height);
+    for (let i = 0; i < 10; i++) await frames(page);
+    expect(await boxes()).toEqual([plane, twist]);
+    await page.keyboard.press('F9');
+    expect(await loops).toEqual([]);
+  });
+}
+
 for (const name of NAMES) {
   test(`${name} fills the screen, legible from the last row, and leaves as it came`, async ({ page }) => {
     await show(page, `<div style="height: 300px"></div><${name}></${name}><div style="height: 3000px"></div>`);

@@ -44,7 +44,6 @@ export class Stage extends Part {
   /** When the first picture was drawn whose words have not come yet. @type {number | undefined} */
   #owedSince;
   #printing = false;
-  #resizing = false;
   /** @type {ResizeObserver | undefined} */
   #sizes;
   /** Ends listening for the printer and for other words. */
@@ -177,7 +176,7 @@ export class Stage extends Part {
     const now = performance.now();
     const since = this.#owedSince;
     // With the first picture there comes nothing else.
-    if (this.#resizing ? false : this.opening ? since : now - began < QUICK || now - (since ?? now) > LATEST_WORDS) this.#tell();
+    if (this.opening ? since : now - began < QUICK || now - (since ?? now) > LATEST_WORDS) this.#tell();
     else {
       this.#owedSince ??= began;
       wake(this);
@@ -217,11 +216,8 @@ export class Stage extends Part {
     this.#sized = true;
     // Inside a closed tab neither.
     this.#colour();
-    // At once: a canvas that was resized is blank, and the next frame is too late to hide that. Words wait for it: they
-    // could give a canvas another size, of which the browser would have to tell after this one.
-    this.#resizing = true;
+    // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
     this.#drawNow(0);
-    this.#resizing = false;
   }
 
   /** The colours as they are now. */

@@ -77,14 +77,14 @@ export const presentationStyles = css`
 
   :host([presentation]) .with-controls .views {
     flex: 1 0 auto;
-    grid-template-rows: minmax(calc(42vh / var(--zoom)), 1fr);
-    grid-auto-rows: auto;
+    grid-template-rows: 1fr;
     align-items: stretch;
     background: var(--paper);
   }
 
   :host([presentation]) .with-controls .stage {
     height: auto;
+    min-height: calc(42vh / var(--zoom));
   }
 
   /* Never what makes a row higher. */
@@ -132,6 +132,13 @@ export const presentationStyles = css`
     gap: 0.53em;
     height: 0;
     font-size: 0.75em;
+  }
+
+  /* But on a phone, where it would hide a legend. */
+  @media (max-width: 30em) {
+    .presenting {
+      height: auto;
+    }
   }
 
   .presenting button {

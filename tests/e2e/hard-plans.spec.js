@@ -190,6 +190,54 @@ test('another map does not wait for what is being done, which begins anew where 
   expect(await widget.evaluate((element) => /** @type {Element} */ (element).map)).toBe(null);
 });
 
+test('what the reader wants while a map is on its way is there when it has come', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await slowly(page, async () => {
+    await giveStar(widget);
+    await expect(progress(widget)).toBeVisible();
+    await widget.getByRole('slider', { name: 'n, noise' }).press('End');
+  });
+  await expect.poll(() => widget.evaluate((element) => /** @type {Element} */ (element).map?.name), { timeout: 30_000 }).toBe('star');
+  const { alphas } = await widget.evaluate((element) => /** @type {any} */ (element).machine.config);
+  const end = await widget.getByRole('slider', { name: 'n, noise' }).evaluate((element) => Number(/** @type {HTMLInputElement} */ (element).max));
+  expect(await widget.getByRole('slider', { name: 'n, noise' }).inputValue()).toBe(String(end));
+  expect(Math.max(...Object.values(alphas).flat())).toBeGreaterThan(0.12);
+});
+
+for (const [what, change] of /** @type {const} */ ([['takes it back', { map: null }], ['names a preset', { preset: 'corridor' }]])) {
+  test(`a map on its way is given up where the page ${what}`, async ({ page }) => {
+    const widget = await openSqueeze(page);
+    await slowly(page, async () => {
+      await giveStar(widget);
+      await expect(progress(widget)).toBeVisible();
+      const given = await widget.evaluate((element, changes) => {
+        const begun = performance.now();
+        const { map } = Object.assign(/** @type {any} */ (element), changes);
+        return { milliseconds: performance.now() - begun, map };
+      }, change);
+      expect(given.map).toBe(null);
+      // Not to the end of what is given up, which takes seconds here.
+      expect(given.milliseconds).toBeLessThan(1000);
+    });
+    await expect(progress(widget)).toBeHidden();
+    await frames(page);
+    expect(await widget.evaluate((element) => /** @type {Element} */ (element).map)).toBe(null);
+  });
+}
+
+test('a grid of which a pixel has millions of cells is drawn', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await widget.evaluate((element) => {
+    const map = { name: 'far', columns: 16, rows: 16, resolution: 0.001, origin: [0, 0, 0], occupied: btoa('\xff'.repeat(32)) };
+    const squeeze = /** @type {any} */ (element);
+    squeeze.setState({ ...squeeze.getState(), map, command: { v: 1e6, omega: 0, dt: 1 } });
+  });
+  await expect.poll(() => widget.evaluate((element) => /** @type {Element} */ (element).map?.name)).toBe('far');
+  await frames(page);
+  expect(await widget.evaluate((element) => element.shadowRoot?.querySelector('.failure')?.textContent)).toBe(undefined);
+  await expect(widget.locator('canvas.plane')).toBeVisible();
+});
+
 /**
  * Slices that the hardest plans are made ready in at most: each is 50,000 steps, and they take twenty million
  * (tests/hard_plans.rs).

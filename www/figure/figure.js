@@ -86,7 +86,7 @@ addEnglish(en);
  * @cssprop --motion-sticky-top - How much of the window’s top a header of the site covers: the picture that stays in sight on
  *   a phone keeps clear of it.
  *
- * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void }} Machine
+ * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void, begin(settings: Values): void, advance(work: number): boolean }} Machine
  * @template {{ config: Values }} Reading
  */
 export class FigureElement extends LitElement {

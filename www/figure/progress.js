@@ -62,7 +62,8 @@ export class Progress extends Part {
   }
 
   #key = (/** @type {KeyboardEvent} */ event) => {
-    if (event.key !== 'Escape' || !this.#shown) return;
+    // One for each press.
+    if (event.key !== 'Escape' || !this.#shown || event.defaultPrevented) return;
     // What has the focus is the figure, or nothing: a file was dropped, or what had it is gone.
     if (event.target !== this.#document?.body && !event.composedPath().includes(this.host)) return;
     event.preventDefault();

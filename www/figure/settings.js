@@ -36,6 +36,8 @@ export class Settings extends Part {
   #begun = {};
   /** What is being done. @type {Job | undefined} */
   #job;
+  /** What the machine in the making was made with, and the present one was not: it is wanted of that if the other is stopped. @type {Values} */
+  #former = {};
   /** The machine that it is done with, where that is to take the place of the present one. @type {any} */
   next;
   /** How much of it is done, from 0 to 1. */
@@ -48,6 +50,14 @@ export class Settings extends Part {
     this.#job = this.next = undefined;
     this.#pending = {};
     this.#begun = {};
+    this.#former = {};
+  }
+
+  /** The machine that was in the making is there. What the reader wanted meanwhile is still to come. */
+  arrive() {
+    const pending = this.#pending;
+    this.reset();
+    this.#pending = pending;
   }
 
   /** Those of some values that are declared settings of the machine. @param {Values} values */
@@ -64,12 +74,12 @@ export class Settings extends Part {
 
   /** Those in effect with the changes that are on their way. @returns {Values} */
   get wanted() {
-    return { ...this.present, ...this.#begun, ...this.#pending };
+    return { ...this.present, ...this.#begun, ...this.#former, ...this.#pending };
   }
 
   /** What controls show: what was read of the machine, with the changes that are on their way. @returns {Values} */
   get told() {
-    return { ...this.host.reading.config, ...this.#begun, ...this.#pending };
+    return { ...this.host.reading.config, ...this.#begun, ...this.#former, ...this.#pending };
   }
 
   /** The machine has been read. */
@@ -142,20 +152,23 @@ export class Settings extends Part {
    * @param {any} [next] the machine that it is done with, if that is to take the place of the present one
    */
   work(job = advancing(this.host.machine), next = undefined) {
-    this.#giveWay();
+    if (this.#job) this.#giveWay();
+    if (next) {
+      this.#former = { ...this.#former, ...this.#pending };
+      this.#pending = {};
+    }
     this.#job = job;
     this.next = next;
     this.done = 0;
   }
 
-  /** What is being done is given up. If what comes instead is stopped, the present machine begins anew with what it had begun. */
+  /** What is being done is given up. */
   #giveWay() {
-    if (!this.#job) return;
     if (this.next) {
       this.next.free();
     } else {
-      this.host.machine.stop();
-      this.#pending = { ...this.#begun, ...this.#pending };
+      this.host.machine.stop?.();
+      this.#former = this.#begun;
       this.#begun = {};
     }
   }
@@ -194,9 +207,16 @@ export class Settings extends Part {
   #drop() {
     const { next } = this;
     this.#job = this.next = undefined;
+    this.#pending = { ...this.#former, ...this.#pending };
     this.#begun = {};
+    this.#former = {};
     this.host.progress.rest();
     next?.free();
+  }
+
+  /** The machine in the making is not wanted any more. */
+  abandon() {
+    if (this.next) this.#drop();
   }
 
   /** Whether what is being done can be stopped. */

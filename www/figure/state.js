@@ -117,7 +117,7 @@ export class State extends Part {
     const { host } = this;
     this.#adopt(whole);
     host.runtime.replace(machine);
-    host.settings.reset();
+    host.settings.arrive();
     host.machineChanged();
     this.#introduced = true;
     this.#introduce(whole);

@@ -55,6 +55,8 @@ export class MapSqueezeElement extends FigureElement {
   #handles = new RobotHandles(this);
   /** What unknown cells are in the map of the picture. */
   #unknown = '';
+  /** The machine in the making of a map that the page gave. @type {Machine | undefined} */
+  #given;
   /** The reader's own map that was left last, and where the robot stood in it. @type {{ map: MapData, start: Pose } | null} */
   #left = null;
   /** Where the robot was put last in the open. @type {Pose | undefined} */
@@ -150,11 +152,16 @@ export class MapSqueezeElement extends FigureElement {
   }
 
   set map(map) {
+    // Not a file that the reader has opened meanwhile.
+    if (!map && this.#given && this.#given === this.settings.next) this.settings.abandon();
     this.reflection.give('map', map, (given) => {
       if (given === null) {
         this.#leave();
         this.#findRoom();
-      } else this.#enter({ name: given.name ?? '', apply: (machine) => applyMap(machine, given) }, () => this.reflection.tell());
+      } else {
+        this.#enter({ name: given.name ?? '', apply: (machine) => applyMap(machine, given) }, () => this.reflection.tell());
+        this.#given = this.settings.next;
+      }
       this.reflection.tell();
       this.settings.show();
     });
@@ -232,6 +239,7 @@ export class MapSqueezeElement extends FigureElement {
     const { machine, map } = this;
     if (!machine) return;
     this.#opener.forgive();
+    this.settings.abandon();
     if (!map) return;
     this.#left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);
@@ -276,7 +284,7 @@ export class MapSqueezeElement extends FigureElement {
     const data = mapData(machine, name, grid);
     yield 1;
     this.runtime.replace(machine);
-    this.settings.reset();
+    this.settings.arrive();
     this.#left = null;
     this.#moved(data, grid);
     arrived();

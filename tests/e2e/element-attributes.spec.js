@@ -344,6 +344,32 @@ test.describe('properties', () => {
     await frames(page);
     expect(await property(banana, 'v')).toBe(0.4);
     expect((await heard(page, ['stats'])).length).toBe(1);
+    // Nor does it hurry what the reader does, which takes effect once a frame.
+    const begun = await banana.evaluate(async (element) => {
+      const figure = /** @type {any} */ (element);
+      const { machine } = figure;
+      let begun = 0;
+      machine.begin = (/** @type {object} */ values) => {
+        begun++;
+        Object.getPrototypeOf(machine).begin.call(machine, values);
+      };
+      element.addEventListener('input', (event) => {
+        Object.assign(element, { samples: 50000 });
+        // What these tests note of an event asks the machine.
+        event.stopPropagation();
+      });
+      for (const value of ['0.5', '0.6', '0.7']) {
+        const heard = new Promise((resolve) => element.addEventListener('input', resolve, { once: true }));
+        const slider = figure.renderRoot.querySelector('#v');
+        slider.value = value;
+        slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+        await heard;
+      }
+      const meanwhile = begun;
+      while (figure.v !== 0.7) await new Promise(requestAnimationFrame);
+      return [meanwhile, begun];
+    });
+    expect(begun).toEqual([0, 1]);
   });
 
   test('that are refused are told by an error event that stays on the element, and by the console where nobody minds', async ({ page }) => {

@@ -67,6 +67,14 @@ test.describe('far from the window', () => {
     for (const i of [0, 2]) expect(await property(widgets.nth(i), 'machine')).toBe(undefined);
   });
 
+  test('what comes next is there before the reader is, and what is further off is not', async ({ page }) => {
+    const places = [300, 1000].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
+    await show(page, places.join(''));
+    const widgets = page.locator('map-squeeze');
+    await ready(widgets.nth(0));
+    expect(await property(widgets.nth(1), 'machine')).toBe(undefined);
+  });
+
   test('nothing is fetched or computed, and one module serves all', FRESH, async ({ page }) => {
     /** @type {string[]} */
     const fetched = [];

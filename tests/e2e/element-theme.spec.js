@@ -68,3 +68,14 @@ test('its own theme stands against everything around it', async ({ page }) => {
   await widget.evaluate((element) => element.removeAttribute('theme'));
   await expect.poll(() => lookOf(widget)).toBe('dark');
 });
+
+for (const [scheme, look] of /** @type {const} */ ([['normal', 'dark'], ['light', 'light'], ['dark', 'dark']])) {
+  test(`takes the ground for ${look} where the page's is an image, its text light and its color-scheme ${scheme}`, async ({ page }) => {
+    await show(page, '<banana-machine></banana-machine>', {
+      head: `<style>:root { color-scheme: ${scheme} } body { background: linear-gradient(#222, #333); color: #eee }</style>`,
+    });
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    expect(await lookOf(widget)).toBe(look);
+  });
+}

@@ -163,6 +163,32 @@ test('a core that traps again and again ends in a sentence, not in a loop', asyn
   expect(await heard(page, ['error'])).toEqual([]);
 });
 
+test('a figure whose first core traps before anything was shown says all the same when it is ready, and once', async ({ page }) => {
+  await show(page, '');
+  await page.evaluate(() => {
+    const element = /** @type {any} */ (document.createElement('banana-machine'));
+    element.omega = 1.25;
+    const { createMachine } = element;
+    element.createMachine = (/** @type {unknown[]} */ ...given) => {
+      const machine = createMachine.apply(element, given);
+      element.createMachine = createMachine;
+      machine.begin = () => { throw new WebAssembly.RuntimeError('unreachable'); };
+      return machine;
+    };
+    document.body.append(element);
+  });
+  const widget = page.locator('banana-machine');
+  const told = () => heard(page).then((all) => all.map(({ name }) => name));
+  await ready(widget);
+  await expect(widget.locator('canvas.plane')).toBeVisible();
+  expect(await told()).toEqual(['error', 'load']);
+  // One that has been shown is not ready anew.
+  await damage(widget);
+  await widget.evaluate((element) => /** @type {any} */ (element).gesture.commit());
+  await mended(widget);
+  expect(await told()).toEqual(['error']);
+});
+
 for (const name of NAMES) {
   test(`what fails while ${name} is rendered is said at once`, async ({ page }) => {
     await show(page, `<${name}></${name}>`);

@@ -184,6 +184,22 @@ test('what a page begins ends by its button, and the page stays where it was', a
   expect(await page.evaluate(() => scrollY)).toBe(250);
 });
 
+test('what the browser ends by a key of its own has ended, and the pictures have the window’s pixels again', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await widget.getByRole('button', { name: 'Present' }).click();
+  await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
+  await page.evaluate(() => document.exitFullscreen());
+  await expect(widget).not.toHaveAttribute('presentation');
+  await expect(widget.locator('.to-present')).toBeFocused();
+  await page.setViewportSize({ width: 1600, height: 900 });
+  await frames(page);
+  const canvas = widget.locator('canvas.plane');
+  const { width } = await boxOf(canvas);
+  expect(Math.abs(Number(await canvas.evaluate((element) => Reflect.get(element, 'width'))) - width)).toBeLessThanOrEqual(2);
+});
+
 test('a handle stays under the pointer while the picture is enlarged', async ({ page }) => {
   await show(page, '<banana-machine presentation></banana-machine>');
   const widget = page.locator('banana-machine');

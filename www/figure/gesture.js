@@ -11,7 +11,6 @@ import { LONGEST_WORK } from './settings.js';
 export class Gesture extends Part {
   #step = false;
   #end = false;
-  #queued = false;
   /** Whether a step was told without its end. */
   #open = false;
 
@@ -61,13 +60,11 @@ export class Gesture extends Part {
     this.#queue();
   }
 
-  /** After the handler that is running: it may take several steps in one. */
+  /** After the handler that is running: it may take several steps, which are told once. */
   #queue() {
-    if (this.#queued) return;
-    this.#queued = true;
     queueMicrotask(() => {
       const [step, end] = [this.#step, this.#end];
-      this.#queued = this.#step = this.#end = false;
+      this.#step = this.#end = false;
       this.#open ||= step;
       if (step) this.#tell('input');
       if (!end || !this.#open) return;

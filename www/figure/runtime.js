@@ -17,8 +17,8 @@ export class Runtime extends Part {
   machine;
   /** The reason why it cannot run. @type {string | undefined} */
   failure;
-  /** Whether what is shown is that of a machine which is being made again. */
-  mending = false;
+  /** Whether the page was told that it is ready: not once more after a trap. */
+  #loaded = false;
   #near = false;
   /** @type {Promise<void> | undefined} */
   #starting;
@@ -126,7 +126,6 @@ export class Runtime extends Part {
   #mend(error) {
     if (!isTrap(error) || ++this.#crashes > MAX_CRASHES) return false;
     this.#abandon();
-    this.mending = true;
     this.report(error);
     this.host.stage.rest();
     this.#start();
@@ -152,8 +151,7 @@ export class Runtime extends Part {
       const machine = this.host.createMachine(motion, this.host.state.kept);
       Object.assign(this, { motion, machine, failure: undefined });
       this.host.state.resume();
-      // It may have trapped at once.
-      if (this.machine) await this.#show();
+      await this.#show();
     } catch (error) {
       this.fail(error);
     } finally {
@@ -164,18 +162,18 @@ export class Runtime extends Part {
   }
 
   async #show() {
-    const mended = this.mending;
-    this.mending = false;
     this.host.requestUpdate();
     await this.host.updateComplete;
-    // What was rendered may have trapped or failed, and the element may have gone.
+    // It may have trapped or failed, also while it was rendered, and the element may have gone.
     if (!this.machine) return;
-    if (mended) this.host.stage.wake();
-    else this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
+    this.host.stage.wake();
+    if (this.#loaded) return;
+    this.#loaded = true;
+    this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
   #stop() {
-    this.mending = false;
+    this.#loaded = false;
     this.host.stage.clear();
     if (this.machine) {
       this.attempt(() => {

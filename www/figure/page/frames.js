@@ -11,12 +11,16 @@ const LONGEST_STEP = 100;
 /** @type {Set<Animated>} */
 const waiting = new Set();
 let previous = 0;
+/** Whether a frame is asked for, or will be when the page is in sight. */
 let running = false;
 
 /** Calls `animated.frame` at the next animation frame, once however often it is asked. @param {Animated} animated */
 export function wake(animated) {
   waiting.add(animated);
-  if (!running) start();
+  if (running) return;
+  running = true;
+  previous = performance.now();
+  request();
 }
 
 /** @param {Animated} animated */
@@ -24,29 +28,17 @@ export function sleep(animated) {
   waiting.delete(animated);
 }
 
-function start() {
-  if (document.hidden) {
-    document.addEventListener('visibilitychange', start, { once: true });
-    return;
-  }
-  if (running || waiting.size === 0) return;
-  running = true;
-  previous = performance.now();
-  requestAnimationFrame(run);
+function request() {
+  if (document.hidden) document.addEventListener('visibilitychange', request, { once: true });
+  else requestAnimationFrame(run);
 }
 
 /** @param {number} now */
 function run(now) {
-  running = false;
-  if (document.hidden) {
-    start();
-    return;
-  }
   const elapsed = Math.min(LONGEST_STEP, Math.max(0, now - previous));
   previous = now;
   const due = [...waiting];
   waiting.clear();
-  running = true;
   for (const animated of due) {
     try {
       animated.frame(elapsed);
@@ -56,5 +48,5 @@ function run(now) {
     }
   }
   running = waiting.size > 0;
-  if (running) requestAnimationFrame(run);
+  if (running) request();
 }

@@ -21,6 +21,8 @@ let nearness;
 /** @type {IntersectionObserver | undefined} */
 let presence;
 
+const watcherOf = (/** @type {Element} */ watched) => /** @type {Watcher} */ (watchers.get(watched));
+
 /**
  * Tells when an element comes near and, from now on, whether it is in sight.
  *
@@ -39,7 +41,7 @@ export function watch(element, watcher) {
     { rootMargin: AHEAD },
   );
   presence ??= new IntersectionObserver((entries) => {
-    for (const { target, isIntersecting } of entries) watchers.get(target)?.sight(isIntersecting);
+    for (const { target, isIntersecting } of entries) watcherOf(target).sight(isIntersecting);
   });
   nearness.observe(element);
   presence.observe(element);
@@ -53,7 +55,7 @@ export function watch(element, watcher) {
 export function look(element) {
   const { top, bottom, width } = element.getBoundingClientRect();
   if (width === 0 || top >= innerHeight || bottom <= 0) return;
-  watchers.get(element)?.sight(true);
+  watcherOf(element).sight(true);
   approach(element);
 }
 
@@ -61,7 +63,7 @@ export function look(element) {
 function approach(element) {
   if (near.has(element)) return;
   near.add(element);
-  watchers.get(element)?.approach();
+  watcherOf(element).approach();
 }
 
 /** @param {Element} element */

@@ -1,11 +1,12 @@
 // `npm run build`: src/ to build/ (WebAssembly and its glue), then www/ to dist/. What is up to date is left alone.
 
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { binder } from './bindgen.mjs';
-import { bundle, filesOf } from './bundle.mjs';
+import { WIDGETS, bundle, filesOf } from './bundle.mjs';
+import { pascal } from './declarations.mjs';
 import { cratesOf } from './licences.mjs';
 import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
 import { ensurePackages, wasmRust } from './toolchain.mjs';
@@ -14,10 +15,16 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
 
+/** What scripts/bundle.mjs gives to who imports the module. */
+const CARRIED = `type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Uint8Array<ArrayBuffer> | URL };
+declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
+export default cores;
+`;
+
 /** Brings dist/ up to date with the sources. */
 export async function build() {
   const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/licences.mjs', 'scripts/bind']);
-  const products = ['build/motion.js', 'build/motion_bg.wasm', 'build/core.d.ts', 'build/crates.json'];
+  const products = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', ...WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`])];
   await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
   const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], bundle);
@@ -54,18 +61,11 @@ async function buildCore() {
   const [wasm, bind] = await together([compileCore(), binder(), ensurePackages()]);
   progress('Binding and optimizing it');
   await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at('build')]);
-  await silencePanics(at('build/motion_bg.wasm'));
-  makeFactory('build/motion');
-  // What scripts/bundle.mjs gives to who imports the file.
-  const type = 'declare const modules: { motion: Carried; [tag: string]: Carried | undefined };\ntype Carried = () => Uint8Array<ArrayBuffer> | URL;\nexport default modules;\n';
-  writeFileSync(at('build/motion_bg.wasm.d.ts'), type);
-  // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
-  const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
-  await mustRun('wasm-opt failed: see above.', process.execPath, [
-    at('node_modules/binaryen/bin/wasm-opt'), '-O3', '--converge', ...features.map((name) => `--enable-${name}`),
-    at('build/motion_bg.wasm'), '-o', at('build/motion_bg.wasm'),
-  ]);
-  await divide(at('build/motion_bg.wasm'));
+  await silencePanics('build/motion_bg.wasm');
+  renameSync(at('build/motion.d.ts'), at('build/core.d.ts'));
+  writeFileSync(at('build/motion.wasm.d.ts'), CARRIED);
+  await optimize('build/motion_bg.wasm');
+  await divide();
 }
 
 /** @returns {Promise<string>} the path of the module as rustc leaves it */
@@ -103,60 +103,110 @@ async function silencePanics(path) {
       functions.setBody(panic, module.unreachable());
     }
   }
-  writeFileSync(path, module.emitBinary());
+  writeFileSync(at(path), module.emitBinary());
   module.dispose();
 }
 
-/**
- * Writes, for each class that the core exports, a module without the others. The whole one's glue fits it.
- *
- * @param {string} path of the whole module
- */
-async function divide(path) {
-  const { binaryen, module: whole } = await opened(path);
-  const exported = Array.from({ length: whole.getNumExports() }, (_, i) => binaryen.getExportInfo(whole.getExportByIndex(i)).name);
+/** What elements call besides the methods of their own machine. */
+const SHARED = ['randomSeed', 'commandReaching'];
+
+/** Writes the whole core, and for each widget one with its machine alone, as a module and its glue. */
+async function divide() {
+  const { binaryen, module: whole } = await opened('build/motion_bg.wasm');
+  const exported = Array.from({ length: whole.getNumExports() }, (_, i) => binaryen.getExportInfo(whole.getExportByIndex(i)));
   whole.dispose();
-  const classes = exported.flatMap((name) => name.match(/^__wbg_(\w+)_free$/)?.slice(1) ?? []);
-  for (const kept of classes) {
-    const { module } = await opened(path);
-    const others = classes.filter((name) => name !== kept);
-    for (const name of exported) {
-      if (others.some((other) => name.startsWith(`${other}_`) || name === `__wbg_${other}_free`)) module.removeExport(name);
+  const isOurs = (/** @type {string} */ name) => !/^__(?!wbg_\w+_free$)/.test(name);
+  const functions = exported.filter(({ kind, name }) => kind === binaryen.ExternalFunction && isOurs(name)).map(({ name }) => name);
+  copyFileSync(at('build/motion_bg.wasm'), at('build/motion.wasm'));
+  await writeGlue('motion');
+  for (const tag of WIDGETS) {
+    const machine = pascal(tag).toLowerCase();
+    const { module } = await opened('build/motion_bg.wasm');
+    for (const name of functions) {
+      const kept = name.startsWith(`${machine}_`) || name === `__wbg_${machine}_free` || SHARED.includes(name);
+      if (!kept) module.removeExport(name);
     }
     module.runPasses(['remove-unused-module-elements']);
-    writeFileSync(at(`build/${kept}_bg.wasm`), module.emitBinary());
+    writeFileSync(at(`build/${tag}.wasm`), module.emitBinary());
     module.dispose();
+    await optimize(`build/${tag}.wasm`);
+    await writeGlue(tag, [pascal(tag), ...SHARED]);
   }
+}
+
+/**
+ * @param {string} path of a module, which is changed
+ * @param {string[]} passes
+ * @returns {Promise<string>} what is printed
+ */
+async function optimize(path, passes = ['-O3', '--converge']) {
+  // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
+  const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
+  const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [
+    at('node_modules/binaryen/bin/wasm-opt'), ...passes, ...features.map((name) => `--enable-${name}`), at(path), '-o', at(path),
+  ], { quiet: true });
+  return stdout;
 }
 
 /** @param {string} path of a module */
 async function opened(path) {
   // Not in a bare clone.
   const { default: binaryen } = await import('binaryen');
-  const module = binaryen.readBinary(readFileSync(path));
+  const module = binaryen.readBinary(readFileSync(at(path)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
   return { binaryen, module };
 }
 
 /**
- * Makes a module of wasm-bindgen's script: one that exports a function which instantiates the core once more. As a module
- * of its own the glue would be there once, and one instance with it. How it would find and load the WebAssembly module
- * by itself is left out: www/core.js does, and that would be 1 kB on the wire.
+ * Makes of wasm-bindgen's glue a module that exports a function which instantiates the core once more: as it is, the glue
+ * would be there once, and one instance with it. What nobody asks for is left out, and what the two call each other by is
+ * shortened: some 2 kB on the wire.
  *
- * @param {string} path of the script and of its types, without their extensions
+ * @param {string} name of the files in build/
+ * @param {string[]} [wanted] of what the glue exports: all, if it is not said
  */
-function makeFactory(path) {
-  const script = readFileSync(at(`${path}.js`), 'utf8');
-  const glue = script.match(/^let wasm_bindgen = \(function\(exports\) \{\n +let script_src;\n +if [^}]*\}\n(.*)\n +async function __wbg_load\(/s)?.[1];
-  if (glue === undefined) throw new Error("wasm-bindgen's script is not what scripts/build.mjs takes it for.");
-  // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
-  const ends = glue.replaceAll('throw new Error(getStringFromWasm', 'throw new WebAssembly.RuntimeError(getStringFromWasm');
-  if (ends === glue) throw new Error("wasm-bindgen's errors are not what scripts/build.mjs takes them for.");
-  const instance = '__wbg_finalize_init(await WebAssembly.instantiate(module, __wbg_get_imports()), module);';
-  writeFileSync(at(`${path}.js`), `export default async (module) => {\nconst exports = {};\n${ends}\n${instance}\nreturn exports;\n};\n`);
+async function writeGlue(name, wanted) {
+  const changes = /** @type {[RegExp, string][]} */ ([
+    // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
+    [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
+    // For all classes; www/core.js does it.
+    [/^if \(Symbol\.dispose\) .*$/gm, ''],
+    [/new FinalizationRegistry\(/g, '/* @__PURE__ */ $&'],
+    // A namespace is filled bit by bit, as if that had effects.
+    [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
+  ]);
+  const script = readFileSync(at('build/motion_bg.js'), 'utf8');
+  for (const [pattern] of changes) if (!script.match(pattern)) throw new Error(`wasm-bindgen's glue has no ${pattern}, as scripts/build.mjs takes it to have.`);
+  const contents = changes.reduce((text, [pattern, instead]) => text.replace(pattern, instead), script);
+  const names = wanted ?? [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, each]) => each);
+  /** @type {{ imports: [string, string, string][], exports: [string, string][] }} */
+  const shortened = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
+  const { build: bundled } = await import('esbuild');
+  const glue = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents })) };
+  const { outputFiles } = await bundled({
+    stdin: { contents: `export { ${[...names, ...shortened.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: at('build') },
+    bundle: true,
+    format: 'esm',
+    write: false,
+    charset: 'utf8',
+    plugins: [glue],
+  });
+  const short = new Map(shortened.exports);
+  const ofCore = (/** @type {string} */ each) => short.get(each) ?? (() => { throw new Error(`The core of ${name} does not export ${each}.`); })();
+  const body = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, each) => `wasm.${ofCore(each)}`);
+  const lines = [
+    'export default async (module) => {',
+    body,
+    `const { exports } = await WebAssembly.instantiate(module, { a: { ${shortened.imports.map(([, each, key]) => `${key}: ${each}`)} } });`,
+    '__wbg_set_wasm(exports);',
+    `exports.${ofCore('__wbindgen_start')}();`,
+    `return { ${names} };`,
+    '};',
+  ];
+  writeFileSync(at(`build/${name}.js`), `${lines.join('\n')}\n`);
   const type = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
-  writeFileSync(at(`${path}.d.ts`), `${type}export default instantiate;\n`);
+  writeFileSync(at(`build/${name}.d.ts`), `${type}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

@@ -4,7 +4,7 @@ import { createHash } from 'node:crypto';
 import { appendFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
-import { pascal, widgets } from './declarations.mjs';
+import { widgets } from './declarations.mjs';
 import { licences, packagesOf } from './licences.mjs';
 import { manifest } from './manifest.mjs';
 import { Missing, ROOT, progress } from './process.mjs';
@@ -19,9 +19,9 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 const COPIED = /\.(html|css)$/;
 
 /** Their tags. */
-const WIDGETS = Object.keys(declared.settings);
+export const WIDGETS = Object.keys(declared.settings);
 
-/** What a bundle finds where it imports the WebAssembly module: functions that return it, or what a widget needs of it. */
+/** What a bundle finds where it imports the WebAssembly module: functions that return it and its glue, or what a widget needs of both. */
 const MODULE = {
   /**
    * The bytes as characters, one each; of a character's number, an array of bytes takes the lowest eight bits. Brotli and
@@ -36,14 +36,16 @@ const MODULE = {
     return (
       `const text = ${JSON.stringify(text)};` +
       // Not Uint8Array.from: going through the characters one by one, as its iterator does, takes ten times as long.
-      'export default { motion: () => { const bytes = new Uint8Array(text.length);' +
-      'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; } };'
+      "import * as motion from './motion.js';" +
+      'export default { motion: { glue: async () => motion, source: () => { const bytes = new Uint8Array(text.length);' +
+      'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; } } };'
     );
   },
   /** Bundlers know this form, and carry the files along. It stands in a chunk: external.js and the widgets share it. */
   external: () => {
     const files = [['motion', '../motion.wasm'], ...WIDGETS.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
-    return `export default {${files.map(([name, path]) => `'${name}': () => new URL('${path}', import.meta.url)`)}};`;
+    const carried = files.map(([name, path]) => `'${name}': { glue: () => import('./${name}.js'), source: () => new URL('${path}', import.meta.url) }`);
+    return `export default {${carried}};`;
   },
 };
 
@@ -53,7 +55,7 @@ const MODULE = {
  * @param {string} tag
  */
 function moduleOf(tag) {
-  const contents = readFileSync(at(`build/${pascal(tag).toLowerCase()}_bg.wasm`));
+  const contents = readFileSync(at(`build/${tag}.wasm`));
   const hash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
   return { path: `dist/chunks/${tag}-${hash}.wasm`, contents };
 }
@@ -96,7 +98,7 @@ export async function bundle(changed = (_, script) => script) {
   await writeTypes();
   await writeComponents();
   writeFileSync(at('build/widgets.js'), await chunks());
-  const wasm = readFileSync(at('build/motion_bg.wasm'));
+  const wasm = readFileSync(at('build/motion.wasm'));
   const { build, transformSync } = await import('esbuild');
   /**
    * @param {Record<string, string>} entryPoints by the name of the product, from www/

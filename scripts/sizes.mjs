@@ -34,25 +34,33 @@ function loadedWith(path) {
   return [...found];
 }
 
+/** @param {string} source @returns {string[]} the chunk of external.js that a source begins, and what a browser loads with it */
+function chunk(source) {
+  const found = Object.entries(outputs()).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
+  if (!found) throw new Error(`external.js has no chunk of ${source}.`);
+  return loadedWith(found[0]);
+}
+
+const element = (/** @type {string} */ tag) => chunk(`www/widgets/${tag}/${tag}.js`);
+const glue = (/** @type {string} */ name) => chunk(`build/${name}.js`);
+
 /**
  * @returns {Record<string, string[]>} by the tag of each widget, what a page with that one loads by external.js before
  *   anyone touches it: scripts, and its module
  */
 export function loadedByWidgets() {
-  const products = Object.entries(outputs());
-  const chunk = (/** @type {string} */ tag) => {
-    const found = products.find(([, { entryPoint }]) => entryPoint === `www/widgets/${tag}/${tag}.js`);
-    if (!found) throw new Error(`external.js has no chunk of ${tag}.`);
-    return found[0];
-  };
   const module = (/** @type {string} */ tag) => {
     const found = readdirSync(at('dist/chunks')).find((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
     if (!found) throw new Error(`dist/chunks has no module for ${tag}.`);
     return `dist/chunks/${found}`;
   };
-  const first = loadedWith('dist/external.js');
-  const paths = (/** @type {string} */ tag) => [...new Set([...first, ...loadedWith(chunk(tag)), module(tag)])];
+  const paths = (/** @type {string} */ tag) => [...new Set([...loadedWith('dist/external.js'), ...element(tag), ...glue(tag), module(tag)])];
   return Object.fromEntries(Object.keys(settings).map((tag) => [tag, paths(tag)]));
+}
+
+/** @returns {string[]} what a page with all widgets loads: scripts, and the whole module */
+export function loadedByAll() {
+  return [...new Set([...loadedWith('dist/external.js'), ...Object.keys(settings).flatMap(element), ...glue('motion'), 'dist/motion.wasm'])];
 }
 
 /** @returns {Record<string, number>} minified bytes of each library in external.js and its chunks */

@@ -3,14 +3,15 @@
  * Importing it runs nothing: no DOM, no network, no compilation before `load()`.
  */
 
-import makeCore from '../build/motion.js';
-import carried from '../build/motion_bg.wasm';
+import carried from '../build/motion.wasm';
 
 /** @typedef {BufferSource | URL | string | WebAssembly.Module} Source */
 
 /** What the first to name a source named. @type {Source | undefined} */
 let wanted;
-/** Modules, by what carries them. @type {Map<() => Source, Promise<WebAssembly.Module>>} */
+/** @typedef {typeof carried.motion} Carrier of a module and its glue */
+
+/** Modules, by what carries them. @type {Map<Carrier, Promise<WebAssembly.Module>>} */
 const compiling = new Map();
 /** Tags of widgets that the page has met: external.js adds them. @type {Set<string>} */
 export const expected = new Set();
@@ -59,7 +60,11 @@ export async function instantiateFor(name) {
   }
   let motion;
   try {
-    motion = await makeCore(await compiled(name));
+    // Elements ask while they are being defined, before the script that imports them has had its say.
+    await null;
+    const carrier = carrierOf(name);
+    const [module, { default: makeCore }] = await Promise.all([compiled(carrier), carrier.glue()]);
+    motion = await makeCore(module);
   } catch (error) {
     if (!forbidden()) throw error;
     throw new Error(
@@ -67,7 +72,7 @@ export async function instantiateFor(name) {
       { cause: error },
     );
   }
-  for (const [name, each] of Object.entries(motion)) if ('free' in (each.prototype ?? {})) makeSafe(name, /** @type {any} */ (each));
+  for (const [name, each] of Object.entries(motion)) if ('free' in (/** @type {any} */ (each).prototype ?? {})) makeSafe(name, /** @type {any} */ (each));
   return motion;
 }
 
@@ -81,19 +86,20 @@ export function abandon(machine) {
   /** @type {{ __destroy_into_raw(): number }} */ (/** @type {unknown} */ (machine)).__destroy_into_raw();
 }
 
+/** One for all is less than one for each. @param {string} name of a widget, or of the whole core */
+function carrierOf(name) {
+  const own = carried[name];
+  return own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
+}
+
 /**
- * @param {string} name of a widget, or of the whole core
+ * @param {Carrier} carrier
  * @returns {Promise<WebAssembly.Module>}
  */
-async function compiled(name) {
-  // Elements ask while they are being defined, before the script that imports them has had its say.
-  await null;
-  const own = carried[name];
-  // One for all is less than one for each.
-  const carrier = own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
+function compiled(carrier) {
   let module = compiling.get(carrier);
   if (!module) {
-    module = compile(wanted ?? carrier()).catch((error) => {
+    module = compile(wanted ?? carrier.source()).catch((error) => {
       wanted = undefined;
       compiling.delete(carrier);
       throw error;

@@ -30,6 +30,23 @@ pub struct ArcInversion {
     pub gamma_hat: f64,
 }
 
+impl ArcInversion {
+    /// The signed radius v̂/ω̂ of the arc (m), with the centre to the left of the heading where it is positive; infinite where the
+    /// arc is straight.
+    pub fn radius(&self) -> f64 {
+        if self.omega_hat == 0.0 { f64::INFINITY } else { self.v_hat / self.omega_hat }
+    }
+
+    /// The centre of the circle of an arc that leaves `x` (m, in the frame of `x`): (x − r·sin θ, y + r·cos θ). None where the arc
+    /// is straight, or its centre further away than a double can say.
+    pub fn centre(&self, x: &SE2) -> Option<[f64; 2]> {
+        let radius = self.radius();
+        let (sin, cos) = libm::sincos(x.theta());
+        let centre = [x.x() - radius * sin, x.y() + radius * cos];
+        radius.is_finite().then_some(centre)
+    }
+}
+
 /// The arc that leaves `x` along its heading and reaches the position of `x_next` in `dt` seconds (Table 5.1, lines
 /// 1–8, with a signed radius).
 ///

@@ -27,8 +27,11 @@ pub trait MotionModel {
     /// that leads to `x_next`, each divided by the Jacobian determinant of the map from noises to poses. It integrates
     /// to 1 over the plane and the circle, and is infinite where the robot has not moved at all.
     ///
-    /// None where one of the three variances is 0: the poses then fill no volume and have no density.
-    fn pose_density(&self, x_next: &SE2, u: &Self::Control, x: &SE2) -> Option<f64>;
+    /// None where one of the three variances is 0: the poses then fill no volume and have no density. None too of a model that does
+    /// not say it.
+    fn pose_density(&self, _x_next: &SE2, _u: &Self::Control, _x: &SE2) -> Option<f64> {
+        None
+    }
 
     /// One draw of x_t (Tables 5.3 and 5.6).
     fn sample<R: Rng + ?Sized>(&self, u: &Self::Control, x: &SE2, rng: &mut R) -> SE2;

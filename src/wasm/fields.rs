@@ -2,7 +2,9 @@
 //! value and what is allowed. Nothing here throws past Rust: what may run the caller's code, or fail, is called by
 //! `Reflect` or with `catch`, and its exceptions come back as values. Nothing is copied before its length is known.
 
-use crate::sim::settings::{Group, Rules, Setting, SettingsError, Word, Words, check_real, check_whole};
+use crate::sim::settings::{
+    Group, Rules, Setting, SettingsError, Word, Words, check_group, check_real, check_whole,
+};
 use js_sys::{ArrayBuffer, JsString, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
@@ -131,7 +133,7 @@ fn read_numbers(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(),
 }
 
 /// All numbers of a group, their ranges not looked at: speeds without their duration would mean another motion.
-pub fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
+fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
     let prefix = format!("{field}.");
     let fields = Fields::new(field, &prefix, value, &keys)?;
@@ -139,6 +141,12 @@ pub fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result
         *group.number(i) = fields.number(key)?;
     }
     Ok(())
+}
+
+/// [`read_group`], with each number in its range.
+pub fn group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
+    read_group(field, value, group)?;
+    Ok(check_group(field, group)?)
 }
 
 /// The settings that a machine opens with: the default ones but for those that `options` names, if there are any.

@@ -3,6 +3,7 @@
 mod banana;
 mod fields;
 mod held;
+mod homework;
 mod maps;
 mod pictures;
 mod squeeze;
@@ -10,8 +11,8 @@ mod values;
 
 use crate::models::VelocityCmd;
 use crate::sim::banana::command_reaching;
-use crate::sim::settings::{QUANTITY, check_group};
-use fields::{in_range, read_group};
+use crate::sim::settings::QUANTITY;
+use fields::{group_in_range, in_range};
 use values::object;
 use wasm_bindgen::prelude::*;
 
@@ -31,8 +32,7 @@ pub fn speeds_reaching(
 ) -> Result<JsValue, JsValue> {
     let (x, y) = (in_range("x", x, &QUANTITY)?, in_range("y", y, &QUANTITY)?);
     let mut near = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
-    read_group("command", command, &mut near)?;
-    check_group("command", &mut near)?;
+    group_in_range("command", command, &mut near)?;
     let VelocityCmd { v, omega, .. } = command_reaching(x, y, &near);
     object(&[("v", v.into()), ("omega", omega.into())])
 }

@@ -38,7 +38,7 @@ test('importing and loading touch neither the DOM nor the network, and load give
 });
 
 test('load takes bytes, a compiled module, or an address, and fails with a sentence', async () => {
-  const address = new URL('../../build/motion_bg.wasm', import.meta.url);
+  const address = new URL('../../build/motion.wasm', import.meta.url);
   const bytes = await readFile(address);
   for (const source of [undefined, bytes, new Uint8Array(bytes).buffer, await WebAssembly.compile(bytes), address, address.href]) {
     const motion = await (await freshModule()).load(source);

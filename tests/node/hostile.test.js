@@ -296,8 +296,19 @@ for (const name of Object.keys(METHODS)) {
   });
 }
 
+const POSE = { x: 1, y: 2, theta: 0.5 };
+const LEGS = { rot1: 0.1, trans: 1, rot2: 0.2 };
+const TWIST = [1, 0, 0.5];
+
+/**
+ * @param {(...given: any[]) => any} work
+ * @param {unknown[]} good arguments
+ * @returns {((value: unknown) => any)[]} it, with another value in the place of each
+ */
+const taking = (work, good) => good.map((_, i) => (value) => work(...good.with(i, value)));
+
 test('what needs no machine is as safe', () => {
-  const { commandReaching, BananaMachine, MapSqueeze } = motion;
+  const { commandReaching, BananaMachine, MapSqueeze, VelocityModel, OdometryModel, invertArc, decompose, propagate, se2 } = motion;
   const spare = new BananaMachine({ samples: 20 });
   const before = digest(spare);
   const works = [
@@ -308,6 +319,30 @@ test('what needs no machine is as safe', () => {
     (/** @type {unknown} */ value) => commandReaching(value, 1, COMMAND),
     (/** @type {unknown} */ value) => commandReaching(1, 1, value),
     (/** @type {unknown} */ value) => commandReaching(1, 1, { ...COMMAND, dt: value }),
+    ...[VelocityModel, OdometryModel].flatMap((Model, i) => {
+      const [alphas, control] = [Array(6 - 2 * i).fill(0.1), [COMMAND, LEGS][i]];
+      const model = new Model({ alphas });
+      return [
+        (/** @type {unknown} */ value) => new Model(value),
+        (/** @type {unknown} */ value) => new Model({ alphas: value }),
+        (/** @type {unknown} */ value) => new Model({ alphas, noise: value }),
+        ...['prob', 'poseDensity'].flatMap((method) => taking((...given) => model[method](...given), [POSE, control, POSE])),
+        ...taking((...given) => model.sample(...given), [control, POSE, 2, 1]),
+      ];
+    }),
+    ...taking(invertArc, [POSE, POSE, 1]),
+    ...taking(decompose, [POSE, POSE]),
+    (/** @type {unknown} */ value) => propagate(value),
+    ...['sigma', 'command', 'alphas', 'compounding', 'steps'].map((key) => (/** @type {unknown} */ value) => propagate({ command: COMMAND, alphas: Array(6).fill(0.1), [key]: value })),
+    (/** @type {unknown} */ value) => propagate({ command: COMMAND, alphas: Array(6).fill(0.1), sigma: [[1, 0, 0], value, [0, 0, 1]] }),
+    ...taking(se2.exp, [TWIST]),
+    ...taking(se2.log, [POSE]),
+    ...taking(se2.compose, [POSE, POSE]),
+    ...taking(se2.inverse, [POSE]),
+    ...taking(se2.boxplus, [POSE, TWIST]),
+    ...taking(se2.boxminus, [POSE, POSE]),
+    ...taking(se2.adjoint, [POSE]),
+    ...taking(se2.rightJacobian, [TWIST]),
   ];
   for (const work of works) {
     for (const [i, value] of hostile(undefined).entries()) {

@@ -1,0 +1,408 @@
+//! The chapter's models, its inversion and SE(2) for JavaScript: what homework is done and checked with.
+
+use super::fields::{Fields, boolean, group_in_range, in_range, item, length, numbers, whole, word};
+use super::values::{doubles, gathered, group_to_js, list, number_or_null, object};
+use crate::geom::arc::invert_arc;
+use crate::geom::se2::SE2;
+use crate::models::{
+    Compounding, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseError,
+    TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
+};
+use crate::noise::NoiseKind;
+use crate::sim::banana::MAX_SAMPLES;
+use crate::sim::settings::{ALPHA, DURATION, MAX_SEED, QUANTITY, Words, check_real, group};
+use js_sys::{Array, Float64Array, RangeError};
+use nalgebra::{Matrix3, Vector3};
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** Speeds along the body's x (m/s or m) and y, and turn rate (rad/s or rad); as exponential coordinates along, lateral, heading. */
+export type Twist = ArrayLike<number>;
+
+/** What a velocity model is made with. */
+export interface VelocityModelOptions {
+  /** α₁…α₆, variance coefficients. */
+  alphas: ArrayLike<number>;
+  /** Opens with "normal". */
+  noise?: 'normal' | 'triangular';
+}
+
+/** What an odometry model is made with. */
+export interface OdometryModelOptions {
+  /** α₁…α₄, variance coefficients. */
+  alphas: ArrayLike<number>;
+  /** Opens with "normal". */
+  noise?: 'normal' | 'triangular';
+  /** Whether a robot that backs up is charged for the turns it made instead of two half turns more; opens with false. */
+  reverseAware?: boolean;
+}
+
+/** The arc that leaves one pose along its heading and reaches the position of another. */
+export interface ArcInversion {
+  /** Speed along the arc, m/s; negative in reverse. */
+  vHat: number;
+  /** Turn rate along the arc, rad/s. */
+  omegaHat: number;
+  /** Rate of the turn that is left after the arc, rad/s over the same time. */
+  gammaHat: number;
+  /** Centre of the arc's circle, m; null where the arc is straight. */
+  center: { x: number; y: number } | null;
+  /** Radius, m: positive with the centre to the left of the heading, negative to the right, Infinity where the arc is straight. */
+  radius: number;
+  /** By how much the robot turns along the arc, rad, −π to π. */
+  turn: number;
+}
+
+/** What `propagate` is asked. */
+export interface Propagation {
+  /** Covariance of the first pose in exponential coordinates about its mean, three rows of three; 0 where it is left out. */
+  sigma?: ArrayLike<ArrayLike<number>>;
+  command: Command;
+  /** α₁…α₆ of the velocity model. */
+  alphas: ArrayLike<number>;
+  /** Opens with "chapter". */
+  compounding?: 'chapter' | 'first-order' | 'fourth-order';
+  /** How often the command is driven; opens with 1. */
+  steps?: number;
+}
+"#;
+
+impl Words for Compounding {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("chapter", Self::Chapter), ("first-order", Self::FirstOrder), ("fourth-order", Self::FourthOrder)];
+}
+
+group!(OdomDelta as OdomDelta { rot1, trans, rot2 } => {
+    /// First turn.
+    rot1: "rad", in QUANTITY;
+    /// Drive.
+    trans: "m", in 0.0..=*QUANTITY.end();
+    /// Second turn.
+    rot2: "rad", in QUANTITY;
+});
+
+/// Steps of `propagate` at most: a fraction of a second.
+const MAX_STEPS: u64 = 100_000;
+
+/// The velocity motion model: noise on speed and turn rate, and a turn after the arc.
+#[wasm_bindgen(js_name = VelocityModel)]
+pub struct JsVelocityModel(VelocityModel);
+
+#[wasm_bindgen(js_class = VelocityModel)]
+impl JsVelocityModel {
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        #[wasm_bindgen(unchecked_param_type = "VelocityModelOptions")] options: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let fields = Fields::new("options", "", options, &["alphas", "noise"])?;
+        Ok(Self(VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: noise(&fields)? }))
+    }
+
+    /// The scoring function of Table 5.1, with a signed radius.
+    pub fn prob(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+    ) -> Result<f64, JsValue> {
+        Ok(self.0.prob(&pose("next", next)?, &velocity_command(command)?, &pose("start", start)?))
+    }
+
+    /// The density of the sampler over dx dy dθ; null where a variance is 0.
+    #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
+    pub fn pose_density(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let (next, command, start) = (pose("next", next)?, velocity_command(command)?, pose("start", start)?);
+        Ok(number_or_null(self.0.pose_density(&next, &command, &start)))
+    }
+
+    /// Draws of the pose after the command, as x, y, θ triples. The same seed, a whole number, gives the same.
+    pub fn sample(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] seed: &JsValue,
+    ) -> Result<Float64Array, JsValue> {
+        samples(&self.0, &velocity_command(command)?, start, count, seed)
+    }
+}
+
+/// The odometry motion model: noise on each of the three legs of a reading.
+#[wasm_bindgen(js_name = OdometryModel)]
+pub struct JsOdometryModel {
+    model: OdometryModel,
+    reverse_aware: bool,
+}
+
+#[wasm_bindgen(js_class = OdometryModel)]
+impl JsOdometryModel {
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        #[wasm_bindgen(unchecked_param_type = "OdometryModelOptions")] options: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let fields = Fields::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
+        let model = OdometryModel { alphas: OdomAlphas(alphas(&fields)?), noise: noise(&fields)? };
+        Ok(Self { model, reverse_aware: fields.optional("reverseAware", boolean)?.unwrap_or(false) })
+    }
+
+    /// The scoring function of Table 5.5, of which the variances are those of the hypothesis.
+    pub fn prob(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+    ) -> Result<f64, JsValue> {
+        let (next, control, start) = (pose("next", next)?, legs(control)?, pose("start", start)?);
+        Ok(match self.reverse_aware {
+            true => ReverseAware(self.model).prob(&next, &control, &start),
+            false => self.model.prob(&next, &control, &start),
+        })
+    }
+
+    /// The density of the sampler over dx dy dθ; null where a variance is 0.
+    #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
+    pub fn pose_density(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let (next, control, start) = (pose("next", next)?, legs(control)?, pose("start", start)?);
+        Ok(number_or_null(match self.reverse_aware {
+            true => ReverseAware(self.model).pose_density(&next, &control, &start),
+            false => self.model.pose_density(&next, &control, &start),
+        }))
+    }
+
+    /// Draws of the pose after the reading, as x, y, θ triples. The same seed, a whole number, gives the same.
+    pub fn sample(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] seed: &JsValue,
+    ) -> Result<Float64Array, JsValue> {
+        let control = legs(control)?;
+        match self.reverse_aware {
+            true => samples(&ReverseAware(self.model), &control, start, count, seed),
+            false => samples(&self.model, &control, start, count, seed),
+        }
+    }
+}
+
+/// The arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a signed
+/// radius). Of the arcs on that circle, the one that turns by half a circle at most.
+#[wasm_bindgen(js_name = invertArc, unchecked_return_type = "ArcInversion")]
+pub fn inverted(
+    #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] dt: &JsValue,
+) -> Result<JsValue, JsValue> {
+    let (start, next, dt) = (pose("start", start)?, pose("next", next)?, in_range("dt", dt, &DURATION)?);
+    let inversion = invert_arc(&start, &next, dt);
+    // A straight way back turns by −0, which is no news to anybody.
+    let omega_hat = inversion.omega_hat + 0.0;
+    let center = match inversion.centre(&start) {
+        Some([x, y]) => object(&[("x", x.into()), ("y", y.into())])?,
+        None => JsValue::NULL,
+    };
+    object(&[
+        ("vHat", inversion.v_hat.into()),
+        ("omegaHat", omega_hat.into()),
+        ("gammaHat", inversion.gamma_hat.into()),
+        ("center", center),
+        ("radius", inversion.radius().into()),
+        ("turn", (omega_hat * dt).into()),
+    ])
+}
+
+/// The three legs between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all in `rot2`.
+#[wasm_bindgen(unchecked_return_type = "Legs")]
+pub fn decompose(
+    #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+) -> Result<JsValue, JsValue> {
+    group_to_js(&mut OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?))
+}
+
+/// The covariance, in exponential coordinates about the noise-free pose, after a command was driven a number of times.
+#[wasm_bindgen(unchecked_return_type = "number[][]")]
+pub fn propagate(
+    #[wasm_bindgen(unchecked_param_type = "Propagation")] options: &JsValue,
+) -> Result<Array, JsValue> {
+    let fields =
+        Fields::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
+    let sigma = fields.optional("sigma", covariance)?.unwrap_or_default();
+    let command = velocity_command(&fields.value("command")?)?;
+    let model = VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: NoiseKind::Normal };
+    let order = fields.optional("compounding", word)?.unwrap_or(Compounding::Chapter);
+    let steps = fields.optional("steps", |field, value| whole(field, value, 1..=MAX_STEPS))?.unwrap_or(1);
+    // Of what is in range no variance is negative or too large.
+    let noise = TangentNoiseModel::from_velocity(&model, &command)
+        .map_err(|error| RangeError::new(&error.to_string()))?;
+    let twist = TangentNoiseModel::twist(&command);
+    let last = (0..steps).fold(sigma, |sigma, _| noise.propagate(&sigma, &twist, order));
+    rows(&last)
+}
+
+/// The pose that a twist leads to from the origin in a unit of time.
+#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
+pub fn exp(#[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue) -> Result<JsValue, JsValue> {
+    pose_to_js(SE2::exp(&read_twist("twist", twist)?))
+}
+
+/// The twist that leads from the origin to a pose in a unit of time, turning by half a circle at most.
+#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[]")]
+pub fn log(
+    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
+) -> Result<JsValue, JsValue> {
+    list(pose("pose", of)?.log().as_slice())
+}
+
+/// a · b: `b`, told in the frame of `a`, in the frame that `a` is told in.
+#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
+pub fn compose(
+    #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
+) -> Result<JsValue, JsValue> {
+    pose_to_js(pose("a", a)? * pose("b", b)?)
+}
+
+/// The origin in the frame of a pose.
+#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
+pub fn inverse(
+    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
+) -> Result<JsValue, JsValue> {
+    pose_to_js(pose("pose", of)?.inverse())
+}
+
+/// x ⊞ τ = x · exp(τ).
+#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
+pub fn boxplus(
+    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
+) -> Result<JsValue, JsValue> {
+    pose_to_js(pose("pose", of)?.boxplus(read_twist("twist", twist)?))
+}
+
+/// a ⊟ b = log(b⁻¹ · a): the twist that leads from `b` to `a`.
+#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[]")]
+pub fn boxminus(
+    #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
+) -> Result<JsValue, JsValue> {
+    list(pose("a", a)?.boxminus(&pose("b", b)?).as_slice())
+}
+
+/// Ad of a pose, three rows of three.
+#[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[][]")]
+pub fn adjoint(
+    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
+) -> Result<Array, JsValue> {
+    rows(&pose("pose", of)?.adjoint())
+}
+
+/// J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
+#[wasm_bindgen(js_namespace = se2, js_name = rightJacobian, unchecked_return_type = "number[][]")]
+pub fn right_jacobian(
+    #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
+) -> Result<Array, JsValue> {
+    rows(&SE2::right_jacobian(&read_twist("twist", twist)?))
+}
+
+fn samples<M: MotionModel>(
+    model: &M,
+    control: &M::Control,
+    start: &JsValue,
+    count: &JsValue,
+    seed: &JsValue,
+) -> Result<Float64Array, JsValue> {
+    let start = pose("start", start)?;
+    let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(whole("seed", seed, 0..=MAX_SEED)?);
+    let draw = |_| {
+        let pose = model.sample(control, &start, &mut rng);
+        [pose.x(), pose.y(), pose.theta()]
+    };
+    doubles("count", gathered((0..count).map(draw)))
+}
+
+fn alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
+    let alphas = numbers("alphas", &fields.value("alphas")?)?;
+    for (i, alpha) in alphas.iter().enumerate() {
+        check_real(&format!("alphas[{i}]"), *alpha, &ALPHA)?;
+    }
+    Ok(alphas)
+}
+
+fn noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
+    Ok(fields.optional("noise", word)?.unwrap_or(NoiseKind::Normal))
+}
+
+fn pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
+    let mut place = [0.0; 3];
+    group_in_range(field, value, &mut place)?;
+    Ok(SE2::new(place[0], place[1], place[2]))
+}
+
+fn velocity_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
+    let mut command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
+    group_in_range("command", value, &mut command)?;
+    Ok(command)
+}
+
+fn legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
+    let mut legs = OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 };
+    group_in_range("control", value, &mut legs)?;
+    Ok(legs)
+}
+
+fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
+    Ok(Vector3::from(quantities(field, value)?))
+}
+
+/// Three numbers of a size that the models are made for.
+fn quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
+    let numbers = numbers(field, value)?;
+    for (i, number) in numbers.iter().enumerate() {
+        check_real(&format!("{field}[{i}]"), *number, &QUANTITY)?;
+    }
+    Ok(numbers)
+}
+
+/// Three rows of three that are a covariance.
+fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
+    let allowed = "three rows of three numbers, symmetric, of no negative variance";
+    let count = length(field, value, allowed)?;
+    if count != 3 {
+        return Err(RangeError::new(&format!("{field} has length {count}; allowed are {allowed}")).into());
+    }
+    let mut matrix = Matrix3::zeros();
+    for i in 0..3 {
+        let row = quantities(&format!("{field}[{i}]"), &item(field, value, i)?)?;
+        matrix.set_row(i, &Vector3::from(row).transpose());
+    }
+    let is = match covariance_root(&matrix) {
+        Ok(_) => return Ok(matrix),
+        Err(TangentNoiseError::NotSymmetric) => "it differs from its transpose",
+        Err(_) => "some direction has a negative variance",
+    };
+    Err(RangeError::new(&format!("{field} is no covariance: {is}; allowed are {allowed}")).into())
+}
+
+fn pose_to_js(pose: SE2) -> Result<JsValue, JsValue> {
+    group_to_js(&mut [pose.x(), pose.y(), pose.theta()])
+}
+
+fn rows(matrix: &Matrix3<f64>) -> Result<Array, JsValue> {
+    // nalgebra's are in columns.
+    matrix.transpose().as_slice().chunks_exact(3).map(list).collect()
+}

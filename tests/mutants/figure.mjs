@@ -4,9 +4,10 @@
 //
 // On the build without a mutant the tests run once, to learn which mutants each of them reaches and how long it takes. A
 // mutant then meets those that reach it, until one of them fails. One that no test reaches is not caught, nor one that
-// outlives the tests of all ROUNDS.
+// outlives the tests of all ROUNDS. Each processor has a copy of its own, with its part of the tests and of the mutants.
 
 import { appendFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { Instrumenter } from '@stryker-mutator/instrumenter';
 import { ensureBrowser } from '../../scripts/browser.mjs';
@@ -22,8 +23,8 @@ import { generator } from '../random.js';
  * @typedef {{ test: string, milliseconds: number, passed: boolean, reached: Set<string> }} Trial of a test, without a mutant
  */
 
-const COPY = join(ROOT, 'build/mutants-figure');
-const inCopy = (/** @type {string} */ path) => join(COPY, path);
+const COPIES = Array.from({ length: availableParallelism() }, (_, i) => join(ROOT, `build/mutants-figure-${i + 1}`));
+const inCopy = (/** @type {string} */ path) => join(COPIES[0], path);
 
 /** What a bundle and the tests read, besides what is in build/ itself. */
 const COPIED = ['www', 'scripts', 'python', 'examples', 'doc', 'src', 'tests', 'package.json', 'package-lock.json', 'playwright.config.js'];
@@ -50,8 +51,8 @@ export const stryCov_9fa48 = (...ids) => globalThis.reachedMutants?.(ids);
 async function prepare() {
   await build();
   progress('Building a copy with every mutant in it');
-  rmSync(COPY, { recursive: true, force: true });
-  mkdirSync(COPY, { recursive: true });
+  for (const copy of COPIES) rmSync(copy, { recursive: true, force: true });
+  mkdirSync(COPIES[0], { recursive: true });
   for (const path of COPIED) cpSync(join(ROOT, path), inCopy(path), { recursive: true });
   mkdirSync(inCopy('build'));
   for (const path of readdirSync(join(ROOT, 'build'), { withFileTypes: true })) {
@@ -77,6 +78,7 @@ async function prepare() {
     const specs = readFileSync(inCopy(`tests/e2e/${path}`), 'utf8');
     writeFileSync(inCopy(`tests/e2e/${path}`), specs.replace(/(import \{.*\} from) '@playwright\/test'/, "$1 '../mutants/playwright.js'"));
   }
+  for (const copy of COPIES.slice(1)) cpSync(COPIES[0], copy, { recursive: true, verbatimSymlinks: true });
   return /** @type {any} */ (instrumented.mutants);
 }
 
@@ -95,20 +97,25 @@ function sampleOf(all, count, seed) {
 }
 
 /**
- * Runs the tests of the copy, which note in a file what they find.
+ * Runs tests of a copy, which note in a file what they find.
  *
- * @param {string} address
+ * @param {string} copy
  * @param {string} notes
- * @param {string} [plan] the file that has the mutants of each test
+ * @param {{ plan?: string, options?: string[] }} which the file that has the mutants of each test; what else says which tests
  * @returns {Promise<any[]>} what they noted
  */
-async function noted(address, notes, plan = '') {
+async function noted(copy, notes, { plan = '', options = [] }) {
   const { chrome } = await ensureBrowser();
-  const options = ['test', '--config', inCopy('tests/mutants/playwright.config.js'), '--workers', '1', '--reporter', 'dot'];
+  const { address, close } = await serve(join(copy, 'dist'));
   appendFileSync(notes, '');
-  await run(process.execPath, [join(ROOT, 'node_modules/@playwright/test/cli.js'), ...options], {
-    env: { CHROME: chrome, SERVED_AT: address, MUTANTS_NOTES: notes, MUTANTS_PLAN: plan, MUTANTS_PLACE: PLACE },
-  });
+  const command = ['test', '--config', join(copy, 'tests/mutants/playwright.config.js'), '--workers', '1', '--reporter', 'dot', ...options];
+  try {
+    await run(process.execPath, [join(ROOT, 'node_modules/@playwright/test/cli.js'), ...command], {
+      env: { CHROME: chrome, SERVED_AT: address, MUTANTS_NOTES: notes, MUTANTS_PLAN: plan, MUTANTS_PLACE: PLACE },
+    });
+  } finally {
+    close();
+  }
   return linesOf(notes);
 }
 
@@ -140,13 +147,13 @@ function testsOf({ id, fileName }, mutants, trials) {
 const percent = (/** @type {number} */ share) => `${(100 * share).toFixed(1)} %`;
 
 /**
+ * @param {string} copy
  * @param {Mutant[]} sample
  * @param {Mutant[]} mutants
  * @param {Trial[]} trials
- * @param {string} address
  * @returns {Promise<Map<string, string>>} tests by the mutants that they caught
  */
-async function meet(sample, mutants, trials, address) {
+async function meet(copy, sample, mutants, trials) {
   const caught = new Map();
   const tests = new Map(sample.map((mutant) => [mutant, testsOf(mutant, mutants, trials)]));
   for (const [round, most] of ROUNDS.entries()) {
@@ -160,8 +167,9 @@ async function meet(sample, mutants, trials, address) {
     }
     if (Object.keys(plan).length === 0) break;
     progress(`${left.length} mutants meet ${most} tests`);
-    writeFileSync(inCopy('plan'), JSON.stringify(plan));
-    for (const each of await noted(address, inCopy('caught'), inCopy('plan'))) caught.set(each.caught, each.test);
+    const file = join(copy, 'plan');
+    writeFileSync(file, JSON.stringify(plan));
+    for (const each of await noted(copy, join(copy, 'caught'), { plan: file })) caught.set(each.caught, each.test);
   }
   return caught;
 }
@@ -173,28 +181,25 @@ async function figure([seed = '1', amount = '300']) {
     throw new Missing(`SEED and COUNT are "${seed}" and "${amount}", and have to be whole numbers from 1.`);
   }
   const mutants = await prepare();
-  const { address, close } = await serve(inCopy('dist'));
-  try {
-    progress('Running the tests without a mutant');
-    const trials = (await noted(address, inCopy('reached'))).map((trial) => ({ ...trial, reached: new Set(trial.reached) }));
-    const passed = trials.filter((trial) => trial.passed).length;
-    if (passed === 0) throw new Missing('No test passes on the build without a mutant: see above.');
-    progress(`${passed} of ${trials.length} tests pass`);
-    const sample = sampleOf(mutants, count, start);
-    const caught = await meet(sample, mutants, trials, address);
-    progress('Not caught');
-    for (const { id, fileName, location, mutatorName, replacement } of sample.filter(({ id }) => !caught.has(id))) {
-      const reaching = trials.filter(({ reached }) => reached.has(id)).length;
-      // Lines are counted from 0.
-      console.log(`${fileName}:${location.start.line + 1}:${location.start.column + 1} ${mutatorName} ${replacement} (reached by ${reaching} tests)`);
-    }
-    const share = caught.size / sample.length;
-    const [least, most] = wilson(caught.size, sample.length).map(percent);
-    progress(`${caught.size} of ${sample.length} caught, out of ${mutants.length} (seed ${start}): ${percent(share)}, 95 % interval ${least} to ${most}`);
-    if (share < NOTICED) process.exitCode = 1;
-  } finally {
-    close();
+  progress('Running the tests without a mutant');
+  const shards = COPIES.map((copy, i) => noted(copy, join(copy, 'reached'), { options: ['--shard', `${i + 1}/${COPIES.length}`] }));
+  const trials = (await Promise.all(shards)).flat().map((trial) => ({ ...trial, reached: new Set(trial.reached) }));
+  const passed = trials.filter((trial) => trial.passed).length;
+  if (passed === 0) throw new Missing('No test passes on the build without a mutant: see above.');
+  progress(`${passed} of ${trials.length} tests pass`);
+  const sample = sampleOf(mutants, count, start);
+  const parts = COPIES.map((copy, i) => meet(copy, sample.filter((_, j) => j % COPIES.length === i), mutants, trials));
+  const caught = new Map((await Promise.all(parts)).flatMap((part) => [...part]));
+  progress('Not caught');
+  for (const { id, fileName, location, mutatorName, replacement } of sample.filter(({ id }) => !caught.has(id))) {
+    const reaching = trials.filter(({ reached }) => reached.has(id)).length;
+    // Lines are counted from 0.
+    console.log(`${fileName}:${location.start.line + 1}:${location.start.column + 1} ${mutatorName} ${replacement} (reached by ${reaching} tests)`);
   }
+  const share = caught.size / sample.length;
+  const [least, most] = wilson(caught.size, sample.length).map(percent);
+  progress(`${caught.size} of ${sample.length} caught, out of ${mutants.length} (seed ${start}): ${percent(share)}, 95 % interval ${least} to ${most}`);
+  if (share < NOTICED) process.exitCode = 1;
 }
 
 await runAsScript(import.meta.url, () => figure(process.argv.slice(2)));

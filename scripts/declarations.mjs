@@ -123,11 +123,11 @@ async function widget(tag) {
       return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), told };
     }
     const { words, covers, kind, property } = entry;
-    const opening = entry.opening ?? own[name]?.opening ?? (covers && openingPreset(tag));
+    const nullable = covers || entry.nullable;
+    const opening = entry.opening ?? own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
     const type = words === undefined ? 'boolean' : kind === WORDS ? `(${union(words)})[]` : union(words);
     const text = Array.isArray(opening) ? opening.join(' ') : opening;
     const description = describe({ ...entry, sentence: sentences[name] }, text);
-    const nullable = covers || entry.nullable;
     return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, told: description };
   };
   const told = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });

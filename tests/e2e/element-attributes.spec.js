@@ -136,6 +136,10 @@ test.describe('attributes', () => {
       'command.dt is -1; allowed is a number from 0.000001 to 1000000',
     ]);
     expect(await property(widget, 'dt')).toBe(1);
+    // Nothing is no number, nor a zero.
+    await widget.evaluate((element) => element.setAttribute('omega', ' '));
+    expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
+    expect(await property(widget, 'omega')).toBe(0.7);
     await widget.evaluate((element) => element.setAttribute('dt', '2'));
     expect(await property(widget, 'dt')).toBe(2);
     await widget.getByRole('button', { name: 'Pivot' }).click();
@@ -344,6 +348,15 @@ test.describe('properties', () => {
     await frames(page);
     expect(await property(banana, 'v')).toBe(0.4);
     expect((await heard(page, ['stats'])).length).toBe(1);
+    // An attribute says where a gesture began until it ends.
+    const held = await banana.evaluate((element) => {
+      const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#v'));
+      slider.value = '0.7';
+      slider.dispatchEvent(new Event('input'));
+      element.setAttribute('v', element.getAttribute('v') ?? '');
+      return [element.getAttribute('v'), Reflect.get(element, 'v')];
+    });
+    expect(held).toEqual(['0.4', 0.7]);
     // Nor does it hurry what the reader does, which takes effect once a frame.
     const begun = await banana.evaluate(async (element) => {
       const figure = /** @type {any} */ (element);

@@ -164,6 +164,12 @@ test('a key that was used goes no further; any other does', async ({ page }) => 
   await page.keyboard.press('Enter');
   await page.keyboard.press('Control+ArrowRight');
   expect(await passed()).toEqual(['Control', 'ArrowRight']);
+  await banana.locator('#robot').focus();
+  await page.keyboard.type('7e');
+  expect(await passed()).toEqual([]);
+  // It does nothing there.
+  await page.keyboard.press('Escape');
+  expect(await passed()).toEqual(['Escape']);
   await banana.getByRole('button', { name: 'Reset' }).press('ArrowRight');
   expect(await passed()).toEqual(['ArrowRight']);
   await squeeze.scrollIntoViewIfNeeded();

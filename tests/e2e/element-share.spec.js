@@ -99,6 +99,7 @@ for (const name of NAMES) {
     await frames(page);
     expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
     const link = await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
+    expect(link.split('#')[0]).toBe(page.url().split('#')[0]);
     const other = await context.newPage();
     await show(other, `<${name}></${name}>`, { fragment: new URL(link).hash });
     await ready(other.locator(name));
@@ -106,6 +107,16 @@ for (const name of NAMES) {
     await other.locator(name).getByRole('button', { name: 'New seed' }).click();
     await frames(other);
     expect(await other.evaluate(() => location.hash)).toBe(new URL(link).hash);
+    // What the reader made of it stays when the figure goes and comes back.
+    const left = await stateOf(other.locator(name));
+    await other.locator(name).evaluate(async (element) => {
+      element.remove();
+      await new Promise(requestAnimationFrame);
+      const loaded = new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
+      document.body.append(element);
+      await loaded;
+    });
+    expect(await stateOf(other.locator(name))).toEqual(left);
   });
 
   test(`${name} reports a link that says nothing, and opens as ever`, async ({ page }) => {
@@ -156,7 +167,9 @@ test.describe('the menu', () => {
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toBeVisible();
     expect(await clipboard()).toBe(await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink()));
-    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    const embed = widget.getByRole('button', { name: 'Copy embed code' });
+    await expect(embed).toHaveAttribute('title', 'HTML that shows the figure as it is now on a page of your own');
+    await embed.click();
     await expect.poll(clipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
     const origin = new URL(page.url()).origin;
     expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);

@@ -3,7 +3,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { FRESH, STILL, frames, pictureOf, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, pictureOf, test } from './support.js';
 
 /**
  * @typedef {import('../../www/types.d.ts').MapSqueezeElement} Element
@@ -275,12 +275,14 @@ test('a short link with as many walls as are allowed is opened, in no more slice
   expect(slices).toBeLessThan(SLICES);
 });
 
-test('what is said of the work is accessible', async ({ page }) => {
+test('what is said of the work is in sight, moves nothing and is accessible', async ({ page }) => {
   const widget = await openSqueeze(page);
+  const before = await boxOf(widget);
   await slowly(page, async () => {
     await giveStar(widget);
     await expect(progress(widget)).toHaveAccessibleName('Computing');
-    await expect(widget.getByRole('button', { name: 'Stop' })).toBeVisible();
+    await expect(widget.getByRole('button', { name: 'Stop' })).toBeInViewport();
+    expect(await boxOf(widget)).toEqual(before);
     await expectAccessible(page);
   });
 });

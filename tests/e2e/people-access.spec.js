@@ -183,14 +183,13 @@ test.describe('what is said', () => {
     const slider = widget.locator('#v');
     await slider.scrollIntoViewIfNeeded();
     await expect(slider).toHaveAttribute('aria-valuetext', '1.00 m/s');
-    const before = await status.textContent();
     const { x, y, width, height } = await boxOf(slider);
     await page.mouse.move(x + 0.83 * width, y + height / 2);
     await page.mouse.down();
     for (const share of [0.7, 0.6, 0.5]) {
       await page.mouse.move(x + share * width, y + height / 2);
       await frames(page);
-      expect(await status.textContent()).toBe(before);
+      expect(await status.textContent()).toBe('');
     }
     const { config } = await state(widget);
     await page.mouse.up();

@@ -195,6 +195,21 @@ test('the picture on screen stays as it is when it is exported', async ({ page }
   expect(await pixels()).toBe(before);
 });
 
+test('what is taken along shows and says what has just changed, before a frame has come', async ({ page }) => {
+  for (const widget of [await open(page), await openSqueeze(page)]) {
+    const [before, taken, shown] = await widget.evaluate(async (element) => {
+      const figure = /** @type {Figure} */ (element);
+      const drawn = [figure.toSVG()];
+      figure.v = 5;
+      drawn.push(figure.toSVG());
+      for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+      return [...drawn, figure.toSVG()];
+    });
+    expect(taken).toBe(shown);
+    expect(taken).not.toBe(before);
+  }
+});
+
 for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
   test(`PNG has twice the pixels and its paper under it, in ${colorScheme}`, async ({ page }) => {
     await page.emulateMedia({ colorScheme });

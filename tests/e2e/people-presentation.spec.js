@@ -176,7 +176,7 @@ test('what a page begins ends by its button, and the page stays where it was', a
   // The figure begins in sight, and the button that gets the focus at the end is below the window.
   await page.evaluate(() => scrollTo(0, 250));
   await frames(page);
-  await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
+  await widget.evaluate((element) => void Object.assign(element, { presentation: '' }));
   await widget.getByRole('button', { name: 'Esc' }).click();
   await expect(widget).not.toHaveAttribute('presentation');
   await expect(widget.locator('.to-present')).toBeFocused();

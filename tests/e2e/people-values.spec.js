@@ -43,6 +43,9 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await page.keyboard.press('ArrowLeft');
   expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
   await expect(widget.locator('.slider.above')).toHaveCount(0);
+  // Below its least value, none is allowed.
+  await page.keyboard.press('Home');
+  await expect(help(widget, 'alpha1')).not.toContainText('The slider ends');
 });
 
 test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
@@ -53,6 +56,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   await page.keyboard.press('Tab');
   expect(await property(widget, 'v')).toBe(-2.125);
   await expect(field).toHaveValue('\u22122.125 m/s');
+  await expect(help(widget, 'v')).toHaveText('The slider ends at \u22121.50 m/s; values beyond can be typed.');
   await field.click();
   await page.keyboard.type('7');
   await page.keyboard.press('Escape');
@@ -143,6 +147,8 @@ test('every slider takes the least and the greatest value of the core', async ({
     expect(keys.length).toBeGreaterThan(5);
     for (const key of keys) {
       const { min = NaN, max = NaN } = settings[name].find((setting) => setting.key === key) ?? {};
+      // The other keys of a phone have no minus.
+      if (min < 0) await expect(valueField(widget, key)).toHaveAttribute('inputmode', 'text');
       // A million samples take their time, and are no other case.
       for (const value of key === 'samples' ? [min] : [min, max]) {
         await valueField(widget, key).click();

@@ -66,9 +66,13 @@ const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
 /** Of headings in HTML. */
 export const HEADING_LEVELS = /** @type {const} */ (['1', '2', '3', '4', '5', '6']);
 
-/** What every figure heeds besides. @type {Record<string, { words?: readonly string[], opening?: string, nullable?: true, property?: string }>} */
+/**
+ * What every figure heeds besides. One that is not there says the first of its words, unless it may be null.
+ *
+ * @type {Record<string, { words?: readonly string[], nullable?: true, property?: string }>}
+ */
 export const COMMON = {
-  theme: { words: THEMES, opening: 'auto' },
+  theme: { words: THEMES },
   share: {},
   presentation: {},
   'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },

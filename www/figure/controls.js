@@ -66,7 +66,8 @@ function typeable(figure, key, symbol, row, take = row.input, print = row.show) 
   const { min = -Infinity, max = Infinity, type, unit } = figure.kind.declared.find((setting) => setting.key === key) ?? {};
   const [first, last] = row.ends ?? [row.min, row.max];
   const whole = type === 'whole';
-  const end = row.value >= row.max && last < max ? last : row.value <= row.min && first > min ? first : undefined;
+  // Every slider ends below what the core takes; some begin where that does.
+  const end = row.value >= row.max ? last : row.value <= row.min && first > min ? first : undefined;
   return sliderRow({
     ...row,
     effect: end === undefined ? row.effect : words.sliderEnds(print(end)),

@@ -268,7 +268,7 @@ export class FigureElement extends LitElement {
 
   /** Light, dark, or as the surroundings are. */
   get theme() {
-    return THEMES.find((theme) => theme === this.getAttribute('theme')) ?? 'auto';
+    return THEMES.find((theme) => theme === this.getAttribute('theme')) ?? THEMES[0];
   }
 
   set theme(theme) {
@@ -282,7 +282,7 @@ export class FigureElement extends LitElement {
 
   /** @param {boolean | ''} share */
   set share(share) {
-    this.toggleAttribute('share', share === '' || Boolean(share));
+    this.toggleAttribute('share', share || share === '');
   }
 
   /** Whether it is shown to an audience. */
@@ -292,7 +292,7 @@ export class FigureElement extends LitElement {
 
   /** @param {boolean | ''} presentation */
   set presentation(presentation) {
-    this.toggleAttribute('presentation', presentation === '' || Boolean(presentation));
+    this.toggleAttribute('presentation', presentation || presentation === '');
   }
 
   /** The level of the heading that the title is; null where it is none. */

@@ -1,10 +1,10 @@
 /** What happens inside of a figure and is no business of the page around it. */
 
 /** Fields take every key. */
-const FIELD = 'textarea, input[type="text"]';
+const FIELD = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
 
 /** Sliders and radio buttons take those that move them. */
-const MOVES = /^(Arrow|Page|Home$|End$)/;
+const MOVES = /Arrow|Page|Home|End/;
 
 /**
  * A key that was used goes no further: a book around the figure would turn its page by it, as to the book it comes from no

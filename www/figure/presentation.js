@@ -110,11 +110,9 @@ export class Presentation extends Part {
 
   #key = (/** @type {KeyboardEvent} */ event) => {
     const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
-    const [target] = event.composedPath();
-    const typing = target instanceof Element && target.matches("textarea, input:not([type='range'], [type='radio'], [type='checkbox'])");
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
     if (key === 'Escape') this.host.presentation = false;
-    else if (key.toLowerCase() === KEY && !typing) this.#toggle();
+    else if (key.toLowerCase() === KEY) this.#toggle();
   };
 
   #toggle() {

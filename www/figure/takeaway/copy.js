@@ -9,7 +9,7 @@ import { Part } from '../part.js';
 
 /** What was copied last, and where the reader finds it. */
 export class CopyMenu extends Part {
-  /** @type {{ text: string, done: boolean, missing: string } | undefined} */
+  /** @type {{ text: string, done?: boolean, missing: string } | undefined} */
   #copied;
 
   /**
@@ -19,7 +19,7 @@ export class CopyMenu extends Part {
   async #copy(text, missing = '') {
     // Refused in a frame without the permission, and absent where the page came without encryption.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
-    this.#copied = { text, done: done === true, missing };
+    this.#copied = { text, done, missing };
     this.host.requestUpdate();
   }
 

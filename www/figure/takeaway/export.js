@@ -10,6 +10,7 @@ import { button } from '../../ui/controls.js';
  *
  * @typedef {object} Takeaway what there is to take along, besides the picture
  * @property {string} title
+ * @property {string} description of the picture
  * @property {object} settings
  * @property {string[]} columns of the samples, with their units in their names
  * @property {(i: number) => number[]} row of a sample
@@ -39,7 +40,7 @@ function drawOn({ scene, pictures: [picture], stage, presenting: { zoom } }, rat
   const context = /** @type {CanvasRenderingContext2D} */ (makeContext(size));
   const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), getContext: () => context };
   picture.draw(surface, scene, stage.palette, { atOnce: true });
-  return { canvas, context, view: picture.view, ...size };
+  return { context, view: picture.view, ...size };
 }
 
 /**
@@ -71,11 +72,10 @@ function hash(text) {
 
 /** @param {Figure} element */
 export function svgOf(element) {
-  const { settings, title } = element.takeaway;
+  const { settings, title, description } = element.takeaway;
   const name = `figure-${hash(JSON.stringify(settings))}`;
   const svg = new SvgContext(name);
-  const { canvas, view, width, height } = drawOn(element, 1, () => svg);
-  const description = /** @type {string} */ (canvas.getAttribute('aria-label'));
+  const { view, width, height } = drawOn(element, 1, () => svg);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" role="img" aria-labelledby="${name}-title ${name}-text">
 <title id="${name}-title">${escaped(title)}</title>
 <desc id="${name}-text">${escaped(description)}</desc>

@@ -103,6 +103,7 @@ export class BananaMachineElement extends FigureElement {
     const { poses, twists, executed } = /** @type {Machine} */ (this.machine);
     return {
       title: this.lettering.name,
+      description: this.#description,
       settings: { element: this.localName, ...config },
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
       row: (/** @type {number} */ i) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
@@ -182,16 +183,22 @@ export class BananaMachineElement extends FigureElement {
     });
   }
 
+  /** What the floor shows, in words. */
+  get #description() {
+    const { overlays } = /** @type {{ overlays: (typeof OVERLAYS)[number][] }} */ (this.state.own);
+    const drawn = overlays.filter((name) => hasLength(this.reading.contours[name]));
+    return planeText(this.reading, drawn.map((name) => words.banana.overlays[name]));
+  }
+
   /** @param {Reading} reading */
   content(reading) {
     const { config, note } = reading;
     const say = words.banana;
-    const overlays = OVERLAYS.filter((name) => this.state.own.overlays.includes(name) && hasLength(reading.contours[name]));
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
           <div class="stage" part="picture">
-            ${canvas(this, this.#plane, planeText(reading, overlays.map((name) => say.overlays[name])))} ${this.#handle.render(config.command)}
+            ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command)}
           </div>
           <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>

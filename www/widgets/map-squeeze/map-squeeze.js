@@ -103,6 +103,7 @@ export class MapSqueezeElement extends FigureElement {
     const { config, poses, verdicts } = this.fresh;
     return {
       title: this.lettering.name,
+      description: this.#description,
       settings: { element: this.localName, map: this.map?.name ?? null, ...config },
       columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
       row: (/** @type {number} */ i) => [
@@ -307,12 +308,21 @@ export class MapSqueezeElement extends FigureElement {
     this.cloud.mark(-1);
   }
 
+  /** The map that the robot is in, in words. */
+  get #mapText() {
+    const { pasted, apartment } = words.squeeze;
+    return mapText(this.map ? this.map.name || pasted : apartment, this.picture.plan);
+  }
+
+  /** What the picture shows, in words. */
+  get #description() {
+    return pictureText(this.reading, this.#mapText);
+  }
+
   /** @param {Reading} reading */
   content(reading) {
     const { config, note } = reading;
     const say = words.squeeze;
-    const own = this.map;
-    const map = mapText(own ? own.name || say.pasted : say.apartment, this.picture.plan);
     const { hasUnknown } = this.picture;
     return html`
       <section
@@ -324,7 +334,7 @@ export class MapSqueezeElement extends FigureElement {
       >
         <div class="views">
           <div class="stage" part="picture">
-            ${canvas(this, this.picture, pictureText(reading, map))}
+            ${canvas(this, this.picture, this.#description)}
             ${this.#handles.render()}
           </div>
           ${this.stage.later(() => html`
@@ -338,7 +348,7 @@ export class MapSqueezeElement extends FigureElement {
         <div class="folds">
           ${fold(say.keyAndSample, () => html`${viewChoice(this)} ${legend(reading, hasUnknown)} ${markedDraw(this)}`)}
           ${fold(say.countsLabel, () => html`${tally(reading)} ${costTable(this.#meter, config.steps)}`)}
-          ${fold(say.own.legend, () => ownMap(this, this.#opener, map), FOLD)} ${takeAlong(this)}
+          ${fold(say.own.legend, () => ownMap(this, this.#opener, this.#mapText), FOLD)} ${takeAlong(this)}
         </div>`)}
       </section>
     `;

@@ -175,7 +175,6 @@ export class Runtime extends Part {
   }
 
   #stop() {
-    this.mending = false;
     this.host.stage.clear();
     if (this.machine) {
       this.attempt(() => {
@@ -184,6 +183,8 @@ export class Runtime extends Part {
       });
       this.machine?.free();
     }
+    // Also where it has trapped here.
+    this.mending = false;
     this.machine = this.motion = undefined;
     this.host.requestUpdate();
   }

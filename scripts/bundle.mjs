@@ -117,6 +117,8 @@ export async function bundle(changed = (_, script) => script) {
       target: 'es2022',
       charset: 'utf8',
       inject: [at('www/without-dom.js')],
+      // A module is strict without being told, a classic script is not.
+      tsconfigRaw: { compilerOptions: { alwaysStrict: options.format === 'iife' } },
       plugins: [
         {
           name: 'wasm',

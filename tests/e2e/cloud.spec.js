@@ -39,6 +39,14 @@ test.describe('growth', () => {
       await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
       const batch = Math.ceil(whole.config.samples / BATCHES);
+      for (const [name, title] of [
+        ['Play', 'Grow the cloud'],
+        ['Step', `Add ${batch} robots`],
+        ['Reset', 'Empty the cloud; the same seed sends the same robots'],
+        ['New seed', 'Send other robots'],
+      ]) {
+        await expect(widget.getByRole('button', { name, exact: true })).toHaveAttribute('title', title);
+      }
       for (const shown of [batch, 2 * batch]) {
         await widget.getByRole('button', { name: 'Step' }).click();
         const { shown: now, poses } = await state(widget);

@@ -219,6 +219,13 @@ test.describe('properties', () => {
     await widget.getByRole('button', { name: 'Reset' }).click();
     await frames(page);
     expect(await property(widget, 'marked')).toBe(null);
+    // The next to come is not there either.
+    const drawn = await widget.evaluate((element) => {
+      const { setState, toSVG } = /** @type {any} */ (element);
+      setState.call(element, { widget: element.localName, version: 1, shown: 10, playing: true, marked: 10 });
+      return toSVG.call(element);
+    });
+    expect(drawn).toContain('<svg');
     expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['marked is 2000; allowed is a whole number from 0 to 1999']);
   });
 

@@ -301,7 +301,7 @@ test.describe('moved and removed', () => {
       await count(page);
       await show(page, `<${name} share></${name}><p>Stays</p>`);
       await ready(page.locator(name));
-      await page.evaluate(async (tag) => {
+      const pixels = await page.evaluate(async (tag) => {
         const element = /** @type {AnyElement} */ (/** @type {unknown} */ (document.querySelector(tag)));
         const { machine, motion } = element;
         Object.assign(window, { freed: 0 });
@@ -315,7 +315,9 @@ test.describe('moved and removed', () => {
         element.remove();
         await new Promise(requestAnimationFrame);
         Object.assign(window, { refs });
+        return [...(element.shadowRoot?.querySelectorAll('canvas') ?? [])].map(({ width, height }) => width * height);
       }, name);
+      expect(new Set(pixels)).toEqual(new Set([0]));
       expect(await page.evaluate(() => Reflect.get(window, 'freed'))).toBe(1);
       await pass(page);
       const before = await counted(page);

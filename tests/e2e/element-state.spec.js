@@ -195,6 +195,22 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
 });
 
 for (const name of NAMES) {
+  test(`a state of ${name} in part shows as many samples as there were, and grows for no reader who wants less motion`, async ({ page }) => {
+    await show(page, `<${name} samples="300"></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const states = await widget.evaluate((element) => {
+      const figure = /** @type {AnyElement} */ (element);
+      return [{ shown: 100 }, { seed: 5 }, { samples: 50 }, { samples: 300 }, { shown: 100, playing: true }].map((part) => {
+        figure.setState({ widget: element.localName, version: 1, ...part });
+        const { shown, playing } = /** @type {any} */ (figure.getState());
+        return [shown, playing];
+      });
+    });
+    // What was all of them stays all.
+    expect(states).toEqual([[100, false], [100, false], [50, false], [300, false], [300, false]]);
+  });
+
   test(`a sample of ${name} that is marked and no longer shown leaves a state that can be entered`, async ({ page }) => {
     await show(page, `<${name}></${name}>`);
     const widget = page.locator(name);

@@ -46,8 +46,10 @@ for (const name of NAMES) {
     await widget.locator('#v').fill('0.7');
     await widget.getByRole('button', { name: 'New seed' }).click();
     await frames(page);
-    const before = await stateOf(widget);
     const picture = await pictureOf(widget.locator('canvas.plane'));
+    // For this nothing is computed anew.
+    await widget.evaluate((element) => (/** @type {AnyElement} */ (element).marked = 3));
+    const before = await stateOf(widget);
     await widget.evaluate((element) => void Object.assign(window, { posesBefore: /** @type {AnyElement} */ (element).poses }));
 
     const ways = /** @type {[string, () => Promise<unknown>][]} */ ([
@@ -98,6 +100,36 @@ for (const name of NAMES) {
     expect(/** @type {any} */ (await stateOf(neighbour)).widget).toBe(other);
     await widget.locator('#v').fill('0.4');
     expect(/** @type {any} */ (await stateOf(widget)).command.v).toBe(0.4);
+  });
+}
+
+for (const name of NAMES) {
+  test(`${name} that traps while it leaves the page comes back as it was, and says so as ever`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    await widget.locator('#v').fill('0.7');
+    const before = await stateOf(widget);
+    const told = await widget.evaluate(async (element) => {
+      const told = /** @type {string[]} */ ([]);
+      for (const name of ['error', 'load']) element.addEventListener(name, ({ type }) => told.push(type));
+      const parent = /** @type {Element} */ (element.parentElement);
+      const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#v'));
+      slider.value = '0.25';
+      slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+      // It is out of the document when that takes effect.
+      /** @type {AnyElement} */ (element).machine.__wbg_ptr = 0x7ffffff0;
+      element.addEventListener('error', (event) => event.preventDefault());
+      element.remove();
+      await new Promise(requestAnimationFrame);
+      const again = new Promise((resolve) => element.addEventListener('load', resolve));
+      parent.append(element);
+      await again;
+      return told;
+    });
+    expect(told).toEqual(['error', 'load']);
+    expect(await stateOf(widget)).toEqual(before);
   });
 }
 

@@ -83,6 +83,21 @@ test('a hard map is looked at in slices, with progress, and the page goes on', a
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
 });
 
+test('a hard map is looked at out of sight too, where there are no frames, and told when it is there', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await page.evaluate(() => scrollTo(0, 0));
+  await expect(widget).not.toBeInViewport();
+  await widget.evaluate((element) => {
+    element.addEventListener('stats', () => Object.assign(window, { told: /** @type {Element} */ (element).map?.name }), { once: true });
+  });
+  await slowly(page, async () => {
+    await giveStar(widget);
+    expect(await page.evaluate(() => 'told' in window)).toBe(false);
+  });
+  await page.waitForFunction(() => 'told' in window);
+  expect(await page.evaluate(() => Reflect.get(window, 'told'))).toBe('star');
+});
+
 for (const [way, act] of /** @type {[string, (widget: Locator) => Promise<void>][]} */ ([
   ['the button', (widget) => widget.getByRole('button', { name: 'Stop' }).click()],
   ['Escape', (widget) => widget.getByRole('slider', { name: 'Robot', exact: true }).press('Escape')],

@@ -207,12 +207,19 @@ test('custom-elements.json says what the elements have', async () => {
       const there = await page.evaluate(([tag, key]) => key in /** @type {Element} */ (document.querySelector(tag)), [tagName, name]);
       assert.ok(there, `${tagName} has ${name}`);
     }
+    for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
     assert.deepEqual(names(events), ['change', 'error', 'input', 'load', 'stats']);
     // The progress is there while there is some.
     assert.deepEqual(names(cssParts), [...new Set([...live.parts, 'progress'])].sort(), `parts of ${tagName}`);
     assert.deepEqual(names(cssProperties), live.properties.sort(), `properties of ${tagName}`);
   }
   await page.close();
+});
+
+test('the types say of every property, and of every field of a state, what it is', () => {
+  const lines = readFileSync(join(project.directory, 'node_modules/motion-widgets/dist/elements.d.ts'), 'utf8').split('\n');
+  const unsaid = lines.filter((line, i) => /^ {2}(readonly )?\w+: /.test(line) && !lines[i - 1].endsWith('*/'));
+  assert.deepEqual(unsaid, ["  widget: 'banana-machine';", "  widget: 'map-squeeze';"]);
 });
 
 test('external.js loads a widget when its tag is met, with the words that the page gave it before', async () => {

@@ -100,17 +100,14 @@ export class Cloud extends Part {
    * @param {Values} present
    * @param {Values} given
    * @returns {Values} what follows for fields that are left out
+   * @throws {TypeError} where it is not said whether it grows
    */
   completed(present, given) {
     const { samples = present.samples, playing = present.playing } = given;
+    truth('state.playing', playing);
     const shown = present.shown === present.samples ? samples : Math.min(present.shown, samples);
     const marked = present.marked !== null && present.marked < (playing ? samples : shown) ? present.marked : null;
     return { shown, marked };
-  }
-
-  /** @param {Values} state */
-  check({ playing }) {
-    truth('state.playing', playing);
   }
 
   /** The sample that is marked; −1 for none. @returns {number} */

@@ -205,7 +205,7 @@ export function orFree(machine, work) {
 }
 
 /**
- * Whether an error is the core's end: a trap, or what its glue throws where a machine is used after one: see makeFactory in
+ * Whether an error is the core's end: a trap, or what its glue throws where a machine is used after one: see writeGlue in
  * scripts/build.mjs. Others are refusals, or come from what the page gave.
  *
  * @param {unknown} error

@@ -25,8 +25,6 @@ export class State extends Part {
   /** What is the element's own, by name. @type {Values} */
   own;
   #owned;
-  /** Whether the machine was introduced by a state that came before it was shown. */
-  #introduced = false;
 
   /**
    * @param {Figure} host
@@ -62,10 +60,8 @@ export class State extends Part {
   /** A machine was made of the last good state: the figure goes on with it, and with what the page asked for meanwhile. */
   resume() {
     const { host } = this;
-    this.#introduced = false;
     host.machineChanged();
     host.settings.reset();
-    if (this.kept) this.#adopt(this.kept);
     host.settings.work(this.#resuming());
     host.settings.settle(LONGEST_WORK);
     host.settings.show();
@@ -77,8 +73,8 @@ export class State extends Part {
     host.settings.reset();
     host.reflection.catchUp();
     host.link.catchUp();
-    // It may have trapped.
-    if (host.machine && !this.#introduced) this.#introduce(this.kept);
+    // It may have trapped, or a state that came before has introduced it.
+    if (host.machine && host.settings.stale) this.#introduce(this.kept);
   }
 
   /**
@@ -97,7 +93,6 @@ export class State extends Part {
     });
     const whole = { ...present, ...host.completed(present, given) };
     const machine = orFree(host.createMachine(host.motion, whole), (made) => {
-      host.cloud?.check(whole);
       const markable = whole.playing ? made.config.samples : whole.shown;
       for (const [name, { check }] of Object.entries(this.#owned)) {
         whole[name] = check(`state.${name}`, whole[name], made, markable);
@@ -115,11 +110,10 @@ export class State extends Part {
   *#entering(machine, whole) {
     yield* advancing(machine);
     const { host } = this;
-    this.#adopt(whole);
+    for (const name of Object.keys(this.own)) this.own[name] = whole[name];
     host.runtime.replace(machine);
     host.settings.arrive();
     host.machineChanged();
-    this.#introduced = true;
     this.#introduce(whole);
   }
 
@@ -143,10 +137,5 @@ export class State extends Part {
     this.own[name] = this.#owned[name].check(name, value, machine, cloud?.markable ?? 0);
     reflection.tell();
     stage.wake();
-  }
-
-  /** @param {Values} state */
-  #adopt(state) {
-    for (const name of Object.keys(this.own)) this.own[name] = state[name];
   }
 }

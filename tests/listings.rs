@@ -1,4 +1,5 @@
 //! A reader's own models, written to the trait as the chapter prints it: two methods and a type, in the chapter's names.
+#![allow(clippy::disallowed_methods, reason = "a reader takes the platform's own mathematics")]
 
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::{

@@ -253,6 +253,32 @@ test('a grid of which a pixel has millions of cells is drawn', async ({ page }) 
   await expect(widget.locator('canvas.plane')).toBeVisible();
 });
 
+test('a large cloud that is there at once, for who wants less motion or in a state, comes in slices too', async ({ page }) => {
+  await openSqueeze(page);
+  await slowly(page, async () => {
+    const frames = await page.evaluate(async () => {
+      const element = /** @type {any} */ (document.createElement('banana-machine'));
+      /** @param {(machine: any) => boolean} isThere */
+      const framesUntil = async (isThere) => {
+        for (let count = 0; ; count++) {
+          await new Promise(requestAnimationFrame);
+          if (element.machine && isThere(element.machine)) return count;
+          // Not those in which its script and module come.
+          if (!element.machine) count = 0;
+        }
+      };
+      element.setAttribute('samples', '2000000');
+      element.style = 'position: fixed; top: 0; left: 0; width: 600px';
+      document.body.prepend(element);
+      const opening = await framesUntil(({ shown }) => shown === 2_000_000);
+      element.setState({ ...element.getState(), seed: 5 });
+      return { opening, state: await framesUntil(({ config }) => config.seed === 5) };
+    });
+    expect(frames.opening).toBeGreaterThan(5);
+    expect(frames.state).toBeGreaterThan(3);
+  });
+});
+
 /**
  * Slices that the hardest plans are made ready in at most: each is 50,000 steps, and they take twenty million
  * (tests/hard_plans.rs).

@@ -87,7 +87,8 @@ export class Cloud extends Part {
     this.playing = state ? state.playing : true;
     if (isCalm() && this.playing) {
       this.playing = false;
-      this.#machine.grow(this.#samples);
+      this.#machine.beginToGrow(this.#samples);
+      this.host.settings.work();
     }
   }
 

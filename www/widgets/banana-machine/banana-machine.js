@@ -81,7 +81,7 @@ export class BananaMachineElement extends FigureElement {
       const other = model === 'velocity' ? 'odometry' : 'velocity';
       machine.configure({ model: other, alphas: alphas[other] });
       machine.configure({ ...this.settings.declared(state), alphas: alphas[model] });
-      machine.grow(shownOf(machine, shown));
+      machine.beginToGrow(shownOf(machine, shown));
     });
   };
 

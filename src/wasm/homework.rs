@@ -101,7 +101,8 @@ impl JsVelocityModel {
         Ok(Self(VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: noise(&fields)? }))
     }
 
-    /// The scoring function of Table 5.1, with a signed radius.
+    /// The scoring function of Table 5.1, with a signed radius: of the arc that turns by half a circle at most. A noise of
+    /// variance 0 counts as 1 where its residual is 0 to rounding (1e-7), and as 0 elsewhere.
     pub fn prob(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
@@ -111,7 +112,7 @@ impl JsVelocityModel {
         Ok(self.0.prob(&pose("next", next)?, &velocity_command(command)?, &pose("start", start)?))
     }
 
-    /// The density of the sampler over dx dy dθ; null where a variance is 0.
+    /// The density of the sampler over dx dy dθ; null where a variance is 0, infinite where the robot has not moved at all.
     #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
     pub fn pose_density(
         &self,
@@ -153,7 +154,8 @@ impl JsOdometryModel {
         Ok(Self { model, reverse_aware: fields.optional("reverseAware", boolean)?.unwrap_or(false) })
     }
 
-    /// The scoring function of Table 5.5, of which the variances are those of the hypothesis.
+    /// The scoring function of Table 5.5, of which the variances are those of the hypothesis. A noise of variance 0 counts as 1
+    /// where its residual is 0 to rounding (1e-7), and as 0 elsewhere.
     pub fn prob(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
@@ -167,7 +169,7 @@ impl JsOdometryModel {
         })
     }
 
-    /// The density of the sampler over dx dy dθ; null where a variance is 0.
+    /// The density of the sampler over dx dy dθ; null where a variance is 0, infinite where the robot has not moved at all.
     #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
     pub fn pose_density(
         &self,
@@ -233,7 +235,8 @@ pub fn decompose(
     group_to_js(&mut OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?))
 }
 
-/// The covariance, in exponential coordinates about the noise-free pose, after a command was driven a number of times.
+/// The covariance, in exponential coordinates about the noise-free pose, after a command was driven a number of times. The
+/// fourth order is an expansion: noise may be too large for it, which is refused.
 #[wasm_bindgen(unchecked_return_type = "number[][]")]
 pub fn propagate(
     #[wasm_bindgen(unchecked_param_type = "Propagation")] options: &JsValue,
@@ -249,7 +252,17 @@ pub fn propagate(
     let noise = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
-    let last = (0..steps).fold(sigma, |sigma, _| noise.propagate(&sigma, &twist, order));
+    let mut last = sigma;
+    for step in 0..steps {
+        last = noise.propagate(&last, &twist, order);
+        // The other two are sums of covariances, but for rounding.
+        if order == Compounding::FourthOrder && covariance_root(&last).is_err() {
+            let message = format!(
+                "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
+            );
+            return Err(RangeError::new(&message).into());
+        }
+    }
     rows(&last)
 }
 

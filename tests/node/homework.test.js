@@ -205,6 +205,10 @@ test('what is refused is named, with its value and what is allowed', () => {
     [() => propagate({ command: COMMAND, alphas: ALPHAS, compounding: 'third' }), 'compounding is "third"; allowed is "chapter" or "first-order" or "fourth-order"'],
     [() => propagate({ command: COMMAND, alphas: ALPHAS, sigma: [[1, 2, 0], [2, 1, 0], [0, 0, 1]] }), 'sigma is no covariance: some direction has a negative variance; allowed are three rows of three numbers, symmetric, of no negative variance'],
     [() => propagate({ command: COMMAND, alphas: ALPHAS, sigma: [[1, 2, 0], [0, 1, 0], [0, 0, 1]] }), 'sigma is no covariance: it differs from its transpose; allowed are three rows of three numbers, symmetric, of no negative variance'],
+    [
+      () => propagate({ command: { v: 1, omega: 3, dt: 0.7 }, alphas: Array(6).fill(1), compounding: 'fourth-order', steps: 7 }),
+      'steps is 7; allowed are at most 2 here: the next leaves no covariance, for the noise is too large',
+    ],
     [() => se2.exp([1, 2, NaN]), 'twist[2] is NaN; allowed is a number from -1000000 to 1000000'],
   ];
   for (const [act, message] of refusals) assert.throws(act, { message });

@@ -228,3 +228,24 @@ for (const name of NAMES) {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 }
+
+for (const [name, large] of /** @type {const} */ ([
+  ['banana-machine', { samples: 1_000_000 }],
+  ['map-squeeze', { samples: 20_000, sampler: 'sub-stepped', steps: 30, conditioned: false }],
+])) {
+  for (const way of ['state', 'properties']) {
+    test(`${name} opens in ${way} that it was given before and that take long to make`, async ({ page }) => {
+      await show(page, '');
+      const [asked, state] = await page.evaluate(async ([tag, settings, how]) => {
+        const element = /** @type {any} */ (document.createElement(tag));
+        if (how === 'state') element.setState({ widget: tag, version: 1, ...settings, seed: 12 });
+        else Object.assign(element, settings, { seed: 12 });
+        document.body.append(element);
+        while (!element.machine) await new Promise(requestAnimationFrame);
+        for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+        return [settings, element.getState()];
+      }, /** @type {const} */ ([name, large, way]));
+      expect(state).toMatchObject({ ...asked, seed: 12, shown: large.samples });
+    });
+  }
+}

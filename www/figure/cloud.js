@@ -87,8 +87,13 @@ export class Cloud extends Part {
     this.playing = state ? state.playing : true;
     if (isCalm() && this.playing) {
       this.playing = false;
-      this.#machine.beginToGrow(this.#samples);
-      this.host.settings.work();
+      const { settings } = this.host;
+      // A machine that is to take its place goes on being made.
+      if (settings.next) this.#machine.grow(this.#samples);
+      else {
+        this.#machine.beginToGrow(this.#samples);
+        settings.goOn();
+      }
     }
   }
 

@@ -87,13 +87,7 @@ export class Cloud extends Part {
     this.playing = state ? state.playing : true;
     if (isCalm() && this.playing) {
       this.playing = false;
-      const { settings } = this.host;
-      // A machine that is to take its place goes on being made.
-      if (settings.next) this.#machine.grow(this.#samples);
-      else {
-        this.#machine.beginToGrow(this.#samples);
-        settings.goOn();
-      }
+      this.#machine.grow(this.#samples);
     }
   }
 

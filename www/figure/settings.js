@@ -162,11 +162,6 @@ export class Settings extends Part {
     this.done = 0;
   }
 
-  /** As `work` with the present machine, which may be at work already. */
-  goOn() {
-    if (!this.#job) this.work();
-  }
-
   /** What is being done is given up. */
   #giveWay() {
     if (this.next) {

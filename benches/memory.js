@@ -4,6 +4,7 @@
  * @module
  */
 
+import { watchInstance } from './instance.js';
 import { ALPHAS, VIEW, figures, picture } from './scene.js';
 
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
@@ -25,31 +26,15 @@ const [SMALL, LARGE] = [1000, 1_000_000];
 const DRAGGED = 200;
 
 /**
- * The module's memory. `core.js` keeps it to itself, and so it is taken from the instance on its way.
- *
  * @template T
  * @param {() => Promise<T>} start what instantiates the module
  * @returns {Promise<{ result: T, memory: WebAssembly.Memory }>}
  */
 export async function watchMemory(start) {
-  const { instantiate } = WebAssembly;
-  /** @type {WebAssembly.Memory | undefined} */
-  let memory;
-  WebAssembly.instantiate = /** @type {typeof instantiate} */ (
-    /** @type {unknown} */ (async (/** @type {any} */ source, /** @type {any} */ imports) => {
-      const started = await instantiate(source, imports);
-      const { exports } = /** @type {any} */ (started).instance ?? started;
-      memory = exports.memory;
-      return started;
-    })
-  );
-  try {
-    const result = await start();
-    if (!memory) throw new Error('The module was instantiated before, or by another function.');
-    return { result, memory };
-  } finally {
-    WebAssembly.instantiate = instantiate;
-  }
+  const { result, exports } = await watchInstance(start);
+  const memory = Object.values(exports).find((each) => each instanceof WebAssembly.Memory);
+  if (!memory) throw new Error('The module exports no memory.');
+  return { result, memory };
 }
 
 /**

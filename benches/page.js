@@ -8,13 +8,13 @@ import { load } from '../dist/core.js';
 import { measure } from './suite.js';
 
 Object.assign(globalThis, {
-  /** @param {boolean} quick */
-  measurePage: (quick) =>
+  /** @param {{ quick: boolean, counted: import('./suite.js').Counted }} options */
+  measurePage: (options) =>
     measure({
       load: /** @type {() => Promise<import('../www/types.d.ts').Motion>} */ (load),
       // Of the script that drives the page, which may collect garbage.
       heap: () => /** @type {any} */ (globalThis).heapInUse(),
-      quick,
+      ...options,
       progress: (text) => console.log(text),
     }),
 });

@@ -6,6 +6,7 @@
 
 import { THROTTLE } from './drag.js';
 import { SMALLEST_OBJECT } from './memory.js';
+import { shareOfLimit } from './roofline.js';
 
 /**
  * @typedef {import('./suite.js').Measured} Measured
@@ -64,6 +65,8 @@ const TARGETS = [
     what: 'The same in one apartment of ever shorter walls',
     bound: `≤ ${LOGARITHMIC} × (logarithmic)`, reached: atMost(LOGARITHMIC), unit: '×', of: (m) => wallGrowth(m.walls.divided),
   },
+  { what: '50 000 rollouts of 20 steps, with their moments', bound: '≤ 100 ms', reached: atMost(100), unit: 'ms', of: (m) => m.reckoning.few },
+  { what: '50 000 rollouts of 200 steps', bound: '≤ 1 s', reached: atMost(1000), unit: 'ms', of: (m) => m.reckoning.many },
   { what: 'Memory of a pose', bound: '≤ 40 bytes', reached: atMost(40), unit: 'bytes', of: (m) => m.memory.bytesPerPose },
   { what: 'Growth of the module’s memory over all events', bound: '0 bytes', reached: atMost(0), unit: 'bytes', of: (m) => m.memory.coreGrowth },
   {
@@ -93,6 +96,8 @@ export function report(results) {
     curve('Node', node),
     curve('Chromium', chromium),
     walls(node, chromium),
+    roofline('Node', node),
+    roofline('Chromium', chromium),
     stages(start),
     dragged(drags),
   ].join('\n\n');
@@ -140,6 +145,23 @@ function walls(node, chromium) {
   ]);
   const heads = ['walls', 'growing, Node', 'growing, Chromium', 'divided, Node', 'divided, Chromium'];
   return `A conditioned sample, both verdicts, ns:\n\n${table(heads, rows)}`;
+}
+
+/**
+ * @param {string} where
+ * @param {Measured} measured
+ */
+function roofline(where, { roofline: { limits, roofs } }) {
+  const heads = ['a sample', 'operations', 'divisions, roots', 'ns at the arithmetic’s limit', 'ns at that of memory', 'measured, ns', 'share of the limit'];
+  const rows = roofs.map((roof) => [
+    roof.what, digits(roof.operations.arithmetic), digits(roof.operations.divisions), digits(roof.arithmetic), digits(roof.memory), cell(roof.measured),
+    `${digits(100 * shareOfLimit(roof))} %`,
+  ]);
+  const { operation, division, byte } = limits;
+  return (
+    `The machine’s own limits, ${where}: ${digits(1 / operation)} operations of two lanes a ns, a division in ${digits(division)} ns, ` +
+    `${digits(1 / byte)} bytes a ns:\n\n${table(heads, rows)}`
+  );
 }
 
 /** @param {import('./start.js').Start} start */

@@ -13,7 +13,7 @@ import { race, spread } from './timing.js';
  */
 
 const START = { x: 2.05, y: 2.6, theta: Math.PI / 2 };
-const SETTINGS = { start: START, conditioned: true, sampler: /** @type {const} */ ('endpoint'), seed: 1 };
+export const SETTINGS = { start: START, conditioned: true, sampler: /** @type {const} */ ('endpoint'), seed: 1 };
 
 /**
  * The robot is dragged: every event it starts a little elsewhere.
@@ -72,7 +72,7 @@ export async function timeWalls(motion, { samples, seconds, counts }) {
  * @param {import('../www/types.d.ts').MapSqueeze} machine
  * @param {number} event
  */
-function drag(machine, event) {
+export function drag(machine, event) {
   machine.configure({ start: start(event) });
   return machine.stats;
 }

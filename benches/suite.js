@@ -6,7 +6,9 @@
 
 import { checkClouds, checkDraws } from './checks.js';
 import { bytesPerPose, growth, watchMemory } from './memory.js';
+import { timeReckoning } from './reckoning.js';
 import { timeRefresh, timeSeed } from './refresh.js';
+import { timeRoofline } from './roofline.js';
 import { timeSqueeze, timeWalls } from './squeeze.js';
 
 /**
@@ -15,7 +17,15 @@ import { timeSqueeze, timeWalls } from './squeeze.js';
  * @property {Awaited<ReturnType<typeof timeSeed>>} seed
  * @property {Awaited<ReturnType<typeof timeSqueeze>>} squeeze
  * @property {Awaited<ReturnType<typeof timeWalls>>} walls
+ * @property {Awaited<ReturnType<typeof timeReckoning>>} reckoning
  * @property {import('./memory.js').Memory} memory
+ * @property {Awaited<ReturnType<typeof timeRoofline>>} roofline
+ */
+
+/**
+ * @typedef {object} Counted in Node, for both
+ * @property {number[]} kernels the bytes of roofline.wat's module
+ * @property {import('./operations.js').Operations[]} operations of each kind of sample
  */
 
 /** The counts of the curve, as far as the core goes. */
@@ -28,11 +38,12 @@ const WALLS = [10, 100, 1000, 10_000];
  * @param {object} options
  * @param {() => Promise<import('../www/types.d.ts').Motion>} options.load of a core that has not been loaded before
  * @param {() => number | Promise<number>} options.heap collects garbage and returns the bytes left
+ * @param {Counted} options.counted
  * @param {boolean} options.quick
  * @param {(text: string) => void} options.progress
  * @returns {Promise<Measured>}
  */
-export async function measure({ load, heap, quick, progress }) {
+export async function measure({ load, heap, counted, quick, progress }) {
   const { result: motion, memory } = await watchMemory(load);
   // First: what a large cloud leaves free would hide what events leave behind.
   progress('memory');
@@ -58,5 +69,9 @@ export async function measure({ load, heap, quick, progress }) {
   progress('Map Squeeze');
   const squeeze = await timeSqueeze(motion, { samples: 1e5, seconds });
   const walls = await timeWalls(motion, { samples: quick ? 1000 : 5000, seconds, counts: quick ? [10, 10_000] : WALLS });
-  return { refresh, seed, squeeze, walls, memory: { bytesPerPose: perPose, ...grown } };
+  progress('Dead Reckoning');
+  const reckoning = await timeReckoning(motion, { rollouts: 50_000, seconds });
+  progress('roofline');
+  const roofline = await timeRoofline(motion, { ...counted, seconds });
+  return { refresh, seed, squeeze, walls, reckoning, roofline, memory: { bytesPerPose: perPose, ...grown } };
 }

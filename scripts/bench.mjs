@@ -22,10 +22,11 @@ async function bench(quick) {
   const began = Date.now();
   const machine = await describe();
   progress('Node');
-  const node = await inNode(quick);
+  const counted = await count();
+  const node = await inNode(quick, counted);
   const browser = await ensureBrowser();
   progress('Chromium');
-  const { chromium, start, drags } = await inChromium(browser.chrome, quick);
+  const { chromium, start, drags } = await inChromium(browser.chrome, quick, counted);
   const seconds = (Date.now() - began) / 1000;
   const results = { ...machine, chromiumVersion: browser.version, quick, seconds, node, chromium, start, drags };
   mkdirSync(join(ROOT, 'build'), { recursive: true });
@@ -47,8 +48,19 @@ async function describe() {
   };
 }
 
-/** @param {boolean} quick */
-async function inNode(quick) {
+/** @returns {Promise<import('../benches/suite.js').Counted>} */
+async function count() {
+  const { countingCore, kernels, operationsOf } = await import('../benches/operations.js');
+  const { KINDS } = await import('../benches/roofline.js');
+  const core = await countingCore();
+  return { kernels: [...(await kernels())], operations: KINDS.map((kind) => operationsOf(core, kind, 20_000)) };
+}
+
+/**
+ * @param {boolean} quick
+ * @param {import('../benches/suite.js').Counted} counted
+ */
+async function inNode(quick, counted) {
   setFlagsFromString('--expose-gc');
   const collect = runInNewContext('gc');
   // Built by now, and not before.
@@ -59,15 +71,16 @@ async function inNode(quick) {
     return process.memoryUsage().heapUsed;
   };
   const loaded = /** @type {() => Promise<import('../www/types.d.ts').Motion>} */ (load);
-  return measure({ load: loaded, heap, quick, progress: (text) => console.log(text) });
+  return measure({ load: loaded, heap, counted, quick, progress: (text) => console.log(text) });
 }
 
 /**
  * @param {string} executablePath
  * @param {boolean} quick
+ * @param {import('../benches/suite.js').Counted} counted
  * @returns {Promise<{ chromium: import('../benches/suite.js').Measured, start: import('../benches/start.js').Start, drags: import('../benches/drag.js').Drag[] }>}
  */
-async function inChromium(executablePath, quick) {
+async function inChromium(executablePath, quick, counted) {
   const { chromium: launcher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
   const { timeStart } = await import('../benches/start.js');
@@ -88,7 +101,7 @@ async function inChromium(executablePath, quick) {
     await page.goto(`${address}benches/page.html`);
     await page.waitForFunction(() => 'measurePage' in globalThis);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
-    const chromium = await page.evaluate((fast) => /** @type {any} */ (globalThis).measurePage(fast), quick);
+    const chromium = await page.evaluate((options) => /** @type {any} */ (globalThis).measurePage(options), { quick, counted });
     return { chromium, start, drags };
   } finally {
     await browser.close();

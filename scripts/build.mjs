@@ -1,13 +1,13 @@
 // `npm run build`: src/ to build/ (WebAssembly and its glue), then www/ to dist/. What is up to date is left alone.
 
 import { createHash } from 'node:crypto';
-import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { binder } from './bindgen.mjs';
 import { WIDGETS, bundle, filesOf } from './bundle.mjs';
-import { pascal } from './declarations.mjs';
 import { cratesOf } from './licences.mjs';
+import { opened } from './modules.mjs';
 import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
 import { ensurePackages, wasmRust } from './toolchain.mjs';
 
@@ -23,7 +23,7 @@ export default cores;
 
 /** Brings dist/ up to date with the sources. */
 export async function build() {
-  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/licences.mjs', 'scripts/bind']);
+  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/licences.mjs', 'scripts/modules.mjs', 'scripts/bind']);
   const products = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', ...WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`])];
   await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
   const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
@@ -56,34 +56,52 @@ async function whenStale(stamp, sources, products, work) {
   writeFileSync(at(stamp), sources);
 }
 
+/** Builds the whole core, and for each widget one with its machine alone, each as a module and its glue. */
 async function buildCore() {
   // All three at a time: one waits for the network while another computes.
-  const [wasm, bind] = await together([compileCore(), binder(), ensurePackages()]);
-  progress('Binding and optimizing it');
-  await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at('build')]);
-  await silencePanics('build/motion_bg.wasm');
-  renameSync(at('build/motion.d.ts'), at('build/core.d.ts'));
+  const [rust, bind] = await together([wasmRust(), binder(), ensurePackages()]);
+  progress(`Compiling the core to WebAssembly (${rust.description}), whole and for each widget`);
+  const finished = [];
+  for (const name of ['motion', ...WIDGETS]) {
+    // Cargo puts all of them in one place: each is bound before the next is compiled, and finished meanwhile.
+    const wasm = await compileCore(rust, name);
+    await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at(`build/bound/${name}`)]);
+    finished.push(finish(name));
+  }
+  await together(finished);
+  copyFileSync(at('build/bound/motion/motion.d.ts'), at('build/core.d.ts'));
   writeFileSync(at('build/motion.wasm.d.ts'), CARRIED);
-  await optimize('build/motion_bg.wasm');
-  await divide();
 }
 
-/** @returns {Promise<string>} the path of the module as rustc leaves it */
-async function compileCore() {
-  const rust = await wasmRust();
-  progress(`Compiling the core to WebAssembly (${rust.description})`);
+/**
+ * @param {Awaited<ReturnType<typeof wasmRust>>} rust
+ * @param {string} name the tag of a widget, or "motion" for the whole core
+ * @returns {Promise<string>} the path of the module as rustc leaves it
+ */
+async function compileCore(rust, name) {
   const cargo = join(rust.bin, 'cargo');
   // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
   // The places of panics name files: not those of this machine.
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
   const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
-  const options = ['--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
-  await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target], { env: rust.env });
+  const options = ['--quiet', '--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
+  const only = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
+  await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target, ...only], { env: rust.env });
   const ask = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
   const metadata = JSON.parse(await ask('metadata', '--format-version', '1'));
-  const tree = await ask('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
-  writeFileSync(at('build/crates.json'), JSON.stringify(cratesOf(tree, metadata)));
+  if (name === 'motion') {
+    const tree = await ask('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
+    writeFileSync(at('build/crates.json'), JSON.stringify(cratesOf(tree, metadata)));
+  }
   return join(metadata.target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
+}
+
+/** @param {string} name of a core that is bound */
+async function finish(name) {
+  copyFileSync(at(`build/bound/${name}/motion_bg.wasm`), at(`build/${name}.wasm`));
+  await silencePanics(`build/${name}.wasm`);
+  await optimize(`build/${name}.wasm`);
+  await writeGlue(name);
 }
 
 /**
@@ -92,7 +110,9 @@ async function compileCore() {
  * @param {string} path of the module, with the names of its functions
  */
 async function silencePanics(path) {
-  const { binaryen, module } = await opened(path);
+  // Not in a bare clone.
+  const { default: binaryen } = await import('binaryen');
+  const module = await opened(path);
   // Its types leave this out.
   const { Function: functions } = /** @type {any} */ (binaryen);
   const panics = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
@@ -105,33 +125,6 @@ async function silencePanics(path) {
   }
   writeFileSync(at(path), module.emitBinary());
   module.dispose();
-}
-
-/** What elements call besides the methods of their own machine. */
-const SHARED = ['randomSeed', 'commandReaching'];
-
-/** Writes the whole core, and for each widget one with its machine alone, as a module and its glue. */
-async function divide() {
-  const { binaryen, module: whole } = await opened('build/motion_bg.wasm');
-  const exported = Array.from({ length: whole.getNumExports() }, (_, i) => binaryen.getExportInfo(whole.getExportByIndex(i)));
-  whole.dispose();
-  const isOurs = (/** @type {string} */ name) => !/^__(?!wbg_\w+_free$)/.test(name);
-  const functions = exported.filter(({ kind, name }) => kind === binaryen.ExternalFunction && isOurs(name)).map(({ name }) => name);
-  copyFileSync(at('build/motion_bg.wasm'), at('build/motion.wasm'));
-  await writeGlue('motion');
-  for (const tag of WIDGETS) {
-    const machine = pascal(tag).toLowerCase();
-    const { module } = await opened('build/motion_bg.wasm');
-    for (const name of functions) {
-      const kept = name.startsWith(`${machine}_`) || name === `__wbg_${machine}_free` || SHARED.includes(name);
-      if (!kept) module.removeExport(name);
-    }
-    module.runPasses(['remove-unused-module-elements']);
-    writeFileSync(at(`build/${tag}.wasm`), module.emitBinary());
-    module.dispose();
-    await optimize(`build/${tag}.wasm`);
-    await writeGlue(tag, [pascal(tag), ...SHARED]);
-  }
 }
 
 /**
@@ -148,25 +141,14 @@ async function optimize(path, passes = ['-O3', '--converge']) {
   return stdout;
 }
 
-/** @param {string} path of a module */
-async function opened(path) {
-  // Not in a bare clone.
-  const { default: binaryen } = await import('binaryen');
-  const module = binaryen.readBinary(readFileSync(at(path)));
-  const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
-  module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
-  return { binaryen, module };
-}
-
 /**
  * Makes of wasm-bindgen's glue a module that exports a function which instantiates the core once more: as it is, the glue
  * would be there once, and one instance with it. What nobody asks for is left out, and what the two call each other by is
  * shortened: some 2 kB on the wire.
  *
- * @param {string} name of the files in build/
- * @param {string[]} [wanted] of what the glue exports: all, if it is not said
+ * @param {string} name of the core
  */
-async function writeGlue(name, wanted) {
+async function writeGlue(name) {
   const changes = /** @type {[RegExp, string][]} */ ([
     // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
@@ -176,16 +158,18 @@ async function writeGlue(name, wanted) {
     // A namespace is filled bit by bit, as if that had effects.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
-  const script = readFileSync(at('build/motion_bg.js'), 'utf8');
-  for (const [pattern] of changes) if (!script.match(pattern)) throw new Error(`wasm-bindgen's glue has no ${pattern}, as scripts/build.mjs takes it to have.`);
+  const script = readFileSync(at(`build/bound/${name}/motion_bg.js`), 'utf8');
+  // The core of a widget has no namespaces.
+  const missing = name === 'motion' && changes.find(([pattern]) => !script.match(pattern));
+  if (missing) throw new Error(`wasm-bindgen's glue has no ${missing[0]}, as scripts/build.mjs takes it to have.`);
   const contents = changes.reduce((text, [pattern, instead]) => text.replace(pattern, instead), script);
-  const names = wanted ?? [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, each]) => each);
+  const names = [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, each]) => each);
   /** @type {{ imports: [string, string, string][], exports: [string, string][] }} */
   const shortened = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
   const { build: bundled } = await import('esbuild');
   const glue = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents })) };
   const { outputFiles } = await bundled({
-    stdin: { contents: `export { ${[...names, ...shortened.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: at('build') },
+    stdin: { contents: `export { ${[...names, ...shortened.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: at(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
     write: false,

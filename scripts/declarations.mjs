@@ -27,6 +27,18 @@ import { ROOT } from './process.mjs';
 /** Of the settings that are no words and no groups. @type {Record<string, string>} */
 const TYPES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
+/** What every element with a cloud has besides. @type {import('../www/figure/attributes.js').Documentation} */
+const OF_CLOUDS = {
+  properties: {
+    marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
+    poses: { type: 'Float64Array | null', readonly: true, sentence: 'x, y (m), θ (rad) of each sample shown; a copy.' },
+  },
+  state: {
+    shown: { type: 'number', sentence: 'Samples asked for so far, 0 to all of them.' },
+    playing: { type: 'boolean', sentence: 'Whether the cloud is growing.' },
+  },
+};
+
 /** @param {string} name of a tag or key */
 export const pascal = (name) => name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase());
 
@@ -100,10 +112,9 @@ export function widgets() {
 async function widget(tag) {
   // They import libraries, which a bare clone does not have yet.
   const { COMMON, WORDS } = await import('../www/figure/attributes.js');
-  const { documentation: ofClouds } = await import('../www/figure/cloud.js');
   const { attributes, declared, documentation, own } = await import(`../www/widgets/${tag}/settings.js`);
   /** @type {import('../www/figure/attributes.js').Documentation[]} */
-  const documents = [...('marked' in own ? [ofClouds] : []), ...(documentation ? [documentation] : [])];
+  const documents = [...('marked' in own ? [OF_CLOUDS] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await comments();
   const element = classes.get(`${pascal(tag)}Element`);
   /** @type {Record<string, string>} */
@@ -160,11 +171,13 @@ function plain(declaration) {
  * @param {string} tag
  */
 function openingPreset(tag) {
-  const opening = Object.fromEntries(settings[tag].map(({ key, default: value }) => [key, value]));
+  const opening = Object.fromEntries(settings[tag].map(({ key, in: group, field, default: value }) => [field ? `${group}.${field}` : key, value]));
   /** @returns {boolean} */
-  const same = (/** @type {object} */ fields) =>
-    Object.entries(fields).every(([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? same(value) : value === opening[key]));
-  return presetsOf(tag).find(same)?.name;
+  const same = (/** @type {object} */ fields, group = '') =>
+    Object.entries(fields).every(
+      ([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? same(value, key) : value === (opening[`${group}.${key}`] ?? opening[key])),
+    );
+  return presetsOf(tag).find((preset) => same(preset))?.name;
 }
 
 /**

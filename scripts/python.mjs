@@ -86,8 +86,9 @@ function settingOf({ key, type, words = [], fields = [], min, max }, tag) {
     case 'boolean': return 'Truth()';
     case 'word': return `Word(${words.map(text).join(', ')})`;
     case 'group': {
-      const parts = settings[tag].filter((part) => part.in === key && fields.includes(part.key));
-      return `Group({${parts.map((part) => `${text(part.key)}: ${settingOf(part, tag)}`).join(', ')}})`;
+      const nameOf = (/** @type {Declaration} */ part) => part.field ?? part.key;
+      const parts = settings[tag].filter((part) => part.in === key && fields.includes(nameOf(part)));
+      return `Group({${parts.map((part) => `${text(nameOf(part))}: ${settingOf(part, tag)}`).join(', ')}})`;
     }
   }
 }

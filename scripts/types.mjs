@@ -29,7 +29,7 @@ function groupTypes() {
   for (const [tag, declared] of Object.entries(settings)) {
     for (const { key, type } of declared) {
       if (type !== 'group') continue;
-      const parts = declared.filter((part) => part.in === key).map(named);
+      const parts = declared.filter((part) => part.in === key).map((part) => named({ ...part, key: part.field ?? part.key }));
       const text = asInterface(pascal(key), parts);
       if ((groups.get(key) ?? text) !== text) throw new Error(`${tag}: ${key} is not the group that it is in another widget; call it otherwise.`);
       groups.set(key, text);
@@ -64,7 +64,7 @@ function presetType(name, value, presets) {
 
 /** @param {import('../www/settings.js').Declaration} declaration */
 function named(declaration) {
-  return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
+  return { name: declaration.field ?? declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
 

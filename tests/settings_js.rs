@@ -2,10 +2,10 @@
 
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP;
-use motion::sim::settings::{Declaration, Declared, Group, Setting};
+use motion::sim::settings::{Declaration, Declared, Field, Group, Setting};
 use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL, PATH_FREE};
 use motion::sim::views::MAX_CELLS;
-use motion::sim::{banana, squeeze};
+use motion::sim::{arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use std::fmt::Write;
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -38,6 +38,12 @@ export const settings = {{
 {}  ],
   'map-squeeze': [
 {}  ],
+  'arc-anatomy': [
+{}  ],
+  'odometry-decomposer': [
+{}  ],
+  'dead-reckoning': [
+{}  ],
 }};
 
 /** What the widgets may open with, by their tags. */
@@ -45,6 +51,12 @@ export const presets = {{
   'banana-machine': [
 {}  ],
   'map-squeeze': [
+{}  ],
+  'arc-anatomy': [
+{}  ],
+  'odometry-decomposer': [
+{}  ],
+  'dead-reckoning': [
 {}  ],
 }};
 
@@ -62,11 +74,27 @@ export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: 
 ",
         declarations(banana::Settings::default(), &banana::ALPHA_SENTENCES),
         declarations(squeeze::Settings::default(), &[]),
+        declarations(arc_anatomy::Settings::default(), &arc_anatomy::ALPHA_SENTENCES),
+        declarations(
+            odometry_decomposer::Settings::default(),
+            &odometry_decomposer::ALPHA_SENTENCES
+        ),
+        declarations(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
         lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
             let alphas = alphas.map_or("null".to_owned(), |alphas| format!("{alphas:?}"));
             format!("name: '{name}', {}, alphas: {alphas}", group(command))
         })),
         lines(squeeze::PRESETS.map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group(start)))),
+        lines(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
+            let arc_anatomy::FinalPose { x, y, theta } = next;
+            format!("name: '{name}', {}, nextX: {x}, nextY: {y}, nextTheta: {theta}", group(command))
+        })),
+        lines(odometry_decomposer::PRESETS.map(|odometry_decomposer::Preset { name, from, to }| {
+            format!("name: '{name}', from: {{ {} }}, to: {{ {} }}", group(from), group(to))
+        })),
+        lines(dead_reckoning::PRESETS.map(|dead_reckoning::Preset { name, command, steps, alphas }| {
+            format!("name: '{name}', command: {{ {} }}, steps: {steps}, alphas: {alphas:?}", group(command))
+        })),
     )
 }
 
@@ -80,6 +108,7 @@ const HEAD: &str = "\
  * @property {string} key its name, as attribute, property and in states
  * @property {string} [in] the group or list that it is a part of
  * @property {string} [of] the setting that it is another way to say
+ * @property {string} [field] its name in that group, where another group has one of the same
  * @property {number} [index] its place in that list, from 0
  * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
  * @property {string[]} [words] those that are allowed
@@ -104,14 +133,35 @@ fn lines(objects: impl IntoIterator<Item = String>) -> String {
 /// A line a setting, and a number of a group or list: `numbered` are the sentences of those that are attributes.
 fn declarations(mut opening: impl Declared, numbered: &[&str]) -> String {
     let mut objects = Vec::new();
+    let shared = shared_fields(&mut opening);
     let _ = opening.each(&mut |declaration, setting| {
-        describe(declaration, setting, numbered, &mut objects);
+        describe(declaration, setting, numbered, &shared, &mut objects);
         ControlFlow::Continue(())
     });
     lines(objects)
 }
 
-fn describe(declaration: &Declaration, setting: Setting, numbered: &[&str], objects: &mut Vec<String>) {
+/// The fields that more than one group has, as two poses do: as attributes they have the names of their groups before theirs.
+fn shared_fields(opening: &mut impl Declared) -> Vec<&'static str> {
+    let (mut seen, mut shared) = (Vec::new(), Vec::new());
+    let _ = opening.each(&mut |_, setting| {
+        if let Setting::Group(group) = setting {
+            for Field { declaration, .. } in group.fields() {
+                if seen.contains(&declaration.key) { &mut shared } else { &mut seen }.push(declaration.key);
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    shared
+}
+
+fn describe(
+    declaration: &Declaration,
+    setting: Setting,
+    numbered: &[&str],
+    shared: &[&str],
+    objects: &mut Vec<String>,
+) {
     let Declaration { key, of, sentence, unit } = *declaration;
     let of = of.map(|whole| format!("of: '{whole}', ")).unwrap_or_default();
     let unit = if unit.is_empty() { String::new() } else { format!("unit: '{unit}', ") };
@@ -154,8 +204,14 @@ fn describe(declaration: &Declaration, setting: Setting, numbered: &[&str], obje
             for (i, field) in group.fields().iter().enumerate() {
                 let value = *group.number(i);
                 let Declaration { key: part, sentence, unit, .. } = field.declaration;
+                let name = if shared.contains(&part) {
+                    let (first, rest) = part.split_at(1);
+                    format!("key: '{key}{}{rest}', in: '{key}', field: '{part}'", first.to_uppercase())
+                } else {
+                    format!("key: '{part}', in: '{key}'")
+                };
                 objects.push(format!(
-                    "key: '{part}', in: '{key}', type: 'number', unit: '{unit}', {}, default: {value}, \
+                    "{name}, type: 'number', unit: '{unit}', {}, default: {value}, \
                      sentence: '{sentence}'",
                     range(&field.allowed),
                 ));

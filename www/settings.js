@@ -7,6 +7,7 @@
  * @property {string} key its name, as attribute, property and in states
  * @property {string} [in] the group or list that it is a part of
  * @property {string} [of] the setting that it is another way to say
+ * @property {string} [field] its name in that group, where another group has one of the same
  * @property {number} [index] its place in that list, from 0
  * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
  * @property {string[]} [words] those that are allowed
@@ -59,6 +60,73 @@ export const settings = {
     { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 600, sentence: 'Motions tried.' },
     { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 7, sentence: 'The same seed draws the same motions.' },
   ],
+  'arc-anatomy': [
+    { key: 'start', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'The pose that the robot starts from.' },
+    { key: 'startX', in: 'start', field: 'x', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 0, sentence: 'Where the robot starts.' },
+    { key: 'startY', in: 'start', field: 'y', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 0, sentence: 'Where the robot starts.' },
+    { key: 'startTheta', in: 'start', field: 'theta', type: 'number', unit: 'rad', min: -1000000, max: 1000000, default: 0, sentence: 'Its heading at the start.' },
+    { key: 'next', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'The pose that the robot is found in after the command.' },
+    { key: 'nextX', in: 'next', field: 'x', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 1.1, sentence: 'Where the robot is found.' },
+    { key: 'nextY', in: 'next', field: 'y', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 0.5, sentence: 'Where the robot is found.' },
+    { key: 'nextTheta', in: 'next', field: 'theta', type: 'number', unit: 'rad', min: -1000000, max: 1000000, default: 1.1, sentence: 'The heading that it is found with.' },
+    { key: 'command', type: 'group', fields: ['v', 'omega', 'dt'], sentence: 'What the robot was told to do in between.' },
+    { key: 'v', in: 'command', type: 'number', unit: 'm/s', min: -1000000, max: 1000000, default: 1, sentence: 'Commanded speed; negative in reverse.' },
+    { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0.5, sentence: 'Commanded turn rate; positive to the left.' },
+    { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 1, sentence: 'Duration of the command.' },
+    { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], sentence: 'Noise parameters, the six of the velocity model.' },
+    { key: 'alpha1', in: 'alphas', index: 0, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha2', in: 'alphas', index: 1, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha3', in: 'alphas', index: 2, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.09, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha5', in: 'alphas', index: 4, type: 'number', min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha6', in: 'alphas', index: 5, type: 'number', min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'noise', type: 'word', words: ['normal', 'triangular'], default: 'normal', sentence: 'Distribution of the noise; the variances are the same.' },
+    { key: 'printed', type: 'boolean', default: false, sentence: 'Whether the radius is never negative, as Table 5.1 prints it.' },
+    { key: 'map', type: 'word', words: ['none', 'prob', 'density'], default: 'none', sentence: 'What is mapped over all positions, for the heading of the final pose.' },
+  ],
+  'odometry-decomposer': [
+    { key: 'from', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'The odometry pose before the motion.' },
+    { key: 'fromX', in: 'from', field: 'x', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 0, sentence: 'Where odometry has the robot.' },
+    { key: 'fromY', in: 'from', field: 'y', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 0, sentence: 'Where odometry has the robot.' },
+    { key: 'fromTheta', in: 'from', field: 'theta', type: 'number', unit: 'rad', min: -1000000, max: 1000000, default: 0, sentence: 'The heading that odometry has the robot at.' },
+    { key: 'to', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'The odometry pose after it.' },
+    { key: 'toX', in: 'to', field: 'x', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 1.2, sentence: 'Where odometry has the robot.' },
+    { key: 'toY', in: 'to', field: 'y', type: 'number', unit: 'm', min: -1000000, max: 1000000, default: 1, sentence: 'Where odometry has the robot.' },
+    { key: 'toTheta', in: 'to', field: 'theta', type: 'number', unit: 'rad', min: -1000000, max: 1000000, default: 1.2, sentence: 'The heading that odometry has the robot at.' },
+    { key: 'rule', type: 'word', words: ['table', 'nav2', 'beluga', 'omni'], default: 'table', sentence: 'Whose bookkeeping of the noise it is.' },
+    { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.03, 0.01, 0.01, 0.02, 0.01], sentence: 'Noise parameters, the fifth of the omnidirectional rule alone.' },
+    { key: 'alpha1', in: 'alphas', index: 0, type: 'number', min: 0, max: 1000000, default: 0.03, sentence: 'Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.' },
+    { key: 'alpha2', in: 'alphas', index: 1, type: 'number', min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.' },
+    { key: 'alpha3', in: 'alphas', index: 2, type: 'number', min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.' },
+    { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.' },
+    { key: 'alpha5', in: 'alphas', index: 4, type: 'number', min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.' },
+    { key: 'noise', type: 'word', words: ['normal', 'triangular'], default: 'normal', sentence: 'Distribution of the noise; the variances are the same.' },
+    { key: 'correlation', type: 'number', min: -1, max: 1, default: 0, sentence: 'Correlation of the noises of the two rotations, which the rules take to be independent.' },
+    { key: 'drift', type: 'number', unit: 's', min: 0, max: 1000000, default: 40, sentence: 'Time for which the frame of the odometry has drifted away from the world.' },
+    { key: 'phase', type: 'number', min: 0, max: 3, default: 3, sentence: 'How far the robot is on its way: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.' },
+    { key: 'samples', type: 'whole', min: 1, max: 5000, default: 500, sentence: 'Outcomes in the whole cloud.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 33, sentence: 'The same seed draws the same outcomes.' },
+  ],
+  'dead-reckoning': [
+    { key: 'command', type: 'group', fields: ['v', 'omega', 'dt'], sentence: 'Driven in each step.' },
+    { key: 'v', in: 'command', type: 'number', unit: 'm/s', min: -1000000, max: 1000000, default: 1, sentence: 'Commanded speed; negative in reverse.' },
+    { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0.5, sentence: 'Commanded turn rate; positive to the left.' },
+    { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 0.2, sentence: 'Duration of the command.' },
+    { key: 'steps', type: 'whole', min: 1, max: 200, default: 20, sentence: 'Steps driven one after the other.' },
+    { key: 'step', type: 'whole', min: 1, max: 200, default: 2, sentence: 'The step that is looked at.' },
+    { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], sentence: 'Noise parameters, the six of the velocity model.' },
+    { key: 'alpha1', in: 'alphas', index: 0, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha2', in: 'alphas', index: 1, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha3', in: 'alphas', index: 2, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.02, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha5', in: 'alphas', index: 4, type: 'number', min: 0, max: 1000000, default: 0.005, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha6', in: 'alphas', index: 5, type: 'number', min: 0, max: 1000000, default: 0.005, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'headingNoise', of: 'alphas', type: 'number', nullable: true, min: 0, max: 1000000, default: 0.02, sentence: 'Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4; null where they are not those of a level.' },
+    { key: 'per', type: 'word', words: ['step', 'path'], default: 'step', sentence: 'Whether the noise parameters are for each step or for the whole path as one command, of whose variance each step has its share.' },
+    { key: 'compounding', type: 'word', words: ['chapter', 'first-order', 'fourth-order'], default: 'chapter', sentence: 'How the covariance that is shown was carried from step to step.' },
+    { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 50000, sentence: 'Rollouts of the whole path.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 29, sentence: 'The same seed is the same luck at every step, whatever else is set.' },
+  ],
 };
 
 /** What the widgets may open with, by their tags. */
@@ -75,6 +143,26 @@ export const presets = {
     { name: 'doorway', start: { x: 2.05, y: 2.6, theta: 1.5707963267948966 } },
     { name: 'wall', start: { x: 3.3, y: 2.6, theta: 1.5707963267948966 } },
     { name: 'corridor', start: { x: 1.4, y: 4.4, theta: 0 } },
+  ],
+  'arc-anatomy': [
+    { name: 'left', v: 1, omega: 0.5, dt: 1, nextX: 1.1, nextY: 0.5, nextTheta: 1.1 },
+    { name: 'right', v: 1, omega: -0.5, dt: 1, nextX: 1.1, nextY: -0.5, nextTheta: -1.1 },
+    { name: 'reverse', v: -1, omega: 0.5, dt: 1, nextX: -1.1, nextY: -0.5, nextTheta: 1.1 },
+    { name: 'straight', v: 1, omega: 0, dt: 1, nextX: 1.2, nextY: 0, nextTheta: 0.2 },
+  ],
+  'odometry-decomposer': [
+    { name: 'all', from: { x: 0, y: 0, theta: 0 }, to: { x: 1.2, y: 1, theta: 1.2 } },
+    { name: 'turn-drive', from: { x: 0, y: 0, theta: 0 }, to: { x: 1.2, y: 0.9, theta: 0.6435 } },
+    { name: 'drive-turn', from: { x: 0, y: 0, theta: 0 }, to: { x: 1.5, y: 0, theta: 1 } },
+    { name: 'reverse', from: { x: 0, y: 0, theta: 0 }, to: { x: -1.2, y: -0.3, theta: 0.1 } },
+    { name: 'spin', from: { x: 0, y: 0, theta: 0 }, to: { x: 0, y: 0, theta: 2.2 } },
+    { name: 'rest', from: { x: 0, y: 0, theta: 0 }, to: { x: -0.004, y: 0.003, theta: 0.001 } },
+  ],
+  'dead-reckoning': [
+    { name: 'chapter', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'doubled', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, alphas: [0.02, 0.02, 0.08, 0.08, 0.02, 0.02] },
+    { name: 'fine', command: { v: 1, omega: 0.5, dt: 0.02 }, steps: 200, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'straight', command: { v: 1, omega: 0, dt: 0.2 }, steps: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
   ],
 };
 

@@ -14,7 +14,7 @@ export declare function load(source?: BufferSource | URL | string | WebAssembly.
 /** As `load`, with a memory of its own each time. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
-/** What every state has. */
+/** What every state has, also one given in part. */
 export interface FigureState {
   /** The tag of the element. */
   widget: string;

@@ -50,13 +50,13 @@ fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
     }
     let blocks =
         |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown == Unknown::Blocked);
-    let cells = grid.cells().iter().enumerate();
+    let cells = grid.cells().enumerate();
     let middle = |i: usize| {
         let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * side);
         let middle = origin * SE2::new(u, v, 0.0);
         [middle.x(), middle.y()]
     };
-    cells.map(|(i, cell)| (middle(i), blocks(*cell))).collect()
+    cells.map(|(i, cell)| (middle(i), blocks(cell))).collect()
 }
 
 /// Cells hold their middles, and outlines are all around those in the way: as long as the sides of cells between what is in

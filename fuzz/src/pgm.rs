@@ -21,7 +21,7 @@ pub fn run(bytes: &[u8]) {
 /// The whole image, or the refusal.
 fn read(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
     let Image { width, height, pixels } = read_pgm(bytes).map_err(|error| error.to_string())?;
-    Ok(Image { width, height, pixels: pixels.collect() })
+    Ok(Image { width, height, pixels: pixels.map(Pixel::from).collect() })
 }
 
 /// A reading is a fixed point: in 16 bits, plain and binary, it reads the same, to the 65 535th of the shade that is

@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod arc;
+pub mod double_double;
 pub mod lanes;
 pub mod se2;
 pub mod segment;

@@ -3,7 +3,6 @@
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
-use std::iter::repeat;
 use std::ops::RangeInclusive;
 
 /// How pixels become cells, as `map_server` reads its YAML file.
@@ -39,10 +38,15 @@ pub enum Mode {
 
 /// What a map says of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
 pub enum Cell {
     Free,
     Occupied,
     Unknown,
+}
+
+impl Cell {
+    const ALL: [Self; 3] = [Self::Free, Self::Occupied, Self::Unknown];
 }
 
 /// What unknown cells are for a robot.
@@ -95,6 +99,9 @@ impl Interpretation {
 /// Sides of a cell, m: from a millimetre to a hundred metres.
 pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
 
+/// Cells that are compared at once.
+const MANY: usize = size_of::<u128>();
+
 /// Square cells. The occupied ones are in a robot's way, and the unknown ones where one decides so.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
@@ -106,8 +113,8 @@ pub struct OccupancyGrid {
     origin: SE2,
     /// The plane in the frame of the origin.
     to_local: Departure,
-    /// Row by row from the bottom.
-    cells: Vec<Cell>,
+    /// Row by row from the bottom, as bytes: of those many are compared at once.
+    cells: Vec<u8>,
     unknown: Unknown,
 }
 
@@ -116,37 +123,43 @@ impl OccupancyGrid {
     /// unknown is free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
-    pub fn new<Pixels: Clone + IntoIterator<Item = Pixel>>(
+    pub fn new<P: Copy + PartialEq + Into<Pixel>, Pixels: Clone + IntoIterator<Item = P>>(
         image: &Image<Pixels>,
         interpretation: &Interpretation,
         resolution: f64,
         origin: SE2,
     ) -> Self {
         let Image { width, height, ref pixels } = *image;
-        let mut cells = vec![Cell::Free; width * height];
+        let mut cells = vec![Cell::Free as u8; width * height];
         // Into cells at once: the pixels of a large image take several times their memory.
         let mut fill = |four_colours: bool| {
             let mut transparent = false;
-            let white = Pixel { shade: 1.0, opacity: 1.0 };
-            let mut last = (white, interpretation.cell(white));
-            let mut pixels = pixels.clone().into_iter();
-            for row in cells.chunks_mut(width.max(1)).rev() {
-                for (cell, mut pixel) in row.iter_mut().zip(&mut pixels) {
+            let mut last = None;
+            let mut code = Cell::Free as u8;
+            let mut cells = cells.iter_mut();
+            pixels.clone().into_iter().for_each(|pixel| {
+                // Neighbours are alike, mostly.
+                if last != Some(pixel) {
+                    last = Some(pixel);
+                    let mut pixel = pixel.into();
                     transparent |= pixel.opacity < 1.0;
                     if four_colours {
                         pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
                     }
-                    // Neighbours are alike, mostly.
-                    if pixel != last.0 {
-                        last = (pixel, interpretation.cell(pixel));
-                    }
-                    *cell = last.1;
+                    code = interpretation.cell(pixel) as u8;
                 }
-            }
+                cells.next().into_iter().for_each(|cell| *cell = code);
+            });
             transparent
         };
         if fill(false) && interpretation.mode == Mode::Trinary {
             fill(true);
+        }
+        // The first row of an image is its highest, the first of a grid its lowest.
+        let (upper, lower) = cells.split_at_mut(height / 2 * width);
+        let width_or_one = width.max(1);
+        for (high, low) in upper.chunks_mut(width_or_one).zip(lower.rchunks_mut(width_or_one)) {
+            high.swap_with_slice(low);
         }
         let (to_local, unknown) = (Departure::new(origin.inverse()), Unknown::default());
         Self { width, height, resolution, origin, to_local, cells, unknown }
@@ -174,20 +187,42 @@ impl OccupancyGrid {
     }
 
     /// What is known of each cell, row by row from the bottom.
-    pub fn cells(&self) -> &[Cell] {
-        &self.cells
+    pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + '_ {
+        self.cells.iter().map(|code| Cell::ALL[usize::from(*code)])
+    }
+
+    /// Of each cell 1 where it is of this kind and 0 elsewhere, as `cells`; None where memory does not suffice.
+    pub fn marks(&self, kind: Cell) -> Option<Vec<u8>> {
+        let mut marks = Vec::new();
+        marks.try_reserve_exact(self.cells.len()).ok()?;
+        marks.extend_from_slice(&self.cells);
+        // Eight at a time: two codes differ in one of their two bits.
+        const ONES: u64 = u64::from_le_bytes([1; 8]);
+        let mark = |codes: u64| {
+            let differ = codes ^ (ONES * kind as u64);
+            ONES & !(differ | differ >> 1)
+        };
+        let (eights, rest) = marks.as_chunks_mut();
+        for codes in eights {
+            *codes = mark(u64::from_le_bytes(*codes)).to_le_bytes();
+        }
+        for code in rest {
+            *code = mark(u64::from(*code)) as u8;
+        }
+        Some(marks)
     }
 
     /// Whether a point of the plane lies in a cell that is in a robot's way.
     pub fn holds(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
-        let cell = || self.cell(column as usize, row as usize);
-        column >= 0.0 && row >= 0.0 && cell().is_some_and(|cell| self.in_the_way(&[cell]).any(|is| is))
+        let cell = || self.row(row as usize).get(column as usize);
+        column >= 0.0 && row >= 0.0 && cell().is_some_and(|code| self.blocks(*code))
     }
 
-    /// Whether a cell is known to be free; cells off the grid are not.
-    pub(super) fn known_free(&self, column: usize, row: usize) -> bool {
-        self.cell(column, row) == Some(Cell::Free)
+    /// Whether a cell is known to be free, by its column, in a row counted from the bottom; cells off the grid are not.
+    pub(super) fn known_free(&self, row: usize) -> impl Fn(usize) -> bool + '_ {
+        let cells = self.row(row);
+        move |column| cells.get(column) == Some(&(Cell::Free as u8))
     }
 
     /// Whether a point of the plane lies on the grid, its edge included.
@@ -218,18 +253,17 @@ impl OccupancyGrid {
         self.to_local.transform([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
-    fn cell(&self, column: usize, row: usize) -> Option<Cell> {
-        (column < self.width && row < self.height).then(|| self.cells[row * self.width + column])
+    /// Which cells are in a robot's way, as `cells`.
+    pub(super) fn in_the_way(&self) -> impl Iterator<Item = bool> + '_ {
+        self.cells.iter().map(|code| self.blocks(*code))
     }
 
-    /// Which of some cells are in a robot's way.
-    pub(super) fn in_the_way<'a>(&self, cells: &'a [Cell]) -> impl Iterator<Item = bool> + Clone + use<'a> {
-        let unknown = self.unknown == Unknown::Blocked;
-        cells.iter().map(move |cell| *cell == Cell::Occupied || (unknown && *cell == Cell::Unknown))
+    fn blocks(&self, code: u8) -> bool {
+        code == Cell::Occupied as u8 || (code == Cell::Unknown as u8 && self.unknown == Unknown::Blocked)
     }
 
     /// The cells of a row, counted from the bottom; none of a row off the grid.
-    pub(super) fn row(&self, row: usize) -> &[Cell] {
+    fn row(&self, row: usize) -> &[u8] {
         let from = row.saturating_mul(self.width).min(self.cells.len());
         &self.cells[from..(from + self.width).min(self.cells.len())]
     }
@@ -243,28 +277,38 @@ impl OccupancyGrid {
         let (mut sides, mut upright) = (Vec::new(), Vec::new());
         // Between cells on either side of a grid line there is an outline where just one is in the way. Row by row, as the cells lie
         // in memory: of each grid line between columns, where its present outline began.
-        let mut below = vec![false; self.width + 1];
         let mut began = vec![None; self.width + 1];
+        let mut below: &[u8] = &[];
         for row in 0..=self.height {
-            let (mut left, mut from) = (false, None);
-            let blocked = self.in_the_way(self.row(row)).chain(repeat(false));
-            for (column, ((below, began), blocked)) in
-                below.iter_mut().zip(&mut began).zip(blocked).enumerate()
-            {
-                if (*below != blocked) != from.is_some() {
+            let here = self.row(row);
+            let at = |cells: &[u8], column: usize| cells.get(column).is_some_and(|code| self.blocks(*code));
+            let (mut column, mut from, mut left) = (0, None, false);
+            while column <= self.width {
+                // Many cells that are as below them begin no outline and end none, nor does the line before them: outside of an
+                // outline along the rows, the cell there is as below it too.
+                let next = |cells: &[u8]| Some(u128::from_ne_bytes(*cells.get(column..)?.first_chunk()?));
+                if from.is_none() && next(here).is_some_and(|codes| next(below) == Some(codes)) {
+                    column += MANY;
+                    left = at(here, column - 1);
+                    continue;
+                }
+                let [blocked, was] = [here, below].map(|cells| at(cells, column));
+                if (was != blocked) != from.is_some() {
                     match from.take() {
                         Some(from) => sides.push(self.side([from, row], [column, row])),
                         None => from = Some(column),
                     }
                 }
-                if (left != blocked) != began.is_some() {
-                    match began.take() {
+                if (left != blocked) != began[column].is_some() {
+                    match began[column].take() {
                         Some(began) => upright.push([column, began, row]),
-                        None => *began = Some(row),
+                        None => began[column] = Some(row),
                     }
                 }
-                (left, *below) = (blocked, blocked);
+                left = blocked;
+                column += 1;
             }
+            below = here;
             if sides.len() + upright.len() > most {
                 return Err(most + 1);
             }

@@ -72,15 +72,18 @@ impl<'a> Squares<'a> {
         })
     }
 
-    /// Whether all of a square is known to be free.
-    fn free(&self, column: usize, row: usize) -> bool {
-        if let Some(grid) = self.grid() {
-            return grid.known_free(column, row);
+    /// Whether all of a square is known to be free, by its column, in a row.
+    fn free(&self, row: usize) -> impl Fn(usize) -> bool {
+        let known = self.grid().map(|grid| grid.known_free(row));
+        move |column| match &known {
+            Some(known) => known(column),
+            None => {
+                let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
+                column < self.columns
+                    && row < self.rows
+                    && self.plan.field().least(middle) > 0.75 * self.longer_side()
+            }
         }
-        let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
-        column < self.columns
-            && row < self.rows
-            && self.plan.field().least(middle) > 0.75 * self.longer_side()
     }
 
     /// The middle of the largest square of free ones, in squares from the lower left corner; None where none is free.
@@ -90,16 +93,16 @@ impl<'a> Squares<'a> {
         // to the left, below, and below to the left.
         let mut sizes = vec![0u32; self.columns];
         for row in 0..self.rows {
-            let mut before = 0;
-            for column in 0..self.columns {
-                let left = if column > 0 { sizes[column - 1] } else { 0 };
-                let below = sizes[column];
-                let size = if self.free(column, row) { 1 + before.min(below).min(left) } else { 0 };
+            let free = self.free(row);
+            let (mut before, mut left) = (0, 0);
+            for (column, size_here) in sizes.iter_mut().enumerate() {
+                let below = *size_here;
+                let size = if free(column) { 1 + before.min(below).min(left) } else { 0 };
                 if size > largest {
                     let half = 0.5 * f64::from(size);
                     (largest, middle) = (size, Some([column as f64 + 1.0 - half, row as f64 + 1.0 - half]));
                 }
-                (before, sizes[column]) = (below, size);
+                (before, left, *size_here) = (below, size, size);
             }
         }
         middle
@@ -127,7 +130,7 @@ impl<'a> Squares<'a> {
         let [left, bottom, ..] = self.plan.bounds();
         let on_plan = [(x - left) / self.sides[0], (y - bottom) / self.sides[1]];
         let [column, row] = self.grid().map_or(on_plan, |grid| grid.cell_coordinates([x, y]));
-        column >= 0.0 && row >= 0.0 && self.free(column as usize, row as usize)
+        column >= 0.0 && row >= 0.0 && self.free(row as usize)(column as usize)
     }
 }
 
@@ -146,7 +149,7 @@ fn first_with_room(grid: &OccupancyGrid, clearance: f64) -> Option<[f64; 2]> {
         .collect();
     // The rows from each cell to the nearest in its column that is in the way: no disc reaches as far as they count.
     let mut off = vec![u16::MAX; columns * rows];
-    for (i, blocked) in grid.in_the_way(grid.cells()).enumerate() {
+    for (i, blocked) in grid.in_the_way().enumerate() {
         let below = i.checked_sub(columns).map_or(u16::MAX, |below| off[below].saturating_add(1));
         off[i] = if blocked { 0 } else { below };
     }

@@ -70,6 +70,19 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     Ok(Image { width, height, pixels: Shades { left: count, greatest, raster } })
 }
 
+/// A pixel of a PGM image: a value from 0 (black) to the greatest (white).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shade {
+    value: u16,
+    greatest: u16,
+}
+
+impl From<Shade> for Pixel {
+    fn from(Shade { value, greatest }: Shade) -> Self {
+        Self { shade: f32::from(value) / f32::from(greatest), opacity: 1.0 }
+    }
+}
+
 /// The pixels of a PGM image, row by row from the top, each read when it is asked for: as numbers they would take several
 /// times the memory of the file.
 #[derive(Clone, Debug)]
@@ -89,10 +102,10 @@ enum Raster<'a> {
 }
 
 impl Iterator for Shades<'_> {
-    type Item = Pixel;
+    type Item = Shade;
 
     #[inline]
-    fn next(&mut self) -> Option<Pixel> {
+    fn next(&mut self) -> Option<Shade> {
         self.left = self.left.checked_sub(1)?;
         let value = match &mut self.raster {
             Raster::Plain(reader) => reader.usual_number().or_else(|| number(reader.token()))?,
@@ -101,11 +114,23 @@ impl Iterator for Shades<'_> {
                 words.next()?.iter().fold(0, |value, byte| value * 256 + usize::from(*byte))
             }
         };
-        Some(Pixel { shade: value.min(self.greatest) as f32 / self.greatest as f32, opacity: 1.0 })
+        Some(Shade { value: value.min(self.greatest) as u16, greatest: self.greatest as u16 })
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
         (self.left, Some(self.left))
+    }
+
+    /// What kind of raster it is, is asked once.
+    #[inline]
+    fn fold<B, F: FnMut(B, Shade) -> B>(mut self, first: B, mut f: F) -> B {
+        let greatest = self.greatest as u16;
+        match self.raster {
+            Raster::Bytes(bytes) => bytes.fold(first, |so_far, byte| {
+                f(so_far, Shade { value: u16::from(*byte).min(greatest), greatest })
+            }),
+            _ => std::iter::from_fn(|| self.next()).fold(first, f),
+        }
     }
 }
 

@@ -1,10 +1,12 @@
 //! The motion models of the chapter: p(x_t | u_t, x_{t−1}) as a scoring function, a density and a sampler.
 
 mod odometry;
+mod odometry_rules;
 mod tangent;
 mod velocity;
 
 pub use odometry::{Hinges, OdomAlphas, OdomDelta, OdometryModel, ReverseAware};
+pub use odometry_rules::{ExecutedLegs, LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
 pub(crate) use tangent::covariance_root;
 pub use tangent::{Compounding, TangentNoiseError, TangentNoiseModel};
 pub use velocity::{VelocityAlphas, VelocityCmd, VelocityModel};

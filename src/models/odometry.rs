@@ -221,7 +221,7 @@ impl MotionModel for OdometryModel {
 pub struct ReverseAware(pub OdometryModel);
 
 /// The turn that a leg took if the robot may have driven it backwards.
-fn turn_either_way(rotation: f64) -> f64 {
+pub(super) fn turn_either_way(rotation: f64) -> f64 {
     let turn = rotation.abs();
     turn.min((PI - turn).abs())
 }

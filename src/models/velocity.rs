@@ -55,6 +55,13 @@ impl VelocityModel {
         self.variances(u).map(|variance| variance.0.sqrt())
     }
 
+    /// How many circles either way [`VelocityModel::pose_density`] looks for, about the turn that is nearest to the commanded
+    /// one.
+    pub(crate) fn windings(&self, u: &VelocityCmd) -> i32 {
+        let [_, omega_deviation, _] = self.deviations(u);
+        (9.0 * omega_deviation * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
+    }
+
     /// The pose reached from `x` with these unit noises: Table 5.3 after its three draws.
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed(u, unit_noise);
@@ -125,7 +132,7 @@ impl MotionModel for VelocityModel {
         };
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
         let nearest = ((u.omega * u.dt - shortest_turn) / TAU).round();
-        let reach = (9.0 * omega_variance.0.sqrt() * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32;
+        let reach = self.windings(u);
         let arcs: f64 = (-reach..=reach).map(|k| one_way(nearest + f64::from(k))).sum();
 
         let last_turn = step.theta() - shortest_turn;

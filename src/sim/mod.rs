@@ -1,7 +1,11 @@
 //! The widgets' simulations: parameters in, buffers and figures out, no browser anywhere.
 
+pub mod arc_anatomy;
 pub mod banana;
 mod cloud;
+mod commands;
+pub mod dead_reckoning;
+pub mod odometry_decomposer;
 pub mod settings;
 pub mod squeeze;
 

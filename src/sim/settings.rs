@@ -1,6 +1,5 @@
 //! Settings, each declared once by `settings!`, and the refusal of what they do not allow.
 
-use crate::models::VelocityCmd;
 use std::fmt;
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -431,12 +430,3 @@ macro_rules! group {
     };
 }
 pub(crate) use group;
-
-group!(VelocityCmd as VelocityCmd { v, omega, dt } => {
-    /// Commanded speed; negative in reverse.
-    v: "m/s", in QUANTITY;
-    /// Commanded turn rate; positive to the left.
-    omega: "rad/s", in QUANTITY;
-    /// Duration of the command.
-    dt: "s", in DURATION;
-});

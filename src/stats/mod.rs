@@ -6,6 +6,7 @@ mod exact;
 mod exact_gain;
 pub(crate) mod fused;
 mod gain;
+mod level_set;
 mod moments;
 #[cfg(target_arch = "wasm32")]
 pub(crate) mod plain;
@@ -17,4 +18,5 @@ pub use cross_track::{CrossTrack, cross_track_skew};
 pub use exact::{ExactMoments, predicted_cross_track_skew};
 pub use exact_gain::ExactGain;
 pub use gain::{LikelihoodGain, MeasuredGain};
+pub use level_set::level_set;
 pub use moments::{CartesianMoments, ExponentialMoments};

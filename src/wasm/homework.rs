@@ -10,7 +10,7 @@ use crate::models::{
 };
 use crate::noise::NoiseKind;
 use crate::sim::banana::MAX_SAMPLES;
-use crate::sim::settings::{ALPHA, DURATION, MAX_SEED, QUANTITY, Words, check_real, group};
+use crate::sim::settings::{ALPHA, DURATION, MAX_SEED, QUANTITY, check_real};
 use js_sys::{Array, Float64Array, RangeError};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
@@ -69,20 +69,6 @@ export interface Propagation {
   steps?: number;
 }
 "#;
-
-impl Words for Compounding {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("chapter", Self::Chapter), ("first-order", Self::FirstOrder), ("fourth-order", Self::FourthOrder)];
-}
-
-group!(OdomDelta as OdomDelta { rot1, trans, rot2 } => {
-    /// First turn.
-    rot1: "rad", in QUANTITY;
-    /// Drive.
-    trans: "m", in 0.0..=*QUANTITY.end();
-    /// Second turn.
-    rot2: "rad", in QUANTITY;
-});
 
 /// Steps of `propagate` at most: a fraction of a second.
 const MAX_STEPS: u64 = 100_000;

@@ -89,11 +89,19 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
         return Ok(OccupancyGrid::new(&image, &interpretation, resolution, origin));
     }
     let Image { width, height, pixels } = read_pixels(image.unchecked_ref())?;
-    let pixels = pixels.chunks_exact(4).map(|pixel| Pixel {
-        shade: (f32::from(pixel[0]) + f32::from(pixel[1]) + f32::from(pixel[2])) / 765.0,
-        opacity: f32::from(pixel[3]) / 255.0,
-    });
+    let pixels = pixels.as_chunks().0.iter().map(|colours| Colours(*colours));
     Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
+}
+
+/// Red, green, blue and opacity.
+#[derive(Clone, Copy, PartialEq)]
+struct Colours([u8; 4]);
+
+impl From<Colours> for Pixel {
+    fn from(Colours(colours): Colours) -> Self {
+        let [red, green, blue, opacity] = colours.map(f32::from);
+        Self { shade: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
+    }
 }
 
 /// The bytes of a PGM file.

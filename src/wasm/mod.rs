@@ -1,11 +1,23 @@
 //! The JavaScript face of the crate: nothing but reading arguments, calling the simulation and handing back copies.
 
+// A page with one widget loads a module without the others: that is compiled with the widget's tag as its cfg `widget`.
+#![cfg_attr(widget, allow(dead_code, reason = "what the other widgets read and make"))]
+
+#[cfg(any(not(widget), widget = "arc-anatomy"))]
+mod arc_anatomy;
+#[cfg(any(not(widget), widget = "banana-machine"))]
 mod banana;
+#[cfg(any(not(widget), widget = "dead-reckoning"))]
+mod dead_reckoning;
 mod fields;
 mod held;
+#[cfg(not(widget))]
 mod homework;
 mod maps;
+#[cfg(any(not(widget), widget = "odometry-decomposer"))]
+mod odometry_decomposer;
 mod pictures;
+#[cfg(any(not(widget), widget = "map-squeeze"))]
 mod squeeze;
 mod values;
 

@@ -172,11 +172,8 @@ impl JsMapSqueeze {
     /// The cells that the walls of the plan outline; null for a plan of walls alone.
     #[wasm_bindgen(getter, unchecked_return_type = "Grid | null")]
     pub fn grid(&self) -> Result<JsValue, JsValue> {
-        let are = |grid: &OccupancyGrid, kind: Cell| {
-            gathered(grid.cells().iter().map(|cell| u8::from(*cell == kind)))
-        };
-        let read = move |grid: &OccupancyGrid| {
-            let (occupied, unknown) = (are(grid, Cell::Occupied), are(grid, Cell::Unknown));
+        let read = |grid: &OccupancyGrid| {
+            let (occupied, unknown) = (grid.marks(Cell::Occupied), grid.marks(Cell::Unknown));
             (grid.size(), grid.resolution(), grid.origin(), occupied, unknown)
         };
         let grid = self.0.with(move |machine| machine.plan().grid().map(read));

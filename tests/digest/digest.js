@@ -81,6 +81,59 @@ export const widgets = {
     machine.free();
     return told;
   },
+
+  'arc-anatomy'({ ArcAnatomy }, all, { preset, bounds = all.widgets['arc-anatomy'].bounds, settings }) {
+    const { v, omega, dt, nextX, nextY, nextTheta } = ArcAnatomy.presets.find(({ name }) => name === (preset ?? 'left')) ?? ArcAnatomy.presets[0];
+    const machine = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
+    const [xMin, yMin, xMax, yMax] = bounds;
+    const told = {
+      statistics: machine.stats,
+      table: machine.table,
+      paths: { ...machine.paths, underway: [0, 0.3, 1].map((share) => machine.underway(share)) },
+      surface: machine.surface(xMin, yMin, xMax, yMax),
+      forms: ArcAnatomy.formErrors(),
+    };
+    machine.free();
+    return told;
+  },
+
+  'dead-reckoning'({ DeadReckoning }, _, { preset, settings }) {
+    const { command, steps, alphas } = DeadReckoning.presets.find(({ name }) => name === preset) ?? {};
+    const machine = new DeadReckoning({ command, steps, alphas: alphas ?? undefined, ...settings });
+    const { shown, config, headingNoise, stats } = machine;
+    const told = {
+      statistics: { shown, headingNoise, stats },
+      steps: {
+        ratios: machine.ratios, predicted: machine.predicted, measured: machine.measured, relativeErrors: machine.relativeErrors,
+      },
+      ways: { commanded: machine.commanded, nominal: machine.nominal },
+      poses: { poses: machine.poses, twists: machine.twists, first: machine.posesAfter(1) },
+      rollouts: {
+        driven: everyOf(shown, 501).map((index) => machine.rollout(index)),
+        nearest: machine.nearest(config.command.v * config.command.dt * config.step, 0.1, 0.5),
+      },
+      outlines: machine.outlines(config.step),
+      straight: machine.straight,
+    };
+    machine.free();
+    return told;
+  },
+
+  'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
+    const { from, to } = OdometryDecomposer.presets.find(({ name }) => name === preset) ?? {};
+    const machine = new OdometryDecomposer({ from, to, ...settings });
+    const { shown, stats, poses, linkage, robot, rules, drifted } = machine;
+    const told = {
+      poses,
+      linkages: { linkage, ghosts: machine.ghosts(9), robot },
+      rules: rules.map(({ legs, deviations, crossTrack, heading }) => ({ legs, deviations, crossTrack, heading })),
+      statistics: { shown, stats, nearest: machine.nearest(1, 0.8, 0.5) },
+      curve: machine.curve(3, 31),
+      drifted,
+    };
+    machine.free();
+    return told;
+  },
 };
 
 const VIEWS = /** @type {const} */ (['plane', 'twist']);

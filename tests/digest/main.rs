@@ -1,8 +1,11 @@
 //! Same seed, same bits: everything that machines of many configurations tell, to the last bit, against golden.txt. The same
 //! is asked of the JavaScript face in Node and in browsers, by digest.js.
 
+mod arc_anatomy;
 mod banana;
 mod configuration;
+mod dead_reckoning;
+mod odometry_decomposer;
 mod squeeze;
 mod told;
 
@@ -20,6 +23,9 @@ fn the_same_seed_gives_the_same_bits() {
             let parts = match configuration.widget {
                 "banana-machine" => banana::parts(&configuration),
                 "map-squeeze" => squeeze::parts(&configuration),
+                "arc-anatomy" => arc_anatomy::parts(&configuration),
+                "dead-reckoning" => dead_reckoning::parts(&configuration),
+                "odometry-decomposer" => odometry_decomposer::parts(&configuration),
                 other => panic!("nobody here knows what <{other}> tells"),
             };
             let parts: Vec<String> = parts.iter().map(|Part(name, hash)| format!(" {name}:{hash}")).collect();

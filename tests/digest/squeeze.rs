@@ -102,7 +102,7 @@ impl Told for &OccupancyGrid {
         let origin = self.origin();
         [origin.x(), origin.y(), origin.theta()].tell(bytes);
         for kind in [Cell::Occupied, Cell::Unknown] {
-            self.cells().iter().map(|cell| *cell == kind).collect::<Vec<_>>().tell(bytes);
+            self.cells().map(|cell| cell == kind).collect::<Vec<_>>().tell(bytes);
         }
     }
 }

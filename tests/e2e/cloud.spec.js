@@ -288,6 +288,17 @@ test.describe('figures', () => {
     });
     await page.mouse.move(x + width * left, y + width * top);
     expect(await marked()).toBe(0);
+    await frames(page);
+    // While it stays there, nothing is drawn anew.
+    const asked = await twist.evaluate((canvas, [clientX, clientY]) => {
+      const request = window.requestAnimationFrame;
+      let count = 0;
+      window.requestAnimationFrame = () => ++count;
+      canvas.dispatchEvent(new PointerEvent('pointermove', { clientX, clientY }));
+      window.requestAnimationFrame = request;
+      return count;
+    }, [x + width * left, y + width * top]);
+    expect(asked).toBe(0);
     await page.mouse.move(x + 3, y + height - 3);
     expect(await marked()).toBe(0);
     // A click there is meant.

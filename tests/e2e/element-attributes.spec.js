@@ -1,5 +1,6 @@
 import { expect } from '@playwright/test';
-import { NAMES, assign, heard, property, ready, show } from './element-support.js';
+import { SEEDS, anyOf } from './any-state.js';
+import { ABOUT, ALL, NAMES, assign, heard, property, ready, show } from './element-support.js';
 import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -118,6 +119,67 @@ test.describe('attributes', () => {
     expect(same[2]).toBe(same[0]);
   });
 
+  /** What of a state is in no attribute, as it opens, or at a level that is in one. */
+  const untold = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
+
+  for (const name of ALL) {
+    test(`of ${name} in the code to embed, in any order, open any state's settings`, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+      const widget = page.locator(name).first();
+      await ready(widget);
+      for (const seed of SEEDS) {
+        const state = { ...anyOf(seed)[name], ...Reflect.get(untold, name) };
+        const [original, ...copies] = await widget.evaluate(async (element, given) => {
+          /** @type {any} */ (element).setState(given);
+          const code = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
+          const template = document.createElement('div');
+          template.innerHTML = code;
+          const [told] = template.children;
+          const again = document.createElement(element.localName);
+          for (const { name, value } of [...told.attributes].reverse()) again.setAttribute(name, value);
+          const boxes = [told, again].map((copy) => {
+            const box = document.createElement('div');
+            box.style.cssText = 'position: fixed; inset: 0';
+            box.append(copy);
+            return box;
+          });
+          const loaded = [told, again].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
+          element.before(...boxes);
+          await Promise.all(loaded);
+          const configs = [element, told, again].map((each) => /** @type {AnyElement} */ (each).machine.config);
+          for (const box of boxes) box.remove();
+          return configs;
+        }, /** @type {any} */ (state));
+        for (const copy of copies) expect(copy, `seed ${seed}`).toEqual(original);
+      }
+      expect(await heard(page, ['error'])).toEqual([]);
+    });
+
+    test(`of ${name} follow its controls, and lead back where they are taken away`, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      const { slider, values: [first, second] } = ABOUT[name];
+      const opening = await property(widget, slider);
+      await widget.locator(`#${slider}`).fill(String(first));
+      await expect(widget).toHaveAttribute(slider, String(first));
+      expect(await property(widget, slider)).toBe(first);
+      await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [slider, String(second)]);
+      expect(await property(widget, slider)).toBe(second);
+      await expect(widget.locator(`#${slider}`)).toHaveValue(String(second));
+      const [, message] = await widget.evaluate((element, key) => {
+        const told = /** @type {string[]} */ ([]);
+        element.addEventListener('error', (event) => told.push(/** @type {ErrorEvent} */ (event).message), { once: true });
+        element.setAttribute(key, 'fast');
+        return [element.getAttribute(key), ...told];
+      }, slider);
+      expect(message).toMatch(/ is "fast"; allowed is a (whole )?number/);
+      expect(await property(widget, slider)).toBe(second);
+      await widget.evaluate((element, key) => element.removeAttribute(key), slider);
+      expect(await property(widget, slider)).toBe(opening);
+    });
+  }
+
   test('that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
     await show(page, '<banana-machine v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"></banana-machine>');
     const widget = page.locator('banana-machine');
@@ -155,6 +217,12 @@ test.describe('attributes', () => {
     });
     const values = await Promise.all(['v', 'alpha1', 'overlays', 'isolate'].map((name) => property(widget, name)));
     expect(values).toEqual([1, 0.05, ['command', 'ellipse', 'exponential'], null]);
+    // Also of what others depend on.
+    await widget.evaluate((element) => {
+      element.setAttribute('model', 'odometry');
+      element.removeAttribute('model');
+    });
+    expect(await property(widget, 'model')).toBe('velocity');
   });
 });
 
@@ -163,9 +231,11 @@ test.describe('properties', () => {
     await show(page, '<banana-machine v="2"></banana-machine>', { script: '' });
     expect(await page.evaluate(() => customElements.get('banana-machine') === undefined)).toBe(true);
     await page.evaluate(async () => {
-      Object.assign(document.querySelector('banana-machine') ?? {}, {
+      const element = Object.assign(/** @type {Element} */ (document.querySelector('banana-machine')), {
         v: 3, omega: 0.25, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0], overlays: ['ellipse'], theme: 'dark', marked: 4,
       });
+      // What is the page's own may not let itself be taken up.
+      Object.defineProperty(element, 'fixed', { enumerable: true, value: 5 });
       await import(/** @type {any} */ ('/motion-widgets.js'));
     });
     const widget = page.locator('banana-machine');
@@ -176,6 +246,91 @@ test.describe('properties', () => {
     });
     expect(values).toEqual({ v: 3, omega: 0.25, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0], overlays: ['ellipse'], theme: 'dark', marked: 4, own: false });
     expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  for (const name of ALL) {
+    test(`of ${name} that were set before the element was one are its settings, as are those that are set later`, async ({ page }) => {
+      await show(page, '', { script: '' });
+      for (const seed of SEEDS.slice(0, 4)) {
+        const state = anyOf(seed)[name];
+        const [opened, set] = await page.evaluate(async (given) => {
+          const { widget, alphas, map, ...rest } = /** @type {any} */ (given);
+          const own = ['version', 'marked', 'shown', 'playing', 'isolateChoice', 'line', 'underway'];
+          const others = Object.entries(rest).filter(([key]) => !own.includes(key));
+          const settings = { ...Object.fromEntries(others), alphas: alphas[rest.model] ?? alphas, ...(typeof map === 'string' && { map }) };
+          const early = Object.assign(document.createElement(widget), settings);
+          await import(/** @type {any} */ ('/motion-widgets.js'));
+          const late = document.createElement(widget);
+          const figures = [early, late];
+          const boxes = figures.map((figure) => {
+            const box = document.createElement('div');
+            box.style.cssText = 'position: fixed; inset: 0';
+            box.append(figure);
+            return box;
+          });
+          const loaded = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
+          document.body.append(...boxes);
+          await Promise.all(loaded);
+          Object.assign(late, settings);
+          const values = figures.map((figure) => Object.fromEntries(Object.keys(settings).map((key) => [key, figure[key]])));
+          for (const box of boxes) box.remove();
+          return [values, settings];
+        }, /** @type {any} */ (state));
+        for (const each of opened) expect(each, `seed ${seed}`).toEqual(set);
+      }
+      expect(await heard(page, ['error'])).toEqual([]);
+    });
+
+    test(`of ${name} that are null or undefined are as the figure opens`, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      const [opening, ...again] = await widget.evaluate((element, state) => {
+        const figure = /** @type {any} */ (element);
+        const names = Object.keys(state).filter((key) => key in figure && !['playing', 'map'].includes(key));
+        const values = () => Object.fromEntries(names.map((key) => [key, figure[key]]));
+        const told = [values()];
+        for (const none of [null, undefined]) {
+          figure.setState(state);
+          for (const key of names) figure[key] = none;
+          told.push(values());
+        }
+        return told;
+      }, /** @type {any} */ (anyOf(1)[name]));
+      for (const each of again) expect(each).toEqual(opening);
+      expect(await heard(page, ['error'])).toEqual([]);
+    });
+
+    test(`of ${name} that are given once more do nothing`, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (anyOf(2)[name]));
+      await heard(page, ['stats']);
+      const count = await widget.evaluate((element, keys) => {
+        const figure = /** @type {any} */ (element);
+        const names = keys.filter((key) => key in figure && key !== 'playing');
+        for (const key of names) figure[key] = structuredClone(figure[key]);
+        for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
+        return names.length;
+      }, Object.keys(anyOf(2)[name]));
+      expect(count).toBeGreaterThan(6);
+      expect(await heard(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
+    });
+  }
+
+  test('of dead-reckoning have a step that is on the path, whatever becomes of that', async ({ page }) => {
+    await show(page, '<dead-reckoning steps="1"></dead-reckoning>');
+    const widget = page.locator('dead-reckoning');
+    await ready(widget);
+    const steps = () => Promise.all(['steps', 'step'].map((name) => property(widget, name)));
+    expect(await steps()).toEqual([1, 1]);
+    expect(await assign(widget, 'step', null)).toBe('');
+    expect(await steps()).toEqual([1, 1]);
+    expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode())).toContain('<dead-reckoning steps="1"></dead-reckoning>');
+    expect(await assign(widget, 'steps', null)).toBe('');
+    expect(await assign(widget, 'step', null)).toBe('');
+    expect(await steps()).toEqual([20, 2]);
   });
 
   test('that the present model has none of are refused with the name of the last', async ({ page }) => {

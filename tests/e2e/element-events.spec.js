@@ -1,6 +1,8 @@
 import { expect } from '@playwright/test';
-import { NAMES, assign, heard, ready, show } from './element-support.js';
+import { ALL, HANDLED, KNOWN, assign, heard, ready, show, stateOf } from './element-support.js';
 import { STILL, centreOf, dragSlider, frames, test, unfold } from './support.js';
+
+/** @typedef {import('@playwright/test').Locator} Locator */
 
 test.use(STILL);
 
@@ -40,62 +42,134 @@ test('a drag tells of its steps by input and of its end by one change, composed,
   expect(all.some(([name]) => name === 'stats')).toBe(true);
 });
 
-test('every other act of the reader is one input and one change', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
-  const [banana, squeeze] = NAMES.map((name) => page.locator(name));
-  await ready(banana);
-  await unfold(banana);
-  await heard(page);
-  const acts = /** @type {[string, () => Promise<void>][]} */ ([
-    ['preset', () => banana.getByRole('button', { name: 'Hard arc' }).click()],
-    ['radio', () => banana.getByLabel('triangular').check()],
-    ['model', () => banana.getByLabel('odometry').check()],
-    ['toggle', () => banana.getByLabel('Isolate one').check()],
-    ['overlay', () => banana.getByRole('checkbox', { name: 'linearized' }).check()],
-    ['slider by key', () => banana.locator('#omega').press('ArrowRight')],
-    ['handle by key', () => banana.locator('.handle').press('ArrowUp')],
-    ['marker by key', () => banana.locator('.chart-marker').press('ArrowRight')],
-    ['seed', () => banana.getByRole('button', { name: 'New seed' }).click()],
-    ['reset', () => banana.getByRole('button', { name: 'Reset' }).click()],
-    ['step', () => banana.getByRole('button', { name: 'Step' }).click()],
-    ['place', () => squeeze.getByRole('button', { name: 'Facing a wall' }).click()],
-    ['view', () => squeeze.getByLabel('whole map').check()],
-    ['condition', () => squeeze.getByLabel('Condition on the map').uncheck()],
-    ['robot by key', () => squeeze.locator('.handle.body').press('ArrowUp')],
-    ['map', () => squeeze.getByRole('button', { name: 'Use this plan' }).click()],
-  ]);
-  for (const [act, go] of acts) {
-    if (act === 'place') {
-      await squeeze.scrollIntoViewIfNeeded();
-      await ready(squeeze);
-      await unfold(squeeze);
-      await heard(page);
+/** What a reader may do besides dragging, with all folds open. @type {Record<typeof ALL[number], [string, (widget: Locator) => Promise<void>][]>} */
+const ACTS = {
+  'banana-machine': [
+    ['preset', (widget) => widget.getByRole('button', { name: 'Hard arc' }).click()],
+    ['radio', (widget) => widget.getByLabel('triangular').check()],
+    ['model', (widget) => widget.getByLabel('odometry').check()],
+    ['toggle', (widget) => widget.getByLabel('Isolate one').check()],
+    ['overlay', (widget) => widget.getByRole('checkbox', { name: 'linearized' }).check()],
+    ['slider by key', (widget) => widget.locator('#omega').press('ArrowRight')],
+    ['handle by key', (widget) => widget.locator('.handle').press('ArrowUp')],
+    ['marker by key', (widget) => widget.locator('.chart-marker').press('ArrowRight')],
+    ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
+    ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
+    ['step', (widget) => widget.getByRole('button', { name: 'Step' }).click()],
+  ],
+  'map-squeeze': [
+    ['place', (widget) => widget.getByRole('button', { name: 'Facing a wall' }).click()],
+    ['view', (widget) => widget.getByLabel('whole map').check()],
+    ['condition', (widget) => widget.getByLabel('Condition on the map').uncheck()],
+    ['robot by key', (widget) => widget.locator('.handle.body').press('ArrowUp')],
+    ['map', async (widget) => {
+      await widget.getByRole('button', { name: 'Use this plan' }).click();
+      await expect(widget.getByRole('button', { name: 'Back to the apartment' })).toBeVisible();
+    }],
+  ],
+  'arc-anatomy': [
+    ['preset', (widget) => widget.getByRole('button', { name: 'Right turn' }).click()],
+    ['radio', (widget) => widget.getByLabel('triangular').check()],
+    ['map', (widget) => widget.locator('input[name=map]').nth(1).check()],
+    ['as printed', (widget) => widget.locator('.as-printed input').check()],
+    ['twist', (widget) => widget.locator('.drawn input[type=checkbox]').check()],
+    ['line', (widget) => widget.locator('.stepper button').last().click()],
+    ['slider by key', (widget) => widget.locator('#omega').press('ArrowRight')],
+    ['underway by key', (widget) => widget.locator('#underway').press('ArrowLeft')],
+    ['value typed', async (widget) => {
+      await widget.locator('.slider:has(#alpha1) .typed').fill('0.12');
+      await widget.locator('.slider:has(#alpha1) .typed').press('Enter');
+    }],
+    ['robot by key', (widget) => widget.locator('.handle.body').press('ArrowUp')],
+    ['heading by key', (widget) => widget.locator('.handle.turn').press('ArrowUp')],
+  ],
+  'odometry-decomposer': [
+    ['preset', (widget) => widget.locator('.presets button').nth(2).click()],
+    ['rule', (widget) => widget.locator('input[name=rule]').nth(1).check()],
+    ['radio', (widget) => widget.locator('input[name=noise]').nth(1).check()],
+    ['slider by key', (widget) => widget.locator('#phase').press('ArrowLeft')],
+    ['drift by key', (widget) => widget.locator('#drift').press('ArrowRight')],
+    ['correlation by key', (widget) => widget.locator('#correlation').press('ArrowRight')],
+    ['earlier robot by key', (widget) => widget.locator('.handle.body.from').press('ArrowDown')],
+    ['later robot by key', (widget) => widget.locator('.handle.body.to').press('ArrowUp')],
+    ['heading by key', (widget) => widget.locator('.handle.turn.to').press('ArrowUp')],
+    ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
+    ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
+    ['step', (widget) => widget.getByRole('button', { name: 'Step', exact: true }).click()],
+  ],
+  'dead-reckoning': [
+    ['preset', (widget) => widget.locator('.presets button').nth(1).click()],
+    ['recursion', (widget) => widget.locator('input[name=compounding]').nth(1).check()],
+    ['noise of the path', (widget) => widget.locator('input[name=per]').nth(1).check()],
+    ['slider by key', (widget) => widget.locator('#headingNoise').press('ArrowRight')],
+    ['step by key', (widget) => widget.locator('#step').press('ArrowRight')],
+    ['steps by key', (widget) => widget.locator('#steps').press('ArrowLeft')],
+    ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
+    ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
+    ['batch', (widget) => widget.getByRole('button', { name: 'Step', exact: true }).click()],
+  ],
+};
+
+for (const name of ALL) {
+  test(`every other act of the reader of ${name} is one input and one change`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    await heard(page);
+    for (const [act, go] of ACTS[name]) {
+      await go(widget);
+      expect(names(await heard(page, ['input', 'change', 'error'])), act).toEqual(['input', 'change']);
     }
-    await go();
-    if (act === 'map') await expect(squeeze.getByRole('button', { name: 'Back to the apartment' })).toBeVisible();
-    expect(names(await heard(page, ['input', 'change', 'error'])), act).toEqual(['input', 'change']);
-  }
-});
+  });
+}
 
-test('a handle that is dragged tells of its steps and its end', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
-  const widget = page.locator('banana-machine');
-  await ready(widget);
-  await heard(page);
-  const { x, y } = await centreOf(widget.locator('.handle'));
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x + 40, y - 20, { steps: 4 });
-  expect(names(await heard(page))).toEqual(Array(4).fill('input'));
-  await page.mouse.up();
-  expect(names(await heard(page))).toEqual(['change']);
-  // Taken and let go: nothing has changed.
-  await page.mouse.down();
-  await page.mouse.up();
-  expect(names(await heard(page))).toEqual([]);
-});
+for (const name of HANDLED) {
+  test(`a handle of ${name} that is dragged tells of its steps and its end`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await heard(page);
+    const { x, y } = await centreOf(widget.locator('.handle').first());
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 40, y - 20, { steps: 4 });
+    expect(names(await heard(page))).toEqual(Array(4).fill('input'));
+    await page.mouse.up();
+    expect(names(await heard(page))).toEqual(['change']);
+    // Taken and let go: nothing has changed.
+    await page.mouse.down();
+    await page.mouse.up();
+    expect(names(await heard(page))).toEqual([]);
+  });
+}
 
-test('what the page does itself is told by stats alone, also out of sight', async ({ page }) => {
+for (const name of ALL) {
+  test(`what the page does itself to ${name} is told by stats alone, also out of sight`, async ({ page }) => {
+    await show(page, `<${name}></${name}><div style="height: 4000px"></div>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await heard(page);
+    await page.evaluate(() => scrollTo(0, 4000));
+    await heard(page, ['stats']);
+    const before = await stateOf(widget);
+    const [key, value] = KNOWN[name].other;
+    for (const to of [value, null]) {
+      expect(await assign(widget, key, to)).toBe('');
+      expect(names(await heard(page, ['load', 'input', 'change', 'error', 'stats'])), String(to)).toEqual(['stats']);
+    }
+    expect(await stateOf(widget)).toEqual(before);
+    await widget.evaluate((element, [attribute, to]) => element.setAttribute(attribute, String(to)), KNOWN[name].other);
+    expect(names(await heard(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+    const other = await stateOf(widget);
+    expect(other).not.toEqual(before);
+    await widget.evaluate((element, state) => Reflect.get(element, 'setState').call(element, state), before);
+    expect(names(await heard(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+    expect(await stateOf(widget)).toEqual(before);
+  });
+}
+
+test('statistics out of sight are those of the moment', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><div style="height: 4000px"></div>');
   const widget = page.locator('banana-machine');
   await ready(widget);
@@ -121,27 +195,58 @@ test('what the page does itself is told by stats alone, also out of sight', asyn
   expect(/** @type {number[]} */ (means)[0]).toBeGreaterThan(1.2);
 });
 
-test('what has not changed is not told again, whatever is drawn and asked', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine>');
+for (const name of ALL) {
+  test(`${name} tells again of nothing that has not changed, whatever is drawn and asked`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await heard(page, ['stats']);
+    await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await widget.evaluate((element) => {
+      const figure = /** @type {import('./element-support.js').AnyElement} */ (element);
+      figure.toSVG();
+      figure.toCSV();
+      figure.getState();
+    });
+    expect(await heard(page, ['input', 'change', 'stats'])).toEqual([]);
+    expect(await assign(widget, ...KNOWN[name].other)).toBe('');
+    expect(await heard(page, ['stats'])).toHaveLength(1);
+  });
+}
+
+test('words come with a quick picture, and under a hand that goes on with some of the slow ones', async ({ page }) => {
+  await show(page, '<banana-machine samples="300"></banana-machine>');
   const widget = page.locator('banana-machine');
   await ready(widget);
-  await heard(page, ['stats']);
-  await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
-  await page.emulateMedia({ colorScheme: 'dark' });
-  await widget.evaluate((element) => {
-    const figure = /** @type {import('./element-support.js').AnyElement} */ (element);
-    figure.toSVG();
-    figure.toCSV();
-    figure.getState();
+  const [quick, slow] = await widget.evaluate(async (element) => {
+    const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#v'));
+    let now = performance.now();
+    const told = [];
+    for (const step of [0, 10]) {
+      // Each look at the clock is so much later.
+      performance.now = () => (now += step);
+      const texts = new Set();
+      for (let i = 1; i <= 20; i++) {
+        slider.value = String((i + step) / 40);
+        slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+        await new Promise(requestAnimationFrame);
+        await /** @type {any} */ (element).updateComplete;
+        texts.add(slider.getAttribute('aria-valuetext'));
+      }
+      told.push(texts.size);
+    }
+    Reflect.deleteProperty(performance, 'now');
+    return told;
   });
-  expect(await heard(page, ['stats'])).toEqual([]);
-  expect(await assign(widget, 'v', 0.3)).toBe('');
-  expect(await heard(page, ['stats'])).toHaveLength(1);
+  expect(quick).toBe(20);
+  expect(slow).toBeGreaterThan(2);
+  expect(slow).toBeLessThan(15);
 });
 
 test('a key that was used goes no further; any other does', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
-  const [banana, squeeze] = NAMES.map((name) => page.locator(name));
+  const [banana, squeeze] = ['banana-machine', 'map-squeeze'].map((name) => page.locator(name));
   await ready(banana);
   await unfold(banana);
   await page.evaluate(() => {
@@ -177,3 +282,29 @@ test('a key that was used goes no further; any other does', async ({ page }) => 
   await squeeze.locator('.handle.body').press('ArrowUp');
   expect(await passed()).toEqual([]);
 });
+
+for (const [name, parts] of /** @type {[string, string[]][]} */ ([
+  ['arc-anatomy', ['.handle.body', '.handle.turn', '#omega', '#underway', 'input[type=radio] >> nth=0']],
+  ['odometry-decomposer', ['.handle.body.from', '.handle.turn.to', '#phase', '#correlation', 'input[type=radio] >> nth=0']],
+  ['dead-reckoning', ['#step', '#headingNoise', 'input[type=radio] >> nth=0']],
+])) {
+  test(`an arrow that ${name} used goes no further; any other key does`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    await page.evaluate(() => {
+      const keys = /** @type {string[]} */ ([]);
+      Object.assign(window, { keys });
+      addEventListener('keydown', ({ key }) => keys.push(key));
+    });
+    const passed = () => page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
+    for (const part of parts) {
+      await widget.locator(part).focus();
+      for (const key of ['ArrowRight', 'ArrowLeft']) await page.keyboard.press(key);
+      expect(await passed(), part).toEqual([]);
+      for (const key of ['s', '/', 'Escape']) await page.keyboard.press(key);
+      expect(await passed(), part).toEqual(['s', '/', 'Escape']);
+    }
+  });
+}

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
-import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
-import { FRESH, STILL, boxOf, frames, pictureOf, state, test } from './support.js';
+import { ALL, CLOUDS, KNOWN, heard, property, ready, show, stateOf } from './element-support.js';
+import { FRESH, STILL, boxOf, frames, pictureOf, state, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -67,6 +67,24 @@ test.describe('far from the window', () => {
     for (const i of [0, 2]) expect(await property(widgets.nth(i), 'machine')).toBe(undefined);
   });
 
+  test('the picture comes first, and what is around it with the next frame, also where the reader leaps to it', async ({ page }) => {
+    await page.addInitScript(() => {
+      const first = /** @type {boolean[][]} */ ([]);
+      Object.assign(window, { first });
+      document.addEventListener('load', ({ target }) => {
+        const { shadowRoot } = /** @type {Element} */ (target);
+        first.push(['canvas', 'input'].map((part) => shadowRoot?.querySelector(part) !== null));
+      });
+    });
+    await show(page, '<map-squeeze></map-squeeze><div style="height: 5000px"></div><map-squeeze></map-squeeze>');
+    for (const widget of await page.locator('map-squeeze').all()) {
+      await widget.scrollIntoViewIfNeeded();
+      await ready(widget);
+      await expect(widget.locator('#v')).toBeVisible();
+    }
+    expect(await page.evaluate(() => Reflect.get(window, 'first'))).toEqual([[true, false], [true, false]]);
+  });
+
   test('what comes next is there before the reader is, and what is further off is not', async ({ page }) => {
     const places = [300, 1000].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
     await show(page, places.join(''));
@@ -80,24 +98,24 @@ test.describe('far from the window', () => {
     const fetched = [];
     page.on('request', (request) => fetched.push(new URL(request.url()).pathname));
     await count(page);
-    await show(page, `<div style="height: 5000px"></div>${NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
+    await show(page, `<div style="height: 5000px"></div>${ALL.map((name) => `<${name}></${name}>`).join('')}`, {
       script: '<script type="module" src="/external.js"></script>',
     });
     // Not by polling, which asks for frames.
-    await page.evaluate(() => customElements.whenDefined('map-squeeze').then(() => true));
+    await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...ALL]);
     await pass(page);
     expect(await counted(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
     expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual([]);
-    for (const name of NAMES) {
+    for (const name of ALL) {
       await page.locator(name).scrollIntoViewIfNeeded();
       await ready(page.locator(name));
     }
-    expect(await counted(page)).toMatchObject({ compiled: 1, instances: 2 });
+    expect(await counted(page)).toMatchObject({ compiled: 1, instances: ALL.length });
     expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
   });
 
   test('a page with one widget fetches what it needs of the module', async ({ page }) => {
-    for (const name of NAMES) {
+    for (const name of ALL) {
       const module = page.waitForRequest(/\.wasm$/);
       await show(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
       await ready(page.locator(name));
@@ -120,24 +138,24 @@ test.describe('far from the window', () => {
         }).observe({ type: 'layout-shift', buffered: true });
       });
       // The script comes after the page is there, as it does on a slow line.
-      await show(page, `<p>Before</p><banana-machine></banana-machine><p>Between</p><div style="height: 1500px"></div><map-squeeze></map-squeeze><p>After</p>`, {
+      const [first, ...others] = ALL;
+      const tags = ALL.join(', ');
+      await show(page, `<p>Before</p>${ALL.map((name) => `<${name}></${name}>`).join('<p>Between</p><div style="height: 1500px"></div>')}<p>After</p>`, {
         // As doc/embedding.md tells pages to: before the script is there, nobody else can.
-        head: '<style>banana-machine, map-squeeze { display: block } :is(banana-machine, map-squeeze):not(:defined) { min-height: 150vh }</style>',
+        head: `<style>${tags} { display: block } :is(${tags}):not(:defined) { min-height: 150vh }</style>`,
       });
-      const heights = async () =>
-        Promise.all(NAMES.map((name) => page.locator(name).evaluate((element) => element.getBoundingClientRect().height)));
-      await page.waitForFunction(() => document.querySelector('map-squeeze')?.shadowRoot?.querySelector('.reserved'));
-      const [, reserved] = await heights();
-      await ready(page.locator('banana-machine'));
+      const heights = () => Promise.all(others.map((name) => page.locator(name).evaluate((element) => element.getBoundingClientRect().height)));
+      await page.waitForFunction((names) => names.every((name) => document.querySelector(name)?.shadowRoot?.querySelector('.reserved')), others);
+      const reserved = await heights();
+      await ready(page.locator(first));
       await page.evaluate(async () => {
         for (let y = 0; y < document.body.scrollHeight; y += 400) {
           scrollTo(0, y);
           for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
         }
       });
-      await ready(page.locator('map-squeeze'));
-      const [, height] = await heights();
-      expect(Math.abs(reserved - height) / height).toBeLessThan(0.15);
+      for (const name of others) await ready(page.locator(name));
+      for (const [i, height] of (await heights()).entries()) expect(Math.abs(reserved[i] - height) / height, others[i]).toBeLessThan(0.15);
       await frames(page);
       expect(await page.evaluate(() => Reflect.get(window, 'shifts'))).toEqual([]);
     });
@@ -145,7 +163,7 @@ test.describe('far from the window', () => {
 });
 
 test.describe('out of sight', () => {
-  for (const name of NAMES) {
+  for (const name of CLOUDS) {
     test(`${name} asks for no frames while it grows, and goes on where it was`, async ({ page }) => {
       await count(page);
       await show(page, `<${name}></${name}><div style="height: 6000px"></div>`);
@@ -162,6 +180,39 @@ test.describe('out of sight', () => {
       expect([(await counted(page)).frames, await shown()]).toEqual(before);
       await page.evaluate(() => scrollTo(0, 0));
       await expect.poll(shown, { timeout: 20_000 }).toBe(samples);
+    });
+  }
+
+  for (const [name, key, end] of /** @type {const} */ ([['arc-anatomy', 'underway', 100], ['odometry-decomposer', 'phase', 3], ['odometry-decomposer', 'drift', 120]])) {
+    test(`${name} asks for no frames while ${key} is played, and goes on where it was`, async ({ page }) => {
+      await count(page);
+      await show(page, `<${name}></${name}><div style="height: 6000px"></div>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      const at = async () => Number(/** @type {any} */ (await stateOf(widget))[key]);
+      const opening = await at();
+      await widget.locator(`.${key}`).getByRole('button', { name: 'Play' }).click();
+      // It sets out from the beginning where it stood at the end.
+      if (opening === end) await expect.poll(at).toBeLessThan(end);
+      await page.evaluate(() => scrollTo(0, 6000));
+      await pass(page);
+      const before = [(await counted(page)).frames, await at()];
+      expect(before[1]).toBeLessThan(end);
+      await pass(page);
+      expect([(await counted(page)).frames, await at()]).toEqual(before);
+      // Meanwhile the time goes on.
+      const next = await page.evaluate(async ([tag, name]) => {
+        const now = performance.now.bind(performance);
+        performance.now = () => now() + 60_000;
+        const figure = /** @type {AnyElement} */ (/** @type {unknown} */ (document.querySelector(tag)));
+        const input = new Promise((resolve) => figure.addEventListener('input', resolve, { once: true }));
+        scrollTo(0, 0);
+        await input;
+        return Number(/** @type {any} */ (figure.getState())[name]);
+      }, /** @type {const} */ ([name, key]));
+      // A frame is at most a tenth of a second.
+      expect(next - before[1]).toBeLessThan(end / 8);
+      await expect.poll(at, { timeout: 20_000 }).toBe(end);
     });
   }
 
@@ -187,8 +238,28 @@ test.describe('out of sight', () => {
   });
 });
 
+test('a figure that goes while the page is hidden is not kept for the frame that it has asked for', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  // It grows, and so there is always a frame to come.
+  await page.evaluate(() => void Object.defineProperty(document, 'hidden', { configurable: true, value: true }));
+  await frames(page);
+  await widget.evaluate((element) => {
+    element.remove();
+    Object.assign(window, { gone: new WeakRef(element) });
+  });
+  const session = await page.context().newCDPSession(page);
+  await expect
+    .poll(async () => {
+      await session.send('HeapProfiler.collectGarbage');
+      return page.evaluate(() => Reflect.get(window, 'gone').deref() === undefined);
+    })
+    .toBe(true);
+});
+
 test.describe('moved and removed', () => {
-  for (const name of NAMES) {
+  for (const name of CLOUDS) {
     test.describe('with less motion', () => {
       test.use(STILL);
 
@@ -198,8 +269,10 @@ test.describe('moved and removed', () => {
         await ready(widget);
         // One of which no robot gets out of the picture: for it the view would open, and stay so until a new one is made.
         await widget.evaluate((element) => void (/** @type {any} */ (element).seed = 11));
-        await widget.getByRole('button', { name: 'Reset' }).click();
-        for (let i = 0; i < 5; i++) await widget.getByRole('button', { name: 'Step' }).click();
+        await unfold(widget);
+        const press = (/** @type {string} */ button) => widget.locator('.cloud').getByRole('button', { name: button, exact: true }).click();
+        await press('Reset');
+        for (let i = 0; i < 5; i++) await press('Step');
         const before = await stateOf(widget);
         expect(/** @type {any} */ (before).shown).toBeGreaterThan(0);
         expect(/** @type {any} */ (before).shown).toBeLessThan(/** @type {any} */ (before).samples);
@@ -243,19 +316,23 @@ test.describe('moved and removed', () => {
       await expect.poll(() => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown), { timeout: 20_000 }).toBe(samples);
     });
 
+  }
+
+  for (const name of ALL) {
     test(`${name} stays as the reader had it over a move and over a removal`, async ({ page }) => {
       await show(page, `<div id="a"><${name}></${name}></div><div id="b"></div>`);
       const widget = page.locator(name);
       await ready(widget);
+      const { fold } = KNOWN[name];
       const folds = widget.locator('details');
       await expect.poll(() => folds.count()).toBeGreaterThan(3);
-      await folds.nth(0).locator('summary').click();
+      await folds.nth(fold.at).locator('summary').click();
       await folds.last().locator('summary').click();
       const open = () => folds.evaluateAll((all) => all.map((each) => /** @type {HTMLDetailsElement} */ (each).open));
       const before = await open();
       expect(before.filter(Boolean)).toHaveLength(2);
-      const field = folds.nth(0).locator('input[type=number]');
-      await field.fill('7');
+      const field = folds.nth(fold.at).locator(fold.field);
+      await field.fill(fold.value);
       await widget.evaluate((element) => document.querySelector('#b')?.append(element));
       await frames(page);
       expect(await open()).toEqual(before);
@@ -271,30 +348,32 @@ test.describe('moved and removed', () => {
       });
       await ready(widget);
       expect(await open()).toEqual(before);
-      await expect(field).toHaveValue('7');
-      await expect(folds.nth(0).locator('.folded')).not.toBeEmpty();
+      await expect(field).toHaveValue(fold.value);
+      await expect(folds.nth(fold.at).locator('.folded')).not.toBeEmpty();
       // All the while it takes the room that it took.
       expect(heights).toEqual([height, height]);
       // It goes on: what is pressed has its effect.
       await folds.last().locator('summary').click();
       await expect.poll(open).toEqual(before.with(-1, false));
-      await widget.getByRole('button', { name: 'Reset' }).click();
-      await expect.poll(() => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown)).toBe(0);
+      const [slider, value] = KNOWN[name].slider;
+      await widget.locator(`#${slider}`).fill(String(value));
+      await expect.poll(() => property(widget, slider)).toBe(value);
     });
 
     test(`${name} keeps what the reader did in the very moment before it was removed`, async ({ page }) => {
       await show(page, `<${name}></${name}>`);
       const widget = page.locator(name);
       await ready(widget);
-      const kept = await widget.evaluate(async (element) => {
-        const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#v'));
-        slider.value = '0.25';
+      const { slider: given, path } = KNOWN[name];
+      const kept = await widget.evaluate(async (element, [id, to]) => {
+        const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
+        slider.value = String(to);
         slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
         element.remove();
         await new Promise(requestAnimationFrame);
-        return /** @type {any} */ (element).getState().command.v;
-      });
-      expect(kept).toBe(0.25);
+        return /** @type {AnyElement} */ (element).getState();
+      }, given);
+      expect(kept).toHaveProperty(path, given[1]);
     });
 
     test(`${name}, removed, leaves nothing behind`, async ({ page }) => {
@@ -339,7 +418,7 @@ test('two copies of the bundle on one page are one', async ({ page }) => {
     const original = await page.request.get('/motion-widgets.js');
     await route.fulfill({ contentType: 'text/javascript', body: await original.text() });
   });
-  await show(page, NAMES.map((name) => `<${name}></${name}>`).join(''), {
+  await show(page, ALL.map((name) => `<${name}></${name}>`).join(''), {
     script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/copy.js"></script><script src="/motion-widgets.iife.js" defer></script>',
   });
   const widget = page.locator('banana-machine');

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
-import { FRESH, STILL, frames, test } from './support.js';
+import { ABOUT, ALL, CLOUDS, heard, property, ready, show, stateOf } from './element-support.js';
+import { FRESH, STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 
@@ -53,6 +53,23 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   expect(await heard(other, ['error', 'input', 'change'])).toEqual([]);
 });
 
+test('the page’s own anchor is gone to once, whatever it is called', FRESH, async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><h2 id="100%" style="margin: 3000px 0">All of it</h2>', { fragment: '#100%&theme=a' });
+  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
+  const scrolled = await page.evaluate(() => {
+    scrollTo(0, 0);
+    document.body.append(document.createElement('banana-machine'));
+    return scrollY;
+  });
+  expect(scrolled).toBe(0);
+});
+
+test('an anchor that is not there is none', FRESH, async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>', { fragment: '#nowhere&theme=a' });
+  await ready(page.locator('banana-machine'));
+  expect(await page.evaluate(() => scrollY)).toBe(0);
+});
+
 test('a link that is followed on the page, and a plain anchor', async ({ page }) => {
   await show(page, '<banana-machine share></banana-machine><p id="end">The end</p>');
   const widget = page.locator('banana-machine');
@@ -85,17 +102,25 @@ test('a page with a base of its own keeps its address', async ({ page }) => {
   await show(page, '<map-squeeze share></map-squeeze>', { head: '<base href="/somewhere/else/">' });
   const widget = page.locator('map-squeeze');
   await ready(widget);
+  const address = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  await expect.poll(() => page.evaluate(() => location.href)).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
+  await expect.poll(address).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
+  // A later state takes the place of the former.
+  const former = await address();
+  await widget.getByRole('button', { name: 'Open corridor' }).click();
+  await expect.poll(address).not.toBe(former);
+  expect(await address()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
-for (const name of NAMES) {
+for (const name of ALL) {
+  const { slider, values, button } = ABOUT[name];
+
   test(`${name} without share leaves the address alone, and opens what a link has for it`, FRESH, async ({ page, context }) => {
     await show(page, `<${name}></${name}>`, { fragment: '#elsewhere' });
     const widget = page.locator(name);
     await ready(widget);
-    await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
-    await widget.getByRole('button', { name: 'Reset' }).click();
+    await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([slider, values[0]]));
+    await widget.getByRole('button', { name: button, exact: true }).click();
     await frames(page);
     expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
     const link = await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
@@ -103,12 +128,14 @@ for (const name of NAMES) {
     const other = await context.newPage();
     await show(other, `<${name}></${name}>`, { fragment: new URL(link).hash });
     await ready(other.locator(name));
-    expect(await stateOf(other.locator(name))).toEqual(await stateOf(widget));
-    await other.locator(name).getByRole('button', { name: 'New seed' }).click();
+    const opened = await stateOf(other.locator(name));
+    expect(opened).toEqual(await stateOf(widget));
+    await other.locator(name).locator(`#${slider}`).fill(String(values[1]));
     await frames(other);
     expect(await other.evaluate(() => location.hash)).toBe(new URL(link).hash);
     // What the reader made of it stays when the figure goes and comes back.
     const left = await stateOf(other.locator(name));
+    expect(left).not.toEqual(opened);
     await other.locator(name).evaluate(async (element) => {
       element.remove();
       await new Promise(requestAnimationFrame);
@@ -123,6 +150,44 @@ for (const name of NAMES) {
     await show(page, `<${name}></${name}>`, { fragment: `#${name}.1=nonsense` });
     await ready(page.locator(name));
     expect(await heard(page, ['error'])).toHaveLength(1);
+  });
+}
+
+for (const name of CLOUDS) {
+  test(`a link to ${name} without a sample opens without one`, FRESH, async ({ page, context }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    await widget.getByRole('button', { name: 'Reset', exact: true }).click();
+    await frames(page);
+    const link = await widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
+    const other = await context.newPage();
+    await show(other, `<${name}></${name}>`, { fragment: new URL(link).hash });
+    await ready(other.locator(name));
+    const state = await stateOf(other.locator(name));
+    expect(state).toMatchObject({ shown: 0, playing: false });
+    expect(state).toEqual(await stateOf(widget));
+  });
+}
+
+for (const name of ALL) {
+  const { slider, values, button } = ABOUT[name];
+
+  test(`${name} with share keeps its state in the address, and follows one that comes`, async ({ page }) => {
+    await show(page, `<${name} share></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const hash = () => page.evaluate(() => location.hash);
+    await widget.locator(`#${slider}`).fill(String(values[0]));
+    await expect.poll(hash).toMatch(new RegExp(`^#${name}\\.1=[\\w-]+$`));
+    const [former, state] = [await hash(), await stateOf(widget)];
+    await widget.getByRole('button', { name: button, exact: true }).click();
+    await expect.poll(hash).not.toBe(former);
+    expect(await stateOf(widget)).not.toEqual(state);
+    await page.evaluate((fragment) => (location.hash = fragment), former);
+    await expect.poll(() => stateOf(widget)).toEqual(state);
+    expect(await heard(page, ['error'])).toEqual([]);
   });
 }
 
@@ -143,14 +208,14 @@ test('a link that unpacks to more than any map takes is refused, whatever it say
   }
 });
 
-test('the code to embed a figure that is not there yet has what was said of it by theme and language', async ({ page }) => {
+test('the code to embed a figure that is not there yet has what was said of it by theme, language and direction', async ({ page }) => {
   await show(page, '');
   const code = await page.evaluate(() => {
     const element = document.createElement('banana-machine');
-    for (const [name, text] of Object.entries({ theme: 'dark', lang: 'de', v: '0.5' })) element.setAttribute(name, text);
+    for (const [name, text] of Object.entries({ theme: 'dark', lang: 'de', dir: 'ltr', v: '0.5' })) element.setAttribute(name, text);
     return element.embedCode();
   });
-  expect(code.split('\n').slice(1)).toEqual(['<banana-machine theme="dark" lang="de"></banana-machine>', '']);
+  expect(code.split('\n').slice(1)).toEqual(['<banana-machine theme="dark" lang="de" dir="ltr"></banana-machine>', '']);
 });
 
 test.describe('the menu', () => {

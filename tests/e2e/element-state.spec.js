@@ -1,84 +1,13 @@
 import { expect } from '@playwright/test';
-import { NAMES, heard, ready, show, stateOf } from './element-support.js';
+import { SEEDS, anyOf } from './any-state.js';
+import { ALL, CLOUDS, heard, ready, show, stateOf } from './element-support.js';
 import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
-/** @typedef {() => number} Random from 0 to 1 */
 
 test.use(STILL);
 
-const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
-
-/**
- * Marsaglia's xorshift, so that a state that fails can be had again.
- *
- * @param {number} seed
- * @returns {Random}
- */
-function randomOf(seed) {
-  let state = seed * 2654435761;
-  return () => {
-    state ^= state << 13;
-    state ^= state >>> 17;
-    state ^= state << 5;
-    return (state >>> 0) / 2 ** 32;
-  };
-}
-
-/** @param {number} seed */
-function anyOf(seed) {
-  const random = randomOf(seed);
-  const real = (/** @type {number} */ least, /** @type {number} */ most) => least + (most - least) * random();
-  const whole = (/** @type {number} */ least, /** @type {number} */ most) => Math.floor(real(least, most + 1));
-  const one = (/** @type {unknown[]} */ of) => of[whole(0, of.length - 1)];
-  const alphas = (/** @type {number} */ count) => Array.from({ length: count }, () => real(0, 0.2));
-  const samples = whole(2, 3000);
-  const shown = one([samples, whole(2, samples)]);
-  const common = {
-    version: 1,
-    command: { v: real(-1, 2), omega: real(-2, 2), dt: real(0.1, 3) },
-    samples,
-    seed: whole(0, 2 ** 53 - 1),
-    shown,
-    playing: false,
-    marked: one([null, whole(0, 1)]),
-  };
-  const model = one(['velocity', 'odometry']);
-  return {
-    'banana-machine': {
-      ...common,
-      widget: 'banana-machine',
-      model,
-      noise: one(['normal', 'triangular']),
-      alphas: { velocity: alphas(6), odometry: alphas(4) },
-      isolate: one([null, whole(1, 4)]),
-      isolateChoice: whole(1, 6),
-      reverseAware: one([true, false]),
-      overlays: ['command', 'ellipse', 'linearized', 'additive', 'exponential'].filter(() => random() < 0.5),
-    },
-    'map-squeeze': {
-      ...common,
-      widget: 'map-squeeze',
-      start: { x: real(1, 5), y: real(1, 3), theta: real(-3, 3) },
-      alphas: alphas(6),
-      clearance: real(0, 0.2),
-      conditioned: one([true, false]),
-      // One after the other, and none of them gives up.
-      sampler: 'whole-arc',
-      steps: whole(1, 64),
-      unknown: one(['free', 'blocked']),
-      view: one(['whole', 'close']),
-      map: one([
-        null,
-        { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },
-        { name: 'part.yaml', columns: 8, rows: 2, resolution: 0.5, origin: [0, 0, 0], occupied: 'gQA=', unknown: 'GA8=' },
-        { name: 'grid.yaml', columns: 13, rows: 9, resolution: 0.5, origin: [-0.5, 0.25, 0.1], occupied: btoa(Array.from({ length: 15 }, (_, i) => String.fromCharCode(i < 14 ? whole(0, 255) : whole(0, 31) << 3)).join('')) },
-      ]),
-    },
-  };
-}
-
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`any state of ${name} goes in and comes out, and a second element is the same then`, async ({ page }) => {
     await show(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
     const [one, two] = ['#one', '#two'].map((id) => page.locator(id));
@@ -94,7 +23,7 @@ for (const name of NAMES) {
       }, /** @type {any} */ (state));
       expect(first.state, `seed ${seed}`).toEqual(state);
       expect(second).toEqual(first);
-      expect(first.poses.length).toBeGreaterThan(0);
+      expect(first.poses.length > 0, 'whether it has samples').toBe('shown' in state);
     }
     await frames(page);
     expect(await heard(page, ['error', 'input', 'change'])).toEqual([]);
@@ -102,7 +31,7 @@ for (const name of NAMES) {
 }
 
 test('a state that is refused names the field, and changes nothing', async ({ page }) => {
-  await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
+  await show(page, ALL.map((name) => `<${name}></${name}>`).join(''));
   const cases = /** @type {[string, object, string][]} */ ([
     ['banana-machine', { version: 2 }, 'RangeError: state.version is 2; allowed is 1'],
     ['banana-machine', { widget: 'map-squeeze' }, 'RangeError: state.widget is "map-squeeze"; allowed is "banana-machine"'],
@@ -138,8 +67,28 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: 'gA==', unknown: 3 } }, 'TypeError: map.unknown is 3; allowed is base64 of 1 bytes'],
     ['map-squeeze', { unknown: 'maybe' }, 'RangeError: unknown is "maybe"; allowed is "free" or "blocked"'],
     ['map-squeeze', { map: { columns: 1e9, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '' } }, 'RangeError: map.columns is 1000000000; allowed is a whole number'],
+    ['arc-anatomy', { twist: true }, 'TypeError: state.twist is true; allowed is "hidden" or "shown"'],
+    ['arc-anatomy', { line: 10 }, 'RangeError: state.line is 10; allowed is a whole number from 0 to 9'],
+    ['arc-anatomy', { underway: 0.5 }, 'RangeError: state.underway is 0.5; allowed is a whole number from 0 to 100'],
+    ['arc-anatomy', { next: { x: 1 } }, 'TypeError: next.y is'],
+    ['arc-anatomy', { samples: 100 }, 'TypeError: state.samples is an unknown key; allowed are'],
+    ['arc-anatomy', { playing: false }, 'TypeError: state.playing is an unknown key; allowed are'],
+    ['odometry-decomposer', { samples: 5001 }, 'RangeError: samples is 5001; allowed is a whole number from 1 to 5000'],
+    ['odometry-decomposer', { shown: 501 }, 'RangeError: state.shown is 501; allowed is a whole number from 0 to 500'],
+    ['odometry-decomposer', { rule: 'amcl' }, 'RangeError: rule is "amcl"; allowed is'],
+    ['odometry-decomposer', { phase: 3.5 }, 'RangeError: phase is 3.5; allowed is a number from 0 to 3'],
+    ['odometry-decomposer', { marked: 500 }, 'RangeError: state.marked is 500; allowed is a whole number from 0 to 499'],
+    ['odometry-decomposer', { from: 'here' }, 'TypeError: from is "here"; allowed is an object'],
+    ['dead-reckoning', { shown: 50001 }, 'RangeError: state.shown is 50001; allowed is a whole number from 0 to 50000'],
+    ['dead-reckoning', { step: 21 }, 'RangeError: step is 21; allowed is a whole number from 1 to 20'],
+    ['dead-reckoning', { steps: 0 }, 'RangeError: steps is 0; allowed is a whole number from 1 to 200'],
+    ['dead-reckoning', { steps: 'few' }, 'TypeError: steps is "few"; allowed is'],
+    ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],
+    ['dead-reckoning', { compounding: 'none' }, 'RangeError: compounding is "none"; allowed is'],
+    ['dead-reckoning', { shown: 10, marked: 10 }, 'RangeError: state.marked is 10; allowed is a whole number from 0 to 9'],
+    ['dead-reckoning', { headingNoise: 0.1 }, 'TypeError: state.headingNoise is an unknown key; allowed are'],
   ]);
-  for (const name of NAMES) {
+  for (const name of ALL) {
     const widget = page.locator(name);
     await widget.scrollIntoViewIfNeeded();
     await ready(widget);
@@ -158,14 +107,16 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
       expect(after).toEqual(before);
     }
   }
-  const ofFunction = await page.locator('banana-machine').evaluate((element) => {
-    try {
-      /** @type {any} */ (element).setState({ widget: element.localName, version: () => 1 });
-    } catch (error) {
-      return String(error);
-    }
-  });
-  expect(ofFunction).toBe('RangeError: state.version is a function; allowed is 1');
+  const ofOthers = await page.locator('banana-machine').evaluate((element) =>
+    [() => 1, 1n].map((version) => {
+      try {
+        /** @type {any} */ (element).setState({ widget: element.localName, version });
+      } catch (error) {
+        return String(error);
+      }
+    }),
+  );
+  expect(ofOthers).toEqual(['function', 'bigint'].map((kind) => `RangeError: state.version is a ${kind}; allowed is 1`));
 });
 
 test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {
@@ -194,7 +145,58 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   expect(await stateOf(widget)).toEqual(after);
 });
 
-for (const name of NAMES) {
+for (const [name, group, key, value] of /** @type {const} */ ([
+  ['arc-anatomy', '.underway', 'underway', 30],
+  ['odometry-decomposer', '.playable.phase', 'phase', 1],
+  ['odometry-decomposer', '.playable.drift', 'drift', 30],
+])) {
+  test(`a state of ${name} that comes while ${key} plays is what is shown from then on, as is one that is left and come back to`, async ({ page }) => {
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const play = widget.locator(group).getByRole('button');
+    const present = async () => /** @type {any} */ (await stateOf(widget))[key];
+    await play.click();
+    await expect(play).toHaveText('Pause');
+    await widget.evaluate((element, part) => /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, ...part }), { [key]: value });
+    await expect(play).toHaveText('Play');
+    await frames(page);
+    expect(await present()).toBe(value);
+    await play.click();
+    await expect.poll(present).toBeGreaterThan(value);
+    const left = await widget.evaluate(async (element) => {
+      const parent = /** @type {Element} */ (element.parentElement);
+      element.remove();
+      await new Promise(requestAnimationFrame);
+      const left = /** @type {AnyElement} */ (element).getState();
+      const again = new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
+      parent.append(element);
+      await again;
+      return left;
+    });
+    await expect(play).toHaveText('Play');
+    await frames(page);
+    expect(/** @type {any} */ (await stateOf(widget))[key]).toBe(/** @type {any} */ (left)[key]);
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+}
+
+test('a state of dead-reckoning in part with a shorter path looks at where that ends, as the property does', async ({ page }) => {
+  await show(page, '<dead-reckoning step="9"></dead-reckoning>');
+  const widget = page.locator('dead-reckoning');
+  await ready(widget);
+  const steps = await widget.evaluate((element) => {
+    const figure = /** @type {any} */ (element);
+    return [12, 5, 20].map((steps) => {
+      figure.setState({ widget: element.localName, version: 1, steps });
+      return [figure.steps, figure.step];
+    });
+  });
+  expect(steps).toEqual([[12, 9], [5, 5], [20, 5]]);
+});
+
+for (const name of CLOUDS) {
   test(`a state of ${name} in part shows as many samples as there were, and grows for no reader who wants less motion`, async ({ page }) => {
     await show(page, `<${name} samples="300"></${name}>`);
     const widget = page.locator(name);
@@ -215,6 +217,7 @@ for (const name of NAMES) {
     await show(page, `<${name}></${name}>`);
     const widget = page.locator(name);
     await ready(widget);
+    await unfold(widget);
     const marks = await widget.evaluate((element) => {
       const figure = /** @type {AnyElement} */ (element);
       figure.marked = 5;
@@ -222,9 +225,15 @@ for (const name of NAMES) {
       const reset = [...(figure.shadowRoot?.querySelectorAll('button') ?? [])].find(({ innerText }) => innerText === 'Reset');
       reset?.click();
       figure.setState(/** @type {any} */ (figure.getState()));
-      return [before, figure.getState()?.marked];
+      const marks = [before, figure.getState()?.marked];
+      // The sixth is none of five.
+      for (const part of [{ shown: 6, marked: 5 }, { shown: 5 }]) {
+        figure.setState({ widget: element.localName, version: 1, ...part });
+        marks.push(figure.getState()?.marked);
+      }
+      return marks;
     });
-    expect(marks).toEqual([5, null]);
+    expect(marks).toEqual([5, null, 5, null]);
     expect(await heard(page, ['error'])).toEqual([]);
   });
 }
@@ -232,6 +241,7 @@ for (const name of NAMES) {
 for (const [name, large] of /** @type {const} */ ([
   ['banana-machine', { samples: 1_000_000 }],
   ['map-squeeze', { samples: 20_000, sampler: 'sub-stepped', steps: 30, conditioned: false }],
+  ['dead-reckoning', { samples: 100_000, steps: 40 }],
 ])) {
   for (const way of ['state', 'properties']) {
     test(`${name} opens in ${way} that it was given before and that take long to make`, async ({ page }) => {

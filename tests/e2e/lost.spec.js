@@ -2,7 +2,7 @@
 
 import { chromium, expect } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
-import { NAMES, heard, property, ready, show, stateOf } from './element-support.js';
+import { ALL, KNOWN, assign, heard, property, ready, show, stateOf } from './element-support.js';
 import { STILL, centreOf, frames, pictureOf, pixelsOf, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -69,15 +69,15 @@ function digest(widget) {
   });
 }
 
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`${name} is drawn again after a trap within 100 ms, the same to the bit, and its neighbours go on as they are`, async ({ page }) => {
-    const others = NAMES.map((each, i) => `<${each} class="other" style="position: fixed; top: 0; right: ${330 * i}px; width: 320px; opacity: 0.5"></${each}>`);
-    await show(page, `<${name} id="it" seed="11"></${name}>${others.join('')}`);
+    const others = ALL.map((each, i) => `<${each} class="other" style="position: fixed; top: 0; right: ${330 * i}px; width: 320px; opacity: 0.5"></${each}>`);
+    await show(page, `<${name} id="it" seed="11" ${KNOWN[name].fewer ?? ''}></${name}>${others.join('')}`);
     const widget = page.locator('#it');
     await ready(widget);
     for (const other of await page.locator('.other').all()) await ready(other);
     const before = [await digest(widget), await pictureOf(widget.locator('canvas.plane'))];
-    const neighbours = () => Promise.all(NAMES.map((each) => digest(page.locator(`${each}.other`))));
+    const neighbours = () => Promise.all(ALL.map((each) => digest(page.locator(`${each}.other`))));
     const around = await neighbours();
     await page.evaluate(() => {
       const machines = [...document.querySelectorAll('.other')].map((each) => /** @type {any} */ (each).machine);
@@ -112,7 +112,7 @@ for (const name of NAMES) {
     expect([await digest(widget), await pictureOf(widget.locator('canvas.plane'))]).toEqual(before);
     expect((await heard(page)).map(({ name, target }) => [name, target])).toEqual(times.map(() => ['error', name]));
     // Not one of them was made anew.
-    expect(await page.evaluate(() => Reflect.get(window, 'machines').map((/** @type {unknown} */ machine, /** @type {number} */ i) => machine === /** @type {any} */ (document.querySelectorAll('.other')[i]).machine))).toEqual([true, true]);
+    expect(await page.evaluate(() => Reflect.get(window, 'machines').map((/** @type {unknown} */ machine, /** @type {number} */ i) => machine === /** @type {any} */ (document.querySelectorAll('.other')[i]).machine))).toEqual(ALL.map(() => true));
     expect(await neighbours()).toEqual(around);
   });
 
@@ -140,8 +140,8 @@ for (const name of NAMES) {
     await ready(widget);
     const box = page.locator('#box');
     const canvas = widget.locator('canvas.plane');
-    /** @param {number | null} omega */
-    const turning = (omega) => widget.evaluate((element, value) => void (/** @type {any} */ (element).omega = value), omega);
+    const [setting, other] = KNOWN[name].other;
+    const put = (/** @type {number | null} */ to) => assign(widget, setting, to);
     /** The picture with a view that is fitted anew, as it is to another size. */
     const fitted = async () => {
       for (const width of ['800px', '900px']) {
@@ -151,21 +151,21 @@ for (const name of NAMES) {
       return pictureOf(canvas);
     };
     const before = await fitted();
-    await turning(1.25);
+    await put(other);
     // The view holds still while a setting changes.
     const wanted = [await pictureOf(canvas), await fitted()];
     expect(wanted).not.toContain(before);
-    await turning(null);
+    await put(null);
     expect(await fitted()).toBe(before);
     for (const [property, none] of [['display', 'none'], ['width', '0'], ['zoom', '0.001'], ['content-visibility', 'hidden']]) {
       await box.evaluate((element, [key, value]) => element.style.setProperty(key, value), [property, none]);
       await frames(page);
-      await turning(1.25);
+      await put(other);
       await frames(page);
       await box.evaluate((element, key) => element.style.removeProperty(key), property);
       await box.evaluate((element) => element.style.setProperty('width', '900px'));
       await expect.poll(async () => wanted.includes(await pictureOf(canvas)), property).toBe(true);
-      await turning(null);
+      await put(null);
       expect(await fitted(), property).toBe(before);
     }
     expect(await heard(page, ['error'])).toEqual([]);
@@ -236,11 +236,12 @@ for (const name of NAMES) {
     const widget = page.locator(name);
     await ready(widget);
     const canvas = widget.locator('canvas.plane');
-    await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
+    const [setting, other] = KNOWN[name].other;
+    await assign(widget, setting, other);
     const wanted = await pictureOf(canvas);
-    await widget.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = /** @type {any} */ (null)));
+    await assign(widget, setting, null);
     const before = await pictureOf(canvas);
-    const [meanwhile, afterwards] = await widget.evaluate(async (element) => {
+    const [meanwhile, afterwards] = await widget.evaluate(async (element, [key, last]) => {
       const hide = (/** @type {boolean} */ value) => {
         Object.defineProperty(document, 'hidden', { configurable: true, value });
         document.dispatchEvent(new Event('visibilitychange'));
@@ -254,17 +255,17 @@ for (const name of NAMES) {
       hide(true);
       const figure = /** @type {AnyElement} */ (element);
       for (let i = 0; i < 10; i++) {
-        figure.omega = 1.25 + i / 100;
+        Reflect.set(figure, key, last + i / 100);
         /** @type {any} */ (figure).gesture.commit();
         await new Promise((resolve) => setTimeout(resolve, 20));
       }
-      figure.omega = 1.25;
+      Reflect.set(figure, key, last);
       const meanwhile = requested;
       // The frame that it asks for then is still to come, and no second one, when the page is seen the next time.
       for (const hidden of [false, true, false]) hide(hidden);
       window.requestAnimationFrame = request;
       return [meanwhile, requested];
-    });
+    }, /** @type {const} */ ([setting, other]));
     expect(meanwhile).toBe(0);
     expect(afterwards).toBe(1);
     expect(before).not.toBe(wanted);
@@ -307,20 +308,23 @@ test('pictures are drawn again when the process for graphics has died', async ({
 
 test('a page that comes back from the back-forward cache is alive', async ({ baseURL }) => {
   await withBrowser(String(baseURL), { ignoreDefaultArgs: ['--disable-back-forward-cache'] }, async (page) => {
-    await show(page, NAMES.map((name) => `<${name} share></${name}>`).join(''));
-    const [banana, squeeze] = NAMES.map((name) => page.locator(name));
-    await ready(banana);
-    await squeeze.scrollIntoViewIfNeeded();
-    await ready(squeeze);
+    await show(page, ALL.map((name) => `<${name} share></${name}>`).join(''));
+    const widgets = ALL.map((name) => page.locator(name));
+    const [banana, squeeze] = widgets;
+    for (const widget of widgets) {
+      await widget.scrollIntoViewIfNeeded();
+      await ready(widget);
+    }
     await banana.scrollIntoViewIfNeeded();
     await banana.evaluate((element) => void (/** @type {AnyElement} */ (element).omega = 1.25));
-    const before = [await digest(banana), await digest(squeeze), await pictureOf(banana.locator('canvas.plane'))];
+    const shown = () => Promise.all([pictureOf(banana.locator('canvas.plane')), ...widgets.map(digest)]);
+    const before = await shown();
     await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
     await page.goto('/embed.html?widget=map-squeeze');
     await page.goBack({ waitUntil: 'commit' });
     await expect.poll(() => page.evaluate(() => Reflect.get(window, 'persisted'))).toBe(true);
     await frames(page);
-    expect([await digest(banana), await digest(squeeze), await pictureOf(banana.locator('canvas.plane'))]).toEqual(before);
+    expect(await shown()).toEqual(before);
     // It goes on: a handle can be dragged, and the picture follows.
     const { x, y } = await centreOf(banana.locator('.handle'));
     await page.mouse.move(x, y);
@@ -329,7 +333,7 @@ test('a page that comes back from the back-forward cache is alive', async ({ bas
     await page.mouse.up();
     await frames(page);
     expect(await property(banana, 'omega')).not.toBe(1.25);
-    expect(await pictureOf(banana.locator('canvas.plane'))).not.toBe(before[2]);
+    expect(await pictureOf(banana.locator('canvas.plane'))).not.toBe(before[0]);
     expect(await stateOf(squeeze)).toMatchObject({ widget: 'map-squeeze' });
   });
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NAMES, ready, show } from './element-support.js';
+import { RESERVED, ready, show } from './element-support.js';
 import { FRESH, STILL, boxOf, frames, test } from './support.js';
 
 test.use(STILL);
@@ -18,7 +18,7 @@ const FONTS = [
   ["'DejaVu Sans', Verdana, sans-serif", 30, 17],
 ];
 
-for (const name of NAMES) for (const [font, from, size] of FONTS) {
+for (const name of RESERVED) for (const [font, from, size] of FONTS) {
   test(`the room that is kept for ${name} is that which it takes, at any width, in ${size} px ${font}`, FRESH, async ({ page }) => {
     test.slow();
     await show(page, `<${name} id="here"></${name}><div style="height: 9000px"></div><${name} id="later"></${name}>`, {
@@ -67,17 +67,17 @@ for (const [width, more = ''] of /** @type {[number, string?][]} */ ([[375], [48
       await arrival;
       await route.continue();
     });
-    const loaded = show(page, NAMES.map((name) => `<p>Before</p><${name}></${name}><p>After</p>`).join(''), {
+    const loaded = show(page, RESERVED.map((name) => `<p>Before</p><${name}></${name}><p>After</p>`).join(''), {
       head: `<link rel="stylesheet" href="/motion-widgets.css"><style>body { font-family: ${FONTS[0][0]} } ${more}</style>`,
     });
-    await page.waitForFunction(() => [...document.querySelectorAll('body > p')].length === 4);
+    await page.waitForFunction((count) => document.querySelectorAll('body > p').length === count, 2 * RESERVED.length);
     await frames(page);
     const tops = () => page.locator('body > p').evaluateAll((all) => all.map((each) => each.getBoundingClientRect().top));
     const before = await tops();
-    expect(await page.evaluate(() => document.querySelectorAll(':not(:defined)').length)).toBe(2);
+    expect(await page.evaluate(() => document.querySelectorAll(':not(:defined)').length)).toBe(RESERVED.length);
     arrive();
     await loaded;
-    for (const name of NAMES) {
+    for (const name of RESERVED) {
       await ready(page.locator(name));
       await expect(page.locator(name).locator('.folds')).toBeVisible();
     }
@@ -95,9 +95,15 @@ const STATES = {
   'map-squeeze': [null, { name: 'a_map_with_quite_a_long_name', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] }].flatMap((map) =>
     ['endpoint', 'whole-arc', 'sub-stepped'].flatMap((sampler) => [true, false].map((conditioned) => ({ map, sampler, conditioned }))),
   ),
+  'dead-reckoning': ['chapter', 'fine', 'straight'].flatMap((preset) =>
+    ['chapter', 'fourth-order'].flatMap((compounding) => [500, 50_000].map((samples) => ({ preset, compounding, samples }))),
+  ),
+  'odometry-decomposer': ['all', 'reverse', 'spin', 'rest'].flatMap((preset) =>
+    ['table', 'nav2', 'omni'].map((rule) => ({ preset, rule })),
+  ),
 };
 
-for (const name of NAMES) {
+for (const name of RESERVED) {
   for (const lang of ['en', 'de']) {
     test(`${name} is at most 720 px high in the column of a book and on a screen, whatever it shows, in ${lang}`, async ({ page }) => {
       await page.setViewportSize({ width: 640, height: 720 });

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { NAMES, ready, show } from './element-support.js';
+import { ALL, KNOWN, ready, show } from './element-support.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
 import { FRESH, STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test, unfold } from './support.js';
 
@@ -220,9 +220,21 @@ test.describe('a finger', () => {
     await frames(page);
   }
 
-  for (const target of ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', 'svg.chart']) {
-    test(`that swipes over ${target} scrolls the page and changes nothing`, async ({ page }) => {
-      const widget = await open(page);
+  /** Where a finger may swipe over each figure. @type {[string, string[]][]} */
+  const SWIPED = [
+    ['banana-machine', ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', 'svg.chart']],
+    ['arc-anatomy', ['canvas.plane', '#omega', '#underway', '#alpha3']],
+    ['odometry-decomposer', ['canvas.plane', 'canvas.world', '#phase', '#drift', '#correlation', '.rules']],
+    ['dead-reckoning', ['canvas.plane', 'canvas.twist', '#step', '#headingNoise', '#samples', '.ratios']],
+  ];
+
+  for (const [name, targets] of SWIPED) for (const target of targets) {
+    test(`that swipes over ${target} of ${name} scrolls the page and changes nothing`, async ({ page }) => {
+      await show(page, `<div style="height: 300px"></div><${name}></${name}><div style="height: 1500px"></div>`, {
+        head: '<meta name="viewport" content="width=device-width">',
+      });
+      const widget = page.locator(name);
+      await ready(widget);
       await unfold(widget);
       const place = widget.locator(target);
       // Into the lower half of the screen, clear of the floor that stays in sight above.
@@ -352,7 +364,7 @@ test.describe('theming', () => {
   });
 });
 
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`${name}: the help of a slider covers no slider of its group, and no outline crosses it`, async ({ page }) => {
     for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [375, 'de'], [700, 'en'], [700, 'de']])) {
       await page.setViewportSize({ width, height: 812 });
@@ -361,7 +373,7 @@ for (const name of NAMES) {
       });
       const widget = page.locator(name);
       await ready(widget);
-      await expect(widget.locator('#v')).toBeVisible();
+      await expect(widget.locator(`#${KNOWN[name].slider[0]}`)).toBeVisible();
       const crossed = await widget.evaluate((element) => {
         const root = /** @type {ShadowRoot} */ (element.shadowRoot);
         return [...root.querySelectorAll('.slider')].flatMap((row) => {
@@ -383,15 +395,16 @@ for (const name of NAMES) {
     await show(page, `<${name}></${name}>`);
     const widget = page.locator(name);
     await ready(widget);
-    const fold = widget.locator('.folds details').nth(1);
+    const { at, part } = KNOWN[name].paper;
+    const fold = widget.locator('.folds details').nth(at);
     await expect(fold).toBeVisible();
     await page.emulateMedia({ media: 'print' });
-    await expect(fold.locator('table').first()).toBeHidden();
+    await expect(fold.locator(part).first()).toBeHidden();
     await page.emulateMedia({ media: 'screen' });
     await fold.locator('summary').click();
-    await expect(fold.locator('table').first()).toBeVisible();
+    await expect(fold.locator(part).first()).toBeVisible();
     await page.emulateMedia({ media: 'print' });
-    await expect(fold.locator('table').first()).toBeVisible();
+    await expect(fold.locator(part).first()).toBeVisible();
     await expect(widget.locator('.readouts').first()).toBeVisible();
     await expect(widget.locator('[part=caption]')).toBeVisible();
     await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);

@@ -1,5 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
+import { presets } from '../../www/settings.js';
+import { assign, ready, show } from './element-support.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
 import { STILL, boxOf, frames, numberIn, open, openWhole, readout, state, test } from './support.js';
 
@@ -237,15 +239,24 @@ test('the menu saves files with names that say what they are, from the keyboard 
   }
 });
 
-test('a file that is saved says of what type it is', async ({ page }) => {
+test('a file that is saved says of what type it is, and takes no memory for good', async ({ page }) => {
   await page.addInitScript(() => {
     const types = /** @type {string[]} */ ([]);
-    const address = URL.createObjectURL.bind(URL);
-    Object.assign(window, { types });
+    const held = new Set();
+    const [address, revoke, later] = [URL.createObjectURL.bind(URL), URL.revokeObjectURL.bind(URL), setTimeout];
+    Object.assign(window, { types, held });
     URL.createObjectURL = (blob) => {
       types.push(/** @type {Blob} */ (blob).type);
-      return address(blob);
+      const made = address(blob);
+      held.add(made);
+      return made;
     };
+    URL.revokeObjectURL = (made) => {
+      held.delete(made);
+      revoke(made);
+    };
+    // A minute is a second.
+    Object.assign(window, { setTimeout: (/** @type {TimerHandler} */ work, delay = 0) => later(work, Math.min(delay, 1000)) });
   });
   const widget = await open(page);
   await widget.locator('.exports summary').click();
@@ -253,6 +264,7 @@ test('a file that is saved says of what type it is', async ({ page }) => {
     await Promise.all([page.waitForEvent('download'), widget.locator('.exports').getByRole('button', { name }).click()]);
   }
   expect(await page.evaluate(() => Reflect.get(window, 'types'))).toEqual(['image/png', 'image/svg+xml', 'text/csv']);
+  await expect.poll(() => page.evaluate(() => Reflect.get(window, 'held').size)).toBe(0);
 });
 
 test('before there is a figure the methods say so', async ({ page }) => {
@@ -308,3 +320,20 @@ test('SVG is well-formed whatever a page calls its things', async ({ page }) => 
     expect(await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('script').length, svg)).toBe(0);
   }
 });
+
+for (const [tag, own] of Object.entries(presets)) {
+  test(`every preset of ${tag} is vectors that stand on their own`, async ({ page }) => {
+    await show(page, `<${tag}></${tag}>`);
+    const widget = page.locator(tag);
+    await ready(widget);
+    for (const { name } of own) {
+      await assign(widget, 'preset', name);
+      const { title, texts, paths, size } = await elementsOf(page, await svgOf(widget));
+      expect(title).not.toBe('');
+      // The axes at least, and what the lines are called.
+      expect(texts, name).toBeGreaterThan(6);
+      expect(paths, name).toBeGreaterThan(10);
+      expect(Math.min(...size), name).toBeGreaterThan(100);
+    }
+  });
+}

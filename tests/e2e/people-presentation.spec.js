@@ -7,6 +7,9 @@ import { STILL, boxOf, centreOf, frames, test } from './support.js';
 
 test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 
+/** How much larger everything is. @param {import('@playwright/test').Locator} widget */
+const zoomOf = (widget) => widget.locator('.surface').evaluate((element) => new DOMMatrix(getComputedStyle(element).transform).a);
+
 for (const controls of [false, true]) {
   test(`on a phone the Banana Machine shows both pictures, equally large, ${controls ? 'with' : 'without'} controls`, async ({ page }) => {
     await page.setViewportSize({ width: 375, height: 667 });
@@ -52,7 +55,7 @@ for (const name of NAMES) {
     const pixels = await widget.locator('canvas').evaluateAll((all) => all.map((each) => /** @type {HTMLCanvasElement} */ (each).width));
     for (const [i, { width }] of pictures.entries()) expect(Math.abs(pixels[i] - width)).toBeLessThanOrEqual(2);
     expect(pictures.reduce((sum, { width }) => sum + width, 0)).toBeGreaterThan(1920 * 0.65);
-    const zoom = await widget.locator('.surface').evaluate((element) => new DOMMatrix(getComputedStyle(element).transform).a);
+    const zoom = await zoomOf(widget);
     const sizes = await widget.locator('canvas, .readouts dt, .readouts dd, [part=caption]').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
     for (const size of sizes) expect(size * zoom).toBeGreaterThanOrEqual(24);
     // Nothing to scroll, and every control behind the key that is named.
@@ -61,6 +64,9 @@ for (const name of NAMES) {
     const controls = widget.getByRole('button', { name: 'C Controls' });
     await expect(controls).toBeFocused();
     await expectAccessible(page, undefined, name);
+    // To copy what is selected shows no controls.
+    await page.keyboard.press('Control+c');
+    await expect(controls).toHaveAttribute('aria-pressed', 'false');
     await page.keyboard.press('c');
     await expect(controls).toHaveAttribute('aria-pressed', 'true');
     await expect(widget.locator('.slider').first()).toBeVisible();
@@ -76,6 +82,7 @@ for (const name of NAMES) {
     await expect.poll(() => page.evaluate(() => scrollY)).toBe(scrolled);
     expect(await boxOf(widget)).toEqual(before);
     await expect(widget.getByRole('button', { name: 'Present' })).toBeFocused();
+    await expect(widget.getByRole('button', { name: 'Esc' })).toHaveCount(0);
   });
 
   test(`${name} fills the window where the screen is not to be had, and nothing behind it has the focus`, async ({ page }) => {
@@ -88,6 +95,11 @@ for (const name of NAMES) {
     await widget.evaluate((element) => void (Reflect.set(element, 'presentation', true)));
     await expect(widget).toHaveAttribute('presentation');
     expect(await boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
+    // Meanwhile the figure may get another theme, and the window another size.
+    await widget.evaluate((element) => element.setAttribute('theme', 'light'));
+    await page.setViewportSize({ width: 1440, height: 810 });
+    await frames(page);
+    expect(await zoomOf(widget)).toBe(1.5);
     await page.locator('#behind').focus();
     await expect(page.locator('#behind')).not.toBeFocused();
     expect(await page.locator('#behind').evaluate((element) => element.closest('[inert]') !== null)).toBe(true);

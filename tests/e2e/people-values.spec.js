@@ -48,9 +48,27 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(help(widget, 'alpha1')).not.toContainText('The slider ends');
 });
 
+for (const [name, key, fold] of [
+  ['odometry-decomposer', 'phase'],
+  ['odometry-decomposer', 'correlation', 'Noise and outcomes'],
+  ['odometry-decomposer', 'samples', 'Noise and outcomes'],
+  ['dead-reckoning', 'steps'],
+]) {
+  test(`at either end of ${name}’s ${key} nothing is said of values beyond, as there are none`, async ({ page }) => {
+    const widget = await widgetOf(page, name);
+    if (fold) await widget.locator('summary', { hasText: fold }).click();
+    for (const end of key === 'samples' ? ['End'] : ['End', 'Home']) {
+      await widget.locator(`#${key}`).press(end);
+      await expect(widget.locator('.slider:focus-within .effect')).toBeVisible();
+      await expect(help(widget, key)).not.toContainText('The slider ends');
+    }
+  });
+}
+
 test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   const field = valueField(widget, 'v');
+  await expect(help(widget, 'v')).toHaveText('How far along the arc; below zero the robot backs up.');
   await field.click();
   await page.keyboard.type('\u22122.125 m/s');
   await page.keyboard.press('Tab');

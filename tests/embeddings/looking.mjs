@@ -30,7 +30,8 @@ export async function cloudPixels(canvas) {
   const end = performance.now() + 60_000;
   for (;;) {
     await new Promise(requestAnimationFrame);
-    const samples = host.samples;
+    // A figure may have none.
+    const samples = host.samples ?? 0;
     const over = performance.now() > end;
     if (counted() !== samples && !over) continue;
     const ground = colour('paper');

@@ -17,7 +17,7 @@ import { pngOf } from '../png.js';
  *   how far away it was dragged
  */
 
-/** By their tags. @type {Record<string, { handles: Handle[] }>} */
+/** By their tags; Dead Reckoning has none. @type {Record<string, { handles: Handle[] }>} */
 export const figures = {
   'banana-machine': {
     handles: [{ name: 'end', to: [0.8, 0.4], placeOf: ({ contours }) => [...contours.command.slice(-2)] }],
@@ -35,6 +35,16 @@ export const figures = {
       },
     ],
   },
+  'arc-anatomy': {
+    handles: [{ name: 'body.next', to: [0.8, 0.7], placeOf: ({ config: { next } }) => [next.x, next.y] }],
+  },
+  'odometry-decomposer': {
+    handles: [
+      { name: 'body.from', to: [0.3, -0.2], placeOf: ({ config: { from } }) => [from.x, from.y] },
+      { name: 'body.to', to: [0.9, 1.2], placeOf: ({ config: { to } }) => [to.x, to.y] },
+    ],
+  },
+  'dead-reckoning': { handles: [] },
 };
 
 /**

@@ -68,7 +68,7 @@ export async function changed({ tag, hash }) {
  * @param {any} machine of whatever widget
  * @returns {Promise<State>}
  */
-export async function machineState({ config, poses, stats, verdicts = null, contours = null, grid = null }) {
+export async function machineState({ config, poses = null, stats, verdicts = null, contours = null, grid = null }) {
   return { config, hash: await hashOf({ poses, stats, verdicts, contours, grid }) };
 }
 
@@ -120,16 +120,18 @@ export function coloursOf(tag) {
 
 /**
  * @param {string} tag
- * @returns {{ key: string, value: number, shown: number, step: number }[]} its sliders that are to be seen: what the setting of
- *   each is, and where the slider stands
+ * @returns {{ key: string, value: number, shown: number, step: number, end: number }[]} its sliders that are to be seen: what the
+ *   setting of each is, where the slider stands, and where it ends
  */
-export const slidersOf = (tag) =>
-  [...rootOf(tag).querySelectorAll('input[type=range]')]
+export function slidersOf(tag) {
+  const figure = /** @type {any} */ (figureOf(tag));
+  return [...rootOf(tag).querySelectorAll('input[type=range]')]
     .filter((slider) => slider.checkVisibility())
     .map((slider) => {
-      const { id, value, step } = /** @type {HTMLInputElement} */ (slider);
-      return { key: id, value: /** @type {any} */ (figureOf(tag))[id], shown: Number(value), step: Number(step) };
+      const { id, value, step, max } = /** @type {HTMLInputElement} */ (slider);
+      return { key: id, value: figure[id] ?? figure.getState()[id], shown: Number(value), step: Number(step), end: Number(max) };
     });
+}
 
 /**
  * Drops files on the picture of a figure. No protocol can drop what comes from outside of the page.

@@ -4,7 +4,7 @@ use super::doubles::{any_double, cases};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{FloorPlan, FloorPlanError, read_pgm};
+use motion::map::{FloorPlan, FloorPlanError, Pixel, read_pgm};
 use parry2d_f64::math::Vector;
 use parry2d_f64::query::PointQuery;
 use parry2d_f64::shape::Segment as Line;
@@ -217,7 +217,7 @@ proptest! {
         prop_assert!(image.pixels.clone().eq(read_pgm(&binary).expect("a binary file").pixels));
         prop_assert_eq!((image.width, image.height), (width, height));
         for (pixel, value) in image.pixels.zip(&values) {
-            prop_assert_eq!(pixel.shade, *value as f32 / greatest as f32);
+            prop_assert_eq!(Pixel::from(pixel).shade, *value as f32 / greatest as f32);
         }
         // Cut anywhere, a binary file is refused; a plain one too, unless the cut is in or behind its last number.
         prop_assert!(read_pgm(&binary[..cut % binary.len()]).is_err());

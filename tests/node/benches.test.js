@@ -3,7 +3,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { checkClouds, checkDraws } from '../../benches/checks.js';
+import { bytesPerPose, watchMemory } from '../../benches/memory.js';
+import { countingCore, operationsOf } from '../../benches/operations.js';
 import { report } from '../../benches/report.js';
+import { KINDS } from '../../benches/roofline.js';
 import { dividedPlan, growingPlan } from '../../benches/squeeze.js';
 import { ratio, spread } from '../../benches/timing.js';
 import { freshModule } from './support.js';
@@ -48,6 +51,28 @@ test('buildings have the walls asked for, and the robot’s surroundings stay', 
   }
 });
 
+test('operations are counted where they are executed, of each sample as many', async () => {
+  const core = await countingCore();
+  for (const kind of KINDS) {
+    // Robots are driven in blocks of up to 256.
+    const [some, others] = [8192, 16_384].map((samples) => operationsOf(core, kind, samples));
+    // The same ones for each: what a sample meets on its way differs, in a hundred or more by some hundredths.
+    assert.ok(some.arithmetic > 20 && Math.abs(some.arithmetic / others.arithmetic - 1) < 0.2, `${kind.what}: ${some.arithmetic}, ${others.arithmetic}`);
+  }
+  const before = core.counted();
+  core.classes.se2.compose({ x: 1, y: 2, theta: 0.3 }, { x: 1, y: 2, theta: 0.3 });
+  const { arithmetic, divisions } = core.counted();
+  // Four products and four sums for x and y, one for the heading; and what sine and cosine take.
+  assert.ok(arithmetic - before.arithmetic >= 9 && arithmetic - before.arithmetic < 200, `${arithmetic - before.arithmetic}`);
+  assert.ok(divisions - before.divisions < 5);
+});
+
+test('the module’s memory is found, and grows by what a pose takes', async () => {
+  const { load } = await freshModule();
+  const { result: motion, memory } = await watchMemory(load);
+  assert.ok(bytesPerPose(motion, memory) > 24);
+});
+
 test('medians, quartiles and ratios', () => {
   assert.deepEqual(spread([5, 1, 4, 2, 3]), { median: 3, lower: 2, upper: 4, turns: 5 });
   assert.equal(spread([1, 2]).median, 1.5);
@@ -64,7 +89,12 @@ test('a target that is missed is called missed', () => {
     seed: { samples: 1e5, seed: flat(ms) },
     squeeze: { samples: 1e5, squeeze: flat(ms) },
     walls: { samples: 10, growing: [], divided: [] },
+    reckoning: { rollouts: 10, few: flat(ms), many: flat(ms) },
     memory: { bytesPerPose: 40, events: 10, coreGrowth: 0, heapGrowth: 0 },
+    roofline: {
+      limits: { operation: 0.5, division: 2, byte: 0.1 },
+      roofs: [{ what: 'sample', operations: { arithmetic: 10, divisions: 1 }, bytes: 24, arithmetic: 7, memory: 2.4, measured: flat(10 * ms) }],
+    },
   });
   const row = { walls: 10, time: flat(1), drawsPerAccepted: 1, wallTestsPerAccepted: 1 };
   const withWalls = (/** @type {number} */ ms) => ({ ...measured(ms), walls: { samples: 10, growing: [row, row], divided: [row, row] } });
@@ -74,6 +104,8 @@ test('a target that is missed is called missed', () => {
     drags: [17, 2].map((ms) => ({ widget: 'a', what: ms > 10 ? 'slow' : 'fast', time: flat(ms), words: flat(ms), steady: flat(ms) })),
   });
   const verdictOf = (/** @type {string} */ what) => text.split('\n').find((line) => line.startsWith(`| ${what}`))?.split('|').at(-2)?.trim();
+  const shares = text.split('\n').filter((line) => line.startsWith('| sample ')).map((line) => line.split('|').at(-2)?.trim());
+  assert.deepEqual(shares, ['70 %', '23.3 %']);
   assert.equal(verdictOf('Refresh of 1 000 000 poses'), 'yes');
   assert.equal(verdictOf('Refresh of 100 000 poses'), 'in Node alone');
   assert.equal(verdictOf('From script start to first cloud'), 'no');

@@ -21,10 +21,11 @@ export function freshModule() {
  */
 export function declaredOpening(tag) {
   const all = settings[tag];
-  const opening = (/** @type {string} */ key) => all.find((setting) => setting.key === key)?.default;
+  const opening = (/** @type {string} */ key, /** @type {string} */ group = '') =>
+    all.find((setting) => (group ? setting.in === group && (setting.field ?? setting.key) === key : setting.key === key))?.default;
   const whole = all.filter((setting) => !setting.in && !setting.of);
   return Object.fromEntries(
-    whole.map(({ key, fields }) => [key, fields ? Object.fromEntries(fields.map((field) => [field, opening(field)])) : opening(key)]),
+    whole.map(({ key, fields }) => [key, fields ? Object.fromEntries(fields.map((field) => [field, opening(field, key)])) : opening(key)]),
   );
 }
 

@@ -468,6 +468,25 @@ def compounding_table():
     write("compounding.csv", ["order", "caa", "cab", "caw", "cbb", "cbw", "cww"], rows)
 
 
+# ------------------------------------------------------------------------------------------------ twice the digits
+
+def double_double_table():
+    """Sine, cosine and sinc of doubles, each as two doubles: the nearest, and that of what it leaves."""
+    ours = random.Random(1971)
+    angles = [0.1, 0.5, 1.0, 1.5707963267948966, 3.141592653589793, 6.283185307179586, 6.0, 2.0**-30, 1e-300]
+    angles += [10.0 ** ours.uniform(-14, 0.79) for _ in range(60)]
+    rows = []
+    with mp.workdps(60):
+        for angle in [ours.choice([-1.0, 1.0]) * angle for angle in angles]:
+            exact = mpf(angle)
+            row = [repr(angle)]
+            for value in (sin(exact), cos(exact), sin(exact) / exact):
+                head = float(value)
+                row += [repr(head), repr(float(value - mpf(head)))]
+            rows.append(row)
+    write("double_double.csv", ["angle", "sin", "sin_lo", "cos", "cos_lo", "sinc", "sinc_lo"], rows)
+
+
 if __name__ == "__main__":
     group_tables()
     quantile_table()
@@ -475,3 +494,4 @@ if __name__ == "__main__":
     pushed_skew_table()
     compounding_table()
     gain_table()
+    double_double_table()

@@ -104,7 +104,7 @@ function settingsIn(declared, are) {
  * @param {Declaration} setting
  * @returns {Attribute & Setting}
  */
-function settingOf({ key, in: group, index, of, type }) {
+function settingOf({ key, in: group, field = key, index, of, type }) {
   const kind = KINDS[type];
   // One of several that stand for a setting of another form, which the machine makes of it.
   if (of) return { kind, get: ({ machine }) => machine[key], change: (value) => ({ [key]: value }) };
@@ -112,8 +112,9 @@ function settingOf({ key, in: group, index, of, type }) {
   if (index === undefined) {
     return {
       kind,
-      get: ({ config }) => config[group][key],
-      change: (value, { config }) => ({ [group]: { ...config[group], [key]: value } }),
+      path: field === key ? undefined : `${group}.${field}`,
+      get: ({ config }) => config[group][field],
+      change: (value, { config }) => ({ [group]: { ...config[group], [field]: value } }),
     };
   }
   return {

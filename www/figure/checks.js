@@ -1,8 +1,5 @@
 /** Refusals in the words of the core, of what the page gives to the element itself. */
 
-/** Characters that are quoted: enough to recognize a text. */
-const QUOTED = 40;
-
 /**
  * @param {string} field
  * @param {unknown} value
@@ -20,11 +17,10 @@ function described(value) {
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
 }
 
-/** The first characters of a text, whole ones. @param {string} text */
+/** The first characters of a text, whole ones: enough to recognize it. @param {string} text */
 function beginning(text) {
-  // A character has two units at most.
-  const characters = [...text.slice(0, 2 * QUOTED + 2)];
-  return characters.length > QUOTED ? `${characters.slice(0, QUOTED).join('')}…` : text;
+  const first = String(/^.{0,40}/su.exec(text));
+  return first === text ? text : `${first}…`;
 }
 
 /**

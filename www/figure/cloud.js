@@ -105,7 +105,7 @@ export class Cloud extends Part {
   completed(present, given) {
     const { samples = present.samples, playing = present.playing } = given;
     truth('state.playing', playing);
-    const shown = present.shown === present.samples ? samples : Math.min(present.shown, samples);
+    const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
     const marked = present.marked !== null && present.marked < (playing ? samples : shown) ? present.marked : null;
     return { shown, marked };
   }
@@ -260,17 +260,5 @@ export const cloudProperties = {
     get() {
       return this.ask((machine) => machine.poses);
     },
-  },
-};
-
-/** What every element with a cloud has besides. @type {import('./attributes.js').Documentation} */
-export const documentation = {
-  properties: {
-    marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
-    poses: { type: 'Float64Array | null', readonly: true, sentence: 'x, y (m), θ (rad) of each sample shown; a copy.' },
-  },
-  state: {
-    shown: { type: 'number', sentence: 'Samples asked for so far, 0 to all of them.' },
-    playing: { type: 'boolean', sentence: 'Whether the cloud is growing.' },
   },
 };

@@ -21,7 +21,7 @@ import { exportMenu } from './takeaway/export.js';
  * @property {number} decimals
  * @property {(config: any) => number} [value] where several may be shown as one
  *
- * @typedef {Partial<Parameters<typeof sliderRow>[0]>} Row
+ * @typedef {Partial<Parameters<typeof sliderRow>[0]> & { most?: number }} Row with the most that is allowed, where that is less than declared
  * @typedef {Parameters<typeof sliderRow>[0]} WholeRow
  */
 
@@ -57,17 +57,18 @@ export function slider(figure, key, otherwise) {
  * @param {Figure} figure
  * @param {string} key of its setting
  * @param {string} symbol
- * @param {Omit<WholeRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[] }} row with the values at which the
- *   slider ends, where it has others than these inside
+ * @param {Omit<WholeRow, 'keys' | 'type' | 'refusal' | 'forget'> & { ends?: number[], most?: number }} row with the values at
+ *   which the slider ends, where it has others than these inside, and the most that is allowed, where that is less than declared
  * @param {(number: number) => void} [take] a value that was typed
  * @param {(number: number) => string} [print]
  */
 function typeable(figure, key, symbol, row, take = row.input, print = row.show) {
-  const { min = -Infinity, max = Infinity, type, unit } = figure.kind.declared.find((setting) => setting.key === key) ?? {};
+  const { min = -Infinity, max: declared = Infinity, type, unit } = figure.kind.declared.find((setting) => setting.key === key) ?? {};
+  const max = row.most ?? declared;
   const [first, last] = row.ends ?? [row.min, row.max];
   const whole = type === 'whole';
-  // Every slider ends below what the core takes; some begin where that does.
-  const end = row.value >= row.max ? last : row.value <= row.min && first > min ? first : undefined;
+  // Some sliders begin or end where the core does.
+  const end = row.value >= row.max && last < max ? last : row.value <= row.min && first > min ? first : undefined;
   return sliderRow({
     ...row,
     effect: end === undefined ? row.effect : words.sliderEnds(print(end)),
@@ -88,7 +89,7 @@ function typeable(figure, key, symbol, row, take = row.input, print = row.show) 
 }
 
 /**
- * A picture's canvas, on which the pointer marks samples.
+ * A picture's canvas, on which the pointer marks samples. It gets its pixels when it is known how many the screen has there.
  *
  * @param {Figure} figure
  * @param {import('../scene/picture.js').Picture<any>} picture
@@ -97,6 +98,7 @@ function typeable(figure, key, symbol, row, take = row.input, print = row.show) 
 export function canvas(figure, picture, description) {
   const point = (/** @type {PointerEvent} */ event) => figure.cloud?.point(picture, event);
   return html`<canvas
+    width="0"
     class=${picture.name}
     role="img"
     aria-label=${description}

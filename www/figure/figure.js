@@ -86,7 +86,7 @@ addEnglish(en);
  * @cssprop --motion-sticky-top - How much of the window’s top a header of the site covers: the picture that stays in sight on
  *   a phone keeps clear of it.
  *
- * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void, begin(settings: Values): void, advance(work: number): boolean }} Machine
+ * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void, begin?(settings: Values): void, advance?(work: number): boolean }} Machine
  * @template {{ config: Values }} Reading
  */
 export class FigureElement extends LitElement {
@@ -316,8 +316,8 @@ export class FigureElement extends LitElement {
   }
 
   /**
-   * Puts the element into a state; what is left out stays as it is. Throws a TypeError or RangeError that names the
-   * field, the value and what is allowed, and changes nothing then.
+   * Puts the element into a state, which names its `widget` and `version`; what else is left out stays as it is. Throws a
+   * TypeError or RangeError that names the field, the value and what is allowed, and changes nothing then.
    *
    * @public
    * @param {Partial<Values> & FigureState} state

@@ -46,7 +46,6 @@ export class Link extends Part {
 
   /** @returns {Promise<unknown>} undefined where the address has no state */
   async #look() {
-    if (location.hash === '') return undefined;
     const key = `${keyOf(this.host)}=`;
     const text = parts().find((part) => part.startsWith(key))?.slice(key.length);
     if (text === undefined) return undefined;
@@ -94,7 +93,7 @@ function keyOf(element) {
   const around = root instanceof ShadowRoot ? `${keyOf(root.host)}/` : '';
   const name = around + encodeURIComponent(localName);
   if (id) return `${name}:${encodeURIComponent(id)}`;
-  const kind = [...root.querySelectorAll('*')].filter((each) => each.localName === localName);
+  const kind = [...root.querySelectorAll(CSS.escape(localName))];
   return `${name}.${kind.indexOf(element) + 1}`;
 }
 
@@ -123,10 +122,10 @@ let anchored = false;
  * not find it.
  */
 function goToAnchor() {
-  if (anchored || document.querySelector(':target')) return;
+  if (anchored) return;
   anchored = true;
-  const [first = ''] = parts();
-  if (first.includes('=') || parts().length < 2) return;
+  const [first, second] = parts();
+  if (!second || first.includes('=')) return;
   // On a reload the browser goes back to where the reader was.
   const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType('navigation'));
   if (navigation?.type !== 'navigate') return;

@@ -31,6 +31,8 @@ export class Presentation extends Part {
 
   hostConnected() {
     this.follow();
+    // The browser leaves the full screen by keys of its own.
+    this.host.addEventListener('fullscreenchange', this.#left);
   }
 
   hostDisconnected() {
@@ -54,13 +56,6 @@ export class Presentation extends Part {
     addEventListener('keydown', this.#key, { signal });
     addEventListener('resize', this.#fit, { signal });
     this.#uncover = cover(host);
-    host.addEventListener(
-      'fullscreenchange',
-      () => {
-        if (!host.matches(':fullscreen')) host.presentation = false;
-      },
-      { signal },
-    );
     this.#fit();
     // Where the screen is not to be had, as in most frames and without a key or a press, the window is filled.
     if (document.fullscreenEnabled && navigator.userActivation?.isActive !== false) host.requestFullscreen().catch(() => {});
@@ -90,6 +85,10 @@ export class Presentation extends Part {
     scrollTo({ top: this.#scrolled, behavior: 'instant' });
     this.#focus('.to-present');
   }
+
+  #left = () => {
+    if (!this.host.matches(':fullscreen')) this.host.presentation = false;
+  };
 
   /** @param {string} selector */
   #focus(selector) {

@@ -170,21 +170,22 @@ export class Reflection extends Part {
   /** What a property is when the widget opens. @param {string} name */
   #usual(name) {
     const entry = this.#entries[name];
-    if (entry && isSetting(entry)) return this.#opening((opening) => entry.get(opening));
+    if (entry && isSetting(entry)) return this.#opening((opening) => entry.get(opening), this.#basis.includes(name) ? [] : this.#basis);
     return entry?.opening ?? this.host.state.opening(name);
   }
 
   /**
-   * Asks something of how the widget opens, as far as that depends on the present settings.
+   * Asks something of how the widget opens.
    *
    * @template Answer
    * @param {(opening: Present) => Answer} question
+   * @param {string[]} [basis] the settings that are as they are at present, for what depends on them
    */
-  #opening(question) {
+  #opening(question, basis = this.#basis) {
     const { wanted } = this.host.settings;
     const machine = this.host.createMachine(this.host.motion);
     try {
-      machine.configure(Object.fromEntries(this.#basis.map((key) => [key, wanted[key]])));
+      machine.configure(Object.fromEntries(basis.map((key) => [key, wanted[key]])));
       return question({ config: machine.config, machine });
     } finally {
       machine.free();
@@ -241,6 +242,7 @@ export class Reflection extends Part {
   needed() {
     const texts = this.#now;
     const usual = this.#opening((opening) => this.#texts(opening, (name) => this.#usual(name)));
+    for (const name of this.#basis) usual.set(name, this.#attributes[name].kind.print(this.#usual(name)));
     /** @type {Set<string>} */
     const covered = new Set();
     /** @type {[string, string][]} */

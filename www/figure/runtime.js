@@ -35,7 +35,7 @@ export class Runtime extends Part {
   /** The room for the figure is there, so that it has its place on the page. */
   async #look() {
     await this.host.updateComplete;
-    if (this.host.isConnected) look(this.host);
+    look(this.host);
   }
 
   /** The reader is near, or there: starts what has not started. */
@@ -127,7 +127,6 @@ export class Runtime extends Part {
     if (!isTrap(error) || ++this.#crashes > MAX_CRASHES) return false;
     this.#abandon();
     this.report(error);
-    this.host.stage.rest();
     this.#start();
     return true;
   }

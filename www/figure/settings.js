@@ -24,7 +24,7 @@ const SLICE = 50_000;
  * @returns {Job}
  */
 export function* advancing(machine) {
-  while (machine.advance(SLICE) === false) yield machine.progress ?? 0;
+  while (machine.advance?.(SLICE) === false) yield machine.progress ?? 0;
 }
 
 export class Settings extends Part {
@@ -97,7 +97,15 @@ export class Settings extends Part {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
       this.host.typing.forget();
-      Object.assign(this.#pending, typeof change === 'function' ? change(this.wanted) : change);
+      const values = () => (typeof change === 'function' ? change(this.wanted) : change);
+      const given = values();
+      const both = (/** @type {string} */ key, /** @type {string} */ other) => key in given && other in this.#pending;
+      // Two ways to say the same are two changes, one after the other.
+      if (this.host.kind.declared.some(({ key, of }) => of && (both(key, of) || both(of, key)))) {
+        this.settle();
+        this.host.refresh();
+      }
+      Object.assign(this.#pending, values());
       this.host.gesture.step();
       this.host.stage.wake();
     });
@@ -139,7 +147,9 @@ export class Settings extends Part {
   #begin(values) {
     const { machine } = this.host;
     if (!machine) return;
-    machine.begin(values);
+    // A machine that has all at once needs no slices.
+    if (machine.begin) machine.begin(values);
+    else machine.configure(values);
     this.work();
     Object.assign(this.#begun, values);
     this.stale = true;

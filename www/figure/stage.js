@@ -35,8 +35,6 @@ export class Stage extends Part {
   #palette;
   /** Once there is something to draw. @type {HTMLCanvasElement[] | undefined} */
   #canvases;
-  /** Whether the canvases have the screen's pixels. */
-  #sized = false;
   /** Whether the words of the first picture have come. */
   #told = false;
   /** Whether there is something to draw, as soon as it is in sight. */
@@ -99,9 +97,8 @@ export class Stage extends Part {
   sight(inSight) {
     if (!inSight && (this.opening || this.#owedSince !== undefined)) this.#tell();
     this.inSight = inSight;
-    if (!inSight) this.rest();
     // Of what was skipped nothing tells that its colours changed.
-    else if (this.#canvases) this.recolour();
+    if (inSight && this.#canvases) this.recolour();
   }
 
   /** Asks for one drawing in the next frame, when there is somebody to see it. */
@@ -127,17 +124,11 @@ export class Stage extends Part {
     return this.opening ? nothing : content();
   }
 
-  /** Asks for none any more. */
-  rest() {
-    sleep(this);
-  }
-
   /** There is nothing to draw any more: the canvases keep their places, and no pixels. */
   clear() {
-    this.rest();
+    sleep(this);
     this.#sizes?.disconnect();
     for (const canvas of this.#canvases ?? []) canvas.width = canvas.height = 0;
-    this.#sized = false;
     this.#sizes = this.#canvases = this.#palette = this.#owedSince = undefined;
   }
 
@@ -149,11 +140,12 @@ export class Stage extends Part {
 
   /** @param {number} elapsed milliseconds since the frame before */
   #drawNow(elapsed) {
-    if (!this.host.machine || !this.#sized || !this.#hasSize) return;
+    if (!this.host.machine || !this.#hasSize) return;
     this.#due = false;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
-      this.host.runtime.prove();
+      // Not where what was on its way has trapped.
+      if (this.host.machine) this.host.runtime.prove();
     });
   }
 
@@ -164,6 +156,8 @@ export class Stage extends Part {
     // A large cloud takes several frames: the former one is shown until then. So is the machine that another one is to
     // replace, also where nothing of it has been drawn yet.
     const settled = host.settings.settle(LONGEST_WORK);
+    // It has trapped: the next picture is that of the core in its place.
+    if (!host.machine) return;
     if (!settled) this.wake();
     if (settled ? host.cloud?.grow() === false : !host.settings.next || this.#told) {
       this.wake();
@@ -197,7 +191,7 @@ export class Stage extends Part {
     return /** @type {HTMLCanvasElement} */ (this.#canvases?.find(({ className }) => className === name));
   }
 
-  /** Whether there is something to draw on: not inside a closed tab, where everything has size 0. */
+  /** Whether there is something to draw on: not before a canvas has its pixels, nor inside a closed tab, where everything has size 0. */
   get #hasSize() {
     return this.#canvases?.every(
       ({ width, height, clientWidth, clientHeight }) => Math.min(width, height, clientWidth, clientHeight) > 0,
@@ -213,7 +207,6 @@ export class Stage extends Part {
       canvas.width = Math.round(zoom * (exact?.inlineSize ?? devicePixelRatio * contentRect.width));
       canvas.height = Math.round(zoom * (exact?.blockSize ?? devicePixelRatio * contentRect.height));
     }
-    this.#sized = true;
     // Inside a closed tab neither.
     this.#colour();
     // At once: a canvas that was resized is blank, and the next frame is too late to hide that.

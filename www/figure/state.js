@@ -78,7 +78,7 @@ export class State extends Part {
   }
 
   /**
-   * Puts the element into a state. What is left out stays as it is.
+   * Puts the element into a state, which names its widget and version. What else is left out stays as it is.
    *
    * @param {unknown} state
    * @throws {TypeError | RangeError} that names the field, the value and what is allowed; nothing is changed then

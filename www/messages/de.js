@@ -16,6 +16,7 @@ export const de = {
     omega: { name: 'ω, befohlene Drehrate' },
     dt: { name: 'Δt, Dauer' },
   },
+  pose: { keys: 'Die Pfeiltasten bewegen ihn; [ und ] oder Umschalt mit einer Pfeiltaste drehen ihn', headingKeys: 'Die Pfeiltasten drehen ihn' },
   sliderEnds: (end) => `Der Regler endet bei ${end}; Werte darüber hinaus kann man eintippen.`,
   refused: (name, given, least, most, whole) =>
     `${name} ist ${given}; erlaubt ist ${whole ? 'eine ganze Zahl von ' : ''}${least} bis ${most}.`,

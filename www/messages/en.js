@@ -1,7 +1,7 @@
 /**
  * The words that all widgets share, in English; those of each are in its folder. A message with values in
  * it is a function of them; numbers come printed, save where their size decides on the words. *Stars* make
- * italics, subscript digits subscripts, where HTML is shown.
+ * italics, subscript digits and _{braces} subscripts, where HTML is shown.
  */
 
 /**
@@ -25,6 +25,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     omega: { name: 'ω, commanded turn rate' },
     dt: { name: 'Δt, duration' },
   },
+  pose: { keys: 'Arrow keys move it; [ and ], or Shift with an arrow key, turn it', headingKeys: 'Arrow keys turn it' },
   sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
   refused: (name, given, least, most, whole) =>
     `${name} is ${given}; allowed is ${whole ? 'a whole number from ' : ''}${least} to ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''}.`,

@@ -5,7 +5,7 @@
 
 import { ticks } from 'd3-array';
 import { limits } from '../settings.js';
-import { tick } from '../ui/format.js';
+import { powerOfTen, tick } from '../ui/format.js';
 import { channels } from '../ui/theme.js';
 import { hiddenContext } from './canvas.js';
 
@@ -15,6 +15,9 @@ import { hiddenContext } from './canvas.js';
  *
  * @typedef {CanvasRenderingContext2D} Context
  */
+
+/** Ticks nearer to each other are told as multiples of a power of ten: their zeros have no room beside the axis. */
+const NEAREST_TICKS = 9e-4;
 
 /** Least distances between two ticks, CSS pixels. */
 const TICK_SPACING = { x: 60, y: 48 };
@@ -32,7 +35,7 @@ const KEY = { gap: 1.1, sample: 1.9, space: 0.4 };
  * Hairline axes with ticks at the left and the bottom, a faint grid, and above it the name of what runs upwards and a key.
  *
  * @param {Brush} brush
- * @param {{ x: string, y: string }} names
+ * @param {{ x: string, y: string }} names with their units in brackets
  * @param {KeyEntry[]} key the most important first: as many as there is room for
  */
 export function drawAxes(brush, names, key) {
@@ -46,13 +49,14 @@ export function drawAxes(brush, names, key) {
 
   const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
   // The axis has its name where its last tick would be.
-  const free = right - context.measureText(names.x).width - 10;
+  const xName = names.x.replace('(', `(${xTicks.unit}`);
+  const free = right - context.measureText(xName).width - 10;
   context.textAlign = 'center';
   context.textBaseline = 'top';
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
     line(context, [x, top, x, bottom], 0.5);
-    const text = tick(value, xTicks.step);
+    const text = xTicks.text(value);
     if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
   }
   const yTicks = ticksOf(yMin, yMax, (bottom - top) / TICK_SPACING.y);
@@ -61,7 +65,7 @@ export function drawAxes(brush, names, key) {
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
     line(context, [left, y, right, y], 0.5);
-    context.fillText(tick(value, yTicks.step), left - 6, y);
+    context.fillText(yTicks.text(value), left - 6, y);
   }
 
   line(context, [left, bottom + 0.5, right, bottom + 0.5], 1);
@@ -69,10 +73,11 @@ export function drawAxes(brush, names, key) {
   context.font = `italic ${font}`;
   context.textAlign = 'right';
   context.textBaseline = 'top';
-  context.fillText(names.x, right, bottom + 6);
+  context.fillText(xName, right, bottom + 6);
   context.textAlign = 'left';
-  context.fillText(names.y, 2, top - 22);
-  drawKey(brush, 2 + context.measureText(names.y).width, key);
+  const yName = names.y.replace('(', `(${yTicks.unit}`);
+  context.fillText(yName, 2, top - 22);
+  drawKey(brush, 2 + context.measureText(yName).width, key);
 }
 
 /**
@@ -107,7 +112,14 @@ function drawKey({ context, view, palette, font }, x, entries) {
  */
 function ticksOf(from, to, count) {
   const values = ticks(from, to, Math.max(2, Math.floor(count)));
-  return { values, step: values.length > 1 ? values[1] - values[0] : 1 };
+  const step = values.length > 1 ? values[1] - values[0] : 1;
+  const exponent = step < NEAREST_TICKS ? Math.floor(Math.log10(step) + 1e-9) : 0;
+  return {
+    values,
+    /** What stands before the unit of the axis. */
+    unit: exponent < 0 ? `${powerOfTen(exponent)} ` : '',
+    text: (/** @type {number} */ value) => tick(value / 10 ** exponent, step / 10 ** exponent),
+  };
 }
 
 /**

@@ -36,7 +36,7 @@ export class Handle {
   #middle = [0, 0];
 
   /**
-   * @param {string} part class of its element
+   * @param {string} part classes of its element
    * @param {Hooks} hooks
    */
   constructor(part, hooks) {
@@ -80,7 +80,7 @@ export class Handle {
    * @param {number} [size] its width and height; that of its style where it is left out
    */
   place(root, x, y, size) {
-    const handle = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${this.#part}`));
+    const handle = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${this.#part.replace(' ', '.')}`));
     if (!handle) return;
     this.#middle = [x, y];
     if (size !== undefined) handle.style.width = handle.style.height = length(size);

@@ -101,6 +101,17 @@ export class SvgContext {
     this.#path += `M${short(x)},${short(y)}h${short(width)}v${short(height)}h${short(-width)}Z`;
   };
 
+  closePath() {
+    this.#path += 'Z';
+  }
+
+  /** @type {CanvasRect['fillRect']} */
+  fillRect = (...box) => {
+    this.#path = '';
+    this.rect(...box);
+    this.fill();
+  };
+
   /** @type {CanvasRect['strokeRect']} */
   strokeRect = (...box) => {
     this.#path = '';

@@ -150,16 +150,18 @@ export const controlStyles = css`
   }
 `;
 
-/** A message with its italics and subscripts. @param {string} message as messages/en.js has it */
+/** A message with its italics and subscripts. @param {string} message as messages/en.js has it; \\* is a star */
 export function rich(message) {
   return message
-    .split(/(\*[^*]+\*|[₀-₉])/)
+    .split(/(\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\})/)
     .map((part) =>
       part[0] === '*'
-        ? html`<i>${part.slice(1, -1)}</i>`
-        : /^[₀-₉]$/.test(part)
-          ? html`<sub>${part.charCodeAt(0) - 0x2080}</sub>`
-          : part,
+        ? html`<i>${part.slice(1, -1).replaceAll('\\*', '*')}</i>`
+        : part.startsWith('_{')
+          ? html`<sub>${part.slice(2, -1)}</sub>`
+          : /^[₀-₉]$/.test(part)
+            ? html`<sub>${part.charCodeAt(0) - 0x2080}</sub>`
+            : part,
     );
 }
 

@@ -96,8 +96,20 @@ export function significant(value, digits) {
   const options = { minimumSignificantDigits: digits, maximumSignificantDigits: digits, useGrouping: false };
   if (!Number.isFinite(size) || (size >= 1e-4 && size < 1e5)) return print(value, options);
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
-  const power = exponent.replace(/[-+]/, '').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
-  return `${print(Number(mantissa), options)}·10${exponent.startsWith('-') ? '⁻' : ''}${power}`;
+  return `${print(Number(mantissa), options)}·${powerOfTen(Number(exponent))}`;
+}
+
+/**
+ * @param {number} exponent a whole number
+ * @returns {string} "10⁻⁵"
+ */
+export function powerOfTen(exponent) {
+  return `10${raised(exponent)}`;
+}
+
+/** @param {number} exponent a whole number */
+function raised(exponent) {
+  return String(exponent).replace('-', '⁻').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
 }
 
 /**
@@ -105,7 +117,7 @@ export function significant(value, digits) {
  * @returns {string} "e²⁴⁹", the exponent rounded to a whole number
  */
 export function powerOfE(exponent) {
-  return `e${String(Math.round(exponent)).replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)])}`;
+  return `e${raised(Math.round(exponent))}`;
 }
 
 /**

@@ -64,7 +64,7 @@ export const presentationStyles = css`
   }
 
   :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, [part~='caption'], [part~='readouts']),
-  :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts']),
+  :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .told),
   :host([presentation]) .surface > .caption-slot,
   :host([presentation]) .begin {
     display: none !important;

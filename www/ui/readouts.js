@@ -122,8 +122,8 @@ export function readoutList(rows) {
 
 /**
  * @param {object} table
- * @param {string} table.caption
- * @param {string[]} table.columns their names, that of the rows' names first
+ * @param {unknown} table.caption
+ * @param {unknown[]} table.columns their names, that of the rows' names first
  * @param {unknown[][]} table.rows the name of each first; a single cell after it takes the place of all
  * @param {string} table.longest of all cells: while they change, no column moves
  * @param {boolean} [table.outdated] whether other figures are on their way

@@ -184,7 +184,7 @@ const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
  * @param {object} row
  * @param {string} row.id unique in the widget
  * @param {unknown} row.symbol
- * @param {string} [row.name] what a screen reader says where the symbol says too little
+ * @param {string} [row.name] what a screen reader says, and the symbol to one who points at it, where the symbol says too little
  * @param {number} row.value
  * @param {number} row.min
  * @param {number} row.max
@@ -212,38 +212,12 @@ export function sliderRow(row) {
   };
   const classes = ['slider', ...Object.keys(states).filter((key) => states[/** @type {keyof typeof states} */ (key)])].join(' ');
   const shown = row.show(row.value);
-  const set = (/** @type {Event} */ event) => {
-    // A browser sets a slider as soon as a finger comes down on it.
-    if (!finger.waits) row.input(inputOf(event).valueAsNumber);
-  };
   const room = longest([shown, row.show(row.min), row.show(row.max)]);
   return html`
     <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}
-      <label for=${row.id} id="${row.id}-name">${row.symbol}</label>
-      <input
-        id=${row.id}
-        type="range"
-        min=${row.min}
-        max=${row.max}
-        step=${row.step}
-        .value=${live(String(row.value))}
-        aria-label=${row.name ?? nothing}
-        aria-valuetext=${shown}
-        aria-describedby="${row.id}-effect"
-        @keydown=${leadIntoField}
-        @pointerdown=${finger.comes}
-        @pointermove=${(/** @type {PointerEvent} */ event) => {
-          finger.moves(event);
-          if (event.pointerType === 'touch' && !finger.waits) set(event);
-        }}
-        @pointerup=${(/** @type {PointerEvent} */ event) => finger.goes() && set(event)}
-        @pointercancel=${(/** @type {PointerEvent} */ event) => {
-          if (finger.goes()) inputOf(event).value = String(row.value);
-        }}
-        @input=${set}
-        @change=${row.commit}
-      />
+      <label for=${row.id} id="${row.id}-name" title=${row.name ?? nothing}>${row.symbol}</label>
+      ${track({ ...row, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
       <span class="value roomy" data-room=${room}>
         <span class="printed">${shown}</span>
         ${field(row, shown)}
@@ -251,6 +225,52 @@ export function sliderRow(row) {
       <p class="effect" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
     </div>
   `;
+}
+
+/**
+ * What a thumb is moved on. A finger that goes up or down over it scrolls the page.
+ *
+ * @param {object} of
+ * @param {string} of.id
+ * @param {string} [of.name] where its label is a symbol
+ * @param {number} of.min
+ * @param {number} of.max
+ * @param {number} of.step
+ * @param {number} of.value
+ * @param {string} of.text its value in words
+ * @param {string} [of.describedBy] id of what tells more
+ * @param {(event: KeyboardEvent) => void} [of.keydown]
+ * @param {(value: number) => void} of.input
+ * @param {() => void} of.commit
+ */
+export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }) {
+  const set = (/** @type {Event} */ event) => {
+    // A browser sets a slider as soon as a finger comes down on it.
+    if (!finger.waits) input(inputOf(event).valueAsNumber);
+  };
+  return html`<input
+    id=${id}
+    type="range"
+    min=${min}
+    max=${max}
+    step=${step}
+    .value=${live(String(value))}
+    aria-label=${name ?? nothing}
+    aria-valuetext=${text}
+    aria-describedby=${describedBy ?? nothing}
+    @keydown=${keydown}
+    @pointerdown=${finger.comes}
+    @pointermove=${(/** @type {PointerEvent} */ event) => {
+      finger.moves(event);
+      if (event.pointerType === 'touch' && !finger.waits) set(event);
+    }}
+    @pointerup=${(/** @type {PointerEvent} */ event) => finger.goes() && set(event)}
+    @pointercancel=${(/** @type {PointerEvent} */ event) => {
+      if (finger.goes()) inputOf(event).value = String(value);
+    }}
+    @input=${set}
+    @change=${commit}
+  />`;
 }
 
 /**

@@ -133,8 +133,13 @@ export const theme = css`
     }
 
     :is(button, input, textarea, summary, .handle, .effect, .marked, .visually-hidden),
-    label:has(input:not(:checked)) {
+    :not(th) > label:has(input:not(:checked)) {
       display: none !important;
+    }
+
+    /* A row that may be chosen keeps its name. */
+    th > label:has(input:checked) {
+      font-weight: bold;
     }
 
     fieldset {

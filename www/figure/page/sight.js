@@ -16,9 +16,10 @@ const AHEAD = '600px';
 const watchers = new WeakMap();
 /** Those that are near, and have been told. @type {WeakSet<Element>} */
 const near = new WeakSet();
-/** @type {IntersectionObserver | undefined} */
+// Both are there as soon as an element is watched.
+/** @type {IntersectionObserver} */
 let nearness;
-/** @type {IntersectionObserver | undefined} */
+/** @type {IntersectionObserver} */
 let presence;
 
 const watcherOf = (/** @type {Element} */ watched) => /** @type {Watcher} */ (watchers.get(watched));
@@ -54,6 +55,7 @@ export function watch(element, watcher) {
  */
 export function look(element) {
   const { top, bottom, width } = element.getBoundingClientRect();
+  // What has gone meanwhile has no width.
   if (width === 0 || top >= innerHeight || bottom <= 0) return;
   watcherOf(element).sight(true);
   approach(element);
@@ -68,7 +70,7 @@ function approach(element) {
 
 /** @param {Element} element */
 export function unwatch(element) {
-  nearness?.unobserve(element);
-  presence?.unobserve(element);
+  nearness.unobserve(element);
+  presence.unobserve(element);
   near.delete(element);
 }

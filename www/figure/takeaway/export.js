@@ -114,8 +114,9 @@ function save(name, blob) {
  *
  * @param {Figure} element
  * @param {string | number} mark that tells its files from those of another state
+ * @param {string} [csvTitle] what is in a CSV file, where that is no samples
  */
-export function exportMenu(element, mark) {
+export function exportMenu(element, mark, csvTitle = words.exports.csvTitle) {
   const say = words.exports;
   const name = `${element.localName}-${mark}`;
   const text = (/** @type {string} */ ending, /** @type {string} */ type, /** @type {string} */ content) =>
@@ -125,7 +126,7 @@ export function exportMenu(element, mark) {
     <div class="buttons">
       ${button(say.png, async () => save(`${name}.png`, await element.toPNG()), { title: say.pngTitle })}
       ${button(say.svg, () => text('svg', 'image/svg+xml', element.toSVG()), { title: say.svgTitle })}
-      ${button(say.csv, () => text('csv', 'text/csv', element.toCSV()), { title: say.csvTitle })}
+      ${button(say.csv, () => text('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
     </div>
   </details>`;
 }

@@ -78,14 +78,13 @@ export const de = {
   outcome: (drawn, parts, accepted, kept, through, ofThem, density) =>
     `${drawn} ${parts ? 'Teile ' : ''}gezogen; ${accepted} ${parts ? 'Bewegungen ' : ''}${kept}, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} ${ofThem}${density ? '' : ', mit Ring'}.`,
   rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
-  robot: 'Roboter',
-  robotKeys: 'Die Pfeiltasten bewegen ihn; [ und ] oder Umschalt mit einer Pfeiltaste drehen ihn',
-  robotTitle: 'Zieh den Roboter',
-  robotText: (x, y) => `x = ${x} m, y = ${y} m`,
-  mapEnds: 'Hier endet die Karte',
-  heading: 'Richtung des Roboters',
-  headingKeys: 'Die Pfeiltasten drehen ihn',
-  headingTitle: 'Dreh den Roboter',
+  robot: {
+    robot: 'Roboter',
+    robotTitle: 'Zieh den Roboter',
+    heading: 'Richtung des Roboters',
+    headingTitle: 'Dreh den Roboter',
+    ends: 'Hier endet die Karte',
+  },
   rates: {
     accepted: 'angenommen',
     ofParts: 'angenommen, von allen Teilen',

@@ -80,14 +80,13 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   outcome: (drawn, parts, accepted, kept, through, ofThem, density) =>
     `${drawn} ${parts ? 'parts ' : ''}drawn; ${accepted} ${parts ? 'motions ' : ''}${kept}, as ${density ? 'a density' : 'dots'}; ${through} of those ${ofThem}${density ? '' : ', ringed'}.`,
   rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
-  robot: 'Robot',
-  robotKeys: 'Arrow keys move it; [ and ], or Shift with an arrow key, turn it',
-  robotTitle: 'Drag the robot',
-  robotText: (x, y) => `x = ${x} m, y = ${y} m`,
-  mapEnds: 'The map ends here',
-  heading: 'Heading of the robot',
-  headingKeys: 'Arrow keys turn it',
-  headingTitle: 'Turn the robot',
+  robot: {
+    robot: 'Robot',
+    robotTitle: 'Drag the robot',
+    heading: 'Heading of the robot',
+    headingTitle: 'Turn the robot',
+    ends: 'The map ends here',
+  },
   rates: {
     accepted: 'accepted',
     ofParts: 'accepted, of all parts drawn',

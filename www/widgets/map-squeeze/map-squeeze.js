@@ -11,9 +11,9 @@ import { LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
 import { fold } from '../../ui/fold.js';
+import { PoseHandles } from '../shared/pose-handles.js';
 import { judgeControls, motionControls, ownMap, placeControls, unknownChoice, viewChoice } from './controls.js';
 import { CostMeter } from './cost.js';
-import { RobotHandles } from './handles.js';
 import { applyMap, mapData } from './maps/data.js';
 import { FOLD, MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
@@ -52,7 +52,11 @@ export class MapSqueezeElement extends FigureElement {
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
-  #handles = new RobotHandles(this);
+  #handles = new PoseHandles(this, 'start', {
+    view: () => this.picture.view,
+    bounds: () => this.picture.plan.bounds,
+    say: () => words.squeeze.robot,
+  });
   /** What unknown cells are in the map of the picture. */
   #unknown = '';
   /** The machine in the making of a map that the page gave. @type {Machine | undefined} */
@@ -118,7 +122,7 @@ export class MapSqueezeElement extends FigureElement {
   announcement = verdictOf;
 
   get held() {
-    return this.#handles.held !== undefined;
+    return this.#handles.held;
   }
 
   /** @param {Reading} scene */

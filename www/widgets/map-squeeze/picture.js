@@ -7,6 +7,7 @@ import { View, extentAround } from '../../scene/view.js';
 import { WallLayer } from '../../scene/walls.js';
 import { clamp } from '../../ui/clamp.js';
 import { COMMAND_DASH } from '../shared/command.js';
+import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
 import { keptWords } from './words.js';
 
 /**
@@ -26,9 +27,6 @@ const CROSS = 2.6;
 
 /** Radius of a ring: in metres, but legible in a view of a large map and no blot in a close one. */
 const RING = { metres: 0.085, least: 3.5, most: 6 };
-
-/** A robot in a view of a large map is drawn no smaller than this, CSS pixels. */
-const SMALLEST_ROBOT = 3;
 
 /** Surroundings shown around the end of the command: this many times its length, and at least so many metres. */
 const SURROUNDINGS = 0.8;
@@ -159,7 +157,10 @@ export class FloorPicture extends Picture {
         drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY));
       }
       drawOutline(brush, commanded, { colour: palette.prior, width: 2.5, dash: COMMAND_DASH });
-      drawRobots(brush, config, commanded);
+      const { start, clearance } = config;
+      const [endX, endY] = commanded.slice(-2);
+      drawRobotOutline(brush, endX, endY, clearance, palette.prior);
+      drawHeldRobot(brush, start, clearance, palette.prior);
       if (marked) {
         const { pose, path } = marked;
         drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
@@ -375,46 +376,4 @@ function drawRings({ context, view, palette }, triples) {
   context.globalAlpha = 0.8;
   context.stroke();
   context.globalAlpha = 1;
-}
-
-/**
- * The robot where it starts, and its outline where the command would bring it.
- *
- * @param {Brush} brush
- * @param {SqueezeSettings} config
- * @param {Float64Array} commanded
- */
-function drawRobots({ context, view, palette }, { start, clearance }, commanded) {
-  const radius = Math.max(SMALLEST_ROBOT, clearance * view.scaleX);
-  const [endX, endY] = commanded.slice(-2);
-  context.strokeStyle = palette.prior;
-  context.lineWidth = 1.5;
-  context.setLineDash([3, 3]);
-  context.beginPath();
-  context.arc(view.toPixelX(endX), view.toPixelY(endY), radius, 0, 2 * Math.PI);
-  context.stroke();
-  context.setLineDash([]);
-
-  const [x, y] = [view.toPixelX(start.x), view.toPixelY(start.y)];
-  const ahead = view.direction(start.theta);
-  context.beginPath();
-  context.arc(x, y, radius, 0, 2 * Math.PI);
-  context.fillStyle = palette.paper;
-  context.fill();
-  context.moveTo(x, y);
-  const tick = turnDistance(view, clearance);
-  context.lineTo(x + tick * ahead.x, y + tick * ahead.y);
-  context.lineWidth = 2.25;
-  context.stroke();
-}
-
-/**
- * How far ahead of the robot's centre the handle is that turns it.
- *
- * @param {View} view
- * @param {number} clearance metres
- * @returns {number} CSS pixels
- */
-export function turnDistance(view, clearance) {
-  return Math.max(34, clearance * view.scaleX + 22);
 }

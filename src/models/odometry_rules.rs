@@ -1,0 +1,156 @@
+//! How localizers charge an odometry reading with noise: Table 5.6, and what is deployed.
+
+use super::odometry::{OdomDelta, turn_either_way};
+use crate::geom::se2::{SE2, wrap_angle};
+use crate::noise::{NoiseKind, Variance};
+
+/// Whose bookkeeping of the α's it is. Each takes the four α's of the table, the omnidirectional one a fifth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OdometryRule {
+    /// Table 5.6 as it is printed.
+    Table,
+    /// AMCL of Navigation2 for a differential drive: `nav2_amcl/src/motion_model/differential_motion_model.cpp` (ros-navigation/
+    /// navigation2, commit 0051083). A rotation δ is charged as min(|δ|, |π − |δ||), so that backing up is no pair of half
+    /// turns; a reading shorter than a centimetre has no first rotation. The sums of α·δ² are variances. In AMCL of ROS 1
+    /// the same sums were the standard deviations themselves.
+    Nav2,
+    /// Beluga for a differential drive: `beluga/motion/differential_drive_model.hpp` (Ekumen-OS/beluga, release 2.0 and
+    /// later). As [`OdometryRule::Nav2`], but for a reading of exactly a centimetre, which has no first rotation here.
+    /// Before 2.0, α₄ was given the turn as a whole, rot1 + rot2, instead of each.
+    Beluga,
+    /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same
+    /// commit). The bearing is exact; noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a
+    /// whole, which is charged as it is.
+    Omni,
+}
+
+impl OdometryRule {
+    pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
+}
+
+/// Readings below this (m) are taken for spins by deployed localizers: the direction of so short a motion is that of the
+/// encoders' jitter. A larger bound would take a slow robot's forward motion for one along its old heading.
+pub const SPIN_BELOW: f64 = 0.01;
+
+/// α₁…α₅, each 0 or more; the fifth is [`OdometryRule::Omni`]'s alone.
+pub type RuleAlphas = [f64; 5];
+
+/// The noise of one executed reading: of the three legs, and across the second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LegVariances {
+    /// rad².
+    pub rot1: Variance,
+    /// m².
+    pub trans: Variance,
+    /// rad².
+    pub rot2: Variance,
+    /// Across the drive, m²; 0 where a robot cannot slide.
+    pub strafe: Variance,
+}
+
+impl OdometryRule {
+    /// The legs that the rule makes of a reading: the same motion to within [`SPIN_BELOW`], with the whole turn in the
+    /// second rotation where the rule calls it a spin.
+    pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
+        let spin = match self {
+            Self::Table | Self::Omni => false,
+            Self::Nav2 => reading.trans < SPIN_BELOW,
+            Self::Beluga => reading.trans <= SPIN_BELOW,
+        };
+        if !spin {
+            return *reading;
+        }
+        OdomDelta { rot1: 0.0, trans: reading.trans, rot2: wrap_angle(reading.rot1 + reading.rot2) }
+    }
+
+    /// The variances of the noises of `reading`, given as it was measured or as [`OdometryRule::legs`] has it:
+    ///
+    /// | rule | rot1 | trans | rot2 | strafe |
+    /// |---|---|---|---|---|
+    /// | the others | α₁c₁² + α₂t² | α₃t² + α₄(c₁² + c₂²) | α₁c₂² + α₂t² | 0 |
+    /// | `Omni` | 0 | α₃t² + α₄δ² | α₁δ² + α₂t² | α₅t² + α₄δ² |
+    ///
+    /// with t the length of the drive, cᵢ what rotation i is charged as, and δ = rot1 + rot2 the turn, wrapped.
+    pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
+        let [a1, a2, a3, a4, a5] = *alphas;
+        let OdomDelta { rot1, trans, rot2 } = self.legs(reading);
+        let trans_sq = trans * trans;
+        let hinged = |charge: fn(f64) -> f64| {
+            let [rot1_sq, rot2_sq] = [rot1, rot2].map(|rotation| charge(rotation) * charge(rotation));
+            LegVariances {
+                rot1: Variance(a1 * rot1_sq + a2 * trans_sq),
+                trans: Variance(a3 * trans_sq + a4 * (rot1_sq + rot2_sq)),
+                rot2: Variance(a1 * rot2_sq + a2 * trans_sq),
+                strafe: Variance(0.0),
+            }
+        };
+        match self {
+            Self::Table => hinged(f64::abs),
+            Self::Nav2 | Self::Beluga => hinged(turn_either_way),
+            Self::Omni => {
+                let turn = wrap_angle(rot1 + rot2);
+                let turn_sq = turn * turn;
+                LegVariances {
+                    rot1: Variance(0.0),
+                    trans: Variance(a3 * trans_sq + a4 * turn_sq),
+                    rot2: Variance(a1 * turn_sq + a2 * trans_sq),
+                    strafe: Variance(a5 * trans_sq + a4 * turn_sq),
+                }
+            }
+        }
+    }
+}
+
+/// A reading as it was executed: three legs, the second of which may have slid to the left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExecutedLegs {
+    pub legs: OdomDelta,
+    /// m, to the left of the drive.
+    pub strafe: f64,
+}
+
+impl ExecutedLegs {
+    /// Where a robot is that starts from `x`: there, turned by the first leg, at the end of the second, and turned by the
+    /// third. In the frame of `x`'s reference.
+    pub fn poses(&self, x: &SE2) -> [SE2; 4] {
+        let OdomDelta { rot1, trans, rot2 } = self.legs;
+        let turned = *x * SE2::new(0.0, 0.0, rot1);
+        let driven = turned * SE2::new(trans, self.strafe, 0.0);
+        [*x, turned, driven, driven * SE2::new(0.0, 0.0, rot2)]
+    }
+}
+
+impl LegVariances {
+    /// `legs` as they are executed when the noises take `unit_noise` times their standard deviations: that which leads across
+    /// the drive (by the first rotation or by sliding; no rule has both), that of the drive, that of the second rotation. As
+    /// in Table 5.6, noise is subtracted.
+    pub fn executed(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
+        ExecutedLegs {
+            legs: OdomDelta {
+                rot1: legs.rot1 - deviation(self.rot1) * across,
+                trans: legs.trans - deviation(self.trans) * along,
+                rot2: legs.rot2 - deviation(self.rot2) * turn,
+            },
+            strafe: -deviation(self.strafe) * across,
+        }
+    }
+
+    /// The variance (m²) of where the robot is across the measured bearing, after a drive of `trans` metres, in closed form:
+    /// (t² + σ²_trans)·E[sin² ε_rot1] + σ²_strafe. Its mean is 0.
+    pub fn cross_track(&self, trans: f64, noise: NoiseKind) -> f64 {
+        (trans * trans + self.trans.0) * noise.mean_squared_sine(self.rot1) + self.strafe.0
+    }
+
+    /// The variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
+    /// σ₁² + σ₂² + 2ρσ₁σ₂.
+    pub fn heading(&self, correlation: f64) -> f64 {
+        let [first, second] = [self.rot1, self.rot2].map(deviation);
+        // As squares: for opposite noises of one size the sum of the three terms might round below 0.
+        let common = first + correlation * second;
+        common * common + (1.0 - correlation * correlation) * second * second
+    }
+}
+
+fn deviation(variance: Variance) -> f64 {
+    variance.0.sqrt()
+}

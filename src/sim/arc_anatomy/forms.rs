@@ -1,0 +1,95 @@
+//! Exercise 1: what the arc, the straight line and the chord lose where the turn rate is small.
+
+use crate::geom::arc::chord;
+use crate::geom::double_double::DoubleDouble;
+use std::f64::consts::TAU;
+
+/// Of the exercise: speed, m/s, and duration, s.
+const SPEED: f64 = 1.0;
+const DURATION: f64 = 0.1;
+
+/// Below this |ω̂|, rad/s, the chapter's code takes the straight line.
+pub const CHAPTERS_THRESHOLD: f64 = 1e-6;
+
+/// From 10⁻¹² to 10 rad/s, so many turn rates a decade.
+const DECADES: [i32; 2] = [-12, 1];
+const A_DECADE: i32 = 8;
+
+/// Headings that the error is the root mean square of: it jumps about from one to the next.
+const HEADINGS: u32 = 24;
+
+/// The root mean square error of the end of the exercise's motion over all headings, m, by the turn rate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FormErrors {
+    /// rad/s.
+    pub omega: Vec<f64>,
+    /// Of x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and the like for y.
+    pub arc: Vec<f64>,
+    /// Of x + vΔt cos θ, and the like for y.
+    pub straight: Vec<f64>,
+    /// Of the distance vΔt sinc(ωΔt/2) on the bearing θ + ωΔt/2.
+    pub chord: Vec<f64>,
+    /// √(2ε)/Δt, where arc and straight line are estimated to be equally bad, rad/s.
+    pub estimated_crossover: f64,
+}
+
+/// The errors of the three forms, against the same motion in twice the digits.
+pub fn form_errors() -> FormErrors {
+    let [first, last] = DECADES.map(|decade| decade * A_DECADE);
+    let omega: Vec<f64> = (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(A_DECADE))).collect();
+    let errors: Vec<[f64; 3]> = omega.iter().map(|omega| root_mean_squares(*omega)).collect();
+    let of = |form: usize| errors.iter().map(|error| error[form]).collect();
+    FormErrors {
+        arc: of(0),
+        straight: of(1),
+        chord: of(2),
+        estimated_crossover: (2.0 * f64::EPSILON).sqrt() / DURATION,
+        omega,
+    }
+}
+
+/// Of the arc, the straight line and the chord.
+fn root_mean_squares(omega: f64) -> [f64; 3] {
+    let mut squares = [0.0; 3];
+    for i in 0..HEADINGS {
+        // None of them is along an axis, where one of the coordinates would be exact.
+        let theta = TAU * (f64::from(i) + 0.37) / f64::from(HEADINGS) - 0.5 * TAU;
+        let truth = reference(theta, omega);
+        let forms = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];
+        for (square, end) in squares.iter_mut().zip(forms) {
+            for (value, truth) in end.into_iter().zip(truth) {
+                let off = (DoubleDouble::from(value) - truth).to_f64();
+                *square += off * off;
+            }
+        }
+    }
+    squares.map(|square| (square / f64::from(HEADINGS)).sqrt())
+}
+
+fn arc_form(theta: f64, omega: f64) -> [f64; 2] {
+    let radius = SPEED / omega;
+    let next = theta + omega * DURATION;
+    [
+        radius * libm::sin(next) - radius * libm::sin(theta),
+        radius * libm::cos(theta) - radius * libm::cos(next),
+    ]
+}
+
+fn straight_form(theta: f64) -> [f64; 2] {
+    let length = SPEED * DURATION;
+    [length * libm::cos(theta), length * libm::sin(theta)]
+}
+
+fn chord_form(theta: f64, omega: f64) -> [f64; 2] {
+    let (ahead, left) = chord(SPEED * DURATION, omega * DURATION);
+    let (sin, cos) = libm::sincos(theta);
+    [cos * ahead - sin * left, sin * ahead + cos * left]
+}
+
+/// Where the motion of these doubles ends, in twice their digits.
+pub fn reference(theta: f64, omega: f64) -> [DoubleDouble; 2] {
+    let half = DoubleDouble::product(0.5 * omega, DURATION);
+    let distance = DoubleDouble::product(SPEED, DURATION) * half.sinc();
+    let (sin, cos) = (DoubleDouble::from(theta) + half).sin_cos();
+    [distance * cos, distance * sin]
+}

@@ -1,0 +1,100 @@
+//! What a user sets of Arc Anatomy.
+
+use crate::geom::se2::SE2;
+use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
+use crate::noise::NoiseKind;
+use crate::sim::settings::{ALPHA, QUANTITY, Rules, Words, group, settings};
+
+/// The pose whose likelihood is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FinalPose {
+    pub x: f64,
+    pub y: f64,
+    pub theta: f64,
+}
+
+group!(FinalPose as FinalPose { x, y, theta } => {
+    /// Where the robot is found.
+    x: "m", in QUANTITY;
+    /// Where the robot is found.
+    y: "m", in QUANTITY;
+    /// The heading that it is found with.
+    theta: "rad", in QUANTITY;
+});
+
+/// What is mapped over the positions of the final pose, its heading as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mapped {
+    Nothing,
+    /// [`crate::MotionModel::prob`], the score of Table 5.1.
+    Prob,
+    /// [`crate::MotionModel::pose_density`], the density of the sampler.
+    Density,
+}
+
+impl Words for Mapped {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("none", Self::Nothing), ("prob", Self::Prob), ("density", Self::Density)];
+}
+
+/// A command from the origin, and where the robot is found after it: off the commanded arc, so that residuals are seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset {
+    pub name: &'static str,
+    pub command: VelocityCmd,
+    pub next: FinalPose,
+}
+
+const fn preset(name: &'static str, [v, omega]: [f64; 2], [x, y, theta]: [f64; 3]) -> Preset {
+    Preset { name, command: VelocityCmd { v, omega, dt: 1.0 }, next: FinalPose { x, y, theta } }
+}
+
+/// The same arc to the left, to the right and in reverse, and none.
+pub const PRESETS: [Preset; 4] = [
+    preset("left", [1.0, 0.5], [1.1, 0.5, 1.1]),
+    preset("right", [1.0, -0.5], [1.1, -0.5, -1.1]),
+    preset("reverse", [-1.0, 0.5], [-1.1, -0.5, 1.1]),
+    preset("straight", [1.0, 0.0], [1.2, 0.0, 0.2]),
+];
+
+settings! {
+    /// Everything that a user sets.
+    pub struct Settings {
+        /// The pose that the robot starts from.
+        start: [f64; 3] = [0.0; 3];
+        /// The pose that the robot is found in after the command.
+        next: FinalPose = PRESETS[0].next;
+        /// What the robot was told to do in between.
+        command: VelocityCmd = PRESETS[0].command;
+        /// Noise parameters, the six of the velocity model.
+        alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA;
+        /// Distribution of the noise; the variances are the same.
+        noise: NoiseKind = NoiseKind::Normal;
+        /// Whether the radius is never negative, as Table 5.1 prints it.
+        printed: bool = false;
+        /// What is mapped over all positions, for the heading of the final pose.
+        map: Mapped = Mapped::Nothing;
+    }
+}
+
+/// What is said of each noise parameter, which in a page is an attribute of its own.
+#[cfg(not(target_arch = "wasm32"))]
+pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
+
+impl Rules for Settings {}
+
+impl Settings {
+    pub(super) fn start(&self) -> SE2 {
+        let [x, y, theta] = self.start;
+        SE2::new(x, y, theta)
+    }
+
+    pub(super) fn next(&self) -> SE2 {
+        let FinalPose { x, y, theta } = self.next;
+        SE2::new(x, y, theta)
+    }
+
+    pub(super) fn model(&self) -> VelocityModel {
+        VelocityModel { alphas: VelocityAlphas(self.alphas), noise: self.noise }
+    }
+}

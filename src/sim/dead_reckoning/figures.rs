@@ -1,0 +1,109 @@
+//! What the recursions predict of each step, and how that compares with what the robots did.
+
+use super::rollouts::Measured;
+use super::settings::Settings;
+use crate::models::{Compounding, TangentNoiseModel, covariance_root};
+use nalgebra::{Matrix3, Vector3};
+
+/// The recursions that are compared, in the order in which they are told.
+pub const RECURSIONS: [Compounding; 3] =
+    [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
+
+/// A ratio of variances that is further from 1 is a miss.
+pub const TOLERANCE: f64 = 0.05;
+
+/// Relative standard error up to which rollouts can tell a miss: a quarter of the tolerance. Of the dozens of ratios of a
+/// figure some are off by three errors, hardly any by four.
+const TELLING: f64 = TOLERANCE / 4.0;
+
+/// Deviations below this share of the path, or radians, are rounding and no spread.
+const NO_SPREAD: f64 = 1e-12;
+
+/// How a recursion compares with the robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Predicted over measured variance of along, lateral and heading after each step; NaN where there is none of either.
+    pub ratios: Vec<Vector3<f64>>,
+    pub misses: [Misses; 3],
+}
+
+/// Where the ratio of one component is off by more than [`TOLERANCE`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+pub struct Misses {
+    /// Whether there is a spread, and robots are many enough to tell.
+    pub told: bool,
+    /// The first step with a miss, and the last; None where there is none, or none can be told.
+    pub first: Option<u32>,
+    pub last: Option<u32>,
+    /// The ratio after the last step, less 1, and its standard error; NaN where there is none.
+    pub end: f64,
+    pub error: f64,
+}
+
+impl Comparison {
+    pub fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[Measured]) -> Self {
+        let least = smallest_spread(settings);
+        let ratios: Vec<Vector3<f64>> = covs
+            .iter()
+            .zip(measured)
+            .map(|(cov, measured)| match cov {
+                Some(cov) => ratio(cov, measured, &least),
+                None => Vector3::repeat(f64::NAN),
+            })
+            .collect();
+        let misses = std::array::from_fn(|axis| misses(&ratios, measured, axis));
+        Self { ratios, misses }
+    }
+}
+
+/// The covariance of ξ after each step from a known start, by a recursion, the first of which is step 1; None from where on
+/// it is no covariance any more, which the fourth order's corrections may leave.
+pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
+    let twist = TangentNoiseModel::twist(&settings.command);
+    // Every setting that is allowed makes finite variances of 0 or more.
+    let noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
+    let mut sigma = Some(Matrix3::zeros());
+    (0..settings.steps)
+        .map(|_| {
+            sigma = sigma
+                .zip(noise)
+                .map(|(sigma, noise)| noise.propagate(&sigma, &twist, order))
+                .filter(|next| covariance_root(next).is_ok());
+            sigma
+        })
+        .collect()
+}
+
+/// Deviations of ξ (m, m, rad) up to here are none.
+fn smallest_spread(settings: &Settings) -> Vector3<f64> {
+    let u = &settings.command;
+    let length = NO_SPREAD * (u.v * u.dt).abs() * f64::from(settings.steps);
+    Vector3::new(length, length, NO_SPREAD)
+}
+
+fn ratio(cov: &Matrix3<f64>, measured: &Measured, least: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::from_fn(|i, _| {
+        let variance = measured.cov[(i, i)];
+        if variance > least[i] * least[i] { cov[(i, i)] / variance } else { f64::NAN }
+    })
+}
+
+fn misses(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
+    let known = || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
+    let told =
+        known().next().is_some() && known().all(|(_, measured)| measured.relative_error[axis] <= TELLING);
+    let is_miss = |ratio: &Vector3<f64>| told && (ratio[axis] - 1.0).abs() > TOLERANCE;
+    let step = |index: usize| index as u32 + 1;
+    let [end, error] = match (ratios.last(), measured.last()) {
+        (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
+        _ => [f64::NAN; 2],
+    };
+    Misses {
+        told,
+        first: ratios.iter().position(is_miss).map(step),
+        last: ratios.iter().rposition(is_miss).map(step),
+        end,
+        error,
+    }
+}

@@ -1,0 +1,382 @@
+//! Dead Reckoning: one command driven step after step, how uncertainty grows on the way, and how well it is predicted.
+
+mod figures;
+mod rollouts;
+mod settings;
+mod straight;
+
+pub use figures::{Comparison, Misses, RECURSIONS, TOLERANCE};
+pub use rollouts::{KEPT, Measured};
+pub use settings::*;
+pub use straight::Straight;
+
+use super::cloud::views::Nearest;
+use super::settings::{Allowed, Rules, SettingsError};
+use crate::geom::se2::SE2;
+use crate::models::{Compounding, TangentNoiseModel};
+use crate::stats::{Ellipse, ExponentialContour, ExponentialMoments};
+use figures::covariances;
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use rollouts::Rollouts;
+
+/// Chords of an outline. Fewer would show corners, more would be below a pixel.
+const OUTLINE_SEGMENTS: usize = 96;
+
+/// Chords of the commanded arc in a step, at most.
+const MOST_CHORDS: usize = 16;
+
+/// The simulation behind the widget: settings, rollouts, and what recursions say of them.
+#[derive(Clone, Debug)]
+pub struct DeadReckoning {
+    settings: Settings,
+    shown: Drive,
+    /// What is to take its place, until it is complete.
+    next: Option<Drive>,
+}
+
+/// Rollouts under some settings, and their figures.
+#[derive(Clone, Debug)]
+struct Drive {
+    settings: Settings,
+    rollouts: Rollouts,
+    /// Robots that there are to be.
+    goal: usize,
+    /// Robots that the figures are of.
+    count: usize,
+    /// By recursion.
+    predicted: [Vec<Option<Matrix3<f64>>>; 3],
+    measured: Vec<Measured>,
+    compared: [Comparison; 3],
+}
+
+/// What the robots driven say, and how the recursions compare. Figures without meaning are NaN.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+pub struct Stats {
+    pub n: usize,
+    /// After the step that is looked at.
+    pub measured: ExponentialMoments,
+    /// After that step; None where the recursion leaves no covariance.
+    pub predicted: ByRecursion<Option<Covariance>>,
+    /// Of along, lateral and heading.
+    pub misses: ByRecursion<[Misses; 3]>,
+}
+
+/// Something of each of [`RECURSIONS`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+pub struct ByRecursion<T> {
+    pub chapter: T,
+    pub first_order: T,
+    pub fourth_order: T,
+}
+
+/// Rows of a symmetric matrix.
+pub type Covariance = [[f64; 3]; 3];
+
+/// 2σ outlines of a step as x, y pairs, closed; empty where the recursion has no covariance left there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outlines {
+    /// Of the predicted Gaussian in (x, y), m: what the covariance is to a filter that has no other coordinates.
+    pub ellipse: Vec<[f64; 2]>,
+    /// Of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
+    pub exponential: Vec<[f64; 2]>,
+    /// The same in (ξ along, ξ lateral), m.
+    pub predicted: Vec<[f64; 2]>,
+    /// That of the robots' own covariance there.
+    pub measured: Vec<[f64; 2]>,
+}
+
+impl DeadReckoning {
+    /// A machine with all of its robots driven.
+    ///
+    /// # Errors
+    /// [`SettingsError`] for the first setting out of range, or where memory does not suffice.
+    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        let mut machine = Self::empty(settings)?;
+        machine.grow(settings.samples);
+        Ok(machine)
+    }
+
+    /// A machine that has driven no robot yet.
+    ///
+    /// # Errors
+    /// As [`DeadReckoning::new`].
+    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
+        settings.check()?;
+        Ok(Self { settings, shown: Drive::new(settings, 0)?, next: None })
+    }
+
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Changes the settings. The same seed has the same luck, however long the path and however many the robots. A complete
+    /// cloud stays complete; one that is still growing keeps its count, as far as there are samples for it.
+    ///
+    /// # Errors
+    /// As [`DeadReckoning::new`]; nothing has changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        self.begin(settings)?;
+        self.finish();
+        Ok(())
+    }
+
+    /// As [`DeadReckoning::configure`], in slices: [`DeadReckoning::advance`] is to be called until it says true. Until
+    /// then the figures are the former ones. To look at another step or recursion takes none, and the former figures are
+    /// looked at from there too.
+    ///
+    /// # Errors
+    /// As [`DeadReckoning::configure`].
+    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check()?;
+        let goal = self.latest().goal;
+        let goal = if goal == self.settings.samples { settings.samples } else { goal.min(settings.samples) };
+        if !self.latest().settings.drives_as(&settings) {
+            // Back to what is shown, or on to something else.
+            self.next = None;
+            if !self.shown.settings.drives_as(&settings) {
+                self.next = Some(Drive::new(settings, goal)?);
+            }
+        }
+        self.latest_mut().goal = goal;
+        let Settings { step, compounding, .. } = settings;
+        (self.shown.settings.step, self.shown.settings.compounding) =
+            (step.min(self.shown.settings.steps), compounding);
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// What was begun last, whether it is complete or not.
+    fn latest(&self) -> &Drive {
+        self.next.as_ref().unwrap_or(&self.shown)
+    }
+
+    fn latest_mut(&mut self) -> &mut Drive {
+        self.next.as_mut().unwrap_or(&mut self.shown)
+    }
+
+    /// Goes on with what was begun, for about as many robots' steps; whether all is done.
+    pub fn advance(&mut self, work: usize) -> bool {
+        if !self.latest_mut().advance(work) {
+            return false;
+        }
+        if let Some(next) = self.next.take() {
+            self.shown = next;
+        }
+        self.shown.settings = self.settings;
+        true
+    }
+
+    fn finish(&mut self) {
+        while !self.advance(usize::MAX) {}
+    }
+
+    /// How much is done of what was begun, from 0 to 1.
+    pub fn progress(&self) -> f64 {
+        let Drive { rollouts, goal, .. } = self.latest();
+        rollouts.driven() as f64 / (*goal).max(1) as f64
+    }
+
+    /// Gives up what was begun: settings and figures are the former ones.
+    pub fn stop(&mut self) {
+        self.next = None;
+        self.shown.goal = self.shown.count;
+        self.settings = self.shown.settings;
+    }
+
+    /// Takes all robots off; the same come again.
+    pub fn restart(&mut self) {
+        if let Some(next) = self.next.take() {
+            self.shown = next;
+        }
+        self.shown.restart();
+    }
+
+    /// Drives up to `count` robots more; returns how many are driven then.
+    pub fn grow(&mut self, count: usize) -> usize {
+        self.begin_to_grow(count);
+        self.finish();
+        self.shown()
+    }
+
+    /// As [`DeadReckoning::grow`], in slices like [`DeadReckoning::begin`].
+    pub fn begin_to_grow(&mut self, count: usize) {
+        let most = self.settings.samples;
+        let latest = self.latest_mut();
+        latest.goal = latest.goal.saturating_add(count).min(most);
+    }
+
+    /// The number of robots that the figures are of.
+    pub fn shown(&self) -> usize {
+        self.shown.count
+    }
+
+    /// The settings of what is shown: during a change the former ones.
+    pub fn shown_settings(&self) -> &Settings {
+        &self.shown.settings
+    }
+
+    /// What the robots say of each step, the first of which is step 1.
+    pub fn measured(&self) -> &[Measured] {
+        &self.shown.measured
+    }
+
+    /// What a recursion says of each step; None from where on it leaves no covariance.
+    pub fn predicted(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
+        &self.shown.predicted[place_of(order)]
+    }
+
+    /// How that compares with the robots.
+    pub fn compared(&self, order: Compounding) -> &Comparison {
+        &self.shown.compared[place_of(order)]
+    }
+
+    /// The commanded pose after each step.
+    pub fn nominal(&self) -> &[SE2] {
+        self.shown.rollouts.nominal()
+    }
+
+    /// x, y (m) and θ (rad) of the robots in the picture, [`KEPT`] at most, after a step; empty where there is no such step.
+    pub fn poses(&self, step: u32) -> &[[f64; 3]] {
+        let Drive { settings, rollouts, count, .. } = &self.shown;
+        let is_driven = (1..=settings.steps).contains(&step);
+        if is_driven { rollouts.poses(step as usize, *count) } else { &[] }
+    }
+
+    /// ξ = x_k ⊟ x̄_k of the robots in the picture after the step that is looked at: along, lateral (m), heading (rad).
+    pub fn twists(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        let step = self.shown.settings.step;
+        let nominal = self.nominal()[step as usize - 1];
+        self.poses(step).iter().map(move |[x, y, theta]| SE2::new(*x, *y, *theta).boxminus(&nominal).into())
+    }
+
+    /// x, y (m) and θ (rad) of one robot after each step; None where there is no such robot.
+    pub fn rollout(&self, index: usize) -> Option<Vec<[f64; 3]>> {
+        (index < self.shown.count).then(|| self.shown.rollouts.rollout(index))
+    }
+
+    /// The robot in the picture that is nearest to a point (m) after the step that is looked at, and within `radius` of it.
+    pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
+        let mut nearest = Nearest::new(target, [radius, radius]);
+        self.poses(self.shown.settings.step).iter().for_each(|[x, y, _]| nearest.see([*x, *y]));
+        nearest.index()
+    }
+
+    pub fn stats(&self) -> Stats {
+        let step = self.shown.settings.step as usize - 1;
+        let Measured { mean, cov, .. } = self.measured()[step];
+        Stats {
+            n: self.shown(),
+            measured: ExponentialMoments { mean, cov },
+            predicted: by_recursion(|order| self.predicted(order)[step].map(Into::into)),
+            misses: by_recursion(|order| self.compared(order).misses),
+        }
+    }
+
+    /// How the variances of a straight drive grow with its duration, under the noise of what is shown.
+    pub fn straight(&self) -> Straight {
+        Straight::new(&self.shown.settings)
+    }
+
+    /// The way that the command drives without noise, as x, y pairs from the start.
+    pub fn commanded(&self) -> Vec<[f64; 2]> {
+        let Settings { command, steps, .. } = self.shown.settings;
+        let twist = TangentNoiseModel::twist(&command);
+        // A chord of a tenth of a radian is an eight-hundredth of its length off its arc.
+        let chords = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MOST_CHORDS);
+        (0..=chords * steps as usize)
+            .map(|i| {
+                let pose = SE2::exp(&(twist * (i as f64 / chords as f64)));
+                [pose.x(), pose.y()]
+            })
+            .collect()
+    }
+
+    /// The outlines of a step, by the recursion that is looked at; None where there is no such step.
+    pub fn outlines(&self, step: u32) -> Option<Outlines> {
+        let Settings { steps, compounding, .. } = self.shown.settings;
+        (1..=steps).contains(&step).then(|| self.outlines_at(step as usize - 1, compounding))
+    }
+
+    fn outlines_at(&self, index: usize, compounding: Compounding) -> Outlines {
+        let pose = self.nominal()[index];
+        let Measured { mean, cov, .. } = &self.measured()[index];
+        let measured = if self.shown() < 2 { vec![] } else { floor_of_xi(mean, cov) };
+        let Some(cov) = self.predicted(compounding)[index] else {
+            return Outlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
+        };
+        let contour = ExponentialMoments { mean: Vector3::zeros(), cov };
+        let (sin, cos) = libm::sincos(pose.theta());
+        let turn = Matrix2::new(cos, -sin, sin, cos);
+        let plane = turn * cov.fixed_view::<2, 2>(0, 0) * turn.transpose();
+        let ellipse = Ellipse::new(Vector2::new(pose.x(), pose.y()), plane);
+        Outlines {
+            ellipse: ellipse.boundary(OUTLINE_SEGMENTS),
+            exponential: ExponentialContour::new(&contour, &pose).boundary(OUTLINE_SEGMENTS),
+            predicted: floor_of_xi(&Vector3::zeros(), &cov),
+            measured,
+        }
+    }
+}
+
+impl Drive {
+    fn new(settings: Settings, goal: usize) -> Result<Self, SettingsError> {
+        let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
+            field: "steps".to_owned(),
+            value: f64::from(settings.steps),
+            allowed: Allowed::LessMemory,
+        })?;
+        let predicted = RECURSIONS.map(|order| covariances(&settings, order));
+        let measured = rollouts.measured(0);
+        let compared = compare(&settings, &predicted, &measured);
+        Ok(Self { settings, rollouts, goal, count: 0, predicted, measured, compared })
+    }
+
+    fn advance(&mut self, work: usize) -> bool {
+        // Of robots that were added up none can be taken off.
+        if self.goal != self.count && self.goal < self.rollouts.driven() {
+            self.rollouts.restart();
+        }
+        let done = self.rollouts.advance(self.goal, work);
+        if done && self.count != self.goal {
+            self.summarize(self.goal);
+        }
+        done
+    }
+
+    fn summarize(&mut self, count: usize) {
+        self.count = count;
+        self.measured = self.rollouts.measured(count);
+        self.compared = compare(&self.settings, &self.predicted, &self.measured);
+    }
+
+    fn restart(&mut self) {
+        self.rollouts.restart();
+        self.goal = 0;
+        self.summarize(0);
+    }
+}
+
+fn compare(
+    settings: &Settings,
+    predicted: &[Vec<Option<Matrix3<f64>>>; 3],
+    measured: &[Measured],
+) -> [Comparison; 3] {
+    predicted.each_ref().map(|covs| Comparison::new(settings, covs, measured))
+}
+
+fn by_recursion<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
+    let [chapter, first_order, fourth_order] = RECURSIONS.map(of);
+    ByRecursion { chapter, first_order, fourth_order }
+}
+
+/// The place of a recursion among [`RECURSIONS`].
+fn place_of(order: Compounding) -> usize {
+    RECURSIONS.iter().position(|each| *each == order).unwrap_or_default()
+}
+
+/// The 2σ ellipse of ξ along and lateral.
+fn floor_of_xi(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
+    Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
+}

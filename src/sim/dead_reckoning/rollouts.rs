@@ -1,0 +1,305 @@
+//! One command driven again and again by many robots, four at a time: what they say of each step.
+
+use super::settings::Settings;
+use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any, lanes};
+use crate::geom::se2::SE2;
+use crate::models::TangentNoiseModel;
+use crate::noise::{NoiseKind, centred_uniform};
+use crate::stats::sums::{Sums, add};
+use nalgebra::{Matrix3, Vector3};
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use std::collections::TryReserveError;
+use std::f64::consts::FRAC_PI_2;
+use wide::f64x4;
+
+/// Fours that are driven from the first step to the last before the next are: 256 rollouts, whose draws and poses are 8 kB.
+/// Fewer would make the compensation of the sums felt, more would leave the nearest cache.
+const BLOCK: usize = 64;
+const BLOCK_ROLLOUTS: usize = BLOCK * LANES;
+
+/// Powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
+const QUANTITIES: usize = 15;
+
+/// A lane that is counted: all bits set.
+const ALL: f64 = f64::from_bits(u64::MAX);
+
+/// A quarter turn, less a margin for rounding.
+const NEAR: f64 = FRAC_PI_2 * (1.0 - 1e-12);
+
+/// One step as every robot drives it, in exponential coordinates about the commanded pose. With e = x̄⁻¹·x the error as a
+/// pose, e_k = exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt): nothing grows with the length of the path.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    /// Length of the arc, m, and half its turn, rad: mean and deviation.
+    length: [f64; 2],
+    half_turn: [f64; 2],
+    /// Deviation of half the turn after the arc, rad.
+    half_last: f64,
+    /// Where the step ends that is driven without noise, m.
+    end: [f64x4; 2],
+    /// Sine and cosine of its turn.
+    sin: f64,
+    cos: f64,
+    trigonometry: Trigonometry,
+}
+
+/// Four robots, by their error.
+#[derive(Clone, Copy)]
+struct Four {
+    x: f64x4,
+    y: f64x4,
+    half: f64x4,
+    sin: f64x4,
+    cos: f64x4,
+}
+
+/// What the robots said of one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// Mean of ξ = x_k ⊟ x̄_k in the order (along, lateral, heading): m, m, rad.
+    pub mean: Vector3<f64>,
+    /// Its sample covariance, 3 × 3.
+    pub cov: Matrix3<f64>,
+    /// Standard errors of the three variances as shares of them, by the fourth moments: √((κ − 1)/n).
+    pub relative_error: Vector3<f64>,
+}
+
+/// Robots that are kept for the picture, at most: more dots would be one blot. A step of one takes 24 bytes.
+pub const KEPT: usize = 600;
+
+/// Rollouts, as many as have been asked for so far.
+#[derive(Clone, Debug)]
+pub struct Rollouts {
+    step: Step,
+    seed: u64,
+    /// Where the draws of the next block come from. A block has a stream of its own, of which a longer path takes more: the
+    /// first steps of the first robots are the same in every figure of that seed.
+    stream: Xoshiro256PlusPlus,
+    /// Robots in whole blocks that were driven.
+    driven: usize,
+    /// Of those, at each step.
+    sums: Vec<Sums<QUANTITIES>>,
+    /// The commanded pose after each step.
+    nominal: Vec<SE2>,
+    /// x, y (m) and θ (rad) of the first robots, step after step.
+    poses: Vec<[f64; 3]>,
+}
+
+impl Step {
+    fn new(settings: &Settings) -> Self {
+        let u = &settings.command;
+        let [length, turn, last] = settings.model().variances(u).map(|variance| variance.0.sqrt() * u.dt);
+        let (mean_length, mean_half) = (u.v * u.dt, 0.5 * (u.omega * u.dt));
+        let trigonometry = Trigonometry::default();
+        let circle = trigonometry.near_or_any_circle(f64x4::splat(mean_half));
+        let chord = f64x4::splat(mean_length) * circle.sinc;
+        let (sin, cos) = libm::sincos(2.0 * mean_half);
+        Self {
+            length: [mean_length, length],
+            half_turn: [mean_half, 0.5 * turn],
+            half_last: 0.5 * last,
+            end: [chord * circle.cos, chord * circle.sin],
+            sin,
+            cos,
+            trigonometry,
+        }
+    }
+
+    /// Drives four robots on, and their ξ.
+    #[inline(always)]
+    fn drive(&self, four: &mut Four, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
+        let length = *first * self.length[1] + self.length[0];
+        let more = *second * self.half_turn[1];
+        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(more + self.half_turn[0]);
+        let chord = length * sinc;
+        // The chord's bearing is the robot's heading and half the turn of its arc.
+        let head_sin = 2.0 * four.sin * four.cos;
+        let head_cos = 1.0 - 2.0 * four.sin * four.sin;
+        let x = four.x + chord * (head_cos * cos - head_sin * sin) - self.end[0];
+        let y = four.y + chord * (head_sin * cos + head_cos * sin) - self.end[1];
+        let half = four.half + (more + *third * self.half_last);
+        let is_far = any(half.abs().simd_gt(f64x4::splat(NEAR)));
+        let HalfTurn { half, cotangent, sin, cos, .. } = if is_far {
+            self.trigonometry.any_half_turn(half, 0.0)
+        } else {
+            self.trigonometry.half_turn(half)
+        };
+        *four = Four { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
+        [cotangent * four.x + half * four.y, cotangent * four.y - half * four.x, half * 2.0]
+    }
+}
+
+impl Rollouts {
+    /// Rollouts of which none is driven yet.
+    ///
+    /// # Errors
+    /// Where memory does not suffice for those in the picture.
+    pub fn new(settings: &Settings) -> Result<Self, TryReserveError> {
+        let steps = settings.steps as usize;
+        let mut poses = Vec::new();
+        poses.try_reserve_exact(steps * KEPT)?;
+        poses.resize(steps * KEPT, [0.0; 3]);
+        let twist = TangentNoiseModel::twist(&settings.command);
+        Ok(Self {
+            step: Step::new(settings),
+            seed: settings.seed,
+            stream: Xoshiro256PlusPlus::seed_from_u64(settings.seed),
+            driven: 0,
+            sums: vec![Sums::new(); steps],
+            nominal: (1..=steps).map(|k| SE2::exp(&(twist * k as f64))).collect(),
+            poses,
+        })
+    }
+
+    /// Drives on towards `goal` robots, for about `work` steps of them; whether only a last part of a block is left, which
+    /// [`Rollouts::measured`] drives.
+    pub fn advance(&mut self, goal: usize, work: usize) -> bool {
+        let blocks = work.div_ceil(BLOCK_ROLLOUTS * self.sums.len());
+        for _ in 0..blocks {
+            if self.driven + BLOCK_ROLLOUTS > goal {
+                return true;
+            }
+            let mut sums = std::mem::take(&mut self.sums);
+            self.drive_next(BLOCK_ROLLOUTS, &mut sums);
+            self.sums = sums;
+            self.stream.jump();
+            self.driven += BLOCK_ROLLOUTS;
+        }
+        self.driven + BLOCK_ROLLOUTS > goal
+    }
+
+    /// As if none had been driven yet.
+    pub fn restart(&mut self) {
+        self.stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        self.driven = 0;
+        self.sums.fill(Sums::new());
+    }
+
+    /// Robots driven so far, in whole blocks.
+    pub fn driven(&self) -> usize {
+        self.driven
+    }
+
+    /// What `goal` robots say of each step, less than a block more than were driven.
+    pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
+        let of = |sums: &[Sums<QUANTITIES>]| {
+            sums.iter().map(|sums| measured(&sums.finish(), goal as f64)).collect()
+        };
+        if goal == self.driven {
+            return of(&self.sums);
+        }
+        let mut sums = self.sums.clone();
+        self.drive_next(goal - self.driven, &mut sums);
+        of(&sums)
+    }
+
+    /// Drives the next block and adds the first `count` of its robots.
+    #[inline(never)]
+    fn drive_next(&mut self, count: usize, sums: &mut [Sums<QUANTITIES>]) {
+        let Self { step, stream, driven, nominal, poses, .. } = self;
+        let mut block = Block::new(stream.clone());
+        for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
+            block.drive(step);
+            for (i, xi) in block.threes.iter().enumerate() {
+                let there = count.saturating_sub(LANES * i);
+                if there >= LANES {
+                    sum(sums, *xi);
+                } else {
+                    let mask = lanes(|lane| if lane < there { ALL } else { 0.0 });
+                    sum(sums, xi.map(|lanes| lanes & mask));
+                }
+            }
+            sums.close_block();
+            let row = poses[k * KEPT..][..KEPT].iter_mut().skip(*driven);
+            for (i, pose) in row.take(BLOCK_ROLLOUTS).enumerate() {
+                *pose = block.fours[i / LANES].pose(i % LANES, nominal);
+            }
+        }
+    }
+
+    /// The commanded pose after each step.
+    pub fn nominal(&self) -> &[SE2] {
+        &self.nominal
+    }
+
+    /// x, y (m) and θ (rad) of the first `count` robots, [`KEPT`] at most, after step `k`, counted from 1.
+    pub fn poses(&self, k: usize, count: usize) -> &[[f64; 3]] {
+        &self.poses[(k - 1) * KEPT..][..count.min(KEPT)]
+    }
+
+    /// x, y (m) and θ (rad) of one robot after each step.
+    pub fn rollout(&self, index: usize) -> Vec<[f64; 3]> {
+        let mut stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        (0..index / BLOCK_ROLLOUTS).for_each(|_| stream.jump());
+        let (four, lane) = (index % BLOCK_ROLLOUTS / LANES, index % LANES);
+        let mut block = Block::new(stream);
+        let pose_after = |nominal| {
+            block.drive(&self.step);
+            block.fours[four].pose(lane, nominal)
+        };
+        self.nominal.iter().map(pose_after).collect()
+    }
+}
+
+impl Four {
+    /// x, y (m) and θ (rad) of one of the four.
+    fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
+        let [x, y, half] = [self.x, self.y, self.half].map(|lanes| lanes.to_array()[lane]);
+        let pose = *nominal * SE2::new(x, y, 2.0 * half);
+        [pose.x(), pose.y(), pose.theta()]
+    }
+}
+
+/// Robots that are driven from step to step together.
+struct Block {
+    rng: Xoshiro256PlusPlus,
+    /// By their errors.
+    fours: [Four; BLOCK],
+    /// Draws of a step, and then the ξ that they led to.
+    threes: [[f64x4; 3]; BLOCK],
+}
+
+impl Block {
+    fn new(rng: Xoshiro256PlusPlus) -> Self {
+        let [zero, one] = [0.0, 1.0].map(f64x4::splat);
+        let start = Four { x: zero, y: zero, half: zero, sin: zero, cos: one };
+        Self { rng, fours: [start; BLOCK], threes: [[zero; 3]; BLOCK] }
+    }
+
+    #[inline(never)]
+    fn drive(&mut self, step: &Step) {
+        let Self { rng, fours, threes } = self;
+        for three in threes.iter_mut() {
+            let mut uniforms = [[0.0; LANES]; 3];
+            for lane in 0..LANES {
+                uniforms.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
+            }
+            *three = uniforms.map(f64x4::from);
+        }
+        NoiseKind::Normal.quantiles(threes.as_flattened_mut());
+        for (four, three) in fours.iter_mut().zip(threes) {
+            *three = step.drive(four, three);
+        }
+    }
+}
+
+#[inline(always)]
+fn sum(sums: &mut Sums<QUANTITIES>, [a, l, h]: [f64x4; 3]) {
+    let [aa, ll, hh] = [a * a, l * l, h * h];
+    let terms = [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
+    add(&mut sums.block, terms);
+}
+
+fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
+    let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
+    let mean = Vector3::new(a, l, h);
+    let products = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
+    let relative_error = Vector3::from_fn(|i, _| {
+        let [m, square, cube, fourth] = [0, 3, 6, 9].map(|power| sums[power + i] / n);
+        let m2 = square - m * m;
+        let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
+        ((m4 / (m2 * m2) - 1.0).max(0.0) / n).sqrt()
+    });
+    Measured { mean, cov: products * (n / (n - 1.0)), relative_error }
+}

@@ -1,0 +1,151 @@
+//! What a user sets of Dead Reckoning.
+
+use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
+use crate::noise::NoiseKind;
+use crate::sim::settings::{
+    ALPHA, Level, MAX_SEED, Rules, Settable, Setting, SettingsError, Words, check_whole, settings,
+};
+use std::ops::RangeInclusive;
+
+impl Words for Compounding {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("chapter", Self::Chapter), ("first-order", Self::FirstOrder), ("fourth-order", Self::FourthOrder)];
+}
+
+/// What the α's tell the noise of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoisePer {
+    /// Each step by itself, as the chapter has it: more and shorter steps of one path make less noise in all.
+    Step,
+    /// The whole path driven as one command; each of n steps has an n-th of its variance.
+    Path,
+}
+
+impl Words for NoisePer {
+    const WORDS: &'static [(&'static str, Self)] = &[("step", Self::Step), ("path", Self::Path)];
+}
+
+/// Two hundred steps of a million rollouts take some ten seconds, and no memory.
+pub const MAX_SAMPLES: usize = 1_000_000;
+/// Ten times the chapter's: more steps of a metre a second would show nothing that these do not.
+pub const MAX_STEPS: u64 = 200;
+
+/// Of the seeds 0 to 99 that cross 5 % at the step where the exact ratio does, the one whose ratios are nearest to the exact
+/// ones: what everybody sees first should not be a stroke of luck.
+const OPENING_SEED: u64 = 29;
+
+settings! {
+    /// Everything that a user sets.
+    pub struct Settings {
+        /// Driven in each step.
+        command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 0.2 };
+        /// Steps driven one after the other.
+        steps: u32 = 20, in 1..=MAX_STEPS;
+        /// The step that is looked at.
+        step: u32 = 2, in 1..=MAX_STEPS;
+        /// Noise parameters, the six of the velocity model.
+        alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA;
+        /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4; null where they are not those of a level.
+        headingNoise, by heading_level of alphas, in ALPHA;
+        /// Whether the noise parameters are for each step or for the whole path as one command, of whose variance each step has its share.
+        per: NoisePer = NoisePer::Step;
+        /// How the covariance that is shown was carried from step to step.
+        compounding: Compounding = Compounding::Chapter;
+        /// Rollouts of the whole path.
+        samples: usize = 50_000, in 1..=MAX_SAMPLES as u64;
+        /// The same seed is the same luck at every step, whatever else is set.
+        seed: u64 = OPENING_SEED, in 0..=MAX_SEED;
+    }
+}
+
+/// What is said of each noise parameter, the first of which is α₁; in a page each is an attribute of its own.
+#[cfg(not(target_arch = "wasm32"))]
+pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
+
+/// The level of α₃ to α₆ that may be those of one.
+struct HeadingLevel<'a>(&'a mut [f64; 6]);
+
+impl Level for HeadingLevel<'_> {
+    fn get(&self) -> Option<f64> {
+        let [_, _, h, a4, a5, a6] = *self.0;
+        (a4 == h && [a5, a6] == [h / 4.0; 2]).then_some(h)
+    }
+
+    fn set(&mut self, h: f64) {
+        let [_, _, rest @ ..] = self.0;
+        *rest = [h, h, h / 4.0, h / 4.0];
+    }
+}
+
+impl Settable for HeadingLevel<'_> {
+    type Allowed = RangeInclusive<f64>;
+    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+        Setting::Level(self, allowed)
+    }
+}
+
+impl Settings {
+    fn heading_level(&mut self) -> HeadingLevel<'_> {
+        HeadingLevel(&mut self.alphas)
+    }
+
+    /// The level of the heading noise; None where α₃ to α₆ are not those of one.
+    pub fn heading_noise(mut self) -> Option<f64> {
+        self.heading_level().get()
+    }
+
+    /// The noise of one step.
+    pub fn model(&self) -> VelocityModel {
+        let share = match self.per {
+            NoisePer::Step => 1.0,
+            // Of a path of n steps: (nΔt)²σ²/n = Δt²·nσ².
+            NoisePer::Path => f64::from(self.steps),
+        };
+        VelocityModel {
+            alphas: VelocityAlphas(self.alphas.map(|alpha| share * alpha)),
+            noise: NoiseKind::Normal,
+        }
+    }
+
+    /// Whether rollouts under these settings are those under others, however many there are and whatever is looked at.
+    pub(super) fn drives_as(&self, other: &Self) -> bool {
+        let Self { step, compounding, samples, .. } = *other;
+        Self { step, compounding, samples, ..*self } == *other
+    }
+}
+
+impl Rules for Settings {
+    /// A path that becomes shorter than what is looked at is looked at where it ends.
+    fn settle(&mut self, _: &Self, named: &[&str]) {
+        if !named.contains(&"step") {
+            self.step = self.step.min(self.steps);
+        }
+    }
+
+    fn check_together(&self) -> Result<(), SettingsError> {
+        check_whole("step", f64::from(self.step), &(1..=u64::from(self.steps))).map(|_| ())
+    }
+}
+
+/// Settings worth starting from, by name: what the path is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset {
+    pub name: &'static str,
+    pub command: VelocityCmd,
+    pub steps: u32,
+    pub alphas: [f64; 6],
+}
+
+/// The chapter's twenty steps; the same with the heading's deviation doubled, as exercise 7 asks; the same path in two hundred
+/// steps, in each of which J_r is nearly 1; and straight ahead, where noise in the turn shows alone.
+pub const PRESETS: [Preset; 4] = [
+    preset("chapter", [1.0, 0.5, 0.2], 20, 0.02),
+    preset("doubled", [1.0, 0.5, 0.2], 20, 0.08),
+    preset("fine", [1.0, 0.5, 0.02], 200, 0.02),
+    preset("straight", [1.0, 0.0, 0.2], 20, 0.02),
+];
+
+const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], steps: u32, heading: f64) -> Preset {
+    let [h, last] = [heading, heading / 4.0];
+    Preset { name, command: VelocityCmd { v, omega, dt }, steps, alphas: [0.02, 0.02, h, h, last, last] }
+}

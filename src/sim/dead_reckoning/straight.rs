@@ -1,0 +1,53 @@
+//! How the two variances of a straight drive grow with its duration (exercise 2).
+
+use super::settings::Settings;
+use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
+use crate::noise::NoiseKind;
+use crate::stats::ExactMoments;
+
+/// Durations from a tenth of a second to ten, in tenths of a decade: about where sliders put the crossing. In finer steps the
+/// curves would look no smoother.
+const DURATIONS: [i32; 2] = [-10, 10];
+
+/// Variances of one straight command by its duration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Straight {
+    /// Δt, s.
+    pub durations: Vec<f64>,
+    /// Variances along the track and across it, m², by quadrature.
+    pub along: Vec<f64>,
+    pub across: Vec<f64>,
+    /// The same to first order in the noise: α₁v²Δt² and ¼α₃v⁴Δt⁴.
+    pub along_first_order: Vec<f64>,
+    pub across_first_order: Vec<f64>,
+    /// Where these two are equal, (2/|v|)·√(α₁/α₃), s; None where they never are.
+    pub crossing: Option<f64>,
+}
+
+impl Straight {
+    /// Of the speed and the noise of some settings, each duration as one command.
+    pub fn new(settings: &Settings) -> Self {
+        let v = settings.command.v;
+        let [alpha1, _, alpha3, ..] = settings.alphas;
+        let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
+        let [first, last] = DURATIONS;
+        let durations: Vec<f64> = (first..=last).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
+        let exact = durations.iter().map(|dt| {
+            let cov = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt }).cov;
+            (cov[(0, 0)], cov[(1, 1)])
+        });
+        let (along, across) = exact.unzip();
+        let crossing = 2.0 / v.abs() * (alpha1 / alpha3).sqrt();
+        Self {
+            along,
+            across,
+            along_first_order: durations.iter().map(|dt| alpha1 * v * v * dt * dt).collect(),
+            // A turn by φ at half the way of an arc puts its end ½vΔt·φ aside.
+            across_first_order: (durations.iter())
+                .map(|dt| alpha3 * v * v * dt * dt * (0.5 * v * dt) * (0.5 * v * dt))
+                .collect(),
+            durations,
+            crossing: (crossing.is_finite() && crossing > 0.0).then_some(crossing),
+        }
+    }
+}

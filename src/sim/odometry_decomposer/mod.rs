@@ -1,0 +1,276 @@
+//! The Odometry Decomposer: a reading as rotate, drive, rotate, and what noise on the three legs makes of it.
+
+mod settings;
+
+pub use settings::*;
+
+use super::cloud::draws::Draws;
+use super::cloud::views::Nearest;
+use super::settings::{Rules, SettingsError};
+use crate::geom::se2::SE2;
+use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule};
+use nalgebra::Vector3;
+
+/// How the frame of the odometry moves in the world: slowly and along a bend, as wheels of not quite the size that they are
+/// taken for let it (m/s, m/s, rad/s).
+const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
+
+/// Points of a curve at most; each costs a microsecond.
+pub const MAX_CURVE_POINTS: u64 = 10_000;
+
+/// What one rule makes of the reading: its legs, and the standard deviations of their noises.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RuleFigures {
+    pub rule: OdometryRule,
+    pub legs: OdomDelta,
+    /// rad, m, rad, m: of the three legs, and across the second.
+    pub deviations: [f64; 4],
+    /// Standard deviation across the measured bearing, m.
+    pub cross_track: f64,
+    /// Standard deviation of the turn made, rad.
+    pub heading: f64,
+}
+
+/// What the outcomes shown say, beside what is exact under the present rule. NaN without any.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+pub struct Stats {
+    pub n: usize,
+    /// Root mean square of the distance from the measured bearing, m, and its standard error.
+    pub cross_track: f64,
+    pub cross_track_error: f64,
+    pub exact_cross_track: f64,
+    /// How far the first rotation's standard deviation moves the end of the drive: δ_trans·σ_rot1, m.
+    pub lever: f64,
+    /// Root mean square of the turn made but for the measured one, rad, and its standard error.
+    pub heading: f64,
+    pub heading_error: f64,
+    pub exact_heading: f64,
+    /// The same if the two rotations were independent.
+    pub independent_heading: f64,
+}
+
+/// The odometry in the world, whose frame has drifted, and the legs that are read of it there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drifted {
+    pub frame: SE2,
+    pub from: SE2,
+    pub to: SE2,
+    pub legs: OdomDelta,
+}
+
+/// A point of the curves against the length of the drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// m.
+    pub trans: f64,
+    /// Standard deviation across the bearing, m.
+    pub cross_track: f64,
+    /// The lever alone, m.
+    pub lever: f64,
+    /// Standard deviation of the drive's length, m.
+    pub along: f64,
+}
+
+/// The simulation behind the widget: settings, draws, and the outcomes shown.
+#[derive(Clone, Debug)]
+pub struct OdometryDecomposer {
+    settings: Settings,
+    draws: Draws,
+    shown: usize,
+    poses: Vec<SE2>,
+}
+
+impl OdometryDecomposer {
+    /// A machine with all of its outcomes.
+    ///
+    /// # Errors
+    /// [`SettingsError`] for the first setting out of range.
+    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        settings.check()?;
+        let draws = Draws::new(settings.seed, settings.noise);
+        let mut machine = Self { settings, draws, shown: settings.samples, poses: Vec::new() };
+        machine.refresh();
+        Ok(machine)
+    }
+
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Changes the settings; the draws stay the same. A complete cloud stays complete, one that is still growing keeps its count.
+    ///
+    /// # Errors
+    /// As [`OdometryDecomposer::new`]; nothing has changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check()?;
+        let complete = self.shown == self.settings.samples;
+        self.shown = if complete { settings.samples } else { self.shown.min(settings.samples) };
+        self.settings = settings;
+        self.refresh();
+        Ok(())
+    }
+
+    /// Shows up to `count` outcomes more; returns how many are shown.
+    pub fn grow(&mut self, count: usize) -> usize {
+        self.shown = self.shown.saturating_add(count).min(self.settings.samples);
+        self.refresh();
+        self.shown
+    }
+
+    /// Shows none; the draws remain.
+    pub fn restart(&mut self) {
+        self.shown = 0;
+        self.refresh();
+    }
+
+    fn refresh(&mut self) {
+        self.draws.restart(self.settings.seed, self.settings.noise);
+        self.draws.extend_to(self.shown);
+        let start = self.start();
+        self.poses = self.executed(self.shown).map(|executed| executed.poses(&start)[3]).collect();
+    }
+
+    /// What odometry read: the motion from one of its poses to the other.
+    pub fn reading(&self) -> OdomDelta {
+        OdomDelta::from_poses(&self.start(), &self.settings.to.into())
+    }
+
+    /// The legs of the reading under the present rule.
+    pub fn legs(&self) -> OdomDelta {
+        self.settings.rule.legs(&self.reading())
+    }
+
+    fn start(&self) -> SE2 {
+        self.settings.from.into()
+    }
+
+    fn variances(&self) -> LegVariances {
+        self.settings.rule.variances(&self.reading(), &self.settings.alphas)
+    }
+
+    /// What happened in each of the first `count` outcomes.
+    fn executed(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
+        let rho = self.settings.correlation;
+        let (legs, variances) = (self.legs(), self.variances());
+        (0..count).map(move |index| {
+            let [across, along, own] = self.draws.of(index);
+            let turn = rho * across + (1.0 - rho * rho).sqrt() * own;
+            variances.executed(&legs, [across, along, turn])
+        })
+    }
+
+    /// Where each outcome shown ends, in sample order.
+    pub fn poses(&self) -> &[SE2] {
+        &self.poses
+    }
+
+    /// The legs without noise: the start, the robot turned, at the end of its drive, and turned again.
+    pub fn linkage(&self) -> [SE2; 4] {
+        ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start())
+    }
+
+    /// The linkages of the first outcomes shown, as [`OdometryDecomposer::linkage`].
+    pub fn ghosts(&self, count: usize) -> Vec<[SE2; 4]> {
+        let start = self.start();
+        self.executed(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()
+    }
+
+    /// The robot on its way, in the phase that is set.
+    pub fn robot(&self) -> SE2 {
+        let share = |before: f64| (self.settings.phase - before).clamp(0.0, 1.0);
+        let OdomDelta { rot1, trans, rot2 } = self.legs();
+        let legs = OdomDelta { rot1: share(0.0) * rot1, trans: share(1.0) * trans, rot2: share(2.0) * rot2 };
+        legs.apply(&self.start())
+    }
+
+    /// What each rule makes of the reading, with the present α's.
+    pub fn rules(&self) -> [RuleFigures; 4] {
+        let Settings { alphas, noise, correlation, .. } = self.settings;
+        let reading = self.reading();
+        OdometryRule::ALL.map(|rule| {
+            let legs = rule.legs(&reading);
+            let variances = rule.variances(&reading, &alphas);
+            let LegVariances { rot1, trans, rot2, strafe } = variances;
+            RuleFigures {
+                rule,
+                legs,
+                deviations: [rot1, trans, rot2, strafe].map(|variance| variance.0.sqrt()),
+                cross_track: variances.cross_track(legs.trans, noise).sqrt(),
+                heading: variances.heading(correlation).sqrt(),
+            }
+        })
+    }
+
+    pub fn stats(&self) -> Stats {
+        let Settings { noise, correlation, .. } = self.settings;
+        let (legs, variances) = (self.legs(), self.variances());
+        let outcomes = self.executed(self.shown);
+        let across = outcomes.clone().map(|ExecutedLegs { legs: executed, strafe }| {
+            let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
+            executed.trans * sin + strafe * cos
+        });
+        let turned = outcomes
+            .map(|ExecutedLegs { legs: executed, .. }| executed.rot1 - legs.rot1 + executed.rot2 - legs.rot2);
+        let [cross_track, cross_track_error] = spread(across, self.shown);
+        let [heading, heading_error] = spread(turned, self.shown);
+        Stats {
+            n: self.shown,
+            cross_track,
+            cross_track_error,
+            exact_cross_track: variances.cross_track(legs.trans, noise).sqrt(),
+            lever: legs.trans * variances.rot1.0.sqrt(),
+            heading,
+            heading_error,
+            exact_heading: variances.heading(correlation).sqrt(),
+            independent_heading: variances.heading(0.0).sqrt(),
+        }
+    }
+
+    /// The spreads against the length of the drive, from 0 to `longest` (m), both rotations as they were measured.
+    pub fn curve(&self, longest: f64, count: usize) -> Vec<CurvePoint> {
+        let Settings { rule, alphas, noise, .. } = self.settings;
+        let reading = self.reading();
+        let step = longest / count.saturating_sub(1).max(1) as f64;
+        (0..count)
+            .map(|i| {
+                let trans = step * i as f64;
+                let variances = rule.variances(&OdomDelta { trans, ..reading }, &alphas);
+                CurvePoint {
+                    trans,
+                    cross_track: variances.cross_track(trans, noise).sqrt(),
+                    lever: trans * variances.rot1.0.sqrt(),
+                    along: variances.trans.0.sqrt(),
+                }
+            })
+            .collect()
+    }
+
+    /// The odometry poses in the world, where their frame has moved by exp(t·d) in the time t of the drift.
+    pub fn drifted(&self) -> Drifted {
+        let frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
+        let (from, to) = (frame * self.start(), frame * SE2::from(self.settings.to));
+        Drifted { frame, from, to, legs: self.settings.rule.legs(&OdomDelta::from_poses(&from, &to)) }
+    }
+
+    /// The outcome shown that ends nearest to a point (m) and within `radius` of it.
+    pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
+        let mut nearest = Nearest::new(target, [radius, radius]);
+        self.poses.iter().for_each(|pose| nearest.see([pose.x(), pose.y()]));
+        nearest.index()
+    }
+}
+
+/// Root mean square of what has the mean 0, and its standard error by the delta method: √((m₄ − m₂²)/n)/(2√m₂).
+fn spread(values: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
+    if count == 0 {
+        return [f64::NAN; 2];
+    }
+    let (mut m2, mut m4) = (0.0, 0.0);
+    for square in values.map(|value| value * value) {
+        m2 += square / count as f64;
+        m4 += square * square / count as f64;
+    }
+    let error = ((m4 - m2 * m2).max(0.0) / count as f64).sqrt() / (2.0 * m2.sqrt());
+    [m2.sqrt(), if m2 == 0.0 { 0.0 } else { error }]
+}

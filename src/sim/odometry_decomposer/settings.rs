@@ -1,0 +1,107 @@
+//! What a user sets of the Odometry Decomposer.
+
+use crate::geom::se2::SE2;
+use crate::models::{OdometryRule, RuleAlphas};
+use crate::noise::NoiseKind;
+use crate::sim::settings::{ALPHA, MAX_SEED, QUANTITY, Rules, Settable, Setting, Words, group, settings};
+use std::ops::RangeInclusive;
+
+impl Words for OdometryRule {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("table", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
+}
+
+/// A pose in the frame of the odometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OdometryPose(pub [f64; 3]);
+
+impl From<OdometryPose> for SE2 {
+    fn from(OdometryPose([x, y, theta]): OdometryPose) -> Self {
+        Self::new(x, y, theta)
+    }
+}
+
+group!(OdometryPose as OdometryPose([x, y, theta]) => {
+    /// Where odometry has the robot.
+    x: "m", in QUANTITY;
+    /// Where odometry has the robot.
+    y: "m", in QUANTITY;
+    /// The heading that odometry has the robot at.
+    theta: "rad", in QUANTITY;
+});
+
+impl Settable for RuleAlphas {
+    type Allowed = RangeInclusive<f64>;
+    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+        Setting::Numbers(self, allowed)
+    }
+}
+
+/// All of them are moved within a frame, and drawn one by one: more would be one blot.
+pub const MAX_SAMPLES: u64 = 5000;
+
+/// Up to minus and plus one.
+const CORRELATION: RangeInclusive<f64> = -1.0..=1.0;
+
+/// From the start to the end of the three legs.
+const PHASE: RangeInclusive<f64> = 0.0..=3.0;
+
+/// Up to eleven days, as of other durations.
+const DRIFT: RangeInclusive<f64> = 0.0..=1e6;
+
+settings! {
+    /// Everything that a user sets.
+    pub struct Settings {
+        /// The odometry pose before the motion.
+        from: OdometryPose = PRESETS[0].from;
+        /// The odometry pose after it.
+        to: OdometryPose = PRESETS[0].to;
+        /// Whose bookkeeping of the noise it is.
+        rule: OdometryRule = OdometryRule::Table;
+        /// Noise parameters, the fifth of the omnidirectional rule alone.
+        alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA;
+        /// Distribution of the noise; the variances are the same.
+        noise: NoiseKind = NoiseKind::Normal;
+        /// Correlation of the noises of the two rotations, which the rules take to be independent.
+        correlation: f64 = 0.0, in CORRELATION;
+        /// Time for which the frame of the odometry has drifted away from the world.
+        drift: f64 = 40.0, "s", in DRIFT;
+        /// How far the robot is on its way: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
+        phase: f64 = 3.0, in PHASE;
+        /// Outcomes in the whole cloud.
+        samples: usize = 500, in 1..=MAX_SAMPLES;
+        // Of the seeds 0 to 39, the one whose spreads are nearest to the exact ones at the opening.
+        /// The same seed draws the same outcomes.
+        seed: u64 = 33, in 0..=MAX_SEED;
+    }
+}
+
+/// What is said of each noise parameter, which in a page is an attribute of its own.
+#[cfg(not(target_arch = "wasm32"))]
+pub const ALPHA_SENTENCES: [&str; 5] =
+    ["Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s."; 5];
+
+impl Rules for Settings {}
+
+/// A reading worth starting from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset {
+    pub name: &'static str,
+    pub from: OdometryPose,
+    pub to: OdometryPose,
+}
+
+const fn preset(name: &'static str, to: [f64; 3]) -> Preset {
+    Preset { name, from: OdometryPose([0.0; 3]), to: OdometryPose(to) }
+}
+
+/// All three legs, then one or two of them, and what the rules disagree about: backing up, and jitter of half a centimetre.
+pub const PRESETS: [Preset; 6] = [
+    preset("all", [1.2, 1.0, 1.2]),
+    // Along (4, 3), by the angle of that triangle.
+    preset("turn-drive", [1.2, 0.9, 0.6435]),
+    preset("drive-turn", [1.5, 0.0, 1.0]),
+    preset("reverse", [-1.2, -0.3, 0.1]),
+    preset("spin", [0.0, 0.0, 2.2]),
+    preset("rest", [-0.004, 0.003, 0.001]),
+];

@@ -1,0 +1,74 @@
+//! Where a field has a value: contour lines of what is known at the points of a grid.
+
+/// No edge of the grid.
+const NONE: usize = usize::MAX;
+
+/// The lines on which a field has the value `level`, by marching squares: between neighbouring points the field is taken to be
+/// linear, and a saddle is what the mean of its corners says.
+///
+/// `values`, all finite, are those at the points of a grid, row by row, `columns` in a row; points of lines are told in steps of the grid
+/// from its first point, (column, row). A line ends where it began, or at the rim of the grid.
+pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
+    let rows = values.len() / columns.max(1);
+    // Edge 2i leads from point i to the next in its row, edge 2i + 1 to that in the next row. On each that a line crosses, where
+    // it comes from and where it goes.
+    let mut links = vec![[NONE; 2]; 2 * values.len()];
+    let mut link = |one: usize, other: usize| {
+        for (from, to) in [(one, other), (other, one)] {
+            let free = usize::from(links[from][0] != NONE);
+            links[from][free] = to;
+        }
+    };
+    for row in 1..rows {
+        for column in 1..columns {
+            let i = (row - 1) * columns + column - 1;
+            // Round the cell: corner k lies between the edges k − 1 and k.
+            let corners = [i, i + 1, i + columns + 1, i + columns].map(|point| values[point]);
+            let edges = [2 * i, 2 * i + 3, 2 * (i + columns), 2 * i + 1];
+            let above = corners.map(|value| value > level);
+            let crossed = |k: &usize| above[*k] != above[(k + 1) % 4];
+            let mut ends = (0..4).filter(crossed).map(|k| edges[k]);
+            match (ends.next(), ends.next(), ends.next()) {
+                (Some(from), Some(to), None) => link(from, to),
+                (Some(_), Some(_), Some(_)) => {
+                    let joined = corners.iter().sum::<f64>() > 4.0 * level;
+                    let first = if joined == above[0] { 0 } else { 1 };
+                    link(edges[first], edges[(first + 1) % 4]);
+                    link(edges[first + 2], edges[(first + 3) % 4]);
+                }
+                _ => {}
+            }
+        }
+    }
+    let point = |edge: usize| {
+        let (i, up) = (edge / 2, edge % 2 == 1);
+        let (from, to) = (values[i], values[if up { i + columns } else { i + 1 }]);
+        let part = ((level - from) / (to - from)).clamp(0.0, 1.0);
+        let (column, row) = ((i % columns) as f64, (i / columns) as f64);
+        if up { [column, row + part] } else { [column + part, row] }
+    };
+    let mut lines = Vec::new();
+    let ends = (0..links.len()).filter(|edge| links[*edge][0] != NONE && links[*edge][1] == NONE);
+    // Those that end at the rim first: what is left is closed.
+    for first in ends.chain(0..links.len()).collect::<Vec<_>>() {
+        if links[first][0] == NONE {
+            continue;
+        }
+        let (mut line, mut at) = (vec![point(first)], first);
+        loop {
+            let [one, other] = std::mem::replace(&mut links[at], [NONE; 2]);
+            let next = if one != NONE && links[one][0] != NONE { one } else { other };
+            if next == NONE || links[next][0] == NONE {
+                // Round and back, if the first edge is next to the last.
+                if (one == first || other == first) && line.len() > 2 {
+                    line.push(line[0]);
+                }
+                break;
+            }
+            line.push(point(next));
+            at = next;
+        }
+        lines.push(line);
+    }
+    lines
+}

@@ -1,0 +1,246 @@
+import { expect } from '@playwright/test';
+import { ready, show } from './element-support.js';
+import { STILL, centreOf, frames, numberIn, pictureOf, pixelsOf, readout, test, unfold } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('../../www/types.d.ts').ArcAnatomy} ArcAnatomy
+ * @typedef {HTMLElement & { machine: ArcAnatomy, getState(): any, setState(state: object): void, toCSV(): string, toSVG(): string }} ArcAnatomyElement
+ */
+
+test.use(STILL);
+
+/**
+ * @param {Page} page
+ * @param {string} [attributes]
+ */
+async function open(page, attributes = '') {
+  await show(page, `<arc-anatomy ${attributes}></arc-anatomy>`);
+  const widget = page.locator('arc-anatomy');
+  await ready(widget);
+  await expect(widget.locator('.folds')).toBeVisible();
+  return widget;
+}
+
+/** @param {Locator} widget */
+async function told(widget) {
+  await frames(widget.page());
+  return widget.evaluate((element) => {
+    const { config, stats, table } = /** @type {ArcAnatomyElement} */ (element).machine;
+    return { config, stats, table };
+  });
+}
+
+const body = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot, where it is found', exact: true });
+const turn = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot, where it is found' });
+const picture = (/** @type {Locator} */ widget) => widget.locator('canvas.plane');
+const verdict = (/** @type {Locator} */ widget) => widget.locator('.verdict');
+
+test('opens off the arc, and says which factor is the worst', async ({ page }) => {
+  const widget = await open(page);
+  const { config, stats } = await told(widget);
+  expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
+  await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
+  await expect(verdict(widget)).toContainText('γ̂ is the worst, 2.2 standard deviations off');
+  const rows = widget.locator('.factors li');
+  await expect(rows).toHaveCount(3);
+  await expect(rows.nth(2)).toHaveClass(/weakest/);
+  for (const [i, { estimate, deviations, share }] of stats.factors.entries()) {
+    expect(numberIn(((await rows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
+    expect(numberIn(((await rows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo(deviations, 1);
+    await expect(rows.nth(i).locator('.keeps')).toHaveText(`keeps ${(100 * share).toFixed(1)}\u202f%`);
+  }
+  expect(numberIn(await widget.locator('.readouts dd').first().textContent())).toBeCloseTo(stats.prob, 3);
+  expect(numberIn(await readout(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
+  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(picture(widget), role)).toBeGreaterThan(20);
+});
+
+test('the robot is dragged and turned by its handles, under the pointer', async ({ page }) => {
+  const widget = await open(page);
+  const from = await centreOf(body(widget));
+  await page.mouse.move(from.x + 4, from.y + 3);
+  await page.mouse.down();
+  await page.mouse.move(from.x - 56, from.y + 33, { steps: 5 });
+  await frames(page);
+  const at = await centreOf(body(widget));
+  expect(Math.abs(at.x - from.x + 60)).toBeLessThan(1);
+  expect(Math.abs(at.y - from.y - 30)).toBeLessThan(1);
+  await page.mouse.up();
+  const moved = await told(widget);
+  expect(moved.config.next.x).toBeLessThan(1.1);
+  expect(moved.config.next.y).toBeLessThan(0.5);
+  expect(moved.config.next.theta).toBe(1.1);
+  await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'false');
+
+  const [centre, ahead] = [await centreOf(body(widget)), await centreOf(turn(widget))];
+  await page.mouse.move(ahead.x, ahead.y);
+  await page.mouse.down();
+  await page.mouse.move(centre.x + 80, centre.y, { steps: 5 });
+  await page.mouse.up();
+  const turned = await told(widget);
+  expect(Math.abs(turned.config.next.theta)).toBeLessThan(1 / 80);
+  expect(turned.stats.driven).toEqual(moved.stats.driven);
+  expect(turned.stats.lastTurn).not.toBe(moved.stats.lastTurn);
+  await expect(widget.locator('p[role=status]').last()).toContainText('is the worst');
+});
+
+test('moves and turns by keyboard, and stops where it ends', async ({ page }) => {
+  const widget = await open(page, 'nextx="3.98"');
+  await body(widget).press('ArrowUp');
+  await body(widget).press('[');
+  expect((await told(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
+  await body(widget).press('ArrowRight');
+  expect((await told(widget)).config.next.x).toBe(4);
+  await expect(body(widget)).toHaveAttribute('aria-valuetext', /No further from here$/);
+});
+
+test('as printed, a right turn and a reverse lose p, and a left turn does not', async ({ page }) => {
+  const widget = await open(page);
+  const printed = widget.getByRole('checkbox', { name: /^as printed/ });
+  for (const [name, collapses] of /** @type {[string, boolean][]} */ ([['Left turn', false], ['Right turn', true], ['Reverse', true], ['Straight', false]])) {
+    await widget.getByRole('button', { name }).click();
+    const [signed, before] = [await told(widget), await pictureOf(picture(widget))];
+    await printed.check();
+    const { stats } = await told(widget);
+    expect(stats.share < 1e-10 * signed.stats.share, name).toBe(collapses);
+    if (collapses) await expect(verdict(widget)).toContainText('the radius has no sign');
+    if (collapses) expect(await pictureOf(picture(widget))).not.toBe(before);
+    else await expect(verdict(widget)).toContainText('is the worst');
+    await printed.uncheck();
+  }
+});
+
+test('each line of the table lights what it constructs, and tells its value', async ({ page }) => {
+  const widget = await open(page);
+  const [back, on] = ['The line before', 'The next line'].map((name) => widget.getByTitle(name));
+  const sentence = widget.locator('.stepper p');
+  await expect(back).toBeDisabled();
+  const { lines } = (await told(widget)).table;
+  const pictures = [await pictureOf(picture(widget))];
+  for (const [i, value] of lines.entries()) {
+    await on.click();
+    await expect(sentence).toHaveText(new RegExp(`^${i + 1}\\. `));
+    const text = (await sentence.textContent()) ?? '';
+    expect(numberIn(/= ([−\d.]+)(?: \S+)?$/.exec(text)?.[1] ?? '')).toBeCloseTo(value, 2);
+    pictures.push(await pictureOf(picture(widget)));
+  }
+  await expect(on).toBeDisabled();
+  // The last line is what the bars are of.
+  await expect(widget.locator('.factors')).toHaveClass(/lit/);
+  // x* and y* are one centre.
+  expect(new Set(pictures.slice(0, 9)).size).toBe(8);
+  expect(pictures[2]).toBe(pictures[3]);
+  expect(pictures[9]).toBe(pictures[0]);
+});
+
+test('maps of p and of the density are drawn below the arcs, with the contours of both', async ({ page }) => {
+  const widget = await open(page);
+  const pictures = [await pictureOf(picture(widget))];
+  for (const name of ['p', 'density']) {
+    await widget.getByRole('radio', { name, exact: true }).check();
+    pictures.push(await pictureOf(picture(widget)));
+  }
+  expect(new Set(pictures).size).toBe(3);
+  await expect(widget).toHaveAttribute('map', 'density');
+  expect(await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG())).toContain('<image');
+});
+
+test('the way of constant twist comes on request', async ({ page }) => {
+  const widget = await open(page);
+  expect(await pixelsOf(picture(widget), 'posterior')).toBe(0);
+  await widget.getByRole('checkbox', { name: /^constant twist/ }).check();
+  expect(await pixelsOf(picture(widget), 'posterior')).toBeGreaterThan(20);
+  await expect(widget).toHaveAttribute('twist', 'shown');
+});
+
+test('attributes and states say all of it', async ({ page }) => {
+  const widget = await open(page, 'preset="reverse" printed map="prob" nexttheta="0.4" twist="shown"');
+  const { config } = await told(widget);
+  expect(config).toMatchObject({ command: { v: -1, omega: 0.5, dt: 1 }, next: { x: -1.1, y: -0.5, theta: 0.4 }, printed: true, map: 'prob' });
+  await widget.getByTitle('The next line').click();
+  const state = await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).getState());
+  expect(state).toMatchObject({ ...config, twist: 'shown', line: 1 });
+  const after = await widget.evaluate((element, kept) => {
+    const figure = /** @type {ArcAnatomyElement} */ (element);
+    figure.setState({ widget: 'arc-anatomy', version: 1, line: 0, printed: false, next: { x: 1, y: 1, theta: 0 } });
+    figure.setState(kept);
+    try {
+      figure.setState({ widget: 'arc-anatomy', version: 1, line: 10 });
+    } catch (error) {
+      return [figure.getState(), String(error)];
+    }
+    return [];
+  }, state);
+  expect(after).toEqual([state, 'RangeError: state.line is 10; allowed is a whole number from 0 to 9']);
+});
+
+test('the factors are taken along as they are read', async ({ page }) => {
+  const widget = await open(page);
+  const { stats } = await told(widget);
+  const [settings, columns, ...rows] = (await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toCSV())).trim().split('\n');
+  expect(JSON.parse(settings.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
+  expect(columns).toBe('estimate,residual,standard_deviation,residual_over_deviation,prob,share_of_peak');
+  expect(rows.map((row) => row.split(',').map(Number))).toEqual(
+    stats.factors.map(({ estimate, residual, deviation, deviations, value, share }) => [estimate, residual, deviation, deviations, value, share]),
+  );
+});
+
+test('exercise 1 is plotted: three forms, the crossover and the chapter’s threshold', async ({ page }) => {
+  const widget = await open(page);
+  await unfold(widget);
+  const plot = widget.locator('.plot');
+  await expect(plot.locator('path.curve')).toHaveCount(3);
+  await expect(plot.locator('.marked')).toHaveText(['2·10⁻⁸/Δt', '10⁻⁶']);
+  // What a screen reader is told of it, of the curves themselves: at the crossover, and a decade either way.
+  const ratios = await widget.evaluate((element) => {
+    const { omega, arc, straight, chord } = /** @type {any} */ (element).motion.ArcAnatomy.formErrors();
+    return [2e-8, 2e-7, 2e-6].map((at) => {
+      const i = omega.findIndex((/** @type {number} */ each) => each > at);
+      return [arc[i] / straight[i], chord[i] < Math.min(arc[i], straight[i])];
+    });
+  });
+  expect(ratios.map(([ratio, least]) => [Math.round(Math.log10(Number(ratio)) / 2) + 0, least])).toEqual([[1, true], [0, true], [-1, true]]);
+});
+
+test('without noise it says so, and draws no map', async ({ page }) => {
+  const widget = await open(page, 'map="density" alpha5="0" alpha6="0"');
+  await expect(verdict(widget)).toHaveText('There is no noise in γ̂ to forgive what it is off: p is 0.');
+  await expect(readout(widget, 'density')).toHaveText('none: a variance is 0');
+  await unfold(widget);
+  await expect(widget.locator('.lines li')).toHaveCount(9);
+});
+
+test('the robot goes along the arcs where the reader puts it', async ({ page }) => {
+  const widget = await open(page);
+  const slider = widget.getByRole('slider', { name: 'Underway' });
+  await expect(widget.getByRole('button', { name: 'Play' })).toHaveCount(0);
+  const whole = await pictureOf(picture(widget));
+  await slider.fill('40');
+  await expect(slider).toHaveAttribute('aria-valuetext', '0.40 s');
+  expect(await pictureOf(picture(widget))).not.toBe(whole);
+  expect(await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).getState().underway)).toBe(40);
+  await slider.fill('100');
+  expect(await pictureOf(picture(widget))).toBe(whole);
+});
+
+test('an audience sees the three factors beside the picture', async ({ page }) => {
+  const widget = await open(page);
+  await widget.evaluate((element) => element.toggleAttribute('presentation', true));
+  await expect(widget.getByRole('listitem').filter({ hasText: 'keeps' })).toHaveCount(3);
+  await expect(widget.getByRole('slider', { name: 'v, commanded speed' })).toBeHidden();
+});
+
+test.describe('for whom motion is welcome', () => {
+  test.use({ contextOptions: { reducedMotion: 'no-preference' } });
+
+  test('the robot goes along the arcs by itself, and rests at their ends', async ({ page }) => {
+    const widget = await open(page);
+    await widget.getByRole('button', { name: 'Play' }).click();
+    const slider = widget.getByRole('slider', { name: 'Underway' });
+    await expect.poll(async () => Number(await slider.inputValue())).toBeLessThan(100);
+    await expect(widget.getByRole('button', { name: 'Pause' })).toBeVisible();
+    await expect(slider).toHaveValue('100', { timeout: 10_000 });
+    await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
+  });
+});

@@ -1,0 +1,120 @@
+/**
+ * States of the elements that a seed chooses.
+ *
+ * @module
+ */
+
+/** @typedef {() => number} Random from 0 to 1 */
+
+export const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
+
+/**
+ * Marsaglia's xorshift, so that a state that fails can be had again.
+ *
+ * @param {number} seed
+ * @returns {Random}
+ */
+function randomOf(seed) {
+  let state = seed * 2654435761;
+  return () => {
+    state ^= state << 13;
+    state ^= state >>> 17;
+    state ^= state << 5;
+    return (state >>> 0) / 2 ** 32;
+  };
+}
+
+/**
+ * A state of each element, by its tag, in which everything is said.
+ *
+ * @param {number} seed
+ */
+export function anyOf(seed) {
+  const random = randomOf(seed);
+  const real = (/** @type {number} */ least, /** @type {number} */ most) => least + (most - least) * random();
+  const whole = (/** @type {number} */ least, /** @type {number} */ most) => Math.floor(real(least, most + 1));
+  const one = (/** @type {unknown[]} */ of) => of[whole(0, of.length - 1)];
+  const alphas = (/** @type {number} */ count) => Array.from({ length: count }, () => real(0, 0.2));
+  const pose = () => ({ x: real(-4, 4), y: real(-4, 4), theta: real(-4, 4) });
+  const samples = whole(2, 3000);
+  const shown = one([samples, whole(2, samples)]);
+  const cloud = {
+    version: 1,
+    samples,
+    seed: whole(0, 2 ** 53 - 1),
+    shown,
+    playing: false,
+    marked: one([null, whole(0, 1)]),
+  };
+  const command = { v: real(-1, 2), omega: real(-2, 2), dt: real(0.1, 3) };
+  const common = { ...cloud, command };
+  const model = one(['velocity', 'odometry']);
+  const steps = whole(1, 40);
+  return {
+    'banana-machine': {
+      ...common,
+      widget: 'banana-machine',
+      model,
+      noise: one(['normal', 'triangular']),
+      alphas: { velocity: alphas(6), odometry: alphas(4) },
+      isolate: one([null, whole(1, 4)]),
+      isolateChoice: whole(1, 6),
+      reverseAware: one([true, false]),
+      overlays: ['command', 'ellipse', 'linearized', 'additive', 'exponential'].filter(() => random() < 0.5),
+    },
+    'map-squeeze': {
+      ...common,
+      widget: 'map-squeeze',
+      start: { x: real(1, 5), y: real(1, 3), theta: real(-3, 3) },
+      alphas: alphas(6),
+      clearance: real(0, 0.2),
+      conditioned: one([true, false]),
+      // One after the other, and none of them gives up.
+      sampler: 'whole-arc',
+      steps: whole(1, 64),
+      unknown: one(['free', 'blocked']),
+      view: one(['whole', 'close']),
+      map: one([
+        null,
+        { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },
+        { name: 'part.yaml', columns: 8, rows: 2, resolution: 0.5, origin: [0, 0, 0], occupied: 'gQA=', unknown: 'GA8=' },
+        { name: 'grid.yaml', columns: 13, rows: 9, resolution: 0.5, origin: [-0.5, 0.25, 0.1], occupied: btoa(Array.from({ length: 15 }, (_, i) => String.fromCharCode(i < 14 ? whole(0, 255) : whole(0, 31) << 3)).join('')) },
+      ]),
+    },
+    'arc-anatomy': {
+      version: 1,
+      widget: 'arc-anatomy',
+      start: pose(),
+      next: pose(),
+      command,
+      alphas: alphas(6),
+      noise: one(['normal', 'triangular']),
+      printed: one([true, false]),
+      map: one(['none', 'prob', 'density']),
+      twist: one(['hidden', 'shown']),
+      line: whole(0, 9),
+      underway: whole(0, 100),
+    },
+    'odometry-decomposer': {
+      ...cloud,
+      widget: 'odometry-decomposer',
+      from: pose(),
+      to: pose(),
+      rule: one(['table', 'nav2', 'beluga', 'omni']),
+      alphas: alphas(5),
+      noise: one(['normal', 'triangular']),
+      correlation: real(-1, 1),
+      drift: real(0, 200),
+      phase: real(0, 3),
+    },
+    'dead-reckoning': {
+      ...common,
+      widget: 'dead-reckoning',
+      steps,
+      step: whole(1, steps),
+      alphas: alphas(6),
+      per: one(['step', 'path']),
+      compounding: one(['chapter', 'first-order', 'fourth-order']),
+    },
+  };
+}

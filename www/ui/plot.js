@@ -1,0 +1,235 @@
+/** A still plot in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. */
+
+import { ticks } from 'd3-array';
+import { css, html, nothing, svg } from 'lit';
+import { clamp } from './clamp.js';
+import { rich } from './controls.js';
+import { powerOfTen, tick } from './format.js';
+
+const WIDTH = 380;
+const HEIGHT = 250;
+const LEFT = 46;
+const RIGHT = WIDTH - 12;
+const TOP = 22;
+const BOTTOM = HEIGHT - 34;
+
+/** Labels along an axis, at most: more of them touch. */
+const MOST_LABELS = { x: 6, y: 7 };
+
+/** Beyond every plot, and within what paths take. */
+const FAR = 10_000;
+
+/** Half the width of an error bar's ends. */
+const SERIF = 4;
+
+export const plotStyles = css`
+  .plot {
+    display: block;
+    width: 100%;
+    max-width: 34em;
+  }
+
+  .plot text {
+    fill: var(--muted);
+    font-size: 13px;
+  }
+
+  .plot .name {
+    font-style: italic;
+  }
+
+  .plot .grid {
+    stroke: var(--rule);
+  }
+
+  .plot .band {
+    opacity: 0.22;
+  }
+
+  .plot .mark {
+    stroke: var(--accent);
+    stroke-dasharray: 2 3;
+  }
+
+  .plot .marked {
+    fill: var(--accent);
+    stroke: var(--paper);
+    stroke-width: 3px;
+    paint-order: stroke;
+  }
+
+  :is(.plot, .plot-key) .curve {
+    fill: none;
+    stroke-width: 1.9;
+  }
+
+  .plot-key {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.1em 1.2em;
+    margin: 0.2em 0 0.7em;
+    padding: 0;
+    list-style: none;
+    font-size: 0.92em;
+  }
+
+  .plot-key svg {
+    width: 2.4em;
+    height: 0.7em;
+    margin-inline-end: 0.4em;
+  }
+`;
+
+/**
+ * @typedef {object} Axis
+ * @property {string} name with its unit
+ * @property {number} from
+ * @property {number} to above `from`
+ * @property {boolean} [logarithmic] both ends are above 0 then
+ *
+ * @typedef {Exclude<keyof import('./theme.js').Palette, 'paper' | 'rule'>} Role
+ *
+ * @typedef {object} Curve
+ * @property {string} name in the key; *stars* make italics
+ * @property {Role} role
+ * @property {string} [dash] which tells it from others without colours
+ * @property {ArrayLike<number>} x
+ * @property {ArrayLike<number>} y what is no number leaves a gap; nothing is drawn beyond the axes
+ * @property {ArrayLike<number>} [error] half the height of a band around it
+ *
+ * @typedef {object} Point a measured value, with its standard error either way
+ * @property {Role} role
+ * @property {number} x
+ * @property {number} y NaN where there is none
+ * @property {number} error
+ *
+ * @typedef {object} Mark a line across the plot, at an x or at a y
+ * @property {number} [x]
+ * @property {number} [y]
+ * @property {string} text
+ *
+ * @typedef {object} Plot
+ * @property {string} label what a screen reader says of it: what it shows, in a sentence
+ * @property {Axis} x
+ * @property {Axis} y
+ * @property {Curve[]} curves
+ * @property {Point[]} [points]
+ * @property {Mark[]} [marks]
+ */
+
+/** @param {Plot} plot */
+export function plot({ label, x, y, curves, points = [], marks = [] }) {
+  const [toX, toY] = [placing(x, LEFT, RIGHT), placing(y, BOTTOM, TOP)];
+  return html`
+    <svg class="plot" viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${label} part="chart">
+      ${labelsOf(x, MOST_LABELS.x).map(
+        ([value, text]) => svg`
+          <line class="grid" x1=${toX(value)} x2=${toX(value)} y1=${TOP} y2=${BOTTOM} />
+          <text x=${toX(value)} y=${BOTTOM + 18} text-anchor="middle">${text}</text>`,
+      )}
+      ${labelsOf(y, MOST_LABELS.y).map(
+        ([value, text]) => svg`
+          <line class="grid" x1=${LEFT} x2=${RIGHT} y1=${toY(value)} y2=${toY(value)} />
+          <text x=${LEFT - 6} y=${toY(value) + 4} text-anchor="end">${text}</text>`,
+      )}
+      <text class="name" x=${RIGHT} y=${BOTTOM + 31} text-anchor="end">${x.name}</text>
+      <text class="name" x="0" y="12">${y.name}</text>
+      <svg x=${LEFT} y=${TOP} width=${RIGHT - LEFT} height=${BOTTOM - TOP} viewBox="${LEFT} ${TOP} ${RIGHT - LEFT} ${BOTTOM - TOP}">
+        ${curves.map((curve) => curve.error && svg`<path class="band" fill="var(--${curve.role})" d=${band(curve, toX, toY)} />`)}
+        ${curves.map((curve) => svg`<path class="curve" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${line(curve, toX, toY)} />`)}
+        ${marks.map((mark, row) => markOf(mark, row, toX, toY))}
+        ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
+          ({ role, x: at, y: value, error }) => svg`<path
+            class="curve"
+            stroke="var(--${role})"
+            d="M${toX(at) - SERIF},${toY(value - error)}h${2 * SERIF}m${-SERIF},0V${toY(value + error)}m${-SERIF},0h${2 * SERIF}"
+          /><circle cx=${toX(at)} cy=${toY(value)} r="3" fill="var(--${role})" />`,
+        )}
+      </svg>
+    </svg>
+    <ul class="plot-key" part="legend">
+      ${curves.map(
+        ({ name, role, dash }) => html`<li>
+          <svg viewBox="0 0 36 10" aria-hidden="true">
+            <path class="curve" stroke="var(--${role})" stroke-dasharray=${dash ?? nothing} d="M1 5H35" />
+          </svg>${rich(name)}
+        </li>`,
+      )}
+    </ul>
+  `;
+}
+
+/**
+ * Turns values into pixels.
+ *
+ * @param {Axis} axis
+ * @param {number} first pixel
+ * @param {number} last
+ * @returns {(value: number) => number} NaN for NaN alone: what a logarithmic axis has not, is far below it
+ */
+function placing({ from, to, logarithmic }, first, last) {
+  const scale = logarithmic ? (/** @type {number} */ value) => Math.log10(Math.max(value, 0)) : Number;
+  const [start, end] = [scale(from), scale(to)];
+  return (value) => clamp(first + ((scale(value) - start) * (last - first)) / (end - start), -FAR, FAR);
+}
+
+/**
+ * @param {Axis} axis
+ * @param {number} most
+ * @returns {[value: number, text: string][]}
+ */
+function labelsOf({ from, to, logarithmic }, most) {
+  if (!logarithmic) return ticks(from, to, most - 1).map((value, _, all) => [value, tick(value, all.length > 1 ? all[1] - all[0] : 1)]);
+  const [first, last] = [Math.ceil(Math.log10(from) - 1e-9), Math.floor(Math.log10(to) + 1e-9)];
+  const step = Math.max(1, Math.ceil((last - first + 1) / most));
+  const exponents = Array.from({ length: Math.floor((last - first) / step) + 1 }, (_, i) => first + i * step);
+  return exponents.map((exponent) => [10 ** exponent, powerOfTen(exponent)]);
+}
+
+/**
+ * @param {Curve} curve
+ * @param {(value: number) => number} toX
+ * @param {(value: number) => number} toY
+ */
+function line({ x, y }, toX, toY) {
+  let path = '';
+  let drawn = false;
+  for (let i = 0; i < x.length; i++) {
+    const [atX, atY] = [toX(x[i]), toY(y[i])];
+    const there = !Number.isNaN(atX + atY);
+    if (there) path += `${drawn ? 'L' : 'M'}${atX.toFixed(2)},${atY.toFixed(2)}`;
+    drawn = there;
+  }
+  return path;
+}
+
+/**
+ * @param {Curve} curve with a band
+ * @param {(value: number) => number} toX
+ * @param {(value: number) => number} toY
+ */
+function band({ x, y, error = [] }, toX, toY) {
+  const there = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(toX(x[i]) + toY(y[i]) + toY(error[i])));
+  const edge = (/** @type {number} */ side) => there.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);
+  const outline = [...edge(1), ...edge(-1).reverse()];
+  return outline.length > 0 ? `M${outline.join('L')}Z` : '';
+}
+
+/**
+ * @param {Mark} mark
+ * @param {number} row that its text stands in, so that neighbours do not touch
+ * @param {(value: number) => number} toX
+ * @param {(value: number) => number} toY
+ */
+function markOf({ x, y, text }, row, toX, toY) {
+  if (x !== undefined) {
+    const at = toX(x);
+    // Beside the line, on the side that has room.
+    const [shift, anchor] = 2 * at > LEFT + RIGHT ? [-5, 'end'] : [5, 'start'];
+    return svg`<line class="mark" x1=${at} x2=${at} y1=${TOP} y2=${BOTTOM} />
+      <text class="marked" x=${at + shift} y=${TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
+  }
+  const at = toY(y ?? NaN);
+  return svg`<line class="mark" x1=${LEFT} x2=${RIGHT} y1=${at} y2=${at} />
+    <text class="marked" x=${RIGHT - 4} y=${at - 5} text-anchor="end">${text}</text>`;
+}

@@ -1,0 +1,371 @@
+/** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and what they are constructed of. */
+
+import { words } from '../../messages/registry.js';
+import { clipped, drawAxes, drawOutlines, drawRobot } from '../../scene/draw.js';
+import { Picture } from '../../scene/picture.js';
+import { View, extentAround } from '../../scene/view.js';
+import { clamp } from '../../ui/clamp.js';
+import { fixed } from '../../ui/format.js';
+import { COMMAND_DASH } from '../shared/command.js';
+import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
+import { OTHER_DASH, SurfaceLayer } from './surface.js';
+
+/**
+ * @import { ArcAnatomy, Bend, Pose } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ * @import { Reading } from './reading.js'
+ *
+ * @typedef {Reading & { machine: ArcAnatomy, twist: boolean, line: number, underway: Float64Array | undefined,
+ *   advance: (elapsed: number) => boolean }} Scene
+ */
+
+/** Of the robots, m. */
+export const RADIUS = 0.06;
+
+/** A centre is shown that is no further away than so many times the way, and so many metres. */
+const CENTRE = { ways: 3, metres: 1.5 };
+
+/** Room around everything, m. */
+const AROUND = 0.15;
+
+/** Radius of the arcs that mark angles, CSS pixels at most. */
+const ANGLE = 40;
+
+/** Radius of the wedge, CSS pixels. */
+const WEDGE = 64;
+
+/** Half of the cross at a centre, CSS pixels. */
+const CROSS = 4;
+
+/** Dash of the way of constant twist, CSS pixels. */
+const TWIST_DASH = [7, 3];
+
+/** What each line of Table 5.1 constructs. @type {Record<number, string[]>} */
+const LIT = {
+  1: ['bisector'],
+  2: ['bisector', 'centre'],
+  3: ['bisector', 'centre'],
+  4: ['centre', 'radius'],
+  5: ['angle', 'radius'],
+  6: ['arc'],
+  7: ['angle'],
+  8: ['wedge'],
+};
+
+/** @extends {Picture<Scene>} */
+export class ArcPicture extends Picture {
+  #surface = new SurfaceLayer();
+
+  constructor() {
+    super('plane', new View());
+  }
+
+  /** @param {Scene} scene */
+  fit({ config: { start, next }, stats: { commanded, inverted }, paths }) {
+    let box = extentAround([start.x, start.y, next.x, next.y], 2);
+    for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
+    const way = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
+    for (const { center, radius } of [commanded, inverted]) {
+      if (center && Math.abs(radius) < Math.max(CENTRE.metres, CENTRE.ways * way)) box = extentAround(center, 2, box);
+    }
+    const { xMin, yMin, xMax, yMax } = box;
+    this.view.fit({ xMin: xMin - AROUND, yMin: yMin - AROUND, xMax: xMax + AROUND, yMax: yMax + AROUND });
+  }
+
+  /** @type {Picture<Scene>['draw']} */
+  draw(surface, scene, palette, easing) {
+    const moving = super.draw(surface, scene, palette, easing);
+    return scene.advance(easing?.elapsed ?? 0) || moving;
+  }
+
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, scene) => {
+    const { config: { start, next, printed }, stats, paths, twist } = scene;
+    const { palette } = brush;
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
+    clipped(brush, () => {
+      this.#surface.draw(brush, scene.machine, scene.config);
+      const { commanded, inverted, driven, lastTurn } = stats;
+      drawCircle(brush, start, commanded, {
+        colour: palette.prior,
+        dash: COMMAND_DASH,
+        side: -1,
+        angle: `ωΔt = ${fixed(commanded.turn, 2)}`,
+        radius: '',
+      });
+      drawCircle(brush, start, inverted, {
+        colour: palette.prediction,
+        dash: [],
+        side: 1,
+        angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
+        radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedText(inverted.radius)} m`,
+      });
+      drawChord(brush, start, next);
+      drawWedge(brush, next, lastTurn, palette.accent);
+      if (twist) drawTwist(brush, paths.ticks);
+      drawOutlines(brush, [
+        { points: paths.commanded, colour: palette.prior, width: 2.5, dash: COMMAND_DASH },
+        ...(twist ? [{ points: paths.lie, colour: palette.posterior, width: 2, dash: TWIST_DASH }] : []),
+        { points: paths.driven, colour: palette.prediction, width: 2.75, dash: [] },
+      ]);
+      if (driven.arcLength !== inverted.arcLength) drawOutlines(brush, [{ points: paths.inverted, colour: palette.prediction, width: 1, dash: [2, 3] }]);
+      drawLit(brush, scene);
+      const [endX, endY, endTheta] = commanded.end;
+      drawRobotOutline(brush, endX, endY, RADIUS, palette.prior);
+      drawHeading(brush, { x: endX, y: endY, theta: endTheta }, palette.prior);
+      drawUnderway(brush, scene);
+      drawHeldRobot(brush, start, RADIUS, palette.truth);
+      drawHeldRobot(brush, next, RADIUS, palette.prediction);
+      label(brush, `γ̂Δt = ${fixed(lastTurn, 2)}`, ...besideWedge(brush, next, lastTurn), palette.accent);
+    });
+  };
+}
+
+/**
+ * The lines of the key.
+ *
+ * @param {Brush} brush
+ * @param {Scene} scene
+ * @returns {import('../../scene/draw.js').KeyEntry[]}
+ */
+function keyOf({ context, palette }, { twist, config: { map } }) {
+  const say = words.anatomy.drawnShort;
+  const entry = (/** @type {string} */ name, /** @type {string} */ colour, /** @type {number[]} */ dash, width = 2.5) => ({
+    name,
+    draw: (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ length) => {
+      stroke(context, colour, width, dash, () => {
+        context.moveTo(x, y);
+        context.lineTo(x + length, y);
+      });
+    },
+  });
+  return [
+    entry(say.inverted, palette.prediction, []),
+    entry(say.commanded, palette.prior, COMMAND_DASH),
+    ...(twist ? [entry(say.twist, palette.posterior, TWIST_DASH)] : []),
+    ...(map === 'none' ? [] : [entry(say[map], palette.ink, [], 1), entry(say[map === 'prob' ? 'density' : 'prob'], palette.ink, OTHER_DASH, 1)]),
+  ];
+}
+
+/**
+ * @param {Brush['context']} context
+ * @param {string} colour
+ * @param {number} width CSS pixels
+ * @param {number[]} dash
+ * @param {() => void} path
+ */
+function stroke(context, colour, width, dash, path) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.beginPath();
+  path();
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/**
+ * The centre of an arc, both radii and the turn between them.
+ *
+ * @param {Brush} brush
+ * @param {Pose} start
+ * @param {Bend} bend
+ * @param {{ colour: string, dash: number[], side: number, angle: string, radius: string }} style with the side to which the first
+ *   radius makes room for another on the same line, and its labels
+ */
+function drawCircle(brush, start, { center, end, turn, arcLength }, { colour, dash, side, angle, radius: signed }) {
+  if (!center) return;
+  const { context, view } = brush;
+  const [x, y] = [view.toPixelX(center[0]), view.toPixelY(center[1])];
+  const [fromX, fromY] = [view.toPixelX(start.x), view.toPixelY(start.y)];
+  const [toX, toY] = [view.toPixelX(end[0]), view.toPixelY(end[1])];
+  const ahead = view.direction(start.theta);
+  const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
+  stroke(context, colour, 1.25, dash, () => {
+    context.moveTo(fromX + offX, fromY + offY);
+    context.lineTo(x + offX, y + offY);
+    context.moveTo(x, y);
+    context.lineTo(toX, toY);
+  });
+  stroke(context, colour, 2, [], () => {
+    context.moveTo(x - CROSS, y);
+    context.lineTo(x + CROSS, y);
+    context.moveTo(x, y - CROSS);
+    context.lineTo(x, y + CROSS);
+  });
+  const first = Math.atan2(fromY - y, fromX - x);
+  const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
+  // Pixels count downwards: to the left is backwards.
+  stroke(context, colour, 1.5, [], () => context.arc(x, y, radius, first, first - turn, turn > 0));
+  // Behind the robot, where nothing of the arc is.
+  const behind = -Math.sign(arcLength);
+  for (const [text, share] of /** @type {const} */ ([[angle, 0], [signed, 0.5]])) {
+    const at = [x + share * (fromX - x) + 10 * behind * ahead.x, y + share * (fromY - y) + 10 * behind * ahead.y];
+    label(brush, text, at[0], at[1], colour, behind * ahead.x);
+  }
+}
+
+/**
+ * @param {Brush} brush
+ * @param {Pose} start
+ * @param {Pose} next
+ */
+function drawChord({ context, view, palette }, start, next) {
+  stroke(context, palette.ink, 1, [2, 3], () => {
+    context.moveTo(view.toPixelX(start.x), view.toPixelY(start.y));
+    context.lineTo(view.toPixelX(next.x), view.toPixelY(next.y));
+  });
+}
+
+/**
+ * What the arc leaves of the final heading.
+ *
+ * @param {Brush} brush
+ * @param {Pose} next
+ * @param {number} turn rad, the last of it
+ * @param {string} colour
+ */
+function drawWedge({ context, view }, next, turn, colour) {
+  const [x, y] = [view.toPixelX(next.x), view.toPixelY(next.y)];
+  context.beginPath();
+  context.moveTo(x, y);
+  context.arc(x, y, WEDGE, turn - next.theta, -next.theta, turn > 0);
+  context.lineTo(x, y);
+  context.fillStyle = colour;
+  context.globalAlpha = 0.32;
+  context.fill();
+  context.globalAlpha = 1;
+  // The heading at the end of the arc.
+  const before = view.direction(next.theta - turn);
+  stroke(context, colour, 1.25, [], () => {
+    context.moveTo(x, y);
+    context.lineTo(x + WEDGE * before.x, y + WEDGE * before.y);
+  });
+}
+
+/**
+ * Where the wedge has its label.
+ *
+ * @param {Brush} brush
+ * @param {Pose} next
+ * @param {number} turn rad
+ * @returns {[x: number, y: number]} CSS pixels
+ */
+function besideWedge({ view }, next, turn) {
+  const ahead = view.direction(next.theta - turn / 2);
+  return [view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, view.toPixelY(next.y) + (WEDGE + 10) * ahead.y];
+}
+
+/**
+ * @param {Brush} brush
+ * @param {Pose} pose
+ * @param {string} colour
+ */
+function drawHeading({ context, view }, { x, y, theta }, colour) {
+  const ahead = view.direction(theta);
+  stroke(context, colour, 1.5, [], () => {
+    context.moveTo(view.toPixelX(x), view.toPixelY(y));
+    context.lineTo(view.toPixelX(x) + 24 * ahead.x, view.toPixelY(y) + 24 * ahead.y);
+  });
+}
+
+/**
+ * The robot on its way, on each arc that is drawn.
+ *
+ * @param {Brush} brush
+ * @param {Scene} scene
+ */
+function drawUnderway(brush, { underway, twist }) {
+  if (!underway) return;
+  const { palette } = brush;
+  const colours = [palette.prior, palette.prediction, ...(twist ? [palette.posterior] : [])];
+  for (const [i, colour] of colours.entries()) {
+    const [x, y, theta] = underway.subarray(3 * i);
+    drawRobot(brush, { x, y, heading: theta, colour });
+  }
+}
+
+/**
+ * The way sideways of the constant twist.
+ *
+ * @param {Brush} brush
+ * @param {Float64Array} ticks
+ */
+function drawTwist({ context, view, palette }, ticks) {
+  stroke(context, palette.posterior, 1.25, [], () => {
+    for (let i = 0; i < ticks.length; i += 4) {
+      context.moveTo(view.toPixelX(ticks[i]), view.toPixelY(ticks[i + 1]));
+      context.lineTo(view.toPixelX(ticks[i + 2]), view.toPixelY(ticks[i + 3]));
+    }
+  });
+}
+
+/**
+ * What the lit line of the table constructs.
+ *
+ * @param {Brush} brush
+ * @param {Scene} scene
+ */
+function drawLit(brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line }) {
+  const lit = LIT[line] ?? [];
+  const { context, view, palette: { accent } } = brush;
+  const at = (/** @type {number[]} */ [x, y]) => /** @type {[number, number]} */ ([view.toPixelX(x), view.toPixelY(y)]);
+  const from = at([start.x, start.y]);
+  const to = at([next.x, next.y]);
+  const lineTo = (/** @type {[number, number]} */ one, /** @type {[number, number]} */ other) => {
+    context.moveTo(...one);
+    context.lineTo(...other);
+  };
+  if (lit.includes('arc')) drawOutlines(brush, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
+  if (lit.includes('wedge')) drawWedge(brush, next, lastTurn, accent);
+  if (!inverted.center) return;
+  const centre = at(inverted.center);
+  if (lit.includes('bisector')) {
+    stroke(context, accent, 2.5, [6, 4], () => lineTo(at(middle), centre));
+    stroke(context, accent, 2.5, [], () => lineTo(from, centre));
+    stroke(context, accent, 2.5, [], () => lineTo(from, to));
+  }
+  if (lit.includes('radius')) stroke(context, accent, 3, [], () => (lineTo(from, centre), lineTo(centre, to)));
+  if (lit.includes('centre')) {
+    stroke(context, accent, 3, [], () => {
+      context.moveTo(centre[0] + 8, centre[1]);
+      context.arc(...centre, 8, 0, 2 * Math.PI);
+    });
+  }
+  if (lit.includes('angle')) {
+    const first = Math.atan2(from[1] - centre[1], from[0] - centre[0]);
+    const radius = Math.min(ANGLE, 0.4 * Math.hypot(from[0] - centre[0], from[1] - centre[1]));
+    stroke(context, accent, 4, [], () => context.arc(...centre, radius, first, first - inverted.turn, inverted.turn > 0));
+  }
+}
+
+/** With its sign, which is that of the side. @param {number} radius */
+const signedText = (radius) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
+
+/**
+ * A few words on whatever is under them.
+ *
+ * @param {Brush} brush
+ * @param {string} text
+ * @param {number} x of its middle, CSS pixels
+ * @param {number} y
+ * @param {string} colour
+ * @param {number} [side] where it goes from there: to the left where it is negative, to the right where it is positive
+ */
+function label({ context, view, palette, font }, text, x, y, colour, side = 0) {
+  context.font = font;
+  context.textAlign = Math.abs(side) < 0.3 ? 'center' : side < 0 ? 'right' : 'left';
+  context.textBaseline = 'middle';
+  const { left, right, top, bottom } = view.frame;
+  // From where it begins, it stays inside.
+  const width = context.measureText(text).width;
+  const before = { center: width / 2, right: width, left: 0 }[/** @type {'center' | 'right' | 'left'} */ (context.textAlign)];
+  x = clamp(x, left + 4 + before, right - 4 + before - width);
+  y = clamp(y, top + 8, bottom - 8);
+  context.lineWidth = 4;
+  context.lineJoin = 'round';
+  context.strokeStyle = palette.paper;
+  context.strokeText(text, x, y);
+  context.fillStyle = colour;
+  context.fillText(text, x, y);
+}

@@ -1,0 +1,134 @@
+/** Arc Anatomy's readouts: the three factors as bars, what they make, the key to the picture, and Table 5.1. */
+
+import { html, nothing, svg } from 'lit';
+import { words } from '../../messages/registry.js';
+import { clamp } from '../../ui/clamp.js';
+import { rich } from '../../ui/controls.js';
+import { fixed } from '../../ui/format.js';
+import { readoutList } from '../../ui/readouts.js';
+import { LINES } from './settings.js';
+import { densityText, shareText } from './words.js';
+
+/**
+ * @import { Factor } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ */
+
+/** The bars' scale: deviations to either side, and pixels each. */
+const SCALE = { most: 4, pixels: 22 };
+const MIDDLE = SCALE.most * SCALE.pixels + 4;
+
+/** What the factors are of, with the residual as the table has it. */
+const FACTORS = [
+  { symbol: '*v̂*', residual: '(*v* − *v̂*)', unit: 'm/s' },
+  { symbol: '*ω̂*', residual: '(*ω* − *ω̂*)', unit: 'rad/s' },
+  { symbol: '*γ̂*', residual: '*γ̂*', unit: 'rad/s' },
+];
+
+/**
+ * The three residuals in deviations, and what each leaves of its factor's peak.
+ *
+ * @param {Reading} reading
+ * @param {number} line of the table that is lit
+ */
+export function factorBars({ stats: { factors, weakest, share } }, line) {
+  const say = words.anatomy.bars;
+  return html`<ul part="readouts" class="factors ${line === LINES ? 'lit' : ''}" aria-label=${say.label}>
+    ${factors.map((factor, i) => {
+      const { symbol, residual, unit } = FACTORS[i];
+      return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
+        <span class="estimate">${rich(symbol)} = ${fixed(factor.estimate, 2)} ${unit}</span>
+        <span class="off">${rich(residual)}/<i>σ</i> = ${fixed(factor.deviations, 1)}</span>
+        ${bar(factor)}
+        <span class="keeps">${say.keeps(shareText(factor.share))}</span>
+      </li>`;
+    })}
+  </ul>`;
+}
+
+/** @param {Factor} factor */
+function bar({ deviations }) {
+  const at = (/** @type {number} */ value) => MIDDLE + SCALE.pixels * clamp(value, -SCALE.most, SCALE.most);
+  const beyond = Math.abs(deviations) > SCALE.most;
+  const end = at(deviations);
+  const side = Math.sign(deviations);
+  const ticks = Array.from({ length: 2 * SCALE.most + 1 }, (_, i) => i - SCALE.most);
+  return html`<svg viewBox="0 0 ${2 * MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
+    ${ticks.map((tick) => svg`<line class="tick" x1=${at(tick)} x2=${at(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
+    <rect x=${Math.min(at(0), end)} width=${Math.abs(end - at(0))} y="3" height="11" />
+    ${beyond ? svg`<path class="beyond" d="M${end - 6 * side},1l${6 * side},7.5l${-6 * side},7.5" />` : nothing}
+  </svg>`;
+}
+
+/** What the factors make. @param {Reading} reading */
+export function likelihoods({ stats: { prob, share, density, xi } }) {
+  const say = words.anatomy.likelihoods;
+  const [along, lateral, heading] = xi;
+  return readoutList([
+    ['*p*', densityText(prob), densityText(1.5e-123)],
+    [say.share, shareText(share), shareText(1.5e-123)],
+    [say.density, density === null ? say.none : densityText(density), densityText(1.5e-123)],
+    ['*ξ* (m, m, rad)', `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`, '(−0.00, −0.00, −0.00)'],
+  ]);
+}
+
+/** The lines of Table 5.1, in the marks of messages. */
+const FORMULAS = [
+  '*μ* = ½ · [(*x* − *x*′) cos *θ* + (*y* − *y*′) sin *θ*] / [(*y* − *y*′) cos *θ* − (*x* − *x*′) sin *θ*]',
+  '*x\\** = (*x* + *x*′)/2 + *μ*(*y* − *y*′)',
+  '*y\\** = (*y* + *y*′)/2 + *μ*(*x*′ − *x*)',
+  '*r\\** = ±√[(*x* − *x\\**)² + (*y* − *y\\**)²]',
+  'Δ*θ* = atan2(*y*′ − *y\\**, *x*′ − *x\\**) − atan2(*y* − *y\\**, *x* − *x\\**)',
+  '*v̂* = Δ*θ*/Δ*t* · *r\\**',
+  '*ω̂* = Δ*θ*/Δ*t*',
+  '*γ̂* = (*θ*′ − *θ*)/Δ*t* − *ω̂*',
+  '*p* = prob(*v* − *v̂*) · prob(*ω* − *ω̂*) · prob(*γ̂*)',
+];
+
+const UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
+
+/**
+ * A line of the table with its value.
+ *
+ * @param {Reading} reading
+ * @param {number} line from 1
+ */
+export function lineText({ table: { lines }, config: { printed } }, line) {
+  const value = lines[line - 1];
+  const formula = printed ? FORMULAS[line - 1].replace('±', '') : FORMULAS[line - 1];
+  const number = line === LINES ? densityText(value) : fixed(value, 3);
+  return `${line}. ${formula} = ${number}${UNITS[line - 1]}`;
+}
+
+/**
+ * All of them.
+ *
+ * @param {Reading} reading
+ * @param {number} lit from 1
+ */
+export function tableOf(reading, lit) {
+  const say = words.anatomy.table;
+  return html`<ol class="lines" part="table">
+      ${FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${rich(lineText(reading, i + 1))}</li>`)}
+    </ol>
+    <p class="about">${rich(say.sign)}</p>`;
+}
+
+/**
+ * What the lines in the picture are.
+ *
+ * @param {Reading} _reading
+ * @param {boolean} twist whether the way of constant twist is drawn
+ */
+export function legend(_reading, twist) {
+  const say = words.anatomy.key;
+  return html`<ul class="legend key" part="legend">
+    <li><svg class="commanded" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 16Q20 16 34 4" /></svg><span>${rich(say.commanded)}</span></li>
+    <li><svg class="inverted" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 16Q20 16 34 4" /></svg><span>${rich(say.inverted)}</span></li>
+    <li><svg class="wedge" viewBox="0 0 36 20" aria-hidden="true"><path d="M4 16L34 12A32 32 0 0 0 28 2Z" /></svg><span>${rich(say.wedge)}</span></li>
+    <li><svg class="chord" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 16L34 4" /></svg><span>${rich(say.chord)}</span></li>
+    ${twist
+      ? html`<li><svg class="twist" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 18Q20 16 34 6M10 17l-1-8M20 14l-3-8M29 9l-4-7" /></svg><span>${rich(say.twist)}</span></li>`
+      : nothing}
+  </ul>`;
+}

@@ -1,0 +1,93 @@
+/** Dead Reckoning in German; see messages/en.js. */
+
+const stepsOf = (/** @type {string} */ steps) => (steps === '1' ? '1 Schritt' : `${steps} Schritte`);
+
+/** @type {typeof import('./en.js').en} */
+export const de = {
+  title: 'Koppelnavigation',
+  presets: { chapter: '20 Schritte (Kapitel)', doubled: 'Richtung doppelt', fine: '200 Schritte', straight: 'Geradeaus' },
+  presetTitles: { doubled: 'Doppelte Standardabweichung: Die Varianz, und mit ihr h, ist vierfach' },
+  settings: {
+    v: { effect: 'Wie schnell jeder Schritt gefahren wird; unter null rückwärts.' },
+    omega: { effect: 'Wie eng jeder Schritt ist: Was der Rekursion fehlt, wächst mit *ωΔt*.' },
+    dt: { name: 'Δt, Dauer eines Schritts', effect: 'Wie lange ein Schritt dauert; der Weg wächst mit.' },
+    step: { name: 'k, betrachteter Schritt', effect: 'Geht den Weg entlang.' },
+    steps: { name: 'n, Schritte desselben Wegs', effect: 'Derselbe Weg in mehr und kürzeren Schritten.' },
+    headingNoise: { name: 'h, Richtungsrauschen', effect: 'Setzt *α*₃ und *α*₄ auf *h*, *α*₅ und *α*₆ auf *h*/4.' },
+    compounding: { name: 'Rekursion' },
+    per: { name: 'Die α sind das Rauschen' },
+    alphas: {
+      name: 'Rauschparameter',
+      effects: [
+        'v² in v̂: streut in Fahrtrichtung', 'ω² in v̂: ebenso, nur in Kurven',
+        'v² in ω̂: dreht im Schritt', 'ω² in ω̂: ebenso, nur in Kurven',
+        'v² in γ̂: dreht nach dem Schritt', 'ω² in γ̂: ebenso, nur in Kurven',
+      ],
+    },
+    samples: { name: 'N, Roboter', effect: 'Je mehr Roboter, desto schmaler die Bänder.' },
+  },
+  cloud: {
+    legend: 'Roboter',
+    play: 'Schickt die Roboter los, immer ein paar',
+    step: (batch) => `Schickt ${batch} Roboter mehr los`,
+    reset: 'Nimmt alle weg; derselbe Startwert schickt dieselben',
+    reseed: 'Schickt andere Roboter',
+  },
+  recursions: { chapter: 'Kapitel', 'first-order': 'mit Jᵣ', 'fourth-order': '4. Ordnung' },
+  per: { step: 'jedes Schritts', path: 'des ganzen Wegs' },
+  key: { command: 'Befehl', ellipse: 'Gauß in (x, y)', exponential: 'in ξ', predicted: 'vorhergesagt', measured: 'gemessen' },
+  axisAlong: 'ξ längs (m)',
+  axisLateral: 'ξ quer (m)',
+  components: { along: 'längs', lateral: 'quer', heading: 'Richtung' },
+  where: { along: 'längs', lateral: 'quer', heading: 'in der Richtung' },
+  of: { along: 'längs', lateral: 'quer', heading: 'in der Richtung' },
+  tolerance: 'richtig, ± 5 %',
+  ratioAxis: 'vorhergesagte / gemessene Varianz',
+  stepAxis: 'Schritt',
+  atStepMark: (step) => `Schritt ${step}`,
+  ratioText: (recursion, step, along, lateral, heading) =>
+    `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: längs ${along}, quer ${lateral}, Richtung ${heading}.`,
+  atStep: (ratio, step) => `${ratio} in Schritt ${step}`,
+  wrong: (end, where) => `${end} ${where} am Ende.`,
+  worse: (end, where, worst, list) => `${end} ${where} am Ende verdecken Schlimmeres: Varianz ${worst} vorhergesagt zu ${list}.`,
+  begins: (worst, list) => `Varianz ${worst} vorhergesagt zu ${list}.`,
+  right: (robots) => `Höchstens 5 % neben dem, was ${robots} Roboter tun, in jeder Komponente bei jedem Schritt.`,
+  conditions: {
+    none: 'Noch keine Roboter.',
+    still: 'Kein Rauschen: Jeder Roboter ist, wo er sein soll, ohne Varianz.',
+    lost: 'Die vierte Ordnung lässt keine Kovarianz übrig: zu viel Rauschen für eine Reihe.',
+    few: 'Zu wenige Roboter für 5 %: Die Bänder sind breiter.',
+  },
+  announcement: (robots, command, steps, outcome) => `${robots} Roboter, ${stepsOf(steps)} mit ${command}. ${outcome}`,
+  plane: (command, steps, robots, step, x, y, recursion) =>
+    `Der Boden von oben, x nach rechts und y nach oben. ${robots} Roboter ${robots === '1' ? 'fährt' : 'fahren'} ${stepsOf(steps)} mit ${command}. Wolken wachsen den Weg entlang; nach Schritt ${step} ist der Befehl bei x ${x} m, y ${y} m. Umrisse nach der Rekursion: ${recursion}.`,
+  stepText: (step, measured, predicted) =>
+    `Schritt ${step} in Exponentialkoordinaten, ξ längs nach rechts und ξ quer nach oben. Standardabweichungen gemessen ${measured[0]} m und ${measured[1]} m, vorhergesagt ${predicted[0]} m und ${predicted[1]} m.`,
+  missed: 'Mehr als 5 % daneben; am Ende:',
+  misses: {
+    caption: 'Schritte, bei denen vorhergesagte und gemessene Varianz um mehr als 5 % auseinanderliegen, und der Unterschied nach dem letzten',
+    component: 'Komponente',
+    never: 'nie',
+    unknown: 'zu wenige',
+    from: (first, last) => (first === last ? `Schritt ${first}` : `Schritte ${first}–${last}`),
+    endOf: (component) => `${component}, am Ende`,
+  },
+  commandAndNoise: 'Befehl und Rauschen',
+  figures: 'Alle Rekursionen',
+  straight: {
+    title: 'Warum Bananen krumm sind',
+    label: (crossing) => `Varianzen einer Fahrt geradeaus über ihrer Dauer, auf logarithmischen Achsen. ${crossing}`,
+    crossing: (duration) => `In erster Ordnung gleich nach ${duration} s.`,
+    never: 'Sie kreuzen sich nie.',
+    mark: (duration) => `${duration} s`,
+    along: 'längs, *α*₁*v*²*Δt*²',
+    across: 'quer, ¼*α*₃*v*⁴*Δt*⁴',
+    exact: 'exakt',
+    x: 'Δt (s)',
+    y: 'Varianz (m²)',
+    caption: 'Geradeaus mit *v*, in erster Ordnung und exakt. Von der Kreuzung an, (2/*v*)·√(*α*₁/*α*₃), entscheidet die Richtung, so gut die Drehgeber auch sind.',
+  },
+  robot: 'Roboter',
+  markHint: 'Auf einen am Boden zeigen, um seinen Weg zu sehen.',
+  markedAt: (x, y, theta) => `x ${x} m, y ${y} m, θ ${theta} rad`,
+};

@@ -1,0 +1,143 @@
+/** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
+
+import { html } from 'lit';
+import { Cloud, shownOf } from '../../figure/cloud.js';
+import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
+import { FigureElement } from '../../figure/figure.js';
+import { reserve } from '../../figure/page/reserve.js';
+import { define } from '../../figure/reflection.js';
+import { orFree } from '../../figure/runtime.js';
+import { words } from '../../messages/registry.js';
+import { fold } from '../../ui/fold.js';
+import { commandAndNoise, pathControls, presetButtons, recursionChoice, walkControls } from './controls.js';
+import { PathPicture, StepPicture } from './pictures.js';
+import { COMPONENTS, readingOf } from './reading.js';
+import { markedRobot, missReadouts, missTable, ratioPlot, straightPlot } from './readouts.js';
+import { RECURSIONS, SAMPLE_COUNTS, attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { reckoningStyles } from './styles.js';
+import { announcementOf, captionOf, longestCaption, planeText, stepText } from './words.js';
+
+/**
+ * @import { DeadReckoning as Machine } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ */
+
+/** Units of the components' variances. */
+const UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
+
+/** Columns of a quantity in a table, one a component. @param {string} quantity */
+const columnsOf = (quantity) => COMPONENTS.map((name) => `${quantity}_${name}_${UNITS[name]}`);
+
+/**
+ * One command driven step after step, and how well its growing uncertainty is predicted.
+ *
+ * @attr preset - A path worth starting from; none where the path is another.
+ *
+ * @csspart chart - The plot of predicted over measured variance.
+ *
+ * @extends {FigureElement<Machine, Reading>}
+ */
+export class DeadReckoningElement extends FigureElement {
+  static styles = [...FigureElement.styles, reserve(room), ...reckoningStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+  static basis = ['steps'];
+
+  cloud = new Cloud(this);
+  #floor = new PathPicture();
+  #step = new StepPicture();
+  pictures = [this.#floor, this.#step];
+
+  /** @type {FigureElement<Machine, Reading>['createMachine']} */
+  createMachine = (motion, state) => {
+    // Empty: the robots come before the reader's eyes, and nobody waits for those that are not shown yet.
+    const machine = motion.DeadReckoning.empty();
+    if (!state) return machine;
+    return orFree(machine, () => {
+      machine.configure(this.settings.declared(state));
+      machine.beginToGrow(shownOf(machine, state.shown));
+    });
+  };
+
+  /** @type {FigureElement<Machine, Reading>['completed']} */
+  completed(present, given) {
+    // A path that becomes shorter than what is looked at is looked at where it ends.
+    const { steps = present.steps } = given;
+    return { step: Math.min(present.step, steps), ...super.completed(present, given) };
+  }
+
+  /** @param {Machine} machine */
+  read(machine) {
+    this.cloud.unmark();
+    return readingOf(machine);
+  }
+
+  get scene() {
+    return { ...this.fresh, marked: this.#marked };
+  }
+
+  get takeaway() {
+    const { config } = this.fresh;
+    const { measured, relativeErrors, predicted } = /** @type {Machine} */ (this.machine);
+    const of = (/** @type {Float64Array} */ triples, /** @type {number} */ i) => triples.subarray(3 * i, 3 * i + 3);
+    return {
+      title: this.lettering.name,
+      description: planeText(this.reading),
+      settings: { element: this.localName, ...config },
+      columns: [
+        'step',
+        ...columnsOf('measured'),
+        ...COMPONENTS.map((name) => `relative_error_${name}`),
+        ...RECURSIONS.flatMap((recursion) => columnsOf(recursion.replace('-', '_'))),
+      ],
+      row: (/** @type {number} */ i) => [i + 1, ...of(measured, i), ...of(relativeErrors, i), ...RECURSIONS.flatMap((recursion) => [...of(predicted[recursion], i)])],
+      count: config.steps,
+    };
+  }
+
+  announcement = announcementOf;
+
+  /** The poses of the marked robot after each step, if it is among those driven. */
+  get #marked() {
+    return this.cloud.isMarked ? this.machine?.rollout(this.cloud.index) : undefined;
+  }
+
+  /** @param {Reading} reading */
+  content(reading) {
+    const { condition } = reading;
+    const say = words.reckoning;
+    return html`
+      <section class="machine" aria-label=${this.lettering.name}>
+        <div class="views">
+          <div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>
+          <div class="ratios">${ratioPlot(reading)}</div>
+          <div class="stage step">${canvas(this, this.#step, stepText(reading))}</div>
+          ${this.stage.later(() => html`<div class="aside">
+            <div class="told">
+              ${walkControls(this)}
+              <p part="caption" class="caption roomy ${condition !== 'told' && 'note'}" data-room=${longestCaption()}>
+                <span>${captionOf(reading)}</span>
+              </p>
+            </div>
+            <div class="told">${recursionChoice(this)} ${missReadouts(reading)}</div>
+          </div>`)}
+        </div>
+        ${this.stage.later(() => html`
+        ${presetButtons(this)}
+        <div class="controls" part="controls">${pathControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
+        <div class="folds">
+          ${fold(say.figures, () => html`${missTable(reading)} ${markedRobot(this, this.#marked)}`)}
+          ${fold(say.straight.title, () => straightPlot(/** @type {Machine} */ (this.machine).straight))}
+          ${fold(say.commandAndNoise, () => commandAndNoise(this))}
+          ${takeAlong(this)}
+        </div>`)}
+      </section>
+    `;
+  }
+}
+
+define('dead-reckoning', DeadReckoningElement);

@@ -1,0 +1,191 @@
+/** Dead Reckoning's two pictures: the floor with the path, and the step that is looked at in exponential coordinates. */
+
+import { words } from '../../messages/registry.js';
+import { clipped, drawAxes, drawDots, drawMark, drawOutlines, drawRobot, trace } from '../../scene/draw.js';
+import { Picture } from '../../scene/picture.js';
+import { View, extentAround, extentOf } from '../../scene/view.js';
+import { COMMAND_DASH } from '../shared/command.js';
+
+/**
+ * @import { DeadReckoning } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ * @import { Palette } from '../../ui/theme.js'
+ *
+ * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined }} Scene what both pictures are of, with the
+ *   poses of the robot that is marked after each step
+ */
+
+/** How near to a robot the pointer must be to mark it, CSS pixels. */
+const REACH = 14;
+
+/** Standard deviations of a cloud that a view makes room for. */
+const ROOM = 3.2;
+
+/** Dots of a cloud that is not looked at, at most, and their radius and ink. */
+const PASSED = { most: 200, radius: 1.3, alpha: 0.4 };
+
+/** The outlines by name, in the order in which they are painted. @param {Palette} palette */
+const stylesOf = ({ prediction, posterior, prior, truth }) => ({
+  command: { colour: prior, width: 2.25, dash: COMMAND_DASH },
+  measured: { colour: truth, width: 2.25, dash: [3, 3] },
+  ellipse: { colour: prediction, width: 2, dash: [7, 4] },
+  exponential: { colour: posterior, width: 2.25, dash: [] },
+  predicted: { colour: posterior, width: 2.25, dash: [] },
+});
+
+/** @typedef {keyof ReturnType<typeof stylesOf>} OutlineName */
+
+/**
+ * @param {Brush} brush
+ * @param {OutlineName} name
+ * @returns {import('../../scene/draw.js').KeyEntry}
+ */
+function keyEntry({ context, palette }, name) {
+  const { colour, width, dash } = stylesOf(palette)[name];
+  return {
+    name: words.reckoning.key[name],
+    draw: (x, y, length) => {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.setLineDash(dash);
+      context.beginPath();
+      context.moveTo(x, y);
+      context.lineTo(x + length, y);
+      context.stroke();
+      context.setLineDash([]);
+    },
+  };
+}
+
+/**
+ * The floor from above.
+ *
+ * @extends {Picture<Scene>}
+ */
+export class PathPicture extends Picture {
+  constructor() {
+    super('plane', new View());
+  }
+
+  /**
+   * @param {DeadReckoning} machine
+   * @param {number} x CSS pixels of the canvas
+   * @param {number} y
+   */
+  nearest(machine, x, y) {
+    const [atX, atY, radius] = this.around(x, y, REACH);
+    return machine.nearest(atX, atY, radius);
+  }
+
+  /** @param {Scene} scene */
+  fit({ commanded, outlines, milestones, poses }) {
+    const all = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
+    const points = [...commanded, ...all];
+    // Where nothing is predicted, the robots themselves.
+    const box = extentAround(poses, 3, extentAround(points, 2));
+    this.view.fit(extentOf(all.length > 0 ? points : [box.xMin, box.yMin, box.xMax, box.yMax], 0.4));
+  }
+
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, { commanded, outlines, milestones, poses, pose, marked, config: { step } }) => {
+    const { context, palette } = brush;
+    const { command, ellipse, exponential } = stylesOf(palette);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, /** @type {const} */ (['ellipse', 'exponential', 'command']).map((name) => keyEntry(brush, name)));
+    clipped(brush, () => {
+      for (const milestone of milestones) drawPassed(brush, milestone.poses);
+      drawDots(brush, poses, { x: 0, y: 1, heading: null });
+      drawOutlines(brush, [
+        { points: commanded, ...command },
+        ...milestones.flatMap(({ outlines: passed }) => [
+          { points: passed.ellipse, ...ellipse, width: 1 },
+          { points: passed.exponential, ...exponential, width: 1 },
+        ]),
+      ]);
+      drawOutlines(brush, [{ points: outlines.ellipse, ...ellipse }, { points: outlines.exponential, ...exponential }]);
+      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      drawPlace(brush, pose);
+      if (!marked) return;
+      context.strokeStyle = palette.accent;
+      context.lineWidth = 1.25;
+      context.setLineDash([6, 2]);
+      context.beginPath();
+      trace(brush, Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]));
+      context.stroke();
+      context.setLineDash([]);
+      const [x, y, heading] = marked.subarray(3 * (step - 1));
+      drawMark(brush, { x, y, heading });
+    });
+  };
+}
+
+/** Half the size of the mark where the command is, CSS pixels. */
+const PLACE = 4;
+
+/**
+ * Where the command is after the step: small, so that the cloud is seen around it.
+ *
+ * @param {Brush} brush
+ * @param {Float64Array} pose
+ */
+function drawPlace({ context, view, palette }, [x, y]) {
+  context.beginPath();
+  context.arc(view.toPixelX(x), view.toPixelY(y), PLACE, 0, 2 * Math.PI);
+  context.fillStyle = palette.prior;
+  context.strokeStyle = palette.paper;
+  context.lineWidth = 1.5;
+  context.fill();
+  context.stroke();
+}
+
+/**
+ * Robots where they were at another step.
+ *
+ * @param {Brush} brush
+ * @param {Float64Array} poses
+ */
+function drawPassed({ context, view, palette }, poses) {
+  context.fillStyle = palette.cloud;
+  context.globalAlpha = PASSED.alpha;
+  const side = 2 * PASSED.radius;
+  const count = Math.min(PASSED.most, poses.length / 3);
+  for (let i = 0; i < count; i++) {
+    context.fillRect(view.toPixelX(poses[3 * i]) - PASSED.radius, view.toPixelY(poses[3 * i + 1]) - PASSED.radius, side, side);
+  }
+  context.globalAlpha = 1;
+}
+
+/**
+ * ξ along and lateral about the commanded pose, each on a scale of its own: a lateral spread is small at first.
+ *
+ * @extends {Picture<Scene>}
+ */
+export class StepPicture extends Picture {
+  constructor() {
+    super('twist', new View({ equal: false, left: 52, right: 10 }));
+  }
+
+  /** @param {Scene} scene */
+  fit({ outlines: { predicted }, stats: { measured: { mean, cov } } }) {
+    const points = [0, 0, ...predicted];
+    const [along, lateral] = [0, 1].map((axis) => ROOM * Math.sqrt(cov[axis][axis]));
+    if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
+    const box = extentAround(points, 2);
+    // Equal scales would hide it; none at all has a scale too.
+    const room = Math.max(1e-6, 1e-3 * (box.xMax - box.xMin));
+    const lack = Math.max(0, room - (box.yMax - box.yMin)) / 2;
+    const aside = Math.max(0, 1e-6 - (box.xMax - box.xMin)) / 2;
+    this.view.fit({ xMin: box.xMin - aside, xMax: box.xMax + aside, yMin: box.yMin - lack, yMax: box.yMax + lack });
+  }
+
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, { outlines: { predicted, measured }, twists }) => {
+    const styles = stylesOf(brush.palette);
+    const { axisAlong, axisLateral } = words.reckoning;
+    const key = /** @type {const} */ (['predicted', 'measured']);
+    drawAxes(brush, { x: axisAlong, y: axisLateral }, key.map((name) => keyEntry(brush, name)));
+    clipped(brush, () => {
+      drawDots(brush, twists, { x: 0, y: 1, heading: null });
+      drawOutlines(brush, [{ points: predicted, ...styles.predicted }, { points: measured, ...styles.measured }]);
+    });
+  };
+}

@@ -1,0 +1,126 @@
+/** Dead Reckoning's figures: ratios by step, and where they are off. */
+
+import { html } from 'lit';
+import { markedField } from '../../figure/controls.js';
+import { words } from '../../messages/registry.js';
+import { rich } from '../../ui/controls.js';
+import { NOTHING, fixed, significant } from '../../ui/format.js';
+import { plot } from '../../ui/plot.js';
+import { figureTable, readoutList } from '../../ui/readouts.js';
+import { COMPONENTS } from './reading.js';
+import { RECURSIONS } from './settings.js';
+import { endText, ratioText } from './words.js';
+
+/**
+ * @import { Misses } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ * @import { Role } from '../../ui/plot.js'
+ */
+
+/** How the ratio of each component looks. @type {Record<(typeof COMPONENTS)[number], { role: Role, dash?: string }>} */
+const LOOKS = { along: { role: 'ink', dash: '8 4' }, lateral: { role: 'prediction' }, heading: { role: 'muted', dash: '2 3' } };
+
+/** Heights that the plot may have, so that it holds still while a slider is dragged. */
+const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
+
+/** What counts as right. */
+const TOLERANCE = 0.05;
+
+/** @param {Reading} reading */
+export function ratioPlot(reading) {
+  const { config: { step, steps }, curves } = reading;
+  const say = words.reckoning;
+  const x = Array.from({ length: steps }, (_, i) => i + 1);
+  const highest = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
+  const looks = COMPONENTS.map((name) => LOOKS[name]);
+  return plot({
+    label: ratioText(reading),
+    x: { name: say.stepAxis, from: 0, to: steps },
+    y: { name: say.ratioAxis, from: 0, to: HEIGHTS.find((height) => height >= highest) ?? highest },
+    curves: [
+      { name: say.tolerance, role: 'truth', dash: '1 3', x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE] },
+      ...curves.map(({ ratio, error }, axis) => ({ ...looks[axis], name: say.components[COMPONENTS[axis]], x, y: ratio, error })),
+    ],
+    points: curves.map(({ ratio, error }, axis) => ({ role: looks[axis].role, x: step, y: ratio[step - 1], error: error[step - 1] })),
+    marks: [{ x: step, text: say.atStepMark(step) }],
+  });
+}
+
+/** Logarithmic axes that hold what sliders can make of it: the variances of an opening and of a tenth and ten times of it. */
+const GROWTH = { durations: [0.1, 10], variances: [1e-6, 100] };
+
+/**
+ * Exercise 2: variances against the duration.
+ *
+ * @param {import('../../types.d.ts').StraightGrowth} growth
+ */
+export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }) {
+  const say = words.reckoning.straight;
+  const [from, to] = GROWTH.durations;
+  const [least, most] = GROWTH.variances;
+  const told = crossing === null ? '' : significant(crossing, 3);
+  return html`<figure>
+    ${plot({
+      label: say.label(crossing === null ? say.never : say.crossing(told)),
+      x: { name: say.x, from, to, logarithmic: true },
+      y: { name: say.y, from: least, to: most, logarithmic: true },
+      curves: [
+        { name: say.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
+        { name: say.across, role: 'prediction', x, y: acrossFirstOrder },
+        // Both, with a gap between.
+        { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
+      ],
+      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(told) }] : [],
+    })}
+    <figcaption>${rich(say.caption)}</figcaption>
+  </figure>`;
+}
+
+/** Steps with a miss. @param {Misses} misses */
+function missed({ told, first, last, end }) {
+  const { never, unknown, from } = words.reckoning.misses;
+  if (!told) return Number.isNaN(end) ? NOTHING : unknown;
+  return first === null || last === null ? never : from(first, last);
+}
+
+/** Of the recursion that is looked at. @param {Reading} reading */
+export function missReadouts({ config: { compounding }, stats: { misses } }) {
+  const say = words.reckoning;
+  const longest = say.misses.from(100, 200);
+  const rows = misses[compounding].map((each, axis) => /** @type {[string, string, string, [string, string]]} */ ([
+    say.components[COMPONENTS[axis]],
+    missed(each),
+    longest,
+    [endText(each), endText({ end: -0.999, error: 0.09 })],
+  ]));
+  return html`<p class="missed">${say.missed}</p>${readoutList(rows)}`;
+}
+
+/** Of all of them. @param {Reading} reading */
+export function missTable({ stats: { misses } }) {
+  const say = words.reckoning;
+  return figureTable({
+    caption: say.misses.caption,
+    columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
+    rows: COMPONENTS.flatMap((component, axis) => [
+      [say.components[component], ...RECURSIONS.map((recursion) => missed(misses[recursion][axis]))],
+      [say.misses.endOf(say.components[component]), ...RECURSIONS.map((recursion) => endText(misses[recursion][axis]))],
+    ]),
+    longest: say.misses.from(100, 200),
+  });
+}
+
+/**
+ * The marked robot, and where it is at the step.
+ *
+ * @param {import('./dead-reckoning.js').DeadReckoningElement} figure
+ * @param {Float64Array | undefined} marked its poses after each step
+ * @returns {import('lit').TemplateResult}
+ */
+export function markedRobot(figure, marked) {
+  const { robot, markHint, markedAt } = words.reckoning;
+  const { config: { step }, shown } = figure.reading;
+  const pose = marked?.subarray(3 * (step - 1), 3 * step);
+  const told = pose && [markedAt(fixed(pose[0], 3), fixed(pose[1], 3), fixed(pose[2], 3))];
+  return markedField(figure, { id: 'robot', label: robot, hint: markHint, shown, told });
+}

@@ -1,0 +1,89 @@
+/** Dead Reckoning's settings as attributes, in its state, and as the eye sees them. */
+
+import { WORD, attributesOf } from '../../figure/attributes.js';
+import { word } from '../../figure/checks.js';
+import { cloudState } from '../../figure/cloud.js';
+import { presets, settings } from '../../settings.js';
+import { commandLooks } from '../shared/command.js';
+
+/** @import { DeadReckoningSettings } from '../../types.d.ts' */
+
+export const declared = settings['dead-reckoning'];
+
+/** The key of its words in the catalogues. */
+export const vocabulary = 'reckoning';
+
+export const PRESETS = presets['dead-reckoning'];
+const PRESET_NAMES = PRESETS.map(({ name }) => name);
+const ALPHAS = PRESETS[0].alphas.map((_, i) => `alpha${i + 1}`);
+
+/** The recursions in the order in which they are offered. */
+export const RECURSIONS = /** @type {DeadReckoningSettings['compounding'][]} */ (declared.find(({ key }) => key === 'compounding')?.words);
+
+/**
+ * The name of the preset that the settings are; null where they are none's.
+ *
+ * @param {DeadReckoningSettings} config
+ */
+export function presetIn({ command: { v, omega, dt }, steps, alphas }) {
+  return PRESETS.find((preset) =>
+    preset.command.v === v && preset.command.omega === omega && preset.command.dt === dt &&
+    preset.steps === steps && preset.alphas.every((alpha, i) => alpha === alphas[i]))?.name ?? null;
+}
+
+/**
+ * The settings to make for the preset of a name.
+ *
+ * @param {unknown} name
+ * @throws {TypeError | RangeError} where there is none of that name
+ */
+export function presetNamed(name) {
+  const { command, steps, alphas } = PRESETS[PRESET_NAMES.indexOf(word('preset', name, PRESET_NAMES))];
+  return { command, steps, alphas };
+}
+
+/** @type {import('../../figure/attributes.js').Attributes} */
+export const attributes = {
+  preset: {
+    kind: WORD,
+    covers: () => ['v', 'omega', 'dt', 'steps', ...ALPHAS, 'headingNoise'],
+    words: PRESET_NAMES,
+    get: ({ config }) => presetIn(/** @type {any} */ (config)),
+    change: presetNamed,
+  },
+  ...attributesOf(declared),
+};
+
+/** @type {Record<string, import('../../figure/state.js').Owned>} */
+export const own = cloudState;
+
+/** Of what each step is. @type {Record<string, import('../../figure/controls.js').Look>} */
+export const COMMAND = commandLooks(1);
+
+const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
+
+/** @type {Record<string, import('../../figure/controls.js').Look>} */
+export const NOISE = Object.fromEntries(ALPHAS.map((key, i) => [key, { ...ALPHA, symbol: `*α*${String.fromCharCode(0x2081 + i)}` }]));
+
+/** @type {Record<string, import('../../figure/controls.js').Look>} */
+export const looks = {
+  ...COMMAND,
+  ...NOISE,
+  step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
+  steps: { symbol: '*n*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
+  headingNoise: {
+    ...ALPHA,
+    symbol: '*h*',
+    step: 0.005,
+    // Where they are not those of a level, the first of them stands for all.
+    value: ({ alphas, headingNoise = alphas[2] }) => headingNoise,
+  },
+};
+
+/** Sample counts of the slider; a larger cloud is slow to follow one. */
+export const SAMPLE_COUNTS = [2, 3, 4].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(100_000, 200_000);
+
+/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
+export const room = [
+  [0, 60.2, 160], [18.9, 56.6, 160], [30, 31.1, 60], [33.15, 30.4, 60], [36.5, 36.6, 20], [37.8, 44.3, 0], [51.9, 45.7, 0], [56, 17.7, 26.7],
+];

@@ -1,0 +1,187 @@
+/** What Dead Reckoning's page has of its own. */
+
+import { css } from 'lit';
+import { layoutStyles } from '../../ui/layout.js';
+import { plotStyles } from '../../ui/plot.js';
+
+const own = css`
+  canvas {
+    aspect-ratio: 5 / 4;
+  }
+
+  fieldset.walk {
+    padding: 0;
+  }
+
+  .walk .slider .effect {
+    display: none;
+  }
+
+  /* Over the sentence below: there is no line of help to say it in. */
+  .walk .slider.refused .effect {
+    top: 100%;
+    display: block;
+  }
+
+  .ratios .plot-key {
+    margin: 0;
+  }
+
+  .missed {
+    margin: 0.2em 0 0;
+    color: var(--muted);
+    font-size: 0.84em;
+  }
+
+  /* The three components side by side, however narrow. */
+  .surface .machine .readouts {
+    display: grid;
+    grid-template-columns: repeat(3, minmax(0, 1fr));
+    gap: 0 0.75em;
+  }
+
+  .aside .choices {
+    --name: 4.5em;
+
+    column-gap: 0.5em;
+  }
+
+  .ratios {
+    grid-area: ratios;
+  }
+
+  .stage[part='picture'] {
+    grid-area: floor;
+  }
+
+  .stage.step {
+    grid-area: step;
+  }
+
+  .aside {
+    grid-area: aside;
+  }
+
+  :host([presentation]) .surface:not(.with-controls) .told > :is(fieldset, .choices) {
+    display: none;
+  }
+
+  /* On a phone the pictures need the room. */
+  @container (max-width: 30em) {
+    :host([presentation]) .surface:not(.with-controls) .told {
+      display: none;
+    }
+  }
+
+  @container (min-width: 30em) {
+    canvas {
+      aspect-ratio: 8 / 5;
+    }
+
+    .views {
+      grid-template: 'floor step' 'ratios aside' / minmax(0, 1fr) minmax(0, 1fr);
+      gap: 0.25em 1em;
+    }
+
+    .ratios .plot {
+      max-width: 20em;
+    }
+  }
+
+  .cloud .buttons {
+    margin-bottom: 0.2em;
+  }
+
+  /* The seed shares the line in which the help of N appears. */
+  .cloud .seed {
+    position: absolute;
+    right: 0;
+    bottom: 0;
+    font-size: 0.84em;
+    line-height: 1.25;
+  }
+
+  .cloud:has(.slider:is(:focus-within, :hover)) .seed {
+    visibility: hidden;
+  }
+
+  @container (max-width: 48em) {
+    .controls {
+      column-gap: 1.5em;
+    }
+
+    .presets {
+      gap: 0.25em;
+    }
+
+    .presets button,
+    .cloud .buttons button {
+      --size: 0.84;
+      --beside: 0.3em;
+    }
+
+    .cloud .buttons {
+      gap: 0.25em;
+    }
+  }
+
+  @container (min-width: 56em) {
+    canvas {
+      aspect-ratio: 5 / 4;
+    }
+
+    .views {
+      grid-template: 'floor step ratios' 'aside aside aside' / minmax(0, 1fr) minmax(0, 1fr) minmax(0, 1fr);
+    }
+
+    .ratios .plot {
+      max-width: none;
+    }
+
+    .aside {
+      display: grid;
+      grid-template-columns: 1fr 1fr;
+      gap: 2em;
+    }
+
+    /* Clear of the buttons. */
+    :host([presentation]) .ratios {
+      padding-top: 1.6em;
+    }
+
+    :host([presentation]) .aside {
+      padding-top: 0;
+    }
+
+    :host([presentation]) .surface:not(.with-controls) .views {
+      grid-template: 'floor step ratios' auto 'floor step aside' minmax(0, 1fr) / 1.25fr 1.25fr 1fr;
+    }
+
+    :host([presentation]) .surface:not(.with-controls) .aside {
+      display: block;
+    }
+
+    /* In so narrow a column each component has a line. */
+    :host([presentation]) .surface:not(.with-controls) .readouts {
+      grid-template-columns: auto 1fr auto;
+      align-items: baseline;
+      gap: 0 0.25em;
+      margin: 0;
+    }
+
+    :host([presentation]) .surface:not(.with-controls) .readouts > div {
+      display: contents;
+    }
+
+    :host([presentation]) .surface:not(.with-controls) .readouts dd {
+      font-size: 0.84em;
+      white-space: normal;
+    }
+
+    :host([presentation]) .surface:not(.with-controls) .readouts .roomy::after {
+      display: none;
+    }
+  }
+`;
+
+export const reckoningStyles = [...layoutStyles, plotStyles, own];

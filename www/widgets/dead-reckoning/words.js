@@ -1,0 +1,80 @@
+/** What Dead Reckoning says when, in the words of the present language. */
+
+import { addEnglish, words } from '../../messages/registry.js';
+import { longest } from '../../ui/controls.js';
+import { NOTHING, counted, fixed, withError } from '../../ui/format.js';
+import { commandText } from '../shared/command.js';
+import { en } from './en.js';
+import { COMPONENTS } from './reading.js';
+
+/** @import { Reading } from './reading.js' */
+
+addEnglish({ reckoning: en });
+
+/** Steps at which the worst component is told. */
+const TOLD_STEPS = [1, 2, 5];
+
+/** A share in per cent, with a sign where it is more than none. @param {number} share @param {string} [printed] */
+function signed(share, printed = fixed(100 * share, 1)) {
+  if (Number.isNaN(share)) return NOTHING;
+  return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
+}
+
+/** How far a ratio is off after the last step. @param {{ end: number, error: number }} misses */
+export const endText = ({ end, error }) => signed(end, withError(100 * end, 100 * error, 1));
+
+/** What stands under the pictures: how well the recursion that is looked at predicts. @param {Reading} reading */
+export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }) {
+  const say = words.reckoning;
+  if (condition !== 'told') return say.conditions[condition];
+  const ofAll = misses[compounding];
+  if (ofAll.every(({ first }) => first === null)) return say.right(counted(n));
+  // Whose ratio is furthest from 1, at the end and anywhere.
+  const far = furthest(ofAll.map(({ end }) => Math.abs(end)));
+  const worst = furthest(curves.map(({ ratio }) => ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0)));
+  const list = listOf(Array.from(curves[worst].ratio));
+  const [end, where, of] = [signed(ofAll[far].end), say.where[COMPONENTS[far]], say.of[COMPONENTS[worst]]];
+  return far === worst ? `${say.wrong(end, where)} ${say.begins(of, list)}` : say.worse(end, where, of, list);
+}
+
+/** @param {number[]} misses of which NaN is none @returns {number} the place of the greatest */
+const furthest = (misses) => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
+
+/** The first ratios, in words. @param {number[]} ratios */
+const listOf = (ratios) =>
+  TOLD_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
+
+/** What is announced after a change has come to rest. @param {Reading} reading */
+export function announcementOf(reading) {
+  const { config, shown } = reading;
+  return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading));
+}
+
+/** Ratios of the step that is looked at. @param {Reading} reading */
+export function ratioText({ config: { step, compounding }, curves }) {
+  const say = words.reckoning;
+  const [along, lateral, heading] = curves.map(({ ratio, error }) => withError(ratio[step - 1], error[step - 1], 2));
+  return say.ratioText(say.recursions[compounding], String(step), along, lateral, heading);
+}
+
+/** The text equivalent of the floor. @param {Reading} reading */
+export function planeText({ config, shown, pose }) {
+  const { command, steps, step, compounding } = config;
+  const say = words.reckoning;
+  return say.plane(commandText(command), String(steps), counted(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
+}
+
+/** The text equivalent of the step in exponential coordinates. @param {Reading} reading */
+export function stepText({ config: { step, compounding }, stats: { measured, predicted } }) {
+  const say = words.reckoning;
+  const deviations = (/** @type {number[][] | null} */ cov) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
+  return say.stepText(String(step), deviations(measured.cov), deviations(predicted[compounding]));
+}
+
+/** The longest caption there may be, to keep room for. */
+export function longestCaption() {
+  const say = words.reckoning;
+  const list = listOf([0, 0, 0, 0, 0]);
+  const [end, where] = [signed(-0.999), say.where.along];
+  return longest([...Object.values(say.conditions), say.worse(end, where, say.of.along, list), `${say.wrong(end, where)} ${say.begins(say.of.along, list)}`, say.right(counted(1_000_000))]);
+}

@@ -1,0 +1,102 @@
+/** The Odometry Decomposer in German; see messages/en.js. */
+
+/** @type {typeof import('./en.js').en} */
+export const de = {
+  title: 'Der Odometrie-Zerleger',
+  presets: {
+    all: 'Drehen, fahren, drehen',
+    'turn-drive': 'Drehen, fahren',
+    'drive-turn': 'Fahren, drehen',
+    reverse: 'Rückwärts',
+    spin: 'Drehen',
+    rest: 'Im Stand',
+  },
+  presetsLabel: 'Messungen',
+  rules: {
+    table: 'Tabelle 5.6',
+    nav2: 'AMCL von Nav2',
+    beluga: 'Beluga 2',
+    omni: 'AMCL, omnidirektional',
+  },
+  settings: {
+    rule: { name: 'Regel' },
+    noise: { name: 'Rauschen' },
+    alpha1: { name: 'α₁, Drehung in Drehung', effect: 'Drehung in Drehung: Je mehr er sich dreht, desto weniger weiß er, wohin.' },
+    alpha2: { name: 'α₂, Weg in Drehung', effect: 'Weg in Drehung: öffnet die Gelenke auch eines geraden Weges.' },
+    alpha3: { name: 'α₃, Weg in Weg', effect: 'Weg in Weg: verschmiert die Ausgänge in Fahrtrichtung.' },
+    alpha4: { name: 'α₄, Drehung in Weg', effect: 'Drehung in Weg: verschmiert sie auch dort, wo er sich nur gedreht hat.' },
+    alpha5: { name: 'α₅, Weg in Gleiten', effect: 'Weg in Gleiten: nur in der omnidirektionalen Regel.' },
+    correlation: {
+      name: 'ρ, Korrelation der beiden Drehungen',
+      effect: 'Zwischen dem Rauschen beider Drehungen: dreht die Ausgänge an ihrem Ort und verschiebt keinen.',
+    },
+    phase: { name: 's, Phase des Weges', effect: 'Die erste Drehung bis 1, die Fahrt bis 2, die zweite Drehung bis 3.' },
+    drift: { name: 't, Zeit der Drift', effect: 'Trägt den Rahmen der Odometrie davon. Die Vorhersage bleibt.' },
+    samples: { name: 'N, Ausgänge', effect: 'Ausgänge: Mehr davon verkleinern den Fehler dessen, was sie messen.' },
+  },
+  noises: { normal: 'normalverteilt', triangular: 'dreiecksverteilt' },
+  noiseParameters: 'Rauschparameter',
+  cloud: {
+    legend: 'Ausgänge',
+    play: 'Zieht einen nach dem anderen',
+    step: (batch) => `Zieht ${batch} weitere`,
+    reset: 'Nimmt alle weg; derselbe Startwert zieht dieselben',
+    reseed: 'Zieht andere',
+  },
+  way: 'Der Weg',
+  drift: 'Die Drift',
+  playTitles: { phase: 'Fährt die drei Teile', drift: 'Lässt den Rahmen driften' },
+  handles: {
+    from: { robot: 'Odometrie davor', robotTitle: 'Pose davor ziehen', heading: 'Richtung davor', headingTitle: 'Pose davor drehen' },
+    to: { robot: 'Odometrie danach', robotTitle: 'Pose danach ziehen', heading: 'Richtung danach', headingTitle: 'Pose danach drehen' },
+    ends: 'Hier endet der Boden',
+  },
+  key: { legs: 'gemessen', deviation: '± σ', ghosts: 'Ausgänge' },
+  readouts: {
+    lever: 'Hebel, *δ*_{trans} · *σ*(*δ*_{rot1})',
+    crossTrack: '*σ* quer zum Weg, gemessen',
+    heading: '*σ* der Richtung, gemessen',
+    exactly: (exact) => `genau ${exact}`,
+    independent: (exact, independent) => `genau ${exact}; unabhängig wären es ${independent}`,
+  },
+  table: {
+    caption: 'Standardabweichungen derselben Messung, Regel für Regel, mit denselben *α*: der drei Teile, des Gleitens, quer zum Weg und der Richtung.',
+    rule: 'Regel',
+    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'Gleiten (m)', 'quer (m)', '*θ* (rad)'],
+  },
+  caption: {
+    lever: (deviation, trans, lever) =>
+      `Das erste Gelenk hat den Hebel: Aus ± ${deviation} rad am Anfang werden nach ${trans} m ± ${lever} m quer zum Weg.`,
+    reverse: 'Rückwärts liest sich als zwei halbe Drehungen, und die Tabelle berechnet beide. Die anderen berechnen, was jeder zur halben Drehung fehlt.',
+    rest: (trans, rot1) =>
+      `Die Räder stehen, ihre Geber zittern um ${trans} mm. Für die Tabelle hat das eine Richtung, eine Drehung um ${rot1} rad, und die berechnet sie.`,
+    restSpin: (trans) => `Weniger als ein Zentimeter: ${trans} mm haben für diese Regel keine Richtung, und fast nichts wird berechnet.`,
+    spin: 'Eine Drehung auf der Stelle steckt ganz in der zweiten Drehung. Nur das Rauschen von α₄ verschiebt den Roboter.',
+    spinEitherWay: (left) => `Mehr als eine Vierteldrehung wird mit dem berechnet, was zur halben fehlt: hier ${left} rad. Eine halbe Drehung auf der Stelle wäre umsonst.`,
+    omni: (strafe) => `Diese Regel hat keine Gelenke: Der Kurs ist genau, und der Roboter gleitet ± ${strafe} m quer dazu, wie er sich auch dreht.`,
+    still: 'Ohne Rauschen ist jeder Ausgang die Messung.',
+  },
+  worldCaption: (distance) =>
+    `Der Rahmen driftet, die Vorhersage bleibt: Nur die Bewegung von *x̄*_{t−1} nach *x̄*_{t} geht ein. Nie vergleichen: *x̄*_{t} ist ${distance} m von *x*_{t}.`,
+  noiseFold: 'Rauschen und Ausgänge',
+  spreadFold: 'Streuung über der Fahrt',
+  hinges:
+    'Die Regeln ziehen beide Drehungen unabhängig. Eine Korrelation *ρ* lässt jeder ihr Rauschen und jedem Ausgang seinen Ort; die Richtungen streuen von der Differenz der beiden Abweichungen (*ρ* = −1) bis zu ihrer Summe (*ρ* = 1). Bei *ρ* = 0 sieht man beides nicht.',
+  plot: {
+    label: (trans, exact) =>
+      `Standardabweichungen über der Länge der Fahrt: quer zum Weg, der Hebel allein, und in Fahrtrichtung. Bei der Messung, ${trans} m, sind es quer ${exact} m.`,
+    x: 'δ trans (m)',
+    y: 'σ (m)',
+    crossTrack: 'quer zum Weg, genau',
+    lever: 'Hebel, *δ*_{trans} · *σ*(*δ*_{rot1})',
+    along: 'in Fahrtrichtung',
+    here: 'gemessen',
+    caption: 'Die Drehungen wie gemessen. Der Punkt ist der der Ausgänge, mit seinem Standardfehler.',
+  },
+  picture: (rot1, trans, rot2, x, y) =>
+    `Der Boden von oben, im Rahmen der Odometrie, x nach rechts und y nach oben. Die Messung: eine erste Drehung um ${rot1} rad, eine Fahrt von ${trans} m, eine zweite Drehung um ${rot2} rad, nach x ${x} m, y ${y} m.`,
+  outcomes: (count, across, heading) => `${count} Ausgänge streuen um ${across} m quer zum Weg und um ${heading} rad in ihrer Richtung.`,
+  none: 'Noch ist kein Ausgang gezogen.',
+  worldPicture: (x, y, theta, distance) =>
+    `Die Welt von oben. Der Rahmen der Odometrie ist nach x ${x} m, y ${y} m, Richtung ${theta} rad gedriftet. Der Roboter und seine vorhergesagten Ausgänge sind, wo sie waren, ${distance} m von der Pose der Odometrie.`,
+};

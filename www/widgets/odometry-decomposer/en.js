@@ -1,0 +1,101 @@
+/** The Odometry Decomposer in English; see messages/en.js. */
+
+export const en = /** @satisfies {import('../../messages/registry.js').Message} */ ({
+  title: 'The Odometry Decomposer',
+  presets: {
+    all: 'Turn, drive, turn',
+    'turn-drive': 'Turn, drive',
+    'drive-turn': 'Drive, turn',
+    reverse: 'Reverse',
+    spin: 'Spin',
+    rest: 'At rest',
+  },
+  presetsLabel: 'Readings',
+  rules: {
+    table: 'Table 5.6',
+    nav2: 'AMCL of Nav2',
+    beluga: 'Beluga 2',
+    omni: 'AMCL, omnidirectional',
+  },
+  settings: {
+    rule: { name: 'Rule' },
+    noise: { name: 'Noise' },
+    alpha1: { name: 'α₁, rotation into rotation', effect: 'Rotation into rotation: the more it turns, the less it knows where to.' },
+    alpha2: { name: 'α₂, drive into rotation', effect: 'Drive into rotation: opens the hinges of a straight way too.' },
+    alpha3: { name: 'α₃, drive into drive', effect: 'Drive into drive: smears the outcomes along the way.' },
+    alpha4: { name: 'α₄, rotation into drive', effect: 'Rotation into drive: smears them along the way even where it has only turned.' },
+    alpha5: { name: 'α₅, drive into sliding', effect: 'Drive into sliding: in the omnidirectional rule alone.' },
+    correlation: {
+      name: 'ρ, correlation of the two rotations',
+      effect: 'Between the noises of the two rotations: turns the outcomes where they stand and moves none.',
+    },
+    phase: { name: 's, phase of the way', effect: 'The first rotation up to 1, the drive up to 2, the second rotation up to 3.' },
+    drift: { name: 't, time of drifting', effect: 'Carries the frame of the odometry away. The prediction stays.' },
+    samples: { name: 'N, outcomes', effect: 'Outcomes: more of them narrow the error of what they measure.' },
+  },
+  noises: { normal: 'normal', triangular: 'triangular' },
+  noiseParameters: 'Noise parameters',
+  cloud: {
+    legend: 'Outcomes',
+    play: 'Draw one after the other',
+    step: (batch) => `Draw ${batch} more`,
+    reset: 'Take all away; the same seed draws the same again',
+    reseed: 'Draw others',
+  },
+  way: 'The way',
+  drift: 'The drift',
+  playTitles: { phase: 'Drive the three legs', drift: 'Let the frame drift' },
+  handles: {
+    from: { robot: 'Odometry before', robotTitle: 'Drag the pose before', heading: 'Heading before', headingTitle: 'Turn the pose before' },
+    to: { robot: 'Odometry after', robotTitle: 'Drag the pose after', heading: 'Heading after', headingTitle: 'Turn the pose after' },
+    ends: 'The floor ends here',
+  },
+  key: { legs: 'read', deviation: '± σ', ghosts: 'outcomes' },
+  readouts: {
+    lever: 'lever, *δ*_{trans} · *σ*(*δ*_{rot1})',
+    crossTrack: '*σ* across the way, measured',
+    heading: '*σ* of the heading, measured',
+    exactly: (exact) => `exactly ${exact}`,
+    independent: (exact, independent) => `exactly ${exact}; if independent ${independent}`,
+  },
+  table: {
+    caption: 'Standard deviations of the same reading, rule by rule, with the same *α*: of the three legs, of sliding, across the way, and of the heading.',
+    rule: 'rule',
+    columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'slide (m)', 'across (m)', '*θ* (rad)'],
+  },
+  caption: {
+    lever: (deviation, trans, lever) =>
+      `The first hinge has the lever: ± ${deviation} rad at the start become ± ${lever} m across the way after ${trans} m.`,
+    reverse: 'Driving backwards reads as two half turns, and the table charges both. The others charge what each lacks of a half turn.',
+    rest: (trans, rot1) =>
+      `The wheels stand and their encoders jitter by ${trans} mm. For the table that has a direction, a turn of ${rot1} rad, and it is charged.`,
+    restSpin: (trans) => `Less than a centimetre: ${trans} mm has no direction for this rule, and nearly nothing is charged.`,
+    spin: 'A turn on the spot is all in the second rotation. Only the noise of α₄ moves the robot.',
+    spinEitherWay: (left) => `More than a quarter turn is charged for what it lacks of a half turn: here ${left} rad. A half turn on the spot would cost nothing.`,
+    omni: (strafe) => `This rule has no hinges: the bearing is exact, and the robot slides ± ${strafe} m across it, however it turns.`,
+    still: 'Without noise every outcome is the reading.',
+  },
+  worldCaption: (distance) =>
+    `The frame drifts, the prediction stays: only the motion from *x̄*_{t−1} to *x̄*_{t} enters. Never compare: *x̄*_{t} is ${distance} m from *x*_{t}.`,
+  noiseFold: 'Noise and outcomes',
+  spreadFold: 'Spread against the drive',
+  hinges:
+    'The rules draw both rotations independently. A correlation *ρ* leaves the noise of each as it is and every outcome in its place; the headings spread from the difference of the two deviations (*ρ* = −1) to their sum (*ρ* = 1). At *ρ* = 0 neither is seen.',
+  plot: {
+    label: (trans, exact) =>
+      `Standard deviations against the length of the drive: across the way, the lever alone, and along the way. At the reading, ${trans} m, ${exact} m across.`,
+    x: 'δ trans (m)',
+    y: 'σ (m)',
+    crossTrack: 'across the way, exact',
+    lever: 'lever, *δ*_{trans} · *σ*(*δ*_{rot1})',
+    along: 'along the way',
+    here: 'read',
+    caption: 'The rotations as they were read. The point is that of the outcomes, with its standard error.',
+  },
+  picture: (rot1, trans, rot2, x, y) =>
+    `Floor from above, in the frame of the odometry, x to the right and y up. The reading: a first rotation by ${rot1} rad, a drive of ${trans} m, a second rotation by ${rot2} rad, to x ${x} m, y ${y} m.`,
+  outcomes: (count, across, heading) => `${count} outcomes spread by ${across} m across the way and by ${heading} rad in their heading.`,
+  none: 'No outcome has been drawn yet.',
+  worldPicture: (x, y, theta, distance) =>
+    `The world from above. The frame of the odometry has drifted to x ${x} m, y ${y} m, heading ${theta} rad. The robot and its predicted outcomes are where they were, ${distance} m from the odometry’s own pose.`,
+});

@@ -1,0 +1,170 @@
+/** What both pictures are drawn with: symbols with their subscripts, turns as arcs with an arrow, and fans of uncertainty. */
+
+import { clamp } from '../../ui/clamp.js';
+
+/**
+ * @import { Pose } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ */
+
+/** Of a symbol's subscript, as a share of its own letters; and how far below the line it stands, pixels. */
+const SUBSCRIPT = 0.78;
+const DROP = 3;
+
+/** Half the height of a label's ground, pixels, and how far it hides what is under it. */
+const GROUND = { half: 9, alpha: 0.9 };
+
+/** Half the width and the length of an arrow's head, pixels. */
+const HEAD = { half: 4, length: 9 };
+
+/** Steps of the chord that an arc is drawn by, radians. */
+const STEP = 0.1;
+
+/**
+ * A symbol, its subscript and what is said of it, on a ground of its own and inside of the axes.
+ *
+ * @param {Brush} brush
+ * @param {{ x: number, y: number, towards: number, symbol: string, sub: string, text?: string, colour: string }} label with a point
+ *   in pixels, and to which side of it there is room: −1 to 1
+ */
+export function drawLabel({ context, view, palette, font }, { x, y, towards, symbol, sub, text = '', colour }) {
+  const small = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT * parseFloat(size)}px`);
+  const parts = [
+    { text: symbol, style: `italic ${font}`, drop: 0 },
+    { text: sub, style: small, drop: DROP },
+    { text: text && ` ${text}`, style: font, drop: 0 },
+  ];
+  const widths = parts.map((part) => {
+    context.font = part.style;
+    return context.measureText(part.text).width;
+  });
+  const width = widths.reduce((sum, one) => sum + one);
+  const { left, right, top, bottom } = view.frame;
+  let at = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
+  const line = clamp(y, top + 10, bottom - 10);
+  context.fillStyle = palette.paper;
+  context.globalAlpha = GROUND.alpha;
+  const [from, to, above, below] = [at - 2, at + width + 2, line - GROUND.half, line + GROUND.half];
+  path(context, [[from, above], [to, above], [to, below], [from, below]]);
+  context.fill();
+  context.globalAlpha = 1;
+  context.textAlign = 'left';
+  context.textBaseline = 'middle';
+  context.lineJoin = 'round';
+  context.lineWidth = 4;
+  context.strokeStyle = palette.paper;
+  context.fillStyle = colour;
+  parts.forEach((part, i) => {
+    context.font = part.style;
+    context.strokeText(part.text, at, line + part.drop);
+    context.fillText(part.text, at, line + part.drop);
+    at += widths[i];
+  });
+}
+
+/**
+ * Points of an arc about a place of the world.
+ *
+ * @param {Brush} brush
+ * @param {Pose} centre from whose heading it begins
+ * @param {number} turn radians
+ * @param {number} radius pixels
+ */
+function arcOf({ view }, { x, y, theta }, turn, radius) {
+  const count = Math.max(1, Math.ceil(Math.abs(turn) / STEP));
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const ahead = view.direction(theta + (turn * i) / count);
+    return [view.toPixelX(x) + radius * ahead.x, view.toPixelY(y) + radius * ahead.y];
+  });
+}
+
+/**
+ * @param {Brush['context']} context
+ * @param {number[][]} points pixels
+ */
+function path(context, points) {
+  context.beginPath();
+  points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
+}
+
+/**
+ * A turn from a pose's heading, as an arc with an arrow.
+ *
+ * @param {Brush} brush
+ * @param {Pose} from
+ * @param {number} turn radians
+ * @param {number} radius pixels
+ * @param {string} colour
+ */
+export function drawTurn(brush, from, turn, radius, colour) {
+  const { context, view } = brush;
+  const points = arcOf(brush, from, turn, radius);
+  context.strokeStyle = context.fillStyle = colour;
+  context.lineWidth = 1.75;
+  path(context, points);
+  context.stroke();
+  // A small turn has no room for a whole head.
+  const length = Math.min(HEAD.length, radius * Math.abs(turn));
+  const tip = points[points.length - 1];
+  const back = view.direction(from.theta + turn - (Math.sign(turn) * length) / radius);
+  const share = length / HEAD.length;
+  const foot = (/** @type {number} */ side) => {
+    const reach = radius + side * share * HEAD.half;
+    return [view.toPixelX(from.x) + reach * back.x, view.toPixelY(from.y) + reach * back.y];
+  };
+  path(context, [tip, foot(1), foot(-1)]);
+  context.fill();
+}
+
+/**
+ * A standard deviation either side of a heading, as a fan.
+ *
+ * @param {Brush} brush
+ * @param {Pose} middle
+ * @param {number} deviation radians
+ * @param {number} radius pixels
+ * @param {string} colour
+ */
+export function drawFan(brush, middle, deviation, radius, colour) {
+  const half = Math.min(deviation, Math.PI);
+  if (half === 0) return;
+  const { context, view } = brush;
+  const rim = arcOf(brush, { ...middle, theta: middle.theta - half }, 2 * half, radius);
+  path(context, [[view.toPixelX(middle.x), view.toPixelY(middle.y)], ...rim]);
+  context.closePath();
+  context.fillStyle = context.strokeStyle = colour;
+  context.globalAlpha = 0.14;
+  context.fill();
+  context.globalAlpha = 0.75;
+  context.lineWidth = 1;
+  context.setLineDash([5, 3]);
+  context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
+}
+
+/**
+ * A standard deviation either side of a place, as a bar with ends.
+ *
+ * @param {Brush} brush
+ * @param {Pose} middle along whose heading it lies
+ * @param {number} deviation metres
+ * @param {string} colour
+ */
+export function drawBar({ context, view }, { x, y, theta }, deviation, colour) {
+  if (deviation === 0) return;
+  const ahead = view.direction(theta);
+  const reach = deviation * view.scaleX;
+  const [px, py] = [view.toPixelX(x), view.toPixelY(y)];
+  context.beginPath();
+  for (const side of [-reach, reach]) {
+    const [endX, endY] = [px + side * ahead.x, py + side * ahead.y];
+    context.moveTo(px, py);
+    context.lineTo(endX, endY);
+    context.moveTo(endX - HEAD.half * ahead.y, endY + HEAD.half * ahead.x);
+    context.lineTo(endX + HEAD.half * ahead.y, endY - HEAD.half * ahead.x);
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = 1.75;
+  context.stroke();
+}

@@ -1,0 +1,151 @@
+/** <odometry-decomposer>: what odometry read as rotate, drive, rotate, and what localizers make of its noise. */
+
+import { html } from 'lit';
+import { Cloud, shownOf } from '../../figure/cloud.js';
+import { canvas, takeAlong } from '../../figure/controls.js';
+import { FigureElement } from '../../figure/figure.js';
+import { reserve } from '../../figure/page/reserve.js';
+import { define } from '../../figure/reflection.js';
+import { orFree } from '../../figure/runtime.js';
+import { words } from '../../messages/registry.js';
+import { rich } from '../../ui/controls.js';
+import { fold } from '../../ui/fold.js';
+import { fixed } from '../../ui/format.js';
+import { PoseHandles } from '../shared/pose-handles.js';
+import { noiseControls, playable, presetButtons, rulesTable } from './controls.js';
+import { LegsPicture, RADIUS, WorldPicture } from './pictures.js';
+import { Player } from './player.js';
+import { readingOf } from './reading.js';
+import { readouts, spreads } from './readouts.js';
+import { attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { decomposerStyles } from './styles.js';
+import { apart, captionOf, legsText, longestCaption, worldText } from './words.js';
+
+/**
+ * @import { OdometryDecomposer as Machine } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ */
+
+/** Where the handles take the poses: left, bottom, right and top, m. */
+const FLOOR = [-4, -4, 4, 4];
+
+/**
+ * What odometry read as rotate, drive, rotate, and what localizers make of its noise.
+ *
+ * @attr preset - A reading worth starting from; none where it is another.
+ *
+ * @csspart chart - The plot of the deviation across the way.
+ *
+ * @extends {FigureElement<Machine, Reading>}
+ */
+export class OdometryDecomposerElement extends FigureElement {
+  static styles = [...FigureElement.styles, reserve(room), ...decomposerStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+
+  cloud = new Cloud(this);
+  player = new Player(this);
+  #legs = new LegsPicture();
+  #world = new WorldPicture();
+  pictures = [this.#legs, this.#world];
+  /** The later one on top, where both poses are at one place. @type {PoseHandles[]} */
+  #handles = /** @type {const} */ (['from', 'to']).map(
+    (setting) =>
+      new PoseHandles(this, setting, {
+        view: () => this.#legs.view,
+        bounds: () => FLOOR,
+        say: () => ({ ...words.decomposer.handles[setting], ends: words.decomposer.handles.ends }),
+      }),
+  );
+
+  /** @type {FigureElement<Machine, Reading>['createMachine']} */
+  createMachine = (motion, state) => {
+    const machine = new motion.OdometryDecomposer();
+    if (!state) return machine;
+    return orFree(machine, () => {
+      machine.configure(this.settings.declared(state));
+      const shown = shownOf(machine, state.shown);
+      machine.restart();
+      machine.grow(shown);
+    });
+  };
+
+  /** @param {Machine} machine */
+  read(machine) {
+    this.cloud.unmark();
+    return readingOf(machine);
+  }
+
+  /** In a state that came, or came back, nothing is played. */
+  machineChanged() {
+    this.player.stop();
+  }
+
+  get scene() {
+    const reading = this.fresh;
+    const { index, isMarked } = this.cloud;
+    return {
+      ...reading,
+      machine: this.machine,
+      marked: isMarked ? reading.poses.subarray(3 * index) : undefined,
+      advance: (/** @type {number} */ elapsed) => this.player.advance(elapsed),
+    };
+  }
+
+  get takeaway() {
+    const { config, poses } = this.fresh;
+    return {
+      title: this.lettering.name,
+      description: legsText(this.reading),
+      settings: { element: this.localName, ...config },
+      columns: ['x_m', 'y_m', 'theta_rad'],
+      row: (/** @type {number} */ i) => [...poses.subarray(3 * i, 3 * i + 3)],
+      count: poses.length / 3,
+    };
+  }
+
+  announcement = captionOf;
+
+  get held() {
+    return this.#handles.some(({ held }) => held);
+  }
+
+  /** @param {Reading} scene */
+  placeHandles({ config: { from, to } }) {
+    const [before, after] = this.#handles;
+    before.place(from, RADIUS);
+    after.place(to, RADIUS);
+  }
+
+  /** @param {Reading} reading */
+  content(reading) {
+    const say = words.decomposer;
+    return html`
+      <section class="machine" aria-label=${this.lettering.name}>
+        <div class="views">
+          <div class="stage" part="picture">
+            ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
+          </div>
+          <div class="stage beside">${canvas(this, this.#world, worldText(reading))}</div>
+          ${this.stage.later(() => html`
+          <p class="caption roomy said" part="caption" data-room=${longestCaption()}><span>${captionOf(reading)}</span></p>
+          <p class="caption drifting"><span>${rich(say.worldCaption(fixed(apart(reading), 2)))}</span></p>`)}
+        </div>
+        ${this.stage.later(() => html`
+        <div class="plays">${playable(this, 'phase', say.way)} ${playable(this, 'drift', say.drift)}</div>
+        ${presetButtons(this)} ${rulesTable(this)}
+        <div class="folds">
+          ${fold(say.noiseFold, () => noiseControls(this))}
+          ${fold(say.spreadFold, () => html`${readouts(reading)} ${this.machine && spreads(this.machine, reading)}`)}
+          ${takeAlong(this)}
+        </div>`)}
+      </section>
+    `;
+  }
+}
+
+define('odometry-decomposer', OdometryDecomposerElement);

@@ -1,0 +1,401 @@
+/** The Odometry Decomposer's two pictures: the three legs in the frame of the odometry, and the same in the world. */
+
+import { words } from '../../messages/registry.js';
+import { clipped, drawAxes, drawDots, drawMark } from '../../scene/draw.js';
+import { Picture } from '../../scene/picture.js';
+import { View, extentOf } from '../../scene/view.js';
+import { fixed } from '../../ui/format.js';
+import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.js';
+import { drawBar, drawFan, drawLabel, drawTurn } from './marks.js';
+import { poseIn } from './reading.js';
+
+/**
+ * @import { OdometryDecomposer, Pose } from '../../types.d.ts'
+ * @import { Brush } from '../../scene/canvas.js'
+ *
+ * @typedef {import('./reading.js').Reading & {
+ *   machine: OdometryDecomposer,
+ *   marked: Float64Array | undefined,
+ *   advance: (elapsed: number) => boolean,
+ * }} Scene what both pictures are of
+ */
+
+/** Radius of the robot, m. */
+export const RADIUS = 0.11;
+
+/** Room around the robots, and around a standard deviation of the outcomes. */
+const ROOM = { metres: 0.3, deviations: 2.2 };
+
+/** With more outcomes their headings would be one blot. */
+const MAX_TICKS = 1000;
+
+/** How near to an outcome the pointer must be to mark it, CSS pixels. */
+const REACH = 12;
+
+/** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
+const GAP = { handle: 16, arcs: 22 };
+
+/** A shorter drive is not seen as one, CSS pixels: there is no label for it. */
+const SEEN = 40;
+
+/** A smaller turn, rad, has no arc. */
+const NO_TURN = 0.005;
+
+/** What a pose's label takes, CSS pixels. */
+const LABEL = { width: 36, height: 20 };
+
+/** Where it may stand, as shares of the way to the corner that is tried first. */
+const AROUND = [[1, 1], [-1, 1], [1, -1], [-1, -1], [1.2, 0], [-1.2, 0], [0, 1.5], [0, -1.5]];
+
+const AXES = { x: 'x (m)', y: 'y (m)' };
+
+/** How long the axes of the odometry's frame are drawn, m. */
+const AXIS = 0.35;
+
+/** Dash of what is told in the frame of the odometry, CSS pixels. */
+const ODOMETRY_DASH = [6, 4];
+
+/**
+ * Corners of where the outcomes are, as far as a picture makes room for them.
+ *
+ * @param {Scene} scene
+ * @returns {number[]} x, y pairs
+ */
+function surroundings({ linkage, legs, deviations, stats }) {
+  const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
+  const along = Math.min(ROOM.deviations * deviations.trans, legs.trans + 2);
+  // No hinge turns a drive farther than to all sides.
+  const across = ROOM.deviations * stats.exactCrossTrack;
+  const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
+  const room = [ROOM.metres + along * dx + across * dy, ROOM.metres + along * dy + across * dx];
+  return [
+    ...[x - ROOM.metres, y - ROOM.metres, x + ROOM.metres, y + ROOM.metres],
+    ...[driven.x - room[0], driven.y - room[1], driven.x + room[0], driven.y + room[1]],
+  ];
+}
+
+/**
+ * @param {Brush} brush
+ * @param {Scene} scene
+ */
+function drawOutcomes(brush, { poses }) {
+  drawDots(brush, poses, { x: 0, y: 1, heading: poses.length <= 3 * MAX_TICKS ? 2 : null });
+}
+
+/** @extends {Picture<Scene, string>} */
+class OutcomesPicture extends Picture {
+  /**
+   * @param {OdometryDecomposer} machine
+   * @param {number} x CSS pixels of the canvas
+   * @param {number} y
+   */
+  nearest(machine, x, y) {
+    const [atX, atY, radius] = this.around(x, y, REACH);
+    return machine.nearest(atX, atY, radius);
+  }
+
+  /**
+   * @param {Brush} brush
+   * @param {Scene} scene
+   */
+  paintMark(brush, { marked }) {
+    if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
+  }
+}
+
+/** The frame of the odometry: the legs as a linkage, and what noise makes of it. */
+export class LegsPicture extends OutcomesPicture {
+  constructor() {
+    super('plane', new View());
+  }
+
+  /** @param {Scene} scene */
+  fit(scene) {
+    this.view.fit(extentOf(surroundings(scene), 1.2));
+  }
+
+  /** @type {Picture<Scene>['draw']} */
+  draw(surface, scene, palette, easing) {
+    const moving = super.draw(surface, scene, palette, easing);
+    return scene.advance(easing?.elapsed ?? 0) || moving;
+  }
+
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, scene) => {
+    const { palette } = brush;
+    const { linkage, legs, deviations, config } = scene;
+    const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
+    drawAxes(brush, AXES, keyOf(brush));
+    const outer = turnDistance(this.view, RADIUS) + GAP.handle;
+    clipped(brush, () => {
+      drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, outer + GAP.arcs), palette.prediction);
+      this.#paintGhosts(brush, scene);
+      drawOutcomes(brush, scene);
+      this.#paintDrive(brush, start, driven);
+      drawHeldRobot(brush, start, RADIUS, palette.prior);
+      drawHeldRobot(brush, config.to, RADIUS, palette.prior);
+      drawBar(brush, driven, deviations.trans, palette.prediction);
+      drawBar(brush, { ...driven, theta: driven.theta + Math.PI / 2 }, deviations.strafe, palette.prediction);
+      if (config.phase < 3) this.#paintRobot(brush, scene.robot);
+      this.#paintTurns(brush, scene, outer);
+      this.paintMark(brush, scene);
+    });
+  };
+
+  /** The linkages of some outcomes. @param {Brush} brush @param {Scene} scene */
+  #paintGhosts({ context, view, palette }, { ghosts }) {
+    context.strokeStyle = palette.prediction;
+    context.lineWidth = 1;
+    context.globalAlpha = 0.5;
+    context.beginPath();
+    for (let i = 0; i < ghosts.length / 3; i++) {
+      const { x, y } = poseIn(ghosts, i);
+      if (i % 4 === 0) context.moveTo(view.toPixelX(x), view.toPixelY(y));
+      else context.lineTo(view.toPixelX(x), view.toPixelY(y));
+    }
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+
+  /** @param {Brush} brush @param {Pose} start @param {Pose} driven */
+  #paintDrive({ context, view, palette }, start, driven) {
+    context.strokeStyle = palette.prior;
+    context.lineWidth = 3;
+    context.beginPath();
+    context.moveTo(view.toPixelX(start.x), view.toPixelY(start.y));
+    context.lineTo(view.toPixelX(driven.x), view.toPixelY(driven.y));
+    context.stroke();
+  }
+
+  /** On its way. @param {Brush} brush @param {Pose} robot */
+  #paintRobot(brush, { x, y, theta }) {
+    const { context, view, palette } = brush;
+    const ahead = view.direction(theta);
+    const [px, py, size] = [view.toPixelX(x), view.toPixelY(y), Math.max(7, 0.7 * RADIUS * view.scaleX)];
+    context.fillStyle = palette.accent;
+    context.strokeStyle = palette.paper;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.arc(px, py, size, 0, 2 * Math.PI);
+    context.fill();
+    context.stroke();
+    context.beginPath();
+    context.moveTo(px, py);
+    context.lineTo(px + size * ahead.x, py + size * ahead.y);
+    context.stroke();
+  }
+
+  /**
+   * The turns about either end, and what all three legs are.
+   *
+   * @param {Brush} brush
+   * @param {Scene} scene
+   * @param {number} radius of the first turn, pixels
+   */
+  #paintTurns(brush, { linkage, legs, deviations }, radius) {
+    const { view, palette } = brush;
+    const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
+    const said = (/** @type {number} */ value, /** @type {number} */ deviation, /** @type {string} */ unit) =>
+      `${fixed(value, 2)}${deviation > 0 ? ` ± ${fixed(deviation, 2)}` : ''} ${unit}`;
+    const second = radius + GAP.arcs;
+    const labels = /** @type {Parameters<typeof drawLabel>[1][]} */ ([]);
+    const turn = (/** @type {Pose} */ from, /** @type {number} */ by, /** @type {number} */ reach, /** @type {string} */ sub, /** @type {number} */ deviation) => {
+      if (Math.abs(by) < NO_TURN) return;
+      drawTurn(brush, from, by, reach, palette.prior);
+      const out = view.direction(from.theta + by / 2);
+      labels.push({
+        x: view.toPixelX(from.x) + (reach + 9) * out.x,
+        y: view.toPixelY(from.y) + (reach + 12) * out.y,
+        towards: Math.sign(out.x),
+        symbol: 'δ',
+        sub,
+        text: said(by, deviation, 'rad'),
+        colour: palette.prior,
+      });
+    };
+    drawFan(brush, { ...driven, theta: driven.theta + legs.rot2 }, deviations.rot2, second, palette.prediction);
+    turn(start, legs.rot1, radius, 'rot1', deviations.rot1);
+    turn(driven, legs.rot2, second, 'rot2', deviations.rot2);
+    // After both arcs: neither is to strike through a label.
+    for (const label of labels) drawLabel(brush, label);
+    if (legs.trans * view.scaleX < SEEN) return;
+    // The arc of a turn to the left is to the right of the drive, and the label beyond its other side.
+    const side = view.direction(turned.theta + (Math.sign(legs.rot1 || 1) * Math.PI) / 2);
+    const middle = [view.toPixelX((start.x + driven.x) / 2), view.toPixelY((start.y + driven.y) / 2)];
+    drawLabel(brush, {
+      x: middle[0] + 16 * side.x,
+      y: middle[1] + 22 * side.y,
+      towards: Math.abs(side.x) < 0.3 ? 0 : Math.sign(side.x),
+      symbol: 'δ',
+      sub: 'trans',
+      text: said(legs.trans, deviations.trans, 'm'),
+      colour: palette.prior,
+    });
+  }
+}
+
+/** The world, in which the frame of the odometry drifts. */
+export class WorldPicture extends OutcomesPicture {
+  constructor() {
+    super('world', new View());
+  }
+
+  /** @param {Scene} scene */
+  fit(scene) {
+    const { poses } = scene.drifted;
+    const around = [0, 1, 2].flatMap((index) => {
+      const { x, y } = poseIn(poses, index);
+      return [x - ROOM.metres, y - ROOM.metres, x + ROOM.metres, y + ROOM.metres];
+    });
+    this.view.fit(extentOf([...surroundings(scene), ...around], 1.2));
+  }
+
+  /** @type {Picture<Scene>['paint']} */
+  paint = (brush, scene) => {
+    const { palette } = brush;
+    const [frame, from, to] = [0, 1, 2].map((index) => poseIn(scene.drifted.poses, index));
+    const [start, end] = [poseIn(scene.linkage, 0), poseIn(scene.linkage, 3)];
+    drawAxes(brush, AXES, []);
+    clipped(brush, () => {
+      this.#paintFrame(brush, frame);
+      this.#paintLine(brush, from, to, palette.prior, ODOMETRY_DASH, 1.75);
+      for (const pose of [from, to]) this.#paintOdometry(brush, pose);
+      drawOutcomes(brush, scene);
+      this.#paintLine(brush, start, end, palette.prediction, [], 1.75);
+      this.#paintLine(brush, to, end, palette.accent, [2, 4], 1.5);
+      drawHeldRobot(brush, start, RADIUS, palette.truth);
+      this.#labels(brush, [
+        { poses: [start, end], side: -1, symbol: 'x', colours: [palette.ink, palette.prediction] },
+        { poses: [from, to], side: 1, symbol: 'x̄', colours: [palette.prior, palette.prior] },
+      ]);
+      this.paintMark(brush, scene);
+    });
+  };
+
+  /** The axes of the frame that the odometry is told in. @param {Brush} brush @param {Pose} frame */
+  #paintFrame({ context, view, palette }, { x, y, theta }) {
+    const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), AXIS * view.scaleX];
+    context.strokeStyle = palette.prior;
+    context.lineWidth = 1.25;
+    context.beginPath();
+    for (const turn of [0, Math.PI / 2]) {
+      const ahead = view.direction(theta + turn);
+      context.moveTo(px, py);
+      context.lineTo(px + reach * ahead.x, py + reach * ahead.y);
+    }
+    context.stroke();
+  }
+
+  /** @param {Brush} brush @param {Pose} pose */
+  #paintOdometry(brush, { x, y, theta }) {
+    const { context, view, palette } = brush;
+    drawRobotOutline(brush, x, y, RADIUS, palette.prior);
+    const ahead = view.direction(theta);
+    const [px, py, reach] = [view.toPixelX(x), view.toPixelY(y), RADIUS * view.scaleX + 8];
+    context.beginPath();
+    context.moveTo(px, py);
+    context.lineTo(px + reach * ahead.x, py + reach * ahead.y);
+    context.stroke();
+  }
+
+  /**
+   * @param {Brush} brush
+   * @param {Pose} from
+   * @param {Pose} to
+   * @param {string} colour
+   * @param {number[]} dash
+   * @param {number} width
+   */
+  #paintLine({ context, view }, from, to, colour, dash, width) {
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.setLineDash(dash);
+    context.beginPath();
+    context.moveTo(view.toPixelX(from.x), view.toPixelY(from.y));
+    context.lineTo(view.toPixelX(to.x), view.toPixelY(to.y));
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /**
+   * The poses before and the poses after, the former where these are two places: each label beside its pose, where it covers
+   * no other and the least of the lines.
+   *
+   * @param {Brush} brush
+   * @param {{ poses: Pose[], side: number, symbol: string, colours: string[] }[]} pairs with the side that is tried first:
+   *   −1 for above and to the left, 1 for below and to the right
+   */
+  #labels(brush, pairs) {
+    const { view } = brush;
+    const pixels = (/** @type {Pose} */ { x, y }) => [view.toPixelX(x), view.toPixelY(y)];
+    const [[start, end], [from, to]] = pairs.map(({ poses }) => poses.map(pixels));
+    const ahead = view.direction(pairs[0].poses[0].theta);
+    const held = turnDistance(view, RADIUS);
+    const nose = [start[0] + held * ahead.x, start[1] + held * ahead.y];
+    const lines = [[start, end], [from, to], [to, end], [start, nose]].flatMap(([one, other]) => dotted(one, other));
+    const out = Math.max(8, RADIUS * view.scaleX) + 7;
+    const taken = /** @type {number[][]} */ ([]);
+    for (const { poses, side, symbol, colours } of pairs) {
+      const [before, after] = poses.map(pixels);
+      const apart = Math.hypot(before[0] - after[0], before[1] - after[1]) > SEEN;
+      [before, after].forEach(([x, y], i) => {
+        if (i === 0 && !apart) return;
+        const spots = AROUND.map(([dx, dy]) => [x + side * out * dx, y + side * out * dy, Math.sign(side * dx)]);
+        const costs = spots.map(([left, top, towards]) => {
+          const middle = [left + (towards * LABEL.width) / 2, top];
+          return 100 * under(middle, taken, 2).length + under(middle, lines, 1).length;
+        });
+        const [left, top, towards] = spots[costs.indexOf(Math.min(...costs))];
+        taken.push([left + (towards * LABEL.width) / 2, top]);
+        drawLabel(brush, { x: left, y: top, towards, symbol, sub: ['t−1', 't'][i], colour: colours[i] });
+      });
+    }
+  }
+}
+
+/**
+ * Points on a line, near enough to each other for a label to lie on one wherever it lies on the line.
+ *
+ * @param {number[]} from pixels
+ * @param {number[]} to
+ */
+function dotted([fromX, fromY], [toX, toY]) {
+  const count = Math.ceil(Math.hypot(toX - fromX, toY - fromY) / (LABEL.height / 2));
+  return Array.from({ length: count + 1 }, (_, i) => [fromX + ((toX - fromX) * i) / (count || 1), fromY + ((toY - fromY) * i) / (count || 1)]);
+}
+
+/**
+ * @param {number[]} middle of a label of the world, pixels
+ * @param {number[][]} points
+ * @param {number} labels 1 for those that it covers, 2 for the middles of labels that it meets
+ */
+function under([x, y], points, labels) {
+  const [wide, high] = [(labels * LABEL.width) / 2, (labels * LABEL.height) / 2];
+  return points.filter(([px, py]) => Math.abs(px - x) < wide && Math.abs(py - y) < high);
+}
+
+/**
+ * What the marks of the legs are, above their picture.
+ *
+ * @param {Brush} brush
+ * @returns {import('../../scene/draw.js').KeyEntry[]}
+ */
+function keyOf({ context, palette }) {
+  const line = (/** @type {string} */ colour, /** @type {number} */ width, /** @type {number[]} */ dash) =>
+    (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ length) => {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.setLineDash(dash);
+      context.beginPath();
+      context.moveTo(x, y);
+      context.lineTo(x + length, y);
+      context.stroke();
+      context.setLineDash([]);
+    };
+  const say = words.decomposer.key;
+  return [
+    { name: say.legs, draw: line(palette.prior, 3, []) },
+    { name: say.deviation, draw: line(palette.prediction, 1, [5, 3]) },
+    { name: say.ghosts, draw: line(palette.prediction, 1, []) },
+  ];
+}

@@ -32,8 +32,14 @@ const watcherOf = (/** @type {Element} */ watched) => /** @type {Watcher} */ (wa
  */
 export function watch(element, watcher) {
   watchers.set(element, watcher);
+  const see = (/** @type {IntersectionObserverEntry[]} */ entries) => {
+    for (const { target, isIntersecting } of entries) watcherOf(target).sight(isIntersecting);
+  };
+  presence ??= new IntersectionObserver(see);
   nearness ??= new IntersectionObserver(
     (entries) => {
+      // Both have looked by now, and browsers call them in any order: what is made ready has to know whether it is seen.
+      see(presence.takeRecords());
       for (const { target, isIntersecting } of entries) {
         if (isIntersecting) approach(target);
         else near.delete(target);
@@ -41,9 +47,6 @@ export function watch(element, watcher) {
     },
     { rootMargin: AHEAD },
   );
-  presence ??= new IntersectionObserver((entries) => {
-    for (const { target, isIntersecting } of entries) watcherOf(target).sight(isIntersecting);
-  });
   nearness.observe(element);
   presence.observe(element);
 }

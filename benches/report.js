@@ -6,7 +6,7 @@
 
 import { THROTTLE } from './drag.js';
 import { SMALLEST_OBJECT } from './memory.js';
-import { shareOfLimit } from './roofline.js';
+import { REST, shareOfLimit } from './roofline.js';
 
 /**
  * @typedef {import('./suite.js').Measured} Measured
@@ -157,10 +157,18 @@ function roofline(where, { roofline: { limits, roofs } }) {
     roof.what, digits(roof.operations.arithmetic), digits(roof.operations.divisions), digits(roof.arithmetic), digits(roof.memory), cell(roof.measured),
     `${digits(100 * shareOfLimit(roof))} %`,
   ]);
-  const { operation, division, byte } = limits;
+  const { arithmetic, divisions, reading } = limits;
+  const others = roofs.map(({ what, operations, arithmetic, rest, measured }) => {
+    const sum = REST.reduce((ns, kind) => ns + rest[kind], arithmetic);
+    const cells = REST.map((kind) => `${digits(operations[kind])}: ${digits(rest[kind])}`);
+    return [what, digits(arithmetic), ...cells, digits(operations.branches), digits(sum), `${digits((100 * sum) / measured.median)} %`];
+  });
+  const headsOfOthers = ['a sample', 'arithmetic, ns', 'choices: ns', 'loads and stores: ns', 'whole numbers: ns', 'branches', 'one after the other, ns', 'of what was measured'];
   return (
-    `The machine’s own limits, ${where}: ${digits(1 / operation)} operations of two lanes a ns, a division in ${digits(division)} ns, ` +
-    `${digits(1 / byte)} bytes a ns:\n\n${table(heads, rows)}`
+    `The machine’s own limits, ${where}: ${digits(1 / arithmetic)} operations of two lanes a ns, a division in ${digits(divisions)} ns, ` +
+    `${digits(1 / reading)} bytes a ns:\n\n${table(heads, rows)}\n\n` +
+    `All that a sample does, each kind at its own limit (choices ${digits(1 / limits.choices)}, loads ${digits(1 / limits.memory)}, ` +
+    `whole numbers ${digits(1 / limits.whole)} a ns):\n\n${table(headsOfOthers, others)}`
   );
 }
 

@@ -1,6 +1,6 @@
 /**
- * How near the core is to what the machine can do: the limit of its arithmetic and of its memory, measured by kernels that
- * do nothing else, and what a sample of each kind would take at these limits.
+ * How near the core is to what the machine can do: the limits of its arithmetic, of its memory and of whatever else a sample
+ * takes, measured by kernels that do nothing else, and what a sample of each kind would take at these limits.
  *
  * @module
  */
@@ -15,28 +15,36 @@ import { race, spread } from './timing.js';
  * @typedef {import('./operations.js').Operations} Operations
  * @typedef {import('./timing.js').Spread} Spread
  *
- * @typedef {object} Limits the shortest times that the kernels took, ns: what disturbs only ever makes them longer
- * @property {number} operation one of two lanes
- * @property {number} division
- * @property {number} byte read in a row, of as many as a million samples have
+ * @typedef {Record<keyof typeof KERNELS, number>} Limits the shortest times that one operation of each kernel took, ns: what
+ *   disturbs only ever makes them longer
  *
  * @typedef {object} Roof of one kind of sample, ns
  * @property {string} what
  * @property {Operations} operations
- * @property {number} bytes of its draws, as often as they are read
- * @property {number} arithmetic at the limit
- * @property {number} memory
+ * @property {number} arithmetic at the limit, with quotients and roots
+ * @property {number} memory its draws, read in a row as often as they are read
+ * @property {Record<Rest, number>} rest what else it does, each at its own limit
  * @property {Spread} measured
+ *
+ * @typedef {(typeof REST)[number]} Rest
  */
 
 const SAMPLES = 50_000;
 /** Of three draws. */
 const DRAW_BYTES = 24;
 const PAGE = 65_536;
-/** Of each kernel's loop; of reading, once over the draws of a million samples. */
-const TURNS = { arithmetic: 200_000, division: 100_000, reading: (1e6 * DRAW_BYTES) / 64 };
-/** What a turn of each does. */
-const OF_A_TURN = { arithmetic: 12, division: 6, reading: 64 };
+/** How often the loop of each runs, and what a turn of it does: `reading` once over the draws of a million samples. */
+export const KERNELS = {
+  arithmetic: { turns: 200_000, each: 12 },
+  divisions: { turns: 100_000, each: 6 },
+  choices: { turns: 100_000, each: 12 },
+  memory: { turns: 200_000, each: 12 },
+  whole: { turns: 200_000, each: 12 },
+  reading: { turns: (1e6 * DRAW_BYTES) / 64, each: 64 },
+};
+
+/** What of a sample's operations is no arithmetic, and has a limit of its own. */
+export const REST = /** @type {const} */ (['choices', 'memory', 'whole']);
 
 /**
  * What is measured: an event of a machine, and how often that reads its draws.
@@ -72,28 +80,27 @@ export const KINDS = [
  */
 export async function timeRoofline(motion, { kernels, operations, seconds }) {
   const { instance } = await WebAssembly.instantiate(Uint8Array.from(kernels));
-  const { memory, arithmetic, division, reading } = /** @type {any} */ (instance.exports);
-  memory.grow(Math.ceil((TURNS.reading * OF_A_TURN.reading) / PAGE));
+  const { pages, ...run } = /** @type {any} */ (instance.exports);
+  pages.grow(Math.ceil((1e6 * DRAW_BYTES) / PAGE));
   const machines = KINDS.map(({ make }) => make(motion, SAMPLES));
-  const turns = /** @type {Record<string, number[]>} */ (await race(
+  const times = /** @type {Record<string, number[]>} */ (await race(
     {
-      arithmetic: () => arithmetic(TURNS.arithmetic),
-      division: () => division(TURNS.division),
-      reading: () => reading(TURNS.reading),
+      ...Object.fromEntries(Object.entries(KERNELS).map(([kernel, { turns }]) => [kernel, () => run[kernel](turns)])),
       ...Object.fromEntries(KINDS.map(({ what, event }, i) => [what, (/** @type {number} */ at) => event(machines[i], at)])),
     },
     { seconds },
   ));
   for (const machine of machines) machine.free();
-  const least = (/** @type {keyof typeof TURNS} */ kernel) => (Math.min(...turns[kernel]) * 1e6) / (TURNS[kernel] * OF_A_TURN[kernel]);
-  const limits = { operation: least('arithmetic'), division: least('division'), byte: least('reading') };
+  const limits = /** @type {Limits} */ (
+    Object.fromEntries(Object.entries(KERNELS).map(([kernel, { turns, each }]) => [kernel, (Math.min(...times[kernel]) * 1e6) / (turns * each)]))
+  );
   const roofs = KINDS.map(({ what, passes }, i) => ({
     what,
     operations: operations[i],
-    bytes: passes * DRAW_BYTES,
-    arithmetic: operations[i].arithmetic * limits.operation + operations[i].divisions * limits.division,
-    memory: passes * DRAW_BYTES * limits.byte,
-    measured: spread(turns[what].map((time) => (time * 1e6) / SAMPLES)),
+    arithmetic: operations[i].arithmetic * limits.arithmetic + operations[i].divisions * limits.divisions,
+    memory: passes * DRAW_BYTES * limits.reading,
+    rest: /** @type {Record<Rest, number>} */ (Object.fromEntries(REST.map((kind) => [kind, operations[i][kind] * limits[kind]]))),
+    measured: spread(times[what].map((time) => (time * 1e6) / SAMPLES)),
   }));
   return { limits, roofs };
 }

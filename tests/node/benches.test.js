@@ -4,9 +4,9 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { checkClouds, checkDraws } from '../../benches/checks.js';
 import { bytesPerPose, watchMemory } from '../../benches/memory.js';
-import { countingCore, operationsOf } from '../../benches/operations.js';
+import { countingCore, operationsOf, operationsOfTurn } from '../../benches/operations.js';
 import { report } from '../../benches/report.js';
-import { KINDS } from '../../benches/roofline.js';
+import { KERNELS, KINDS } from '../../benches/roofline.js';
 import { dividedPlan, growingPlan } from '../../benches/squeeze.js';
 import { ratio, spread } from '../../benches/timing.js';
 import { freshModule } from './support.js';
@@ -67,6 +67,16 @@ test('operations are counted where they are executed, of each sample as many', a
   assert.ok(divisions - before.divisions < 5);
 });
 
+test('a turn of a kernel has as many operations as its time is divided by', async () => {
+  for (const kind of /** @type {const} */ (['arithmetic', 'divisions', 'choices', 'memory', 'whole'])) {
+    const counted = await operationsOfTurn(kind);
+    // Besides, each turn counts down.
+    assert.equal(counted[kind] - (kind === 'whole' ? 1 : 0), KERNELS[kind].each, kind);
+    assert.equal(counted.branches, 1);
+  }
+  assert.equal((await operationsOfTurn('reading')).memory * 16, KERNELS.reading.each);
+});
+
 test('the module’s memory is found, and grows by what a pose takes', async () => {
   const { load } = await freshModule();
   const { result: motion, memory } = await watchMemory(load);
@@ -92,8 +102,12 @@ test('a target that is missed is called missed', () => {
     reckoning: { rollouts: 10, few: flat(ms), many: flat(ms) },
     memory: { bytesPerPose: 40, events: 10, coreGrowth: 0, heapGrowth: 0 },
     roofline: {
-      limits: { operation: 0.5, division: 2, byte: 0.1 },
-      roofs: [{ what: 'sample', operations: { arithmetic: 10, divisions: 1 }, bytes: 24, arithmetic: 7, memory: 2.4, measured: flat(10 * ms) }],
+      limits: { arithmetic: 0.5, divisions: 2, choices: 0.5, memory: 0.25, whole: 0.25, reading: 0.1 },
+      roofs: [{
+        what: 'sample',
+        operations: { arithmetic: 10, divisions: 1, choices: 2, memory: 2, whole: 2, branches: 1 },
+        arithmetic: 7, memory: 2.4, rest: { choices: 1, memory: 0.5, whole: 0.5 }, measured: flat(10 * ms),
+      }],
     },
   });
   const row = { walls: 10, time: flat(1), drawsPerAccepted: 1, wallTestsPerAccepted: 1 };
@@ -105,7 +119,7 @@ test('a target that is missed is called missed', () => {
   });
   const verdictOf = (/** @type {string} */ what) => text.split('\n').find((line) => line.startsWith(`| ${what}`))?.split('|').at(-2)?.trim();
   const shares = text.split('\n').filter((line) => line.startsWith('| sample ')).map((line) => line.split('|').at(-2)?.trim());
-  assert.deepEqual(shares, ['70 %', '23.3 %']);
+  assert.deepEqual(shares, ['70 %', '90 %', '23.3 %', '30 %']);
   assert.equal(verdictOf('Refresh of 1 000 000 poses'), 'yes');
   assert.equal(verdictOf('Refresh of 100 000 poses'), 'in Node alone');
   assert.equal(verdictOf('From script start to first cloud'), 'no');

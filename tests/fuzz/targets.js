@@ -32,6 +32,9 @@ const squeeze = new motion.MapSqueeze({ samples: 1 });
 const machines = [
   { attributes: attributesOf(settings['banana-machine']), machine: new motion.BananaMachine({ samples: 1 }) },
   { attributes: attributesOf(settings['map-squeeze']), machine: squeeze },
+  { attributes: attributesOf(settings['arc-anatomy']), machine: new motion.ArcAnatomy() },
+  { attributes: attributesOf(settings['odometry-decomposer']), machine: new motion.OdometryDecomposer({ samples: 1 }) },
+  { attributes: attributesOf(settings['dead-reckoning']), machine: new motion.DeadReckoning({ samples: 1 }) },
 ].map((each) => ({ ...each, opening: each.machine.config }));
 
 /** Characters of a sentence: what it quotes is cut. */
@@ -169,20 +172,17 @@ export const targets = {
     },
   },
   attributes: {
-    corpus: texts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0'),
+    corpus: texts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0', 'nextY=-0.5', 'rule=nav2', 'phase=1.5', 'steps=40', 'per=path', 'map=density', 'startTheta=1'),
     async run(bytes) {
       const [name, ...rest] = bytes.toString().split('=');
-      let taken = false;
-      for (const { attributes, machine, opening } of machines) {
-        const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
-        if (!isSetting(attribute)) continue;
-        const present = () => ({ config: machine.config, machine });
-        if (!isTaken(() => machine.configure(attribute.change(attribute.kind.parse(rest.join('=')), present())))) continue;
-        assert.equal(typeof attribute.kind.print(attribute.get(present())), 'string');
-        machine.configure(opening);
-        taken = true;
-      }
-      return taken;
+      const { attributes, machine, opening } = machines[bytes.length % machines.length];
+      const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
+      if (!isSetting(attribute)) return false;
+      const present = () => ({ config: machine.config, machine });
+      if (!isTaken(() => machine.configure(attribute.change(attribute.kind.parse(rest.join('=')), present())))) return false;
+      assert.equal(typeof attribute.kind.print(attribute.get(present())), 'string');
+      machine.configure(opening);
+      return true;
     },
   },
 };

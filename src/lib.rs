@@ -38,6 +38,7 @@
 //! No result depends on a platform's mathematics library: the same seed gives the same poses, to the bit, natively and
 //! in a browser.
 
+pub mod calibrate;
 pub mod geom;
 pub mod map;
 pub mod models;

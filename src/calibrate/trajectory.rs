@@ -1,0 +1,115 @@
+//! Poses with times, as a log has them.
+
+use crate::geom::se2::SE2;
+use std::fmt;
+
+/// Poses in one fixed frame, in the order of their times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    /// s, each later than the one before.
+    times: Vec<f64>,
+    poses: Vec<SE2>,
+    /// Between two samples that are further apart (s) nobody knows where the robot was.
+    longest_gap: f64,
+}
+
+/// Which sample is no part of a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrajectoryError {
+    /// From 0.
+    pub sample: usize,
+    pub fault: TrajectoryFault,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TrajectoryFault {
+    /// A time or a coordinate is not finite.
+    NotFinite,
+    /// It is not later than the one before, which is at this time (s).
+    NotLater { before: f64 },
+}
+
+impl fmt::Display for TrajectoryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { sample, fault } = self;
+        match fault {
+            TrajectoryFault::NotFinite => {
+                write!(
+                    f,
+                    "sample {sample} has a time or a coordinate that is not finite; allowed are finite numbers"
+                )
+            }
+            TrajectoryFault::NotLater { before } => {
+                write!(
+                    f,
+                    "sample {sample} is not later than the one before, at {before} s; allowed are times that rise"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for TrajectoryError {}
+
+/// A gap is longer than this many usual steps: a recording that drops a message or two now and then is whole, one that
+/// pauses is not.
+const STEPS_OF_A_GAP: f64 = 5.0;
+
+impl Trajectory {
+    /// The trajectory through `samples`, each a time (s) and a pose.
+    ///
+    /// # Errors
+    /// [`TrajectoryError`] at the first sample that is not finite or not later than the one before.
+    pub fn new(samples: impl IntoIterator<Item = (f64, SE2)>) -> Result<Self, TrajectoryError> {
+        let (mut times, mut poses) = (Vec::new(), Vec::<SE2>::new());
+        for (sample, (time, pose)) in samples.into_iter().enumerate() {
+            let error = |fault| Err(TrajectoryError { sample, fault });
+            if ![time, pose.x(), pose.y(), pose.theta()].iter().all(|number| number.is_finite()) {
+                return error(TrajectoryFault::NotFinite);
+            }
+            if let Some(before) = times.last().copied().filter(|before| time <= *before) {
+                return error(TrajectoryFault::NotLater { before });
+            }
+            times.push(time);
+            poses.push(pose);
+        }
+        let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let middle = steps.len() / 2;
+        let usual =
+            if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        Ok(Self { times, poses, longest_gap: STEPS_OF_A_GAP * usual })
+    }
+
+    /// The samples: times (s) and poses.
+    pub fn samples(&self) -> impl ExactSizeIterator<Item = (f64, SE2)> + '_ {
+        self.times.iter().copied().zip(self.poses.iter().copied())
+    }
+
+    /// Whether nothing is known of some time between these two (s).
+    pub fn has_gap(&self, from: f64, to: f64) -> bool {
+        let Some((first, last)) = self.times.first().zip(self.times.last()) else { return true };
+        if from < *first || to > *last {
+            return true;
+        }
+        let before = self.times.partition_point(|time| *time <= from).saturating_sub(1);
+        self.times[before..]
+            .windows(2)
+            .take_while(|pair| pair[0] < to)
+            .any(|pair| pair[1] - pair[0] > self.longest_gap)
+    }
+
+    /// Where the robot is at `time` (s): between two samples on the arc of constant velocities that joins them. None before
+    /// the first, after the last, and inside of a gap.
+    pub fn pose_at(&self, time: f64) -> Option<SE2> {
+        let after = self.times.partition_point(|each| *each < time);
+        let (at, pose) = (*self.times.get(after)?, self.poses[after]);
+        if at == time {
+            return Some(pose);
+        }
+        let before = after.checked_sub(1)?;
+        let step = at - self.times[before];
+        let share = (time - self.times[before]) / step;
+        let way = pose.boxminus(&self.poses[before]);
+        (step <= self.longest_gap).then(|| self.poses[before].boxplus(way * share))
+    }
+}

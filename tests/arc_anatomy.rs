@@ -244,6 +244,9 @@ fn what_is_straight_has_no_centre_and_what_stays_has_no_arc() {
     assert_eq!(factors[0].estimate, 2.0);
     let [mu, x, y, radius, turn, v, ..] = machine.table().lines;
     assert!([mu, x, y, radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
+    let near = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
+    let nearly_staying = ArcAnatomy::new(Settings { next: near, ..straight }).expect("valid settings");
+    assert!(nearly_staying.table().lines[0].is_infinite());
     let back = stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..straight });
     assert_eq!(back.factors[0].estimate, -2.0);
     assert!(back.factors[1].estimate.to_bits() == 0, "a turn of −0");

@@ -226,6 +226,25 @@ fn misses_are_told_by_robots_enough() {
     assert_eq!(empty.stats().n, 0);
 }
 
+/// What has no variance has no error that were a share of it, and nothing is told by it, however small the numbers are.
+#[test]
+fn without_a_variance_there_is_no_error_of_it() {
+    let errors = |settings| machine(settings).measured()[1].relative_error;
+    for samples in [1, 2] {
+        assert!(errors(Settings { alphas: [0.0; 6], ..few(samples) }).iter().all(|error| error.is_nan()));
+    }
+    assert!(errors(few(1)).iter().all(|error| error.is_nan()));
+    assert!(errors(few(2)).iter().all(|error| error.is_finite()));
+    // Turns alone: along the track nobody moves.
+    let on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
+    let [along, _, heading] =
+        errors(Settings { command: on_the_spot, alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0], ..few(300) }).into();
+    assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
+    // Squares of such variances are no doubles.
+    let slow = Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..few(300) };
+    assert_eq!(machine(slow).compared(Compounding::Chapter).misses.map(|misses| misses.told), [false; 3]);
+}
+
 /// The fourth order's corrections may leave no covariance: then there is none, from there on, and no ratio.
 #[test]
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
@@ -376,6 +395,33 @@ fn growth_can_be_stopped() {
     assert_eq!(growing.grow(200), 500);
     assert_eq!(growing.grow(5000), 3000);
     assert_tell_the_same(&growing, &before);
+}
+
+/// Of what is begun twice and then begins anew, everything is as it was asked for last.
+#[test]
+fn a_restart_goes_on_with_what_was_begun_last() {
+    let last = Settings { steps: 50, step: 40, ..few(700) };
+    for first in [Settings { step: 3, ..last }, Settings { samples: 2000, ..last }] {
+        let mut machine = machine(few(300));
+        machine.begin(first).expect("valid settings");
+        machine.begin(last).expect("valid settings");
+        machine.restart();
+        assert_eq!([machine.shown_settings(), machine.settings()], [&last; 2]);
+        machine.stop();
+        machine.grow(700);
+        assert_tell_the_same(&machine, &DeadReckoning::new(last).expect("valid settings"));
+    }
+}
+
+/// Of fewer robots than were driven, none is begun.
+#[test]
+fn no_more_than_all_is_done() {
+    let mut machine = machine(few(3000));
+    machine.begin(few(1000)).expect("valid settings");
+    assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
+    while !machine.advance(1000) {
+        assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
+    }
 }
 
 /// To look elsewhere drives nobody.

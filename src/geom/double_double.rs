@@ -15,7 +15,7 @@ pub struct DoubleDouble {
 /// 2²⁷ + 1 splits a double into halves of 26 bits, whose products are exact.
 const SPLITTER: f64 = 134_217_729.0;
 
-/// Terms of the series of sine and cosine, whose angle is at most π/16 when they begin: the first that is left out is below
+/// Terms of the series of sine and cosine, whose angle is at most π/8 when they begin: the first that is left out is below
 /// 2⁻¹¹⁰ of the sum.
 const TERMS: i32 = 12;
 

@@ -86,7 +86,19 @@ pub trait Hinges {
 }
 
 /// The size of a rotation for which noise is charged.
-type Charge = fn(f64) -> f64;
+pub(super) type Charge = fn(f64) -> f64;
+
+/// The variances of the three legs of `delta` (rad², m², rad²).
+pub(super) fn charged_variances(alphas: OdomAlphas, delta: &OdomDelta, charge: Charge) -> [Variance; 3] {
+    let [a1, a2, a3, a4] = alphas.0;
+    let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| charge(rotation) * charge(rotation));
+    let trans_sq = delta.trans * delta.trans;
+    [
+        Variance(a1 * rot1_sq + a2 * trans_sq),
+        Variance(a3 * trans_sq + a4 * (rot1_sq + rot2_sq)),
+        Variance(a1 * rot2_sq + a2 * trans_sq),
+    ]
+}
 
 impl OdometryModel {
     /// The variances of the three legs of `delta` (rad², m², rad²).
@@ -95,14 +107,7 @@ impl OdometryModel {
     }
 
     fn charged_variances(&self, delta: &OdomDelta, charge: Charge) -> [Variance; 3] {
-        let [a1, a2, a3, a4] = self.alphas.0;
-        let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| charge(rotation) * charge(rotation));
-        let trans_sq = delta.trans * delta.trans;
-        [
-            Variance(a1 * rot1_sq + a2 * trans_sq),
-            Variance(a3 * trans_sq + a4 * (rot1_sq + rot2_sq)),
-            Variance(a1 * rot2_sq + a2 * trans_sq),
-        ]
+        charged_variances(self.alphas, delta, charge)
     }
 
     /// The pose reached from `x` when the noises of the three legs take the values `unit_noise` times their standard

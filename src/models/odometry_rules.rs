@@ -1,6 +1,6 @@
 //! How localizers charge an odometry reading with noise: Table 5.6, and what is deployed.
 
-use super::odometry::{OdomDelta, turn_either_way};
+use super::odometry::{Charge, OdomAlphas, OdomDelta, charged_variances, turn_either_way};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
@@ -73,23 +73,17 @@ impl OdometryRule {
     /// with t the length of the drive, cᵢ what rotation i is charged as, and δ = rot1 + rot2 the turn, wrapped.
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
-        let OdomDelta { rot1, trans, rot2 } = self.legs(reading);
-        let trans_sq = trans * trans;
-        let hinged = |charge: fn(f64) -> f64| {
-            let [rot1_sq, rot2_sq] = [rot1, rot2].map(|rotation| charge(rotation) * charge(rotation));
-            LegVariances {
-                rot1: Variance(a1 * rot1_sq + a2 * trans_sq),
-                trans: Variance(a3 * trans_sq + a4 * (rot1_sq + rot2_sq)),
-                rot2: Variance(a1 * rot2_sq + a2 * trans_sq),
-                strafe: Variance(0.0),
-            }
+        let legs = self.legs(reading);
+        let hinged = |charge: Charge| {
+            let [rot1, trans, rot2] = charged_variances(OdomAlphas([a1, a2, a3, a4]), &legs, charge);
+            LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
         };
         match self {
             Self::Table => hinged(f64::abs),
             Self::Nav2 | Self::Beluga => hinged(turn_either_way),
             Self::Omni => {
-                let turn = wrap_angle(rot1 + rot2);
-                let turn_sq = turn * turn;
+                let turn = wrap_angle(legs.rot1 + legs.rot2);
+                let (trans_sq, turn_sq) = (legs.trans * legs.trans, turn * turn);
                 LegVariances {
                     rot1: Variance(0.0),
                     trans: Variance(a3 * trans_sq + a4 * turn_sq),

@@ -5,6 +5,7 @@ pub mod banana;
 mod cloud;
 mod commands;
 pub mod dead_reckoning;
+mod noise_level;
 pub mod odometry_decomposer;
 pub mod settings;
 pub mod squeeze;

@@ -19,4 +19,5 @@ pub use exact::{ExactMoments, predicted_cross_track_skew};
 pub use exact_gain::ExactGain;
 pub use gain::{LikelihoodGain, MeasuredGain};
 pub use level_set::level_set;
+pub(crate) use moments::no_less_than_none;
 pub use moments::{CartesianMoments, ExponentialMoments};

@@ -70,7 +70,7 @@ pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
 }
 
 /// A variance that was computed as a difference, of which rounding may leave less than nothing. NaN stays NaN.
-pub(super) fn no_less_than_none(variance: f64) -> f64 {
+pub(crate) fn no_less_than_none(variance: f64) -> f64 {
     if variance < 0.0 { 0.0 } else { variance }
 }
 

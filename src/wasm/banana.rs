@@ -1,6 +1,6 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{in_range, no_memory, number, read_opening, read_settings, whole, word};
+use super::fields::{in_range, no_memory, not_shown, number, read_opening, read_settings, whole, word, work};
 use super::held::Held;
 use super::pictures::{RADIUS, place_of, read_grid, read_ramps, view_of};
 use super::values::{Plain, doubles, float64_array, gathered, list, object, settings_to_js, whole_numbers};
@@ -11,8 +11,8 @@ use crate::sim::banana::{
     BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings,
     Stats, Table,
 };
-use crate::sim::settings::{MAX_SEED, QUANTITY};
-use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
+use crate::sim::settings::QUANTITY;
+use js_sys::{Array, Float64Array, Uint8ClampedArray, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -193,8 +193,7 @@ impl JsBananaMachine {
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] poses: &JsValue,
     ) -> Result<bool, JsValue> {
-        let poses = whole("poses", poses, 1..=MAX_SEED)?;
-        let poses = usize::try_from(poses).unwrap_or(usize::MAX);
+        let poses = work("poses", poses)?;
         Ok(self.0.with(move |machine| machine.advance(poses)))
     }
 
@@ -324,8 +323,10 @@ impl JsBananaMachine {
         #[wasm_bindgen(unchecked_param_type = "number")] index: &JsValue,
     ) -> Result<JsValue, JsValue> {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let Sample { pose, twist, executed, path } =
-            self.0.with(move |machine| machine.inspect(index)).ok_or_else(|| self.not_shown(index))?;
+        let Sample { pose, twist, executed, path } = self
+            .0
+            .with(move |machine| machine.inspect(index))
+            .ok_or_else(|| not_shown(index, self.shown()))?;
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs) = match executed {
             Executed::Arc { arc, .. } => (arc, JsValue::NULL),
             Executed::Legs(legs) => {
@@ -351,7 +352,7 @@ impl JsBananaMachine {
     ) -> Result<f64, JsValue> {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let pose = self.0.with(move |machine| machine.pose(index));
-        Ok(pose.ok_or_else(|| self.not_shown(index))?.theta())
+        Ok(pose.ok_or_else(|| not_shown(index, self.shown()))?.theta())
     }
 
     /// The nearest sample inside an ellipse of these radii around a point of the view; −1 for none.
@@ -417,12 +418,5 @@ fn legs_to_js(OdomDelta { rot1, trans, rot2 }: OdomDelta) -> Result<JsValue, JsV
 impl JsBananaMachine {
     fn settings(&self) -> Settings {
         self.0.with(|machine| *machine.settings())
-    }
-
-    fn not_shown(&self, index: usize) -> RangeError {
-        let shown = self.shown();
-        RangeError::new(&format!(
-            "index is {index}; allowed is one of the {shown} samples shown, counted from 0"
-        ))
     }
 }

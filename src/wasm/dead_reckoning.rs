@@ -1,8 +1,8 @@
 //! `DeadReckoning` for JavaScript.
 
-use super::fields::{in_range, number, read_opening, read_settings, whole};
+use super::fields::{not_shown, read_opening, read_settings, whole, work};
 use super::held::Held;
-use super::pictures::RADIUS;
+use super::pictures::read_disc;
 use super::values::{
     Plain, doubles, float64_array, gathered, group_to_js, list, number_or_null, object, settings_to_js,
 };
@@ -10,8 +10,8 @@ use crate::models::Compounding;
 use crate::sim::dead_reckoning::{
     DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Outlines, PRESETS, Preset, Settings, Stats, Straight,
 };
-use crate::sim::settings::{MAX_SEED, Words};
-use js_sys::{Array, Float64Array, RangeError};
+use crate::sim::settings::Words;
+use js_sys::{Array, Float64Array};
 use nalgebra::Vector3;
 use wasm_bindgen::prelude::*;
 
@@ -146,8 +146,7 @@ impl JsDeadReckoning {
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] steps: &JsValue,
     ) -> Result<bool, JsValue> {
-        let steps = whole("steps", steps, 1..=MAX_SEED)?;
-        let steps = usize::try_from(steps).unwrap_or(usize::MAX);
+        let steps = work("steps", steps)?;
         Ok(self.0.with(move |machine| machine.advance(steps)))
     }
 
@@ -304,10 +303,8 @@ impl JsDeadReckoning {
         #[wasm_bindgen(unchecked_param_type = "number")] index: &JsValue,
     ) -> Result<Float64Array, JsValue> {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let poses = self.0.with(move |machine| machine.rollout(index)).ok_or_else(|| {
-            let most = self.shown().saturating_sub(1);
-            RangeError::new(&format!("index is {index}; allowed is a whole number from 0 to {most}"))
-        })?;
+        let poses = self.0.with(move |machine| machine.rollout(index));
+        let poses = poses.ok_or_else(|| not_shown(index, self.shown()))?;
         float64_array(poses.as_flattened())
     }
 
@@ -318,7 +315,7 @@ impl JsDeadReckoning {
         #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "number")] radius: &JsValue,
     ) -> Result<i32, JsValue> {
-        let (target, radius) = ([number("x", x)?, number("y", y)?], in_range("radius", radius, &RADIUS)?);
+        let (target, radius) = read_disc(x, y, radius)?;
         Ok(self.0.with(move |machine| machine.nearest(target, radius)).map_or(-1, |index| index as i32))
     }
 

@@ -3,7 +3,7 @@
 //! `Reflect` or with `catch`, and its exceptions come back as values. Nothing is copied before its length is known.
 
 use crate::sim::settings::{
-    Group, Rules, Setting, SettingsError, Word, Words, check_group, check_real, check_whole,
+    Group, MAX_SEED, Rules, Setting, SettingsError, Word, Words, check_group, check_real, check_whole,
 };
 use js_sys::{ArrayBuffer, JsString, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
@@ -95,6 +95,18 @@ pub fn in_range(field: &str, value: &JsValue, allowed: &RangeInclusive<f64>) -> 
 /// A whole number of the given range.
 pub fn whole(field: &str, value: &JsValue, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
     Ok(check_whole(field, number(field, value)?, &allowed)?)
+}
+
+/// How much is to be done at once: as much as a word of this processor says, where the number is larger.
+pub fn work(field: &str, value: &JsValue) -> Result<usize, JsValue> {
+    let work = whole(field, value, 1..=MAX_SEED)?;
+    Ok(usize::try_from(work).unwrap_or(usize::MAX))
+}
+
+/// The refusal of the number of a sample that is not shown.
+pub fn not_shown(index: usize, shown: usize) -> JsValue {
+    let allowed = format!("one of the {shown} samples shown, counted from 0");
+    RangeError::new(&format!("index is {index}; allowed is {allowed}")).into()
 }
 
 /// One of the words of an enum.

@@ -1,8 +1,8 @@
 //! `OdometryDecomposer` for JavaScript.
 
-use super::fields::{in_range, number, read_opening, read_settings, whole};
+use super::fields::{in_range, read_opening, read_settings, whole};
 use super::held::Held;
-use super::pictures::RADIUS;
+use super::pictures::read_disc;
 use super::values::{Plain, doubles, float64_array, gathered, group_to_js, object, settings_to_js};
 use crate::geom::se2::SE2;
 use crate::sim::odometry_decomposer::{
@@ -224,7 +224,7 @@ impl JsOdometryDecomposer {
         #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "number")] radius: &JsValue,
     ) -> Result<i32, JsValue> {
-        let (target, radius) = ([number("x", x)?, number("y", y)?], in_range("radius", radius, &RADIUS)?);
+        let (target, radius) = read_disc(x, y, radius)?;
         Ok(self.0.with(move |machine| machine.nearest(target, radius)).map_or(-1, |index| index as i32))
     }
 }

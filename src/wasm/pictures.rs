@@ -1,6 +1,6 @@
 //! Densities for JavaScript: what is asked for, and pixels as a view of the core's memory.
 
-use super::fields::{copy_bytes, in_range, length, type_error, whole};
+use super::fields::{copy_bytes, in_range, length, number, type_error, whole};
 use crate::sim::picture::{RAMP, Ramp};
 use crate::sim::views::{EXTENT, Grid, MAX_CELLS, MAX_SIDE};
 use js_sys::{RangeError, Uint8Array, Uint8ClampedArray, WebAssembly};
@@ -24,6 +24,11 @@ pub fn view_of(&[start, length]: &[u32; 2]) -> Uint8ClampedArray {
     let first = view();
     // The handle of the view itself may have made the memory grow, which empties all views of it; it does so once.
     if first.length() == length { first } else { view() }
+}
+
+/// A point, and how far around it.
+pub fn read_disc(x: &JsValue, y: &JsValue, radius: &JsValue) -> Result<([f64; 2], f64), JsValue> {
+    Ok(([number("x", x)?, number("y", y)?], in_range("radius", radius, &RADIUS)?))
 }
 
 pub fn read_grid(bounds: [&JsValue; 4], columns: &JsValue, rows: &JsValue) -> Result<Grid, JsValue> {

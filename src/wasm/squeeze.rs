@@ -1,15 +1,15 @@
 //! `MapSqueeze` for JavaScript.
 
-use super::fields::{in_range, no_memory, number, quoted, read_opening, read_settings, whole, word};
+use super::fields::{in_range, no_memory, quoted, read_opening, read_settings, whole, word, work};
 use super::held::Held;
 use super::maps::{read_map, read_plan};
-use super::pictures::{RADIUS, place_of, read_grid, read_ramps, view_of};
+use super::pictures::{place_of, read_disc, read_grid, read_ramps, view_of};
 use super::values::{
     Plain, bytes, doubles, float64_array, gathered, group_to_js, number_or_null, object, settings_to_js,
 };
 use crate::geom::segment::Segment;
 use crate::map::{Cell, Cost, FloorPlan, MAX_DRAWS, OccupancyGrid, Sampler, Wedged};
-use crate::sim::settings::{ALPHA, MAX_SEED, Word};
+use crate::sim::settings::{ALPHA, Word};
 use crate::sim::squeeze::{
     Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL, MapSqueeze, PRESETS, Settings, Stats, alphas_of_noise,
     most_draws,
@@ -131,8 +131,7 @@ impl JsMapSqueeze {
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] distances: &JsValue,
     ) -> Result<bool, JsValue> {
-        let distances = whole("distances", distances, 1..=MAX_SEED)?;
-        let distances = usize::try_from(distances).unwrap_or(usize::MAX);
+        let distances = work("distances", distances)?;
         Ok(self.0.with(move |machine| machine.advance(distances)))
     }
 
@@ -340,7 +339,7 @@ impl JsMapSqueeze {
         #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "number")] radius: &JsValue,
     ) -> Result<i32, JsValue> {
-        let (target, radius) = ([number("x", x)?, number("y", y)?], in_range("radius", radius, &RADIUS)?);
+        let (target, radius) = read_disc(x, y, radius)?;
         Ok(self.0.with(move |machine| machine.nearest(target, radius)).map_or(-1, |index| index as i32))
     }
 }

@@ -31,6 +31,9 @@ pub struct Surface {
 impl Surface {
     /// The map of a rectangle from `min` to `max`; None where nothing is to be mapped.
     pub(super) fn of(settings: &Settings, min: [f64; 2], max: [f64; 2]) -> Option<Self> {
+        if settings.map == Mapped::Nothing {
+            return None;
+        }
         let (model, start) = (settings.model(), settings.start());
         let windings = f64::from(2 * model.windings(&settings.command) + 1);
         let most = MOST_EXPONENTIALS / (3.0 + 2.0 * windings + LAST_TURNS.min(windings + 2.0));
@@ -53,11 +56,7 @@ impl Surface {
         };
         let prob = field(&prob);
         let density = field(&|at| model.pose_density(&at.next(), &at.command, &start).unwrap_or(0.0));
-        let mapped = match settings.map {
-            Mapped::Nothing => return None,
-            Mapped::Prob => &prob,
-            Mapped::Density => &density,
-        };
+        let mapped = if settings.map == Mapped::Prob { &prob } else { &density };
         let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let most = highest(mapped);
         let shade = |value: &f64| if most > 0.0 { (255.0 * (value / most)).round() as u8 } else { 0 };

@@ -29,7 +29,8 @@ impl Table {
         let turn = omega_hat * settings.command.dt;
         Self {
             lines: [
-                0.5 * step.x() / step.y(),
+                // The half of the smallest double would be 0.
+                0.5 * (step.x() / step.y()),
                 x,
                 y,
                 executed.radius(),

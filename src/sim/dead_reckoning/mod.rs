@@ -134,10 +134,8 @@ impl DeadReckoning {
         let goal = if goal == self.settings.samples { settings.samples } else { goal.min(settings.samples) };
         if !self.latest().settings.drives_as(&settings) {
             // Back to what is shown, or on to something else.
-            self.next = None;
-            if !self.shown.settings.drives_as(&settings) {
-                self.next = Some(Drive::new(settings, goal)?);
-            }
+            let is_shown = self.shown.settings.drives_as(&settings);
+            self.next = if is_shown { None } else { Some(Drive::new(settings, goal)?) };
         }
         self.latest_mut().goal = goal;
         let Settings { step, compounding, .. } = settings;
@@ -175,10 +173,11 @@ impl DeadReckoning {
     /// How much is done of what was begun, from 0 to 1.
     pub fn progress(&self) -> f64 {
         let Drive { rollouts, goal, .. } = self.latest();
-        rollouts.driven() as f64 / (*goal).max(1) as f64
+        // More are driven than are wanted until they are begun again.
+        (rollouts.driven() as f64 / (*goal).max(1) as f64).min(1.0)
     }
 
-    /// Gives up what was begun: settings and figures are the former ones.
+    /// Gives up what was begun: settings and figures are the former ones, but for the step and the recursion that are looked at.
     pub fn stop(&mut self) {
         self.next = None;
         self.shown.goal = self.shown.count;
@@ -190,6 +189,7 @@ impl DeadReckoning {
         if let Some(next) = self.next.take() {
             self.shown = next;
         }
+        self.shown.settings = self.settings;
         self.shown.restart();
     }
 

@@ -5,6 +5,7 @@ use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any, lanes};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, centred_uniform};
+use crate::stats::no_less_than_none;
 use crate::stats::sums::{Sums, add};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
@@ -61,7 +62,7 @@ pub struct Measured {
     pub mean: Vector3<f64>,
     /// Its sample covariance, 3 × 3.
     pub cov: Matrix3<f64>,
-    /// Standard errors of the three variances as shares of them, by the fourth moments: √((κ − 1)/n).
+    /// Standard errors of the three variances as shares of them, by the fourth moments: √((κ − 1)/n). NaN without a variance.
     pub relative_error: Vector3<f64>,
 }
 
@@ -294,12 +295,17 @@ fn sum(sums: &mut Sums<QUANTITIES>, [a, l, h]: [f64x4; 3]) {
 fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
     let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
     let mean = Vector3::new(a, l, h);
-    let products = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
+    let mut products = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
+    for i in 0..3 {
+        products[(i, i)] = no_less_than_none(products[(i, i)]);
+    }
     let relative_error = Vector3::from_fn(|i, _| {
         let [m, square, cube, fourth] = [0, 3, 6, 9].map(|power| sums[power + i] / n);
-        let m2 = square - m * m;
+        let m2 = products[(i, i)];
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
-        ((m4 / (m2 * m2) - 1.0).max(0.0) / n).sqrt()
+        let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
+        // Not by `f64::max`, which takes NaN for the lesser.
+        (no_less_than_none(kurtosis - 1.0) / n).sqrt()
     });
     Measured { mean, cov: products * (n / (n - 1.0)), relative_error }
 }

@@ -2,10 +2,8 @@
 
 use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
-use crate::sim::settings::{
-    ALPHA, Level, MAX_SEED, Rules, Settable, Setting, SettingsError, Words, check_whole, settings,
-};
-use std::ops::RangeInclusive;
+use crate::sim::noise_level::NoiseLevel;
+use crate::sim::settings::{ALPHA, Level, MAX_SEED, Rules, SettingsError, Words, check_whole, settings};
 
 impl Words for Compounding {
     const WORDS: &'static [(&'static str, Self)] =
@@ -62,31 +60,9 @@ settings! {
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
-/// The level of α₃ to α₆ that may be those of one.
-struct HeadingLevel<'a>(&'a mut [f64; 6]);
-
-impl Level for HeadingLevel<'_> {
-    fn get(&self) -> Option<f64> {
-        let [_, _, h, a4, a5, a6] = *self.0;
-        (a4 == h && [a5, a6] == [h / 4.0; 2]).then_some(h)
-    }
-
-    fn set(&mut self, h: f64) {
-        let [_, _, rest @ ..] = self.0;
-        *rest = [h, h, h / 4.0, h / 4.0];
-    }
-}
-
-impl Settable for HeadingLevel<'_> {
-    type Allowed = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
-        Setting::Level(self, allowed)
-    }
-}
-
 impl Settings {
-    fn heading_level(&mut self) -> HeadingLevel<'_> {
-        HeadingLevel(&mut self.alphas)
+    fn heading_level(&mut self) -> NoiseLevel<'_> {
+        NoiseLevel(&mut self.alphas[2..])
     }
 
     /// The level of the heading noise; None where α₃ to α₆ are not those of one.

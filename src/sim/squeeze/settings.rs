@@ -3,6 +3,7 @@
 use crate::geom::se2::SE2;
 use crate::map::{Sampler, Unknown};
 use crate::models::VelocityCmd;
+use crate::sim::noise_level::NoiseLevel;
 use crate::sim::settings::{
     ALPHA, Level, MAX_SEED, QUANTITY, Rules, Settable, Setting, SettingsError, Words, check_whole, group,
     settings,
@@ -79,28 +80,9 @@ settings! {
 
 /// The α's of a noise level n: α₁₋₄ = n, α₅,₆ = n/4.
 pub fn alphas_of_noise(n: f64) -> [f64; 6] {
-    [n, n, n, n, n / 4.0, n / 4.0]
-}
-
-/// The level of α's that may be those of one.
-struct NoiseLevel<'a>(&'a mut [f64; 6]);
-
-impl Level for NoiseLevel<'_> {
-    fn get(&self) -> Option<f64> {
-        let n = self.0[0];
-        (*self.0 == alphas_of_noise(n)).then_some(n)
-    }
-
-    fn set(&mut self, level: f64) {
-        *self.0 = alphas_of_noise(level);
-    }
-}
-
-impl Settable for NoiseLevel<'_> {
-    type Allowed = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
-        Setting::Level(self, allowed)
-    }
+    let mut alphas = [0.0; 6];
+    NoiseLevel(&mut alphas).set(n);
+    alphas
 }
 
 impl Settings {

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
-import { ABOUT, ALL, NAMES, assign, heard, property, ready, show } from './element-support.js';
+import { ALL, KNOWN, NAMES, assign, heard, property, ready, show } from './element-support.js';
 import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -159,7 +159,7 @@ test.describe('attributes', () => {
       await show(page, `<${name}></${name}>`);
       const widget = page.locator(name);
       await ready(widget);
-      const { slider, values: [first, second] } = ABOUT[name];
+      const { slider, values: [first, second] } = KNOWN[name];
       const opening = await property(widget, slider);
       await widget.locator(`#${slider}`).fill(String(first));
       await expect(widget).toHaveAttribute(slider, String(first));

@@ -57,7 +57,7 @@ const leave = (page, name, played) =>
       const figure = /** @type {Element} */ (document.querySelector(tag));
       if (play) {
         const moved = new Promise((resolve) => figure.addEventListener('input', resolve, { once: true }));
-        /** @type {HTMLElement} */ (figure.shadowRoot?.querySelector(`.${play} button`)).click();
+        /** @type {HTMLElement | null | undefined} */ (figure.shadowRoot?.querySelector(`.${play} button`))?.click();
         await moved;
       }
       scrollTo(0, 6000);
@@ -383,7 +383,7 @@ test.describe('moved and removed', () => {
       // It goes on: what is pressed has its effect.
       await folds.last().locator('summary').click();
       await expect.poll(open).toEqual(before.with(-1, false));
-      const [slider, value] = KNOWN[name].slider;
+      const { slider, values: [value] } = KNOWN[name];
       await widget.locator(`#${slider}`).fill(String(value));
       await expect.poll(() => property(widget, slider)).toBe(value);
     });
@@ -392,7 +392,7 @@ test.describe('moved and removed', () => {
       await show(page, `<${name}></${name}>`);
       const widget = page.locator(name);
       await ready(widget);
-      const { slider: given, path } = KNOWN[name];
+      const { slider, at, values: [value] } = KNOWN[name];
       const kept = await widget.evaluate(async (element, [id, to]) => {
         const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
         slider.value = String(to);
@@ -400,8 +400,8 @@ test.describe('moved and removed', () => {
         element.remove();
         await new Promise(requestAnimationFrame);
         return /** @type {AnyElement} */ (element).getState();
-      }, given);
-      expect(kept).toHaveProperty(path, given[1]);
+      }, /** @type {const} */ ([slider, value]));
+      expect(kept).toHaveProperty(at, value);
     });
 
     test(`${name}, removed, leaves nothing behind`, async ({ page }) => {

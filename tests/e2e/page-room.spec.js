@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { RESERVED, ready, show } from './element-support.js';
+import { ALL, ready, show } from './element-support.js';
 import { FRESH, STILL, boxOf, frames, test } from './support.js';
 
 test.use(STILL);
@@ -18,7 +18,7 @@ const FONTS = [
   ["'DejaVu Sans', Verdana, sans-serif", 30, 17],
 ];
 
-for (const name of RESERVED) for (const [font, from, size] of FONTS) {
+for (const name of ALL) for (const [font, from, size] of FONTS) {
   test(`the room that is kept for ${name} is that which it takes, at any width, in ${size} px ${font}`, FRESH, async ({ page }) => {
     test.slow();
     await show(page, `<${name} id="here"></${name}><div style="height: 9000px"></div><${name} id="later"></${name}>`, {
@@ -67,17 +67,17 @@ for (const [width, more = ''] of /** @type {[number, string?][]} */ ([[375], [48
       await arrival;
       await route.continue();
     });
-    const loaded = show(page, RESERVED.map((name) => `<p>Before</p><${name}></${name}><p>After</p>`).join(''), {
+    const loaded = show(page, ALL.map((name) => `<p>Before</p><${name}></${name}><p>After</p>`).join(''), {
       head: `<link rel="stylesheet" href="/motion-widgets.css"><style>body { font-family: ${FONTS[0][0]} } ${more}</style>`,
     });
-    await page.waitForFunction((count) => document.querySelectorAll('body > p').length === count, 2 * RESERVED.length);
+    await page.waitForFunction((count) => document.querySelectorAll('body > p').length === count, 2 * ALL.length);
     await frames(page);
     const tops = () => page.locator('body > p').evaluateAll((all) => all.map((each) => each.getBoundingClientRect().top));
     const before = await tops();
-    expect(await page.evaluate(() => document.querySelectorAll(':not(:defined)').length)).toBe(RESERVED.length);
+    expect(await page.evaluate(() => document.querySelectorAll(':not(:defined)').length)).toBe(ALL.length);
     arrive();
     await loaded;
-    for (const name of RESERVED) {
+    for (const name of ALL) {
       await ready(page.locator(name));
       await expect(page.locator(name).locator('.folds')).toBeVisible();
     }
@@ -98,12 +98,15 @@ const STATES = {
   'dead-reckoning': ['chapter', 'fine', 'straight'].flatMap((preset) =>
     ['chapter', 'fourth-order'].flatMap((compounding) => [500, 50_000].map((samples) => ({ preset, compounding, samples }))),
   ),
+  'arc-anatomy': ['left', 'right', 'reverse', 'straight'].flatMap((preset) =>
+    ['none', 'density'].flatMap((map) => [true, false].map((printed) => ({ preset, map, printed, twist: printed ? 'shown' : 'hidden' }))),
+  ),
   'odometry-decomposer': ['all', 'reverse', 'spin', 'rest'].flatMap((preset) =>
     ['table', 'nav2', 'omni'].map((rule) => ({ preset, rule })),
   ),
 };
 
-for (const name of RESERVED) {
+for (const name of ALL) {
   for (const lang of ['en', 'de']) {
     test(`${name} is at most 720 px high in the column of a book and on a screen, whatever it shows, in ${lang}`, async ({ page }) => {
       await page.setViewportSize({ width: 640, height: 720 });

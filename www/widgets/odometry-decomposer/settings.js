@@ -4,6 +4,7 @@ import { WORD, attributesOf } from '../../figure/attributes.js';
 import { word } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { presets, settings } from '../../settings.js';
+import { alphaLooks } from '../shared/noise.js';
 
 export const declared = settings['odometry-decomposer'];
 
@@ -50,15 +51,9 @@ export const attributes = {
 
 export const own = cloudState;
 
-const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
-
 /** Of the noise. */
 export const NOISE = {
-  alpha1: { ...ALPHA, symbol: '*α*₁' },
-  alpha2: { ...ALPHA, symbol: '*α*₂' },
-  alpha3: { ...ALPHA, symbol: '*α*₃' },
-  alpha4: { ...ALPHA, symbol: '*α*₄' },
-  alpha5: { ...ALPHA, symbol: '*α*₅' },
+  ...alphaLooks(5),
   correlation: { symbol: '*ρ*', role: /** @type {const} */ ('prediction'), min: -1, max: 1, step: 0.05, decimals: 2 },
 };
 

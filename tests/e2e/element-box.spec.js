@@ -113,6 +113,7 @@ test('a handle is held where it is shown, also with large letters', async ({ pag
 test('no length of the elements is one of the page: nothing is in rem', async ({ page }) => {
   await show(page, ALL.map((name) => `<${name}></${name}>`).join(''), { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   for (const name of ALL) {
+    await page.locator(name).scrollIntoViewIfNeeded();
     await ready(page.locator(name));
     const styles = await page.locator(name).evaluate((element) => (element.shadowRoot?.adoptedStyleSheets ?? []).flatMap((sheet) => [...sheet.cssRules].map(({ cssText }) => cssText)).join('\n'));
     expect(styles).toContain('em');

@@ -139,6 +139,11 @@ const own = css`
     text-align: right;
   }
 
+  /* With its controls it is to fit on the screen of an audience. */
+  :host([presentation]) :is(.stepper, .underway) {
+    margin-bottom: 0.25em;
+  }
+
   .lines {
     margin: 0 0 0.6em;
     padding: 0;

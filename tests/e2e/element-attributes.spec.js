@@ -356,13 +356,12 @@ test.describe('properties', () => {
   test('mark a robot that is still to come', async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     await show(page, '<banana-machine samples="2000"></banana-machine>', { script: '' });
-    await page.evaluate(async () => {
-      Object.assign(document.querySelector('banana-machine') ?? {}, { marked: 1999 });
-      await import(/** @type {any} */ ('/motion-widgets.js'));
-    });
     const widget = page.locator('banana-machine');
-    await ready(widget);
-    const wanted = await widget.evaluate((element) => {
+    const wanted = await widget.evaluate(async (element) => {
+      Object.assign(element, { marked: 1999 });
+      const loaded = new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+      await loaded;
       const { playing, marked, machine, getState } = /** @type {any} */ (element);
       return { playing, marked, there: machine.shown > marked, kept: getState.call(element).marked };
     });

@@ -160,6 +160,41 @@ export function assign(widget, name, value) {
   );
 }
 
+/**
+ * Plays what a slider sets, by its button, from and to the page: a hand from outside may come when it is over.
+ *
+ * @param {Locator} widget
+ * @param {string} key of what is played in a state, and class of its group
+ * @param {number} [most] after so many steps it is paused
+ * @returns {Promise<{ values: number[], label: string }>} the value at each step until it rests, and what the button said meanwhile
+ */
+export function played(widget, key, most = Infinity) {
+  return widget.evaluate(
+    (element, [key, most]) =>
+      new Promise((resolve) => {
+        const figure = /** @type {AnyElement} */ (element);
+        const button = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
+        const values = /** @type {number[]} */ ([]);
+        let label = '';
+        const listen = async () => {
+          values.push(/** @type {any} */ (figure.getState())[key]);
+          if (values.length === 1) {
+            await /** @type {any} */ (figure).updateComplete;
+            label = button.innerText;
+          }
+          if (values.length === most) button.click();
+        };
+        figure.addEventListener('input', listen);
+        figure.addEventListener('change', () => {
+          figure.removeEventListener('input', listen);
+          resolve({ values, label });
+        }, { once: true });
+        button.click();
+      }),
+    /** @type {const} */ ([key, most]),
+  );
+}
+
 /** @param {Locator} widget */
 export function stateOf(widget) {
   return widget.evaluate((element) => /** @type {AnyElement} */ (element).getState());

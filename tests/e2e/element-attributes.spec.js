@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
-import { ABOUT, ALL, NAMES, assign, heard, property, ready, show } from './element-support.js';
+import { ALL, KNOWN, NAMES, assign, heard, property, ready, show } from './element-support.js';
 import { STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -159,7 +159,7 @@ test.describe('attributes', () => {
       await show(page, `<${name}></${name}>`);
       const widget = page.locator(name);
       await ready(widget);
-      const { slider, values: [first, second] } = ABOUT[name];
+      const { slider, values: [first, second] } = KNOWN[name];
       const opening = await property(widget, slider);
       await widget.locator(`#${slider}`).fill(String(first));
       await expect(widget).toHaveAttribute(slider, String(first));
@@ -356,13 +356,12 @@ test.describe('properties', () => {
   test('mark a robot that is still to come', async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     await show(page, '<banana-machine samples="2000"></banana-machine>', { script: '' });
-    await page.evaluate(async () => {
-      Object.assign(document.querySelector('banana-machine') ?? {}, { marked: 1999 });
-      await import(/** @type {any} */ ('/motion-widgets.js'));
-    });
     const widget = page.locator('banana-machine');
-    await ready(widget);
-    const wanted = await widget.evaluate((element) => {
+    const wanted = await widget.evaluate(async (element) => {
+      Object.assign(element, { marked: 1999 });
+      const loaded = new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+      await loaded;
       const { playing, marked, machine, getState } = /** @type {any} */ (element);
       return { playing, marked, there: machine.shown > marked, kept: getState.call(element).marked };
     });

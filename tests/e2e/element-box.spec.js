@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NAMES, ready, show } from './element-support.js';
+import { ALL, ready, show } from './element-support.js';
 import { FRESH, STILL, boxOf, frames, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
@@ -28,7 +28,7 @@ const BOXES = {
   'positioned absolutely': '<div style="position: relative; height: 9000px"><X style="position: absolute"></X></div>',
 };
 
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`${name} is as wide as it likes, or as there is room, in every kind of box, and so it was before its script came`, FRESH, async ({ page }) => {
     test.slow();
     const cases = Object.entries(BOXES).map(([box, html]) => {
@@ -72,7 +72,7 @@ const boxesOf = (page, name, em) =>
     em,
   );
 
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`${name} is in proportion to the letters around it, whatever the page's root has`, async ({ page }) => {
     const looks = [];
     for (const [root, em] of [['100%', 16], ['62.5%', 16], ['100%', 20], ['62.5%', 24]]) {
@@ -111,8 +111,9 @@ test('a handle is held where it is shown, also with large letters', async ({ pag
 });
 
 test('no length of the elements is one of the page: nothing is in rem', async ({ page }) => {
-  await show(page, NAMES.map((name) => `<${name}></${name}>`).join(''), { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  for (const name of NAMES) {
+  await show(page, ALL.map((name) => `<${name}></${name}>`).join(''), { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  for (const name of ALL) {
+    await page.locator(name).scrollIntoViewIfNeeded();
     await ready(page.locator(name));
     const styles = await page.locator(name).evaluate((element) => (element.shadowRoot?.adoptedStyleSheets ?? []).flatMap((sheet) => [...sheet.cssRules].map(({ cssText }) => cssText)).join('\n'));
     expect(styles).toContain('em');
@@ -122,7 +123,7 @@ test('no length of the elements is one of the page: nothing is in rem', async ({
   expect((await stylesheet.text()).match(/.*\drem\b.*/g)).toBe(null);
 });
 
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`on a phone the picture of ${name} stays in sight below the site's header, and so does what has the focus`, async ({ page }) => {
     await page.setViewportSize({ width: 375, height: 812 });
     await show(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${name}></${name}><div style="height: 2000px"></div>`, {

@@ -3,6 +3,7 @@ import { ALL, HANDLED, KNOWN, assign, heard, ready, show, stateOf } from './elem
 import { STILL, centreOf, dragSlider, frames, test, unfold } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
+/** @typedef {import('./element-support.js').Name} Name */
 
 test.use(STILL);
 
@@ -42,7 +43,7 @@ test('a drag tells of its steps by input and of its end by one change, composed,
   expect(all.some(([name]) => name === 'stats')).toBe(true);
 });
 
-/** What a reader may do besides dragging, with all folds open. @type {Record<typeof ALL[number], [string, (widget: Locator) => Promise<void>][]>} */
+/** What a reader may do besides dragging, with all folds open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
 const ACTS = {
   'banana-machine': [
     ['preset', (widget) => widget.getByRole('button', { name: 'Hard arc' }).click()],

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NAMES, ready, show } from './element-support.js';
+import { ALL, ready, show } from './element-support.js';
 import { STILL, frames, pixelsOf, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -223,7 +223,7 @@ test('what a page says by --motion- counts, on :root and on the element, also be
   }
 });
 
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`${name} has a ground that covers where it has to, on paper that is --motion-paper`, async ({ page }) => {
     await show(page, `<${name} style="--motion-paper: #102030; --motion-ink: #f0f0f0"></${name}>`, { head: '<style>body { background: #fff; color: #000 }</style>' });
     const widget = page.locator(name);

@@ -45,21 +45,20 @@ const pass = (page) =>
   });
 
 /**
- * Scrolls a widget out of sight, and waits until it has been told.
+ * Has something of a widget play until it has moved, scrolls it out of sight, and waits until it has been told.
  *
  * @param {Page} page
  * @param {string} name of the widget
- * @param {string} [played] the name of what is to be played there: it is, until the reader has seen that it moves
+ * @param {string} [played] what is to be played; the growth of its cloud where it is left out
  */
 const leave = (page, name, played) =>
   page.evaluate(
     async ([tag, play]) => {
-      const figure = /** @type {Element} */ (document.querySelector(tag));
-      if (play) {
-        const moved = new Promise((resolve) => figure.addEventListener('input', resolve, { once: true }));
-        /** @type {HTMLElement} */ (figure.shadowRoot?.querySelector(`.${play} button`)).click();
-        await moved;
-      }
+      const figure = /** @type {AnyElement} */ (/** @type {unknown} */ (document.querySelector(tag)));
+      const moved = new Promise((resolve) => figure.addEventListener(play ? 'input' : 'stats', resolve, { once: true }));
+      if (play) /** @type {HTMLElement | null | undefined} */ (figure.shadowRoot?.querySelector(`.${play} button`))?.click();
+      else figure.setState({ widget: tag, version: 1, shown: 0, playing: true });
+      await moved;
       scrollTo(0, 6000);
       // Observers look in the same frame.
       await new Promise((resolve) => {
@@ -201,8 +200,8 @@ test.describe('out of sight', () => {
       await ready(widget);
       const shown = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
       const samples = Number(await property(widget, 'samples'));
-      expect(await property(widget, 'playing')).toBe(true);
       await leave(page, name);
+      expect(await property(widget, 'playing')).toBe(true);
       await pass(page);
       const before = [(await counted(page)).frames, await shown()];
       expect(before[1]).toBeLessThan(samples);
@@ -250,7 +249,9 @@ test.describe('out of sight', () => {
     const widget = page.locator('banana-machine');
     await ready(widget);
     const hide = (/** @type {boolean} */ hidden) =>
-      page.evaluate((value) => {
+      widget.evaluate((element, value) => {
+        // From its beginning: it may have come to its end meanwhile.
+        if (value) /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
         Object.defineProperty(document, 'hidden', { configurable: true, value });
         document.dispatchEvent(new Event('visibilitychange'));
       }, hidden);
@@ -383,7 +384,7 @@ test.describe('moved and removed', () => {
       // It goes on: what is pressed has its effect.
       await folds.last().locator('summary').click();
       await expect.poll(open).toEqual(before.with(-1, false));
-      const [slider, value] = KNOWN[name].slider;
+      const { slider, values: [value] } = KNOWN[name];
       await widget.locator(`#${slider}`).fill(String(value));
       await expect.poll(() => property(widget, slider)).toBe(value);
     });
@@ -392,7 +393,7 @@ test.describe('moved and removed', () => {
       await show(page, `<${name}></${name}>`);
       const widget = page.locator(name);
       await ready(widget);
-      const { slider: given, path } = KNOWN[name];
+      const { slider, at, values: [value] } = KNOWN[name];
       const kept = await widget.evaluate(async (element, [id, to]) => {
         const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
         slider.value = String(to);
@@ -400,8 +401,8 @@ test.describe('moved and removed', () => {
         element.remove();
         await new Promise(requestAnimationFrame);
         return /** @type {AnyElement} */ (element).getState();
-      }, given);
-      expect(kept).toHaveProperty(path, given[1]);
+      }, /** @type {const} */ ([slider, value]));
+      expect(kept).toHaveProperty(at, value);
     });
 
     test(`${name}, removed, leaves nothing behind`, async ({ page }) => {

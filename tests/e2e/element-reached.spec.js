@@ -1,7 +1,7 @@
 // A figure that the reader comes to from the keyboard before it has started.
 
 import { expect } from '@playwright/test';
-import { NAMES, property, ready, show } from './element-support.js';
+import { ALL, property, ready, show } from './element-support.js';
 import { STILL, frames, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
@@ -34,7 +34,7 @@ async function showFar(page, name) {
   return widget;
 }
 
-for (const name of NAMES) {
+for (const name of ALL) {
   for (const [way, origin, key] of /** @type {const} */ ([
     ['above', '#before', 'Tab'],
     ['below', '#after', 'Shift+Tab'],

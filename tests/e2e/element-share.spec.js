@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { ABOUT, ALL, CLOUDS, heard, property, ready, show, stateOf } from './element-support.js';
+import { ALL, CLOUDS, KNOWN, heard, property, ready, show, stateOf } from './element-support.js';
 import { FRESH, STILL, frames, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -113,7 +113,7 @@ test('a page with a base of its own keeps its address', async ({ page }) => {
 });
 
 for (const name of ALL) {
-  const { slider, values, button } = ABOUT[name];
+  const { slider, values, button } = KNOWN[name];
 
   test(`${name} without share leaves the address alone, and opens what a link has for it`, FRESH, async ({ page, context }) => {
     await show(page, `<${name}></${name}>`, { fragment: '#elsewhere' });
@@ -172,7 +172,7 @@ for (const name of CLOUDS) {
 }
 
 for (const name of ALL) {
-  const { slider, values, button } = ABOUT[name];
+  const { slider, values, button } = KNOWN[name];
 
   test(`${name} with share keeps its state in the address, and follows one that comes`, async ({ page }) => {
     await show(page, `<${name} share></${name}>`);

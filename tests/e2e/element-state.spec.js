@@ -157,27 +157,40 @@ for (const [name, group, key, value] of /** @type {const} */ ([
     await ready(widget);
     const play = widget.locator(group).getByRole('button');
     const present = async () => /** @type {any} */ (await stateOf(widget))[key];
-    await play.click();
-    await expect(play).toHaveText('Pause');
-    await widget.evaluate((element, part) => /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, ...part }), { [key]: value });
-    await expect(play).toHaveText('Play');
-    await frames(page);
-    expect(await present()).toBe(value);
-    await play.click();
-    await expect.poll(present).toBeGreaterThan(value);
-    const left = await widget.evaluate(async (element) => {
-      const parent = /** @type {Element} */ (element.parentElement);
-      element.remove();
-      await new Promise(requestAnimationFrame);
-      const left = /** @type {AnyElement} */ (element).getState();
-      const again = new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
-      parent.append(element);
-      await again;
-      return left;
-    });
-    await expect(play).toHaveText('Play');
-    await frames(page);
-    expect(/** @type {any} */ (await stateOf(widget))[key]).toBe(/** @type {any} */ (left)[key]);
+    /** Plays it until it has moved, and then does what is asked, before it may have come to its end. @param {Record<string, unknown>} [part] */
+    const interrupt = (part) =>
+      widget.evaluate(async (element, [selector, part]) => {
+        const figure = /** @type {AnyElement} */ (element);
+        const button = /** @type {HTMLButtonElement} */ (element.shadowRoot?.querySelector(`${selector} button`));
+        // The first may be the leap to the beginning.
+        for (let steps = 0; steps < 2; steps++) {
+          const moved = new Promise((resolve) => element.addEventListener('input', resolve, { once: true }));
+          if (steps === 0) button.click();
+          await moved;
+        }
+        await /** @type {any} */ (figure).updateComplete;
+        const label = button.innerText;
+        if (part) {
+          figure.setState({ widget: element.localName, version: 1, ...part });
+          return [label, part];
+        }
+        const parent = /** @type {Element} */ (element.parentElement);
+        element.remove();
+        await new Promise(requestAnimationFrame);
+        const left = figure.getState();
+        const again = new Promise((resolve) => element.addEventListener('load', resolve, { once: true }));
+        parent.append(element);
+        await again;
+        return [label, left];
+      }, /** @type {const} */ ([group, part]));
+    for (const part of [{ [key]: value }, undefined]) {
+      const [label, state] = /** @type {[string, any]} */ (await interrupt(part));
+      expect(label).toBe('Pause');
+      await expect(play).toHaveText('Play');
+      await frames(page);
+      expect(await present()).toBe(state[key]);
+      if (!part) expect(state[key]).toBeGreaterThan(value);
+    }
     expect(await heard(page, ['error'])).toEqual([]);
   });
 }

@@ -14,56 +14,67 @@ import { frames } from './support.js';
  * @typedef {{ name: string, target: string, message: string, path: number, value: unknown }} Heard
  */
 
-/** Those with a handle, and sliders of the command in sight. */
-export const NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
-
-/** All elements. */
-export const ALL = /** @type {const} */ ([...NAMES, 'arc-anatomy', 'odometry-decomposer', 'dead-reckoning']);
-
-/** Those with a cloud that grows, by Play, Step and Reset. */
-export const CLOUDS = /** @type {const} */ ([...NAMES, 'odometry-decomposer', 'dead-reckoning']);
-
-/** Those with a handle in a picture. */
-export const HANDLED = /** @type {const} */ ([...NAMES, 'arc-anatomy', 'odometry-decomposer']);
-
 /**
- * What tests of its life, of print and of help need to know of each.
+ * What tests need to know of each element.
  *
  * @typedef {object} Known
- * @property {[string, number]} slider in sight, and a value that it can be put to
- * @property {string[]} path where a state has that value
+ * @property {boolean} [cloud] whether it has one that grows, by Play, Step and Reset
+ * @property {string[]} [handles] in its pictures
+ * @property {string} slider in sight
+ * @property {string[]} at where the slider's setting is in a state
+ * @property {[number, number]} values that the slider can be put to
+ * @property {string[]} group where a number of a group is in a state
  * @property {[string, number]} other a setting that the first picture shows, and another value than it opens with
+ * @property {string} button in sight, which changes the state
+ * @property {number} canvases how many there are: the first of them is called `plane`
+ * @property {string[]} [folded] where in the catalogue a message is that is said in a fold
  * @property {{ at: number, field: string, value: string }} fold which of the folds has a field, and what can be typed there
  * @property {{ at: number, part: string }} paper which of the folds has something for paper, and what
  * @property {string} [fewer] attributes for a test of times, where the machine drives every robot of its cloud many steps
  */
 
-/** @type {Record<typeof ALL[number], Known>} */
+/** @satisfies {Partial<Known>} */
+const COMMAND = { slider: 'v', at: ['command', 'v'], values: /** @type {[number, number]} */ ([0.7, 0.4]), other: /** @type {[string, number]} */ (['omega', 1.25]) };
+const MARKED = { at: 0, field: 'input[type=number]', value: '7' };
+
+/** @typedef {'banana-machine' | 'map-squeeze' | 'arc-anatomy' | 'odometry-decomposer' | 'dead-reckoning'} Name */
+
+/** @type {Record<Name, Known>} */
 export const KNOWN = {
-  'banana-machine': { slider: ['v', 0.25], path: ['command', 'v'], other: ['omega', 1.25], fold: { at: 0, field: 'input[type=number]', value: '7' }, paper: { at: 1, part: 'table' } },
-  'map-squeeze': { slider: ['v', 0.25], path: ['command', 'v'], other: ['omega', 1.25], fold: { at: 0, field: 'input[type=number]', value: '7' }, paper: { at: 1, part: 'table' } },
-  'arc-anatomy': { slider: ['v', 0.25], path: ['command', 'v'], other: ['omega', 1.25], fold: { at: 1, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 2, part: '.lines' } },
-  'odometry-decomposer': { slider: ['phase', 0.25], path: ['phase'], other: ['toY', -0.75], fold: { at: 0, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 1, part: '.readouts' } },
-  'dead-reckoning': { slider: ['headingNoise', 0.15], path: ['alphas', '2'], other: ['omega', 1.25], fold: { at: 0, field: 'input[type=number]', value: '7' }, paper: { at: 0, part: 'table' }, fewer: 'samples="10000"' },
+  'banana-machine': {
+    ...COMMAND, cloud: true, handles: ['.handle'], group: ['command', 'v'], button: 'New seed', canvases: 2,
+    folded: ['banana', 'table', 'mean'], fold: MARKED, paper: { at: 1, part: 'table' },
+  },
+  'map-squeeze': {
+    ...COMMAND, cloud: true, handles: ['.handle.body', '.handle.turn'], group: ['command', 'v'], button: 'New seed', canvases: 1,
+    folded: ['squeeze', 'tally', 'tests'], fold: MARKED, paper: { at: 1, part: 'table' },
+  },
+  'arc-anatomy': {
+    ...COMMAND, handles: ['.handle.body', '.handle.turn'], group: ['next', 'y'], button: 'The next line', canvases: 1,
+    fold: { at: 1, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 2, part: '.lines' },
+  },
+  'odometry-decomposer': {
+    cloud: true, handles: ['.handle.body.from', '.handle.turn.from', '.handle.body.to', '.handle.turn.to'],
+    slider: 'drift', at: ['drift'], values: [70, 20], group: ['from', 'theta'], other: ['toY', -0.75], button: 'Drive, turn', canvases: 2,
+    folded: ['decomposer', 'readouts', 'exactly'], fold: { at: 0, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 1, part: '.readouts' },
+  },
+  'dead-reckoning': {
+    cloud: true, slider: 'step', at: ['step'], values: [7, 4], group: ['command', 'dt'], other: ['omega', 1.25], button: 'New seed', canvases: 2,
+    folded: ['reckoning', 'misses', 'endOf'], fold: MARKED, paper: { at: 0, part: 'table' }, fewer: 'samples="10000"',
+  },
 };
 
-/**
- * What tests of states, links and traps need to know of each element: a slider in sight, where its setting is in the state, and two values for it; a number in a
- * group; a button in sight that changes settings; how many canvases there are, the first of them called `plane`; and where in the catalogue a
- * message stands that is said in a fold, for those that have one.
- *
- * @type {Record<typeof ALL[number], { slider: string, at: string[], values: [number, number], group: string[], button: string, canvases: number, folded?: string[] }>}
- */
-export const ABOUT = {
-  'banana-machine': { slider: 'v', at: ['command', 'v'], values: [0.7, 0.4], group: ['command', 'v'], button: 'New seed', canvases: 2, folded: ['banana', 'table', 'mean'] },
-  'map-squeeze': { slider: 'v', at: ['command', 'v'], values: [0.7, 0.4], group: ['command', 'v'], button: 'New seed', canvases: 1, folded: ['squeeze', 'tally', 'tests'] },
-  'arc-anatomy': { slider: 'v', at: ['command', 'v'], values: [0.7, 0.4], group: ['next', 'y'], button: '›', canvases: 1 },
-  'odometry-decomposer': { slider: 'drift', at: ['drift'], values: [70, 20], group: ['from', 'theta'], button: 'Drive, turn', canvases: 2, folded: ['decomposer', 'readouts', 'exactly'] },
-  'dead-reckoning': { slider: 'step', at: ['step'], values: [7, 4], group: ['command', 'dt'], button: 'New seed', canvases: 2, folded: ['reckoning', 'misses', 'endOf'] },
-};
+/** All elements. */
+export const ALL = /** @type {Name[]} */ (Object.keys(KNOWN));
 
-/** Those whose room is known. */
-export const RESERVED = /** @type {const} */ ([...NAMES, 'dead-reckoning']);
+/** Two of them, for tests of what happens between elements or of what these alone have. */
+export const NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
+
+/** Those with a cloud. */
+export const CLOUDS = ALL.filter((name) => KNOWN[name].cloud);
+
+/** Those with a handle. */
+export const HANDLED = ALL.filter((name) => KNOWN[name].handles);
 
 /**
  * A page with a body of its own. It notes what its document hears of the elements.
@@ -146,6 +157,41 @@ export function assign(widget, name, value) {
       return refused;
     },
     [name, value],
+  );
+}
+
+/**
+ * Plays what a slider sets, by its button, from and to the page: a hand from outside may come when it is over.
+ *
+ * @param {Locator} widget
+ * @param {string} key of what is played in a state, and class of its group
+ * @param {number} [most] after so many steps it is paused
+ * @returns {Promise<{ values: number[], label: string }>} the value at each step until it rests, and what the button said meanwhile
+ */
+export function played(widget, key, most = Infinity) {
+  return widget.evaluate(
+    (element, [key, most]) =>
+      new Promise((resolve) => {
+        const figure = /** @type {AnyElement} */ (element);
+        const button = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
+        const values = /** @type {number[]} */ ([]);
+        let label = '';
+        const listen = async () => {
+          values.push(/** @type {any} */ (figure.getState())[key]);
+          if (values.length === 1) {
+            await /** @type {any} */ (figure).updateComplete;
+            label = button.innerText;
+          }
+          if (values.length === most) button.click();
+        };
+        figure.addEventListener('input', listen);
+        figure.addEventListener('change', () => {
+          figure.removeEventListener('input', listen);
+          resolve({ values, label });
+        }, { once: true });
+        button.click();
+      }),
+    /** @type {const} */ ([key, most]),
   );
 }
 

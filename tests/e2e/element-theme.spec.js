@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ready, show } from './element-support.js';
+import { ALL, ready, show } from './element-support.js';
 import { STILL, frames, pixelsOf, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -35,13 +35,13 @@ const SETTINGS = /** @type {[string, string, (scheme: 'light' | 'dark') => strin
     '<style>body { background: white; color: #222 } .night body { background: #111; color: oklch(0.9 0 0) }</style>',
     (scheme) => `document.documentElement.classList.toggle('night', ${scheme === 'dark'})`,
   ],
-  ['the attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('banana-machine').theme = '${scheme}'`],
+  ['the attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
 ]);
 
-for (const [name, head, to] of SETTINGS) {
-  test(`follows ${name}`, async ({ page }) => {
-    await show(page, '<banana-machine></banana-machine>', { head });
-    const widget = page.locator('banana-machine');
+for (const name of ALL) for (const [what, head, to] of SETTINGS) {
+  test(`${name} follows ${what}`, async ({ page }) => {
+    await show(page, `<${name} id="it"></${name}>`, { head });
+    const widget = page.locator(name);
     await ready(widget);
     expect(await lookOf(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light', 'dark'])) {
@@ -63,14 +63,16 @@ test('follows the system where the page does', async ({ page }) => {
   await expectDrawn(widget);
 });
 
-test('its own theme stands against everything around it', async ({ page }) => {
-  await show(page, '<banana-machine theme="light"></banana-machine>', { head: '<style>:root { color-scheme: dark; color: white }</style>' });
-  const widget = page.locator('banana-machine');
-  await ready(widget);
-  expect(await lookOf(widget)).toBe('light');
-  await widget.evaluate((element) => element.removeAttribute('theme'));
-  await expect.poll(() => lookOf(widget)).toBe('dark');
-});
+for (const name of ALL) {
+  test(`the theme of ${name} itself stands against everything around it`, async ({ page }) => {
+    await show(page, `<${name} theme="light"></${name}>`, { head: '<style>:root { color-scheme: dark; color: white }</style>' });
+    const widget = page.locator(name);
+    await ready(widget);
+    expect(await lookOf(widget)).toBe('light');
+    await widget.evaluate((element) => element.removeAttribute('theme'));
+    await expect.poll(() => lookOf(widget)).toBe('dark');
+  });
+}
 
 for (const [scheme, look] of /** @type {const} */ ([['normal', 'dark'], ['light', 'light'], ['dark', 'dark']])) {
   test(`takes the ground for ${look} where the page's is an image, its text light and its color-scheme ${scheme}`, async ({ page }) => {

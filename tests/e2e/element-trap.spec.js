@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ABOUT, ALL, CLOUDS, heard, ready, show, stateOf } from './element-support.js';
+import { ALL, CLOUDS, KNOWN, heard, ready, show, stateOf } from './element-support.js';
 import { STILL, frames, pictureOf, test, unfold } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -35,7 +35,7 @@ const within = (state, path) => path.reduce((value, key) => value[key], state);
 
 for (const [i, name] of ALL.entries()) {
   const other = ALL[(i + 1) % ALL.length];
-  const { slider, at, values, button } = ABOUT[name];
+  const { slider, at, values, button } = KNOWN[name];
   const clouded = CLOUDS.some((each) => each === name);
 
   test(`a trap in ${name} is told, mended from its state and seed, and no other element notices`, async ({ page }) => {
@@ -292,7 +292,7 @@ for (const name of ALL) {
 }
 
 for (const name of ALL) {
-  const { canvases, folded, group } = ABOUT[name];
+  const { canvases, folded, group } = KNOWN[name];
   /** @param {import('@playwright/test').Page} page */
   const unfolded = async (page) => {
     await show(page, `<${name}></${name}>`);

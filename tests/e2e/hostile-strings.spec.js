@@ -1,7 +1,7 @@
 // Strings that are anybody's, wherever the figures take one: they are text, in the figure and in what is taken along.
 
 import { expect } from '@playwright/test';
-import { NAMES, heard, ready, show } from './element-support.js';
+import { ALL, heard, ready, show } from './element-support.js';
 import { STILL, frames, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -118,7 +118,7 @@ test('a file of any name is refused in a sentence that quotes it', async ({ page
   }
 });
 
-for (const tag of NAMES) {
+for (const tag of ALL) {
   test(`${tag} takes no attribute, state, link or word for markup`, async ({ page }) => {
     test.slow();
     await show(page, `<${tag}></${tag}>`);

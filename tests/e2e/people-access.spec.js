@@ -11,6 +11,8 @@ import { FRESH, STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state
  * @typedef {import('../../www/types.d.ts').MapSqueezeElement} MapSqueezeElement
  */
 
+/** @typedef {import('./element-support.js').Name} Name */
+
 /**
  * Whatever differs in looks: colours, size, words.
  *
@@ -110,6 +112,45 @@ test.describe('from the keyboard alone', () => {
       await page.keyboard.press('Tab');
     }
     throw new Error(`Tab does not lead to ${target}.`);
+  }
+
+  for (const name of ALL) {
+    test(`Tab leads to every handle and control of ${name}, once, and beyond`, async ({ page }) => {
+      await show(page, `<a id="before" href="#">Before</a><${name}></${name}><a id="after" href="#">After</a>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      await unfold(widget);
+      await widget.evaluate((element) => {
+        const root = /** @type {ShadowRoot} */ (element.shadowRoot);
+        const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle, .chart-marker')].filter((each) => {
+          const { type, name, checked } = /** @type {HTMLInputElement} */ (each);
+          // The field of a slider's value is reached from the slider, the others of a group from the one that is chosen.
+          if (each.matches(':disabled, .typed') || !each.checkVisibility()) return false;
+          return type !== 'radio' || checked || !root.querySelector(`input[name="${name}"]:checked`);
+        });
+        Object.assign(window, { stops });
+      });
+      await page.locator('#before').focus();
+      /** @type {(number | string)[]} */
+      const reached = [];
+      const stop = () => page.evaluate((tag) => {
+        const inside = document.querySelector(tag)?.shadowRoot?.activeElement;
+        return inside ? Reflect.get(window, 'stops').indexOf(inside) : `${document.activeElement?.id}`;
+      }, name);
+      const [count, names] = await page.evaluate(() => {
+        const stops = /** @type {Element[]} */ (Reflect.get(window, 'stops'));
+        return [stops.length, stops.map((each) => each.outerHTML.slice(0, 120))];
+      });
+      expect(count).toBeGreaterThan(10);
+      do {
+        await page.keyboard.press('Tab');
+        reached.push(await stop());
+      } while (reached.at(-1) !== 'after' && reached.length <= count + 5);
+      expect(reached.at(-1)).toBe('after');
+      const missed = names.filter((_, i) => !reached.includes(i));
+      expect(missed).toEqual([]);
+      expect(reached.length).toBe(count + 1);
+    });
   }
 
   test('the Banana Machine comes to the state that a pointer brings it to', async ({ page }) => {
@@ -220,29 +261,53 @@ test.describe('a finger', () => {
     await frames(page);
   }
 
-  /** Where a finger may swipe over each figure. @type {[string, string[]][]} */
-  const SWIPED = [
-    ['banana-machine', ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', 'svg.chart']],
-    ['arc-anatomy', ['canvas.plane', '#omega', '#underway', '#alpha3']],
-    ['odometry-decomposer', ['canvas.plane', 'canvas.world', '#phase', '#drift', '#correlation', '.rules']],
-    ['dead-reckoning', ['canvas.plane', 'canvas.twist', '#step', '#headingNoise', '#samples', '.ratios']],
-  ];
+  /** Where a finger may swipe over each figure. @type {Record<Name, string[]>} */
+  const SWIPED = {
+    'banana-machine': ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', 'svg.chart'],
+    'map-squeeze': ['canvas.plane', '#omega', '#clearance', '#samples', '[part=table]'],
+    'arc-anatomy': ['canvas.plane', '#omega', '#underway', '#alpha3'],
+    'odometry-decomposer': ['canvas.plane', 'canvas.world', '#phase', '#drift', '#correlation', '.rules'],
+    'dead-reckoning': ['canvas.plane', 'canvas.twist', '#step', '#headingNoise', '#samples', '.ratios'],
+  };
 
-  for (const [name, targets] of SWIPED) for (const target of targets) {
+  /**
+   * A figure between what can be scrolled, with a place of it in the lower half of the screen, clear of the picture that stays in
+   * sight above.
+   *
+   * @param {Page} page
+   * @param {Name} name
+   * @param {string} target
+   */
+  async function placed(page, name, target) {
+    await show(page, `<div style="height: 300px"></div><${name}></${name}><div style="height: 1500px"></div>`, {
+      head: '<meta name="viewport" content="width=device-width">',
+    });
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    const place = widget.locator(target);
+    await place.evaluate((element) => {
+      const { top, height } = element.getBoundingClientRect();
+      scrollBy({ top: top + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
+    });
+    await frames(page);
+    return { widget, place };
+  }
+
+  for (const name of ALL) for (const handle of KNOWN[name].handles ?? []) {
+    test(`that goes up on ${handle} of ${name} moves it and not the page`, async ({ page }) => {
+      const { widget, place } = await placed(page, name, handle);
+      const before = await stateOf(widget);
+      const [from, scrolled] = [await centreOf(place), await page.evaluate(() => scrollY)];
+      await swipe(page, from);
+      expect(await page.evaluate(() => scrollY)).toBe(scrolled);
+      expect(await stateOf(widget)).not.toEqual(before);
+    });
+  }
+
+  for (const name of ALL) for (const target of SWIPED[name]) {
     test(`that swipes over ${target} of ${name} scrolls the page and changes nothing`, async ({ page }) => {
-      await show(page, `<div style="height: 300px"></div><${name}></${name}><div style="height: 1500px"></div>`, {
-        head: '<meta name="viewport" content="width=device-width">',
-      });
-      const widget = page.locator(name);
-      await ready(widget);
-      await unfold(widget);
-      const place = widget.locator(target);
-      // Into the lower half of the screen, clear of the floor that stays in sight above.
-      await place.evaluate((element) => {
-        const { top, height } = element.getBoundingClientRect();
-        scrollBy({ top: top + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
-      });
-      await frames(page);
+      const { widget, place } = await placed(page, name, target);
       const before = await stateOf(widget);
       const { x, y, width, height } = await boxOf(place);
       const scrolled = await page.evaluate(() => scrollY);
@@ -345,23 +410,28 @@ test.describe('theming', () => {
     expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
   });
 
-  test('parts can be styled from outside', async ({ page }) => {
-    const squeeze = await openSqueeze(page);
-    await unfold(page.locator('banana-machine').first());
-    await unfold(squeeze);
-    const parts = { 'banana-machine': ['picture', 'caption', 'legend', 'readouts', 'controls', 'figures', 'chart', 'table', 'slider', 'button', 'exports'], 'map-squeeze': ['picture', 'caption', 'legend', 'readouts', 'controls', 'table', 'slider', 'button', 'exports'] };
-    for (const [name, all] of Object.entries(parts)) {
-      await page.addStyleTag({ content: all.map((part) => `${name}::part(${part}) { outline-color: rgb(1, 2, 3) }`).join('\n') });
-      const styled = await page.locator(name).first().evaluate(
-        (element, wanted) => wanted.filter((part) => {
-          const found = element.shadowRoot?.querySelector(`[part=${part}]`);
-          return !found || getComputedStyle(found).outlineColor !== 'rgb(1, 2, 3)';
-        }),
-        all,
-      );
-      expect(styled, name).toEqual([]);
-    }
-  });
+  for (const name of ALL) {
+    test(`the parts of ${name} that are documented are there, and can be styled from outside`, async ({ page }) => {
+      await show(page, `<${name}></${name}>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      await unfold(widget);
+      const manifest = await (await page.request.get('/custom-elements.json')).json();
+      const declarations = manifest.modules.flatMap((/** @type {any} */ each) => each.declarations ?? []);
+      const { cssParts } = declarations.find((/** @type {any} */ each) => each.tagName === name);
+      // The progress is there while there is some.
+      const parts = /** @type {string[]} */ (cssParts.map((/** @type {any} */ each) => each.name)).filter((part) => part !== 'progress');
+      expect(parts.length).toBeGreaterThan(8);
+      await page.addStyleTag({ content: parts.map((part) => `${name}::part(${part}) { outline-color: rgb(1, 2, 3) }`).join('\n') });
+      const [missing, others] = await widget.evaluate((element, documented) => {
+        const all = [...(element.shadowRoot?.querySelectorAll('[part]') ?? [])];
+        const styled = all.filter((each) => getComputedStyle(each).outlineColor === 'rgb(1, 2, 3)').map((each) => each.getAttribute('part') ?? '');
+        return [documented.filter((part) => !styled.includes(part)), all.map((each) => each.getAttribute('part') ?? '').filter((part) => !documented.includes(part))];
+      }, parts);
+      expect(missing).toEqual([]);
+      expect(others).toEqual([]);
+    });
+  }
 });
 
 for (const name of ALL) {
@@ -373,7 +443,7 @@ for (const name of ALL) {
       });
       const widget = page.locator(name);
       await ready(widget);
-      await expect(widget.locator(`#${KNOWN[name].slider[0]}`)).toBeVisible();
+      await expect(widget.locator(`#${KNOWN[name].slider}`)).toBeVisible();
       const crossed = await widget.evaluate((element) => {
         const root = /** @type {ShadowRoot} */ (element.shadowRoot);
         return [...root.querySelectorAll('.slider')].flatMap((row) => {

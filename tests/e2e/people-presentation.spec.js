@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { NAMES, ready, show } from './element-support.js';
+import { ALL, ready, show } from './element-support.js';
 import { STILL, boxOf, centreOf, frames, test } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
@@ -37,7 +37,7 @@ for (const controls of [false, true]) {
   });
 }
 
-for (const name of NAMES) {
+for (const name of ALL) {
   test(`${name} fills the screen, legible from the last row, and leaves as it came`, async ({ page }) => {
     await show(page, `<div style="height: 300px"></div><${name}></${name}><div style="height: 3000px"></div>`);
     const widget = page.locator(name);
@@ -129,7 +129,7 @@ const groupsOf = (widget) => widget.locator(GROUPS).evaluateAll((all) =>
 /** @param {import('@playwright/test').Locator} widget */
 const scrollTop = (widget) => widget.locator('.surface').evaluate((element) => element.scrollTop);
 
-for (const name of NAMES) {
+for (const name of ALL) {
   for (const lang of ['en', 'de']) {
     for (const [width, height] of [[1280, 720], [1920, 1080]]) {
       test(`${name} shows its controls beside a large picture, ${width} × ${height} px, in ${lang}`, async ({ page }) => {

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { openSqueeze, squeezed, unfold } from './squeeze-support.js';
-import { STILL, centreOf, dragSlider, frames, numberIn, pictureOf, pixelsOf, readout, test } from './support.js';
+import { STILL, centreOf, dragSlider, frames, numberIn, pauseEarly, pictureOf, pixelsOf, readout, test } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapSqueezeElement} MapSqueezeElement
@@ -452,8 +452,9 @@ test.describe('judging', () => {
 
 test.describe('growth', () => {
   test('plays by itself, pauses, steps, resets and takes another seed', async ({ page }) => {
+    await pauseEarly(page, 'map-squeeze');
     const widget = await openSqueeze(page);
-    await widget.getByRole('button', { name: 'Pause' }).click();
+    await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
     const paused = await squeezed(widget);
     expect(paused.shown).toBeLessThan(paused.config.samples);
     await frames(page);
@@ -465,8 +466,8 @@ test.describe('growth', () => {
     await widget.getByRole('button', { name: 'Reset' }).click();
     expect((await squeezed(widget)).shown).toBe(0);
     await widget.getByRole('button', { name: 'Play' }).click();
-    await expect(widget.getByRole('button', { name: 'Pause' })).toBeVisible();
-    await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible({ timeout: 20_000 });
+    await expect.poll(async () => (await squeezed(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
+    await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
     const whole = await squeezed(widget);
     expect(whole.shown).toBe(whole.config.samples);
     expect(whole.poses.slice(0, stepped.poses.length)).toEqual(stepped.poses);

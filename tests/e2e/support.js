@@ -50,6 +50,26 @@ export async function open(page) {
 }
 
 /**
+ * Has the cloud of a page's first figure of a kind paused where it has grown by itself for a step: it may be whole before a hand
+ * from outside comes to it.
+ *
+ * @param {Page} page that is opened after this
+ * @param {string} name of the widget
+ */
+export async function pauseEarly(page, name) {
+  await page.addInitScript((tag) => {
+    const pause = () => {
+      const figure = /** @type {any} */ (document.querySelector(tag));
+      const button = figure.shadowRoot.querySelector('.cloud button');
+      if (!button || !figure.playing || figure.machine.shown === 0) return;
+      document.removeEventListener('stats', pause);
+      button.click();
+    };
+    document.addEventListener('stats', pause);
+  }, name);
+}
+
+/**
  * Opens every fold of a widget, as a reader does.
  *
  * @param {Locator} widget

@@ -120,6 +120,8 @@ export class FigureElement extends LitElement {
   presenting = new Presentation(this);
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */
   cloud;
+  /** Of a figure that plays what a slider sets: told of each frame, it says whether there is more. @type {{ advance(elapsed: number): boolean } | undefined} */
+  player;
   /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */
   pictures = [];
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */

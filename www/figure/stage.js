@@ -175,7 +175,8 @@ export class Stage extends Part {
       this.#owedSince ??= began;
       wake(this);
     }
-    if (moving.includes(true) || host.cloud?.playing) this.wake();
+    const playing = host.player?.advance(elapsed);
+    if (playing || moving.includes(true) || host.cloud?.playing) this.wake();
   }
 
   /** Has the words rendered of what was drawn last, and the attributes say it. */

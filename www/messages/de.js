@@ -3,6 +3,7 @@
 /** @type {typeof import('./en.js').en} */
 export const de = {
   failure: (reason) => `Diese interaktive Abbildung läuft hier nicht. ${reason}`,
+  beginWith: 'Beginn mit',
   play: 'Abspielen',
   pause: 'Anhalten',
   step: 'Schritt',

@@ -12,6 +12,7 @@ export const plural = (count, word) => `${word}${count === 1 ? '' : 's'}`;
 
 export const en = /** @satisfies {import('./registry.js').Message} */ ({
   failure: (reason) => `This interactive figure cannot run here. ${reason}`,
+  beginWith: 'Begin with',
   play: 'Play',
   pause: 'Pause',
   step: 'Step',

@@ -8,15 +8,15 @@ import { define } from '../../figure/reflection.js';
 import { exportMenu } from '../../figure/takeaway/export.js';
 import { words } from '../../messages/registry.js';
 import { fold } from '../../ui/fold.js';
+import { Player } from '../shared/player.js';
 import { PoseHandles } from '../shared/pose-handles.js';
-import { alphaControls, commandControls, drawnControls, lineStepper, presetButtons, printedCheck } from './controls.js';
+import { alphaControls, commandControls, drawnControls, lineStepper, presets, printedCheck, underwayControl } from './controls.js';
 import { formsPlot } from './forms.js';
 import { ArcPicture, RADIUS } from './picture.js';
 import { readingOf } from './reading.js';
 import { factorBars, legend, likelihoods, tableOf } from './readouts.js';
-import { REACH, attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { REACH, WHOLE, attributes, declared, looks, own, room, vocabulary } from './settings.js';
 import { anatomyStyles } from './styles.js';
-import { Sweep } from './sweep.js';
 import { longestVerdict, pictureText, verdictOf } from './words.js';
 
 /**
@@ -54,7 +54,11 @@ export class ArcAnatomyElement extends FigureElement {
     say: () => words.anatomy.robot,
   });
 
-  #sweep = new Sweep(this);
+  /** @type {Player<'underway'>} */
+  player = new Player(this, {
+    // Whatever the command: its time is told beside.
+    underway: { from: 0, to: WHOLE, duration: 2000, at: () => this.state.own.underway, put: (at) => this.#drive(at) },
+  });
 
   /** @type {FigureElement<Machine, Reading>['createMachine']} */
   createMachine = (motion, state) => new motion.ArcAnatomy(state && this.settings.declared(state));
@@ -63,16 +67,14 @@ export class ArcAnatomyElement extends FigureElement {
 
   /** In a state that came, or came back, nothing is played. */
   machineChanged() {
-    this.#sweep.playing = false;
+    this.player.stop();
   }
 
   get scene() {
-    const { twist, line } = this.state.own;
-    const { share } = this.#sweep;
+    const { twist, line, underway } = this.state.own;
     const reading = this.fresh;
-    const underway = share < 1 ? this.machine?.underway(share) : undefined;
-    const advance = (/** @type {number} */ elapsed) => this.#sweep.advance(elapsed);
-    return { ...reading, machine: this.machine, twist: twist === 'shown', line, underway, advance };
+    const robots = underway < WHOLE ? this.machine?.underway(underway / WHOLE) : undefined;
+    return { ...reading, machine: this.machine, twist: twist === 'shown', line, underway: robots };
   }
 
   get takeaway() {
@@ -96,6 +98,15 @@ export class ArcAnatomyElement extends FigureElement {
     return this.#next.held;
   }
 
+  /** The robot goes by whole per cents, each of which is a step that a page hears of. @param {number} at per cent of the way */
+  #drive(at) {
+    const { own } = this.state;
+    if (Math.floor(at) === own.underway) return;
+    own.underway = Math.floor(at);
+    this.gesture.step();
+    this.stage.wake();
+  }
+
   /** @param {Reading} scene */
   placeHandles({ config }) {
     this.#next.place(config.next, RADIUS);
@@ -113,14 +124,14 @@ export class ArcAnatomyElement extends FigureElement {
           ${this.stage.later(() => html`
           <p class="verdict caption roomy" part="caption" data-room=${longestVerdict()}><span>${verdictOf(reading)}</span></p>
           <div class="aside">
-            ${factorBars(reading, this.state.own.line)} ${likelihoods(reading)} ${presetButtons(this)} ${printedCheck(this)}
+            ${factorBars(reading, this.state.own.line)} ${likelihoods(reading)} ${presets(this)} ${printedCheck(this)}
           </div>`)}
         </div>
         ${this.stage.later(() => html`
-        ${lineStepper(this)} ${this.#sweep.render()}
+        ${lineStepper(this)} ${underwayControl(this)}
         <div class="controls" part="controls">${commandControls(this)} ${drawnControls(this)}</div>
         <div class="folds">
-          ${fold(say.drawn, () => legend(reading, this.state.own.twist === 'shown'))}
+          ${fold(say.drawn, () => legend(this.state.own.twist === 'shown'))}
           ${fold(say.noiseLabel, () => alphaControls(this))}
           ${fold(say.table.label, () => tableOf(reading, this.state.own.line))}
           ${fold(say.forms.label, () => formsPlot(this.motion))}

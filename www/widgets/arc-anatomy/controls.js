@@ -4,21 +4,18 @@ import { html } from 'lit';
 import { check, choices, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, longest, rich, toggle } from '../../ui/controls.js';
+import { fixed } from '../../ui/format.js';
+import { track } from '../../ui/slider.js';
+import { presetButtons } from '../shared/presets.js';
 import { lineText } from './readouts.js';
-import { ALPHAS, COMMAND, LINES, PRESETS, presetIn, presetNamed } from './settings.js';
+import { ALPHAS, COMMAND, LINES, WHOLE, presetIn, presetNamed } from './settings.js';
 
 /** @typedef {import('./arc-anatomy.js').ArcAnatomyElement} Figure */
 
 /** @param {Figure} figure */
-export function presetButtons(figure) {
-  const say = words.anatomy;
+export function presets(figure) {
   const present = presetIn(/** @type {any} */ (figure.settings.told));
-  const buttons = PRESETS.map(({ name }) =>
-    button(say.presets[/** @type {keyof typeof say.presets} */ (name)], () => figure.gesture.decide(presetNamed(name)), {
-      pressed: name === present,
-    }),
-  );
-  return html`<div class="buttons" role="group" aria-label=${say.presetsLabel}>${buttons}</div>`;
+  return presetButtons(figure, { names: words.anatomy.presets, present, settings: presetNamed });
 }
 
 /** @param {Figure} figure */
@@ -60,6 +57,14 @@ export function drawnControls(figure) {
   </fieldset>`;
 }
 
+/**
+ * A sign for the eye, words for the ear.
+ *
+ * @param {string} seen
+ * @param {string} heard
+ */
+const sign = (seen, heard) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
+
 /** The way through Table 5.1: each line lights what it constructs. @param {Figure} figure */
 export function lineStepper(figure) {
   const say = words.anatomy.table;
@@ -67,8 +72,20 @@ export function lineStepper(figure) {
   const go = (/** @type {number} */ to) => () => figure.gesture.choose('line', to);
   const texts = Array.from({ length: LINES }, (_, i) => lineText(figure.reading, i + 1));
   return html`<div class="stepper" role="group" aria-label=${say.label}>
-    ${button('‹', go(line - 1), { disabled: line === 0, title: say.back })}
-    ${button('›', go(line + 1), { disabled: line === LINES, title: say.on })}
+    ${button(sign('‹', say.back), go(line - 1), { disabled: line === 0, title: say.back })}
+    ${button(sign('›', say.on), go(line + 1), { disabled: line === LINES, title: say.on })}
     <p class="roomy" data-room=${longest(texts).replaceAll('*', '')} role="status"><span>${line === 0 ? say.begin : rich(texts[line - 1])}</span></p>
+  </div>`;
+}
+
+/** The robot underway: along the arcs by itself, or where the reader puts it. @param {Figure} figure */
+export function underwayControl({ player, gesture, reading, state }) {
+  const { underway } = state.own;
+  const shown = `${fixed((underway / WHOLE) * reading.config.command.dt, 2)} s`;
+  return html`<div class="underway">
+    ${player.button('underway')}
+    <label for="underway">${words.anatomy.underway}</label>
+    ${track({ id: 'underway', min: 0, max: WHOLE, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
+    <output for="underway">${shown}</output>
   </div>`;
 }

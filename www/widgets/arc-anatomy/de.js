@@ -17,7 +17,6 @@ export const de = {
     alpha6: { name: 'α₆', effect: 'Je schneller die Drehung, desto mehr wird *γ̂* verziehen.' },
   },
   maps: { none: 'keine', prob: 'p', density: 'Dichte' },
-  presetsLabel: 'Beginn mit',
   presets: { left: 'Linkskurve', right: 'Rechtskurve', reverse: 'Rückwärts', straight: 'Geradeaus' },
   printed: 'wie gedruckt: *r\\** ≥ 0',
   twist: 'gleichbleibender Twist, *ξ*',

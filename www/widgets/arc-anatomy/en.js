@@ -16,7 +16,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     alpha6: { name: 'α₆', effect: '*γ̂* is forgiven more the faster the turn.' },
   },
   maps: { none: 'none', prob: 'p', density: 'density' },
-  presetsLabel: 'Begin with',
   presets: { left: 'Left turn', right: 'Right turn', reverse: 'Reverse', straight: 'Straight' },
   printed: 'as printed: *r\\** ≥ 0',
   twist: 'constant twist, *ξ*',

@@ -7,6 +7,7 @@ import { View, extentAround } from '../../scene/view.js';
 import { clamp } from '../../ui/clamp.js';
 import { fixed } from '../../ui/format.js';
 import { COMMAND_DASH } from '../shared/command.js';
+import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
 import { OTHER_DASH, SurfaceLayer } from './surface.js';
 
@@ -15,8 +16,7 @@ import { OTHER_DASH, SurfaceLayer } from './surface.js';
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Reading } from './reading.js'
  *
- * @typedef {Reading & { machine: ArcAnatomy, twist: boolean, line: number, underway: Float64Array | undefined,
- *   advance: (elapsed: number) => boolean }} Scene
+ * @typedef {Reading & { machine: ArcAnatomy, twist: boolean, line: number, underway: Float64Array | undefined }} Scene
  */
 
 /** Of the robots, m. */
@@ -72,12 +72,6 @@ export class ArcPicture extends Picture {
     this.view.fit({ xMin: xMin - AROUND, yMin: yMin - AROUND, xMax: xMax + AROUND, yMax: yMax + AROUND });
   }
 
-  /** @type {Picture<Scene>['draw']} */
-  draw(surface, scene, palette, easing) {
-    const moving = super.draw(surface, scene, palette, easing);
-    return scene.advance(easing?.elapsed ?? 0) || moving;
-  }
-
   /** @type {Picture<Scene>['paint']} */
   paint = (brush, scene) => {
     const { config: { start, next, printed }, stats, paths, twist } = scene;
@@ -126,19 +120,12 @@ export class ArcPicture extends Picture {
  *
  * @param {Brush} brush
  * @param {Scene} scene
- * @returns {import('../../scene/draw.js').KeyEntry[]}
  */
-function keyOf({ context, palette }, { twist, config: { map } }) {
+function keyOf(brush, { twist, config: { map } }) {
+  const { palette } = brush;
   const say = words.anatomy.drawnShort;
-  const entry = (/** @type {string} */ name, /** @type {string} */ colour, /** @type {number[]} */ dash, width = 2.5) => ({
-    name,
-    draw: (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ length) => {
-      stroke(context, colour, width, dash, () => {
-        context.moveTo(x, y);
-        context.lineTo(x + length, y);
-      });
-    },
-  });
+  const entry = (/** @type {string} */ name, /** @type {string} */ colour, /** @type {number[]} */ dash, width = 2.5) =>
+    lineKey(brush, name, { colour, width, dash });
   return [
     entry(say.inverted, palette.prediction, []),
     entry(say.commanded, palette.prior, COMMAND_DASH),

@@ -114,13 +114,8 @@ export function tableOf(reading, lit) {
     <p class="about">${rich(say.sign)}</p>`;
 }
 
-/**
- * What the lines in the picture are.
- *
- * @param {Reading} _reading
- * @param {boolean} twist whether the way of constant twist is drawn
- */
-export function legend(_reading, twist) {
+/** What the lines in the picture are. @param {boolean} twist whether the way of constant twist is drawn */
+export function legend(twist) {
   const say = words.anatomy.key;
   return html`<ul class="legend key" part="legend">
     <li><svg class="commanded" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 16Q20 16 34 4" /></svg><span>${rich(say.commanded)}</span></li>

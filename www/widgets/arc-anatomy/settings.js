@@ -4,6 +4,7 @@ import { WORD, attributesOf } from '../../figure/attributes.js';
 import { wholeNumber, word } from '../../figure/checks.js';
 import { presets, settings } from '../../settings.js';
 import { commandLooks } from '../shared/command.js';
+import { alphaLooks } from '../shared/noise.js';
 
 /** @typedef {import('../../types.d.ts').ArcAnatomySettings} Settings */
 
@@ -20,6 +21,9 @@ const ORIGIN = { x: 0, y: 0, theta: 0 };
 
 /** Lines of Table 5.1. */
 export const LINES = 9;
+
+/** All of the time that the robot is underway, per cent. */
+export const WHOLE = 100;
 
 const TWISTS = ['hidden', 'shown'];
 
@@ -73,7 +77,7 @@ export const attributes = {
 export const own = {
   twist: { opening: 'hidden', check: (field, twist) => word(field, twist, TWISTS) },
   line: { opening: 0, check: (field, line) => wholeNumber(field, line, 0, LINES) },
-  underway: { opening: 100, check: (field, share) => wholeNumber(field, share, 0, 100) },
+  underway: { opening: WHOLE, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
 };
 
 /** @type {import('../../figure/attributes.js').Documentation} */
@@ -86,17 +90,7 @@ export const documentation = {
 
 export const COMMAND = commandLooks(4);
 
-/** Up to a standard deviation of nearly half the command. */
-const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
-
-export const ALPHAS = {
-  alpha1: { ...ALPHA, symbol: '*α*₁' },
-  alpha2: { ...ALPHA, symbol: '*α*₂' },
-  alpha3: { ...ALPHA, symbol: '*α*₃' },
-  alpha4: { ...ALPHA, symbol: '*α*₄' },
-  alpha5: { ...ALPHA, symbol: '*α*₅' },
-  alpha6: { ...ALPHA, symbol: '*α*₆' },
-};
+export const ALPHAS = alphaLooks(6);
 
 /** @type {Record<string, import('../../figure/controls.js').Look>} */
 export const looks = { ...COMMAND, ...ALPHAS };

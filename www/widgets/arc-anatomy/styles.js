@@ -3,30 +3,11 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
+import { besideStyles, poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
     aspect-ratio: 5 / 4;
-  }
-
-  /* The picture with the sentence below it, and beside it the factors. */
-  @container (min-width: 38em) {
-    .views {
-      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 16em;
-      column-gap: 1em;
-    }
-
-    .stage {
-      grid-area: stage;
-    }
-
-    .verdict {
-      grid-area: verdict;
-    }
-
-    .aside {
-      grid-area: aside;
-    }
   }
 
   .factors {
@@ -128,11 +109,6 @@ const own = css`
     --name: 3em;
   }
 
-  .aside .buttons {
-    gap: 0.35em;
-    margin-bottom: 0.4em;
-  }
-
   .stepper {
     display: grid;
     grid-template-columns: auto auto 1fr;
@@ -163,6 +139,11 @@ const own = css`
     text-align: right;
   }
 
+  /* With its controls it is to fit on the screen of an audience. */
+  :host([presentation]) :is(.stepper, .underway) {
+    margin-bottom: 0.25em;
+  }
+
   .lines {
     margin: 0 0 0.6em;
     padding: 0;
@@ -178,48 +159,15 @@ const own = css`
     border-color: var(--accent);
   }
 
-  .about {
-    color: var(--muted);
-    margin: 0 0 0.7em;
-  }
-
-  .handle.body::after {
-    content: none;
-  }
-
-  .handle.turn {
-    width: 1.75em;
-    height: 1.75em;
-  }
-
   .handle.turn::after {
-    inset: 0.45em;
     border-color: var(--prediction);
-    border-width: 2.5px;
   }
 
   .handle.turn:hover::after {
     background: var(--prediction);
   }
 
-  .key {
-    row-gap: 0.15em;
-    margin: 0.5em 0 0.7em;
-    padding: 0;
-    list-style: none;
-  }
-
-  .key li {
-    display: flex;
-    align-items: center;
-    gap: 0.6em;
-  }
-
   .key svg {
-    flex: none;
-    width: 2.2em;
-    height: 1.2em;
-    fill: none;
     stroke-width: 2;
   }
 
@@ -251,4 +199,4 @@ const own = css`
   }
 `;
 
-export const anatomyStyles = [...layoutStyles, plotStyles, own];
+export const anatomyStyles = [...layoutStyles, plotStyles, besideStyles, poseHandleStyles, own];

@@ -15,8 +15,8 @@ export class SurfaceLayer {
   #pixels = new OffscreenCanvas(1, 1);
   /** What the machine was asked for last. @type {{ settings: object, box: string, surface: AnatomySurface } | undefined} */
   #last;
-  /** Colours by shade, and what they were made of. @type {{ palette: Palette, ramp: Uint8Array } | undefined} */
-  #colours;
+  /** It in colours, and whose they are. @type {{ surface: AnatomySurface, palette: Palette, pixels: Uint8ClampedArray<ArrayBuffer> } | undefined} */
+  #image;
 
   /**
    * @param {Brush} brush
@@ -31,8 +31,13 @@ export class SurfaceLayer {
       this.#last = surface ? { settings: config, box, surface } : undefined;
     }
     if (!this.#last) return;
-    const { shades, columns, prob, density } = this.#last.surface;
-    drawPixels(brush, this.#pixels, this.#coloured(shades, brush.palette), columns);
+    const { surface } = this.#last;
+    const { palette } = brush;
+    if (this.#image?.surface !== surface || this.#image.palette !== palette) {
+      this.#image = { surface, palette, pixels: coloured(surface.shades, palette) };
+    }
+    const { columns, prob, density } = surface;
+    drawPixels(brush, this.#pixels, this.#image.pixels, columns);
     const [mapped, other] = config.map === 'prob' ? [prob, density] : [density, prob];
     this.#contour(brush, other, OTHER_DASH);
     this.#contour(brush, mapped, []);
@@ -55,16 +60,15 @@ export class SurfaceLayer {
     context.setLineDash([]);
     context.globalAlpha = 1;
   }
+}
 
-  /**
-   * @param {Uint8Array} shades
-   * @param {Palette} palette
-   */
-  #coloured(shades, palette) {
-    if (this.#colours?.palette !== palette) this.#colours = { palette, ramp: densityRamp(palette) };
-    const colours = new Uint32Array(this.#colours.ramp.buffer);
-    // Where there is next to nothing, there is nothing.
-    const pixels = Uint32Array.from(shades, (shade) => (shade === 0 ? 0 : colours[shade]));
-    return new Uint8ClampedArray(pixels.buffer);
-  }
+/**
+ * @param {Uint8Array} shades
+ * @param {Palette} palette
+ */
+function coloured(shades, palette) {
+  const colours = new Uint32Array(densityRamp(palette).buffer);
+  // Where there is next to nothing, there is nothing.
+  colours[0] = 0;
+  return new Uint8ClampedArray(Uint32Array.from(shades, (shade) => colours[shade]).buffer);
 }

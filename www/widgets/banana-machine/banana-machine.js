@@ -19,7 +19,7 @@ import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
 import { fold } from '../../ui/fold.js';
 import { fixed } from '../../ui/format.js';
-import { alphaControls, commandControls, modelControls, overlayToggles, presetButtons } from './controls.js';
+import { alphaControls, commandControls, modelControls, overlayToggles, presets } from './controls.js';
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
@@ -206,7 +206,7 @@ export class BananaMachineElement extends FigureElement {
         <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
           <span>${captionOf(reading)}</span>
         </p>
-        ${readouts(reading)} ${presetButtons(this)}
+        ${readouts(reading)} ${presets(this)}
         <div class="controls" part="controls">
           <div>${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
           ${alphaControls(this)}

@@ -3,26 +3,22 @@
 import { html, nothing } from 'lit';
 import { check, choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, choice, toggle } from '../../ui/controls.js';
+import { choice, toggle } from '../../ui/controls.js';
 import { typed } from '../../ui/format.js';
-import { PRESETS, presetIn, presetNamed } from './presets.js';
+import { presetButtons } from '../shared/presets.js';
+import { presetIn, presetNamed } from './presets.js';
 import { alphaName } from './reading.js';
 import { COMMAND, DASHES, OVERLAYS } from './settings.js';
 
 /** @typedef {import('./banana-machine.js').BananaMachineElement} Figure */
 
 /** @param {Figure} figure */
-export function presetButtons(figure) {
-  const present = presetIn(figure.reading.config);
-  return html`<div class="buttons presets">
-    ${PRESETS.map(({ name }) =>
-      button(
-        words.banana.presets[/** @type {keyof typeof words.banana.presets} */ (name)],
-        () => figure.gesture.decide((config) => presetNamed(name, /** @type {any} */ (config))),
-        { pressed: name === present },
-      ),
-    )}
-  </div>`;
+export function presets(figure) {
+  return presetButtons(figure, {
+    names: words.banana.presets,
+    present: presetIn(figure.reading.config),
+    settings: (name) => (config) => presetNamed(name, /** @type {any} */ (config)),
+  });
 }
 
 /** @param {Figure} figure */

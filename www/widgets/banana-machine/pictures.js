@@ -17,6 +17,7 @@ import {
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { counted } from '../../ui/format.js';
+import { lineKey } from '../shared/line-key.js';
 import { deviation } from './reading.js';
 import { DASHES } from './settings.js';
 
@@ -120,28 +121,6 @@ const outlineStyles = ({ prediction, posterior, prior }) => ({
   command: { colour: prior, width: 2.5, dash: DASHES.command },
 });
 
-/**
- * @param {Brush} brush
- * @param {OutlineName} name
- * @param {{ colour: string, width: number, dash: number[] }} style
- * @returns {import('../../scene/draw.js').KeyEntry}
- */
-function keyEntry({ context }, name, { colour, width, dash }) {
-  return {
-    name: words.banana.key[name],
-    draw: (x, y, length) => {
-      context.strokeStyle = colour;
-      context.lineWidth = width;
-      context.setLineDash(dash);
-      context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(x + length, y);
-      context.stroke();
-      context.setLineDash([]);
-    },
-  };
-}
-
 /** The floor from above. */
 export class PlanePicture extends CloudPicture {
   constructor() {
@@ -168,7 +147,7 @@ export class PlanePicture extends CloudPicture {
     const { machine, contours, overlays, table, marked, end } = scene;
     const styles = outlineStyles(palette);
     const drawn = (/** @type {OutlineName} */ name) => overlays[name] && hasLength(contours[name]);
-    const key = NAMED.filter(drawn).map((name) => keyEntry(brush, name, styles[name]));
+    const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.key[name], styles[name]));
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     clipped(brush, () => {
       const { cov } = table.exact;
@@ -330,7 +309,7 @@ export class TwistPicture extends CloudPicture {
     const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
     const { exponential } = outlineStyles(palette);
-    const key = overlays.exponential && hasLength(contours.twistEllipse) ? [keyEntry(brush, 'exponential', exponential)] : [];
+    const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.key.exponential, exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, key);
     clipped(brush, () => {
       const [{ cov }] = twistMoments(scene);

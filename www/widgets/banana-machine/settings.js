@@ -5,6 +5,7 @@ import { subset, wholeNumber } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { openingAlphas, settings } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.js';
+import { alphaLooks } from '../shared/noise.js';
 import { presetAttribute } from './presets.js';
 
 export const declared = settings['banana-machine'];
@@ -40,20 +41,9 @@ export const documentation = {
   },
 };
 
-/** Up to a standard deviation of nearly half the command. */
-const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
-
 export const COMMAND = commandLooks(3);
 
-export const looks = {
-  ...COMMAND,
-  alpha1: { ...ALPHA, symbol: '*α*₁' },
-  alpha2: { ...ALPHA, symbol: '*α*₂' },
-  alpha3: { ...ALPHA, symbol: '*α*₃' },
-  alpha4: { ...ALPHA, symbol: '*α*₄' },
-  alpha5: { ...ALPHA, symbol: '*α*₅' },
-  alpha6: { ...ALPHA, symbol: '*α*₆' },
-};
+export const looks = { ...COMMAND, ...alphaLooks(6) };
 
 /** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
 export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);

@@ -3,8 +3,8 @@
 import { html } from 'lit';
 import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button } from '../../ui/controls.js';
-import { COMMAND, NOISE, PRESETS, presetIn, presetNamed } from './settings.js';
+import { presetButtons } from '../shared/presets.js';
+import { COMMAND, NOISE, presetIn, presetNamed } from './settings.js';
 
 /** @typedef {import('./dead-reckoning.js').DeadReckoningElement} Figure */
 
@@ -18,19 +18,9 @@ export function walkControls(figure) {
 }
 
 /** @param {Figure} figure */
-export function presetButtons(figure) {
-  const present = presetIn(figure.reading.config);
-  /** @type {Record<string, string | undefined>} */
-  const titles = words.reckoning.presetTitles;
-  return html`<div class="buttons presets">
-    ${PRESETS.map(({ name }) =>
-      button(
-        words.reckoning.presets[/** @type {keyof typeof words.reckoning.presets} */ (name)],
-        () => figure.gesture.decide(presetNamed(name)),
-        { pressed: name === present, title: titles[name] },
-      ),
-    )}
-  </div>`;
+export function presets(figure) {
+  const { presets: names, presetTitles: titles } = words.reckoning;
+  return presetButtons(figure, { names, titles, present: presetIn(figure.reading.config), settings: presetNamed });
 }
 
 /** @param {Figure} figure */

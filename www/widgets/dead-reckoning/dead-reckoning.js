@@ -9,7 +9,7 @@ import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { fold } from '../../ui/fold.js';
-import { commandAndNoise, pathControls, presetButtons, recursionChoice, walkControls } from './controls.js';
+import { commandAndNoise, pathControls, presets, recursionChoice, walkControls } from './controls.js';
 import { PathPicture, StepPicture } from './pictures.js';
 import { COMPONENTS, readingOf } from './reading.js';
 import { markedRobot, missReadouts, missTable, ratioPlot, straightPlot } from './readouts.js';
@@ -127,7 +127,7 @@ export class DeadReckoningElement extends FigureElement {
           </div>`)}
         </div>
         ${this.stage.later(() => html`
-        ${presetButtons(this)}
+        ${presets(this)}
         <div class="controls" part="controls">${pathControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
         <div class="folds">
           ${fold(say.figures, () => html`${missTable(reading)} ${markedRobot(this, this.#marked)}`)}

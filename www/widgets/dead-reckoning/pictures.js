@@ -5,6 +5,7 @@ import { clipped, drawAxes, drawDots, drawMark, drawOutlines, drawRobot, trace }
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { COMMAND_DASH } from '../shared/command.js';
+import { lineKey } from '../shared/line-key.js';
 
 /**
  * @import { DeadReckoning } from '../../types.d.ts'
@@ -38,23 +39,9 @@ const stylesOf = ({ prediction, posterior, prior, truth }) => ({
 /**
  * @param {Brush} brush
  * @param {OutlineName} name
- * @returns {import('../../scene/draw.js').KeyEntry}
  */
-function keyEntry({ context, palette }, name) {
-  const { colour, width, dash } = stylesOf(palette)[name];
-  return {
-    name: words.reckoning.key[name],
-    draw: (x, y, length) => {
-      context.strokeStyle = colour;
-      context.lineWidth = width;
-      context.setLineDash(dash);
-      context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(x + length, y);
-      context.stroke();
-      context.setLineDash([]);
-    },
-  };
+function keyEntry(brush, name) {
+  return lineKey(brush, words.reckoning.key[name], stylesOf(brush.palette)[name]);
 }
 
 /**

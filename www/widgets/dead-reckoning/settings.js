@@ -5,6 +5,7 @@ import { word } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { presets, settings } from '../../settings.js';
 import { commandLooks } from '../shared/command.js';
+import { ALPHA, alphaLooks } from '../shared/noise.js';
 
 /** @import { DeadReckoningSettings } from '../../types.d.ts' */
 
@@ -15,7 +16,6 @@ export const vocabulary = 'reckoning';
 
 export const PRESETS = presets['dead-reckoning'];
 const PRESET_NAMES = PRESETS.map(({ name }) => name);
-const ALPHAS = PRESETS[0].alphas.map((_, i) => `alpha${i + 1}`);
 
 /** The recursions in the order in which they are offered. */
 export const RECURSIONS = /** @type {DeadReckoningSettings['compounding'][]} */ (declared.find(({ key }) => key === 'compounding')?.words);
@@ -46,7 +46,7 @@ export function presetNamed(name) {
 export const attributes = {
   preset: {
     kind: WORD,
-    covers: () => ['v', 'omega', 'dt', 'steps', ...ALPHAS, 'headingNoise'],
+    covers: () => ['v', 'omega', 'dt', 'steps', ...Object.keys(NOISE), 'headingNoise'],
     words: PRESET_NAMES,
     get: ({ config }) => presetIn(/** @type {any} */ (config)),
     change: presetNamed,
@@ -60,10 +60,7 @@ export const own = cloudState;
 /** Of what each step is. @type {Record<string, import('../../figure/controls.js').Look>} */
 export const COMMAND = commandLooks(1);
 
-const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
-
-/** @type {Record<string, import('../../figure/controls.js').Look>} */
-export const NOISE = Object.fromEntries(ALPHAS.map((key, i) => [key, { ...ALPHA, symbol: `*α*${String.fromCharCode(0x2081 + i)}` }]));
+export const NOISE = alphaLooks(6);
 
 /** @type {Record<string, import('../../figure/controls.js').Look>} */
 export const looks = {

@@ -2,30 +2,11 @@
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
+import { besideStyles, poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
     aspect-ratio: 5 / 4;
-  }
-
-  /* The picture with the sentence below it, and beside it the figures and what is chosen. */
-  @container (min-width: 38em) {
-    .views {
-      grid-template: 'stage aside' 'verdict verdict' / minmax(0, 1fr) 16em;
-      column-gap: 1em;
-    }
-
-    .stage {
-      grid-area: stage;
-    }
-
-    .verdict {
-      grid-area: verdict;
-    }
-
-    .aside {
-      grid-area: aside;
-    }
   }
 
   /* In the column of a book, two places in a row. */
@@ -55,11 +36,6 @@ const own = css`
     }
   }
 
-  .aside .buttons {
-    gap: 0.35em;
-    margin-bottom: 0.4em;
-  }
-
   .aside .choices {
     column-gap: 0.6em;
   }
@@ -70,11 +46,6 @@ const own = css`
 
   .aside .choices > span {
     flex: 1 0 100%;
-  }
-
-  .about {
-    color: var(--muted);
-    margin: 0 0 0.7em;
   }
 
   .own-map {
@@ -93,38 +64,7 @@ const own = css`
     outline-offset: 4px;
   }
 
-  .handle.body::after {
-    content: none;
-  }
-
-  .handle.turn {
-    width: 1.75em;
-    height: 1.75em;
-  }
-
-  .handle.turn::after {
-    inset: 0.45em;
-    border-width: 2.5px;
-  }
-
-  .key {
-    row-gap: 0.15em;
-    margin: 0.5em 0 0.7em;
-    padding: 0;
-    list-style: none;
-  }
-
-  .key li {
-    display: flex;
-    align-items: center;
-    gap: 0.6em;
-  }
-
   .key svg {
-    flex: none;
-    width: 2.2em;
-    height: 1.2em;
-    fill: none;
     stroke-width: 1.5;
   }
 
@@ -158,7 +98,6 @@ const own = css`
   .marked label {
     color: var(--ink);
   }
-
 
   .choices {
     --name: 3em;
@@ -217,4 +156,4 @@ const own = css`
   }
 `;
 
-export const squeezeStyles = [...layoutStyles, own];
+export const squeezeStyles = [...layoutStyles, besideStyles, poseHandleStyles, own];

@@ -1,25 +1,19 @@
 /** The Odometry Decomposer's controls: readings worth starting from, rules side by side, and sliders that can be played. */
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { choices, cloudControls, slider, sliders } from '../../figure/controls.js';
-import { isCalm } from '../../figure/stage.js';
 import { words } from '../../messages/registry.js';
-import { button, choice, rich } from '../../ui/controls.js';
+import { choice, rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { figureTable } from '../../ui/readouts.js';
-import { NOISE, PRESETS, SAMPLE_COUNTS, presetIn, presetNamed } from './settings.js';
+import { presetButtons } from '../shared/presets.js';
+import { NOISE, SAMPLE_COUNTS, presetIn, presetNamed } from './settings.js';
 
 /** @typedef {import('./odometry-decomposer.js').OdometryDecomposerElement} Figure */
 
 /** @param {Figure} figure */
-export function presetButtons(figure) {
-  const { presets, presetsLabel } = words.decomposer;
-  const present = presetIn(figure.reading.config);
-  return html`<div class="buttons presets" role="group" aria-label=${presetsLabel}>
-    ${PRESETS.map(({ name }) =>
-      button(presets[/** @type {keyof typeof presets} */ (name)], () => figure.gesture.decide(presetNamed(name)), { pressed: name === present }),
-    )}
-  </div>`;
+export function presets(figure) {
+  return presetButtons(figure, { names: words.decomposer.presets, present: presetIn(figure.reading.config), settings: presetNamed });
 }
 
 /** What each rule makes of the reading, the present one among them chosen by its name. @param {Figure} figure */
@@ -44,7 +38,7 @@ export function rulesTable(figure) {
  * A slider that can be played; for who wants less motion it is only moved.
  *
  * @param {Figure} figure
- * @param {import('./player.js').Played} key
+ * @param {'phase' | 'drift'} key
  * @param {string} legend
  */
 export function playable(figure, key, legend) {
@@ -52,13 +46,7 @@ export function playable(figure, key, legend) {
   const { playTitles } = words.decomposer;
   return html`<fieldset class="playable ${key}">
     <legend class="visually-hidden">${legend}</legend>
-    ${slider(figure, key, {
-      input: (value) => {
-        player.stop();
-        figure.settings.want({ [key]: value });
-      },
-    })}
-    ${isCalm() ? nothing : button(player.key === key ? words.pause : words.play, () => player.toggle(key), { title: playTitles[key] })}
+    ${slider(figure, key, { input: (value) => player.put(key, value) })} ${player.button(key, playTitles[key])}
   </fieldset>`;
 }
 

@@ -11,7 +11,6 @@ export const de = {
     spin: 'Drehen',
     rest: 'Im Stand',
   },
-  presetsLabel: 'Messungen',
   rules: {
     table: 'Tabelle 5.6',
     nav2: 'AMCL von Nav2',

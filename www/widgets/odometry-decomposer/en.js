@@ -10,7 +10,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     spin: 'Spin',
     rest: 'At rest',
   },
-  presetsLabel: 'Readings',
   rules: {
     table: 'Table 5.6',
     nav2: 'AMCL of Nav2',

@@ -11,10 +11,10 @@ import { words } from '../../messages/registry.js';
 import { rich } from '../../ui/controls.js';
 import { fold } from '../../ui/fold.js';
 import { fixed } from '../../ui/format.js';
+import { Player } from '../shared/player.js';
 import { PoseHandles } from '../shared/pose-handles.js';
-import { noiseControls, playable, presetButtons, rulesTable } from './controls.js';
+import { noiseControls, playable, presets, rulesTable } from './controls.js';
 import { LegsPicture, RADIUS, WorldPicture } from './pictures.js';
-import { Player } from './player.js';
 import { readingOf } from './reading.js';
 import { readouts, spreads } from './readouts.js';
 import { attributes, declared, looks, own, room, vocabulary } from './settings.js';
@@ -48,7 +48,8 @@ export class OdometryDecomposerElement extends FigureElement {
   static vocabulary = vocabulary;
 
   cloud = new Cloud(this);
-  player = new Player(this);
+  /** @type {Player<'phase' | 'drift'>} */
+  player = new Player(this, { phase: this.#played('phase', 4000), drift: this.#played('drift', 8000) });
   #legs = new LegsPicture();
   #world = new WorldPicture();
   pictures = [this.#legs, this.#world];
@@ -88,11 +89,23 @@ export class OdometryDecomposerElement extends FigureElement {
   get scene() {
     const reading = this.fresh;
     const { index, isMarked } = this.cloud;
+    return { ...reading, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
+  }
+
+  /**
+   * A setting, to be played from one end of its slider to the other.
+   *
+   * @param {keyof typeof looks} key
+   * @param {number} duration milliseconds
+   */
+  #played(key, duration) {
+    const { min, max } = looks[key];
     return {
-      ...reading,
-      machine: this.machine,
-      marked: isMarked ? reading.poses.subarray(3 * index) : undefined,
-      advance: (/** @type {number} */ elapsed) => this.player.advance(elapsed),
+      from: min,
+      to: max,
+      duration,
+      at: () => this.settings.wanted[key],
+      put: (/** @type {number} */ value) => this.settings.want({ [key]: value }),
     };
   }
 
@@ -137,7 +150,7 @@ export class OdometryDecomposerElement extends FigureElement {
         </div>
         ${this.stage.later(() => html`
         <div class="plays">${playable(this, 'phase', say.way)} ${playable(this, 'drift', say.drift)}</div>
-        ${presetButtons(this)} ${rulesTable(this)}
+        ${presets(this)} ${rulesTable(this)}
         <div class="folds">
           ${fold(say.noiseFold, () => noiseControls(this))}
           ${fold(say.spreadFold, () => html`${readouts(reading)} ${this.machine && spreads(this.machine, reading)}`)}

@@ -5,6 +5,7 @@ import { clipped, drawAxes, drawDots, drawMark } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { fixed } from '../../ui/format.js';
+import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.js';
 import { drawBar, drawFan, drawLabel, drawTurn } from './marks.js';
 import { poseIn } from './reading.js';
@@ -13,11 +14,7 @@ import { poseIn } from './reading.js';
  * @import { OdometryDecomposer, Pose } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  *
- * @typedef {import('./reading.js').Reading & {
- *   machine: OdometryDecomposer,
- *   marked: Float64Array | undefined,
- *   advance: (elapsed: number) => boolean,
- * }} Scene what both pictures are of
+ * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined }} Scene what both pictures are of
  */
 
 /** Radius of the robot, m. */
@@ -112,12 +109,6 @@ export class LegsPicture extends OutcomesPicture {
   /** @param {Scene} scene */
   fit(scene) {
     this.view.fit(extentOf(surroundings(scene), 1.2));
-  }
-
-  /** @type {Picture<Scene>['draw']} */
-  draw(surface, scene, palette, easing) {
-    const moving = super.draw(surface, scene, palette, easing);
-    return scene.advance(easing?.elapsed ?? 0) || moving;
   }
 
   /** @type {Picture<Scene>['paint']} */
@@ -378,24 +369,13 @@ function under([x, y], points, labels) {
  * What the marks of the legs are, above their picture.
  *
  * @param {Brush} brush
- * @returns {import('../../scene/draw.js').KeyEntry[]}
  */
-function keyOf({ context, palette }) {
-  const line = (/** @type {string} */ colour, /** @type {number} */ width, /** @type {number[]} */ dash) =>
-    (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ length) => {
-      context.strokeStyle = colour;
-      context.lineWidth = width;
-      context.setLineDash(dash);
-      context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(x + length, y);
-      context.stroke();
-      context.setLineDash([]);
-    };
+function keyOf(brush) {
+  const { prior, prediction } = brush.palette;
   const say = words.decomposer.key;
   return [
-    { name: say.legs, draw: line(palette.prior, 3, []) },
-    { name: say.deviation, draw: line(palette.prediction, 1, [5, 3]) },
-    { name: say.ghosts, draw: line(palette.prediction, 1, []) },
+    lineKey(brush, say.legs, { colour: prior, width: 3, dash: [] }),
+    lineKey(brush, say.deviation, { colour: prediction, width: 1, dash: [5, 3] }),
+    lineKey(brush, say.ghosts, { colour: prediction, width: 1, dash: [] }),
   ];
 }

@@ -4,6 +4,7 @@ import { WORD, attributesOf } from '../../figure/attributes.js';
 import { word } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { presets, settings } from '../../settings.js';
+import { alphaLooks } from '../shared/noise.js';
 
 export const declared = settings['odometry-decomposer'];
 
@@ -50,15 +51,9 @@ export const attributes = {
 
 export const own = cloudState;
 
-const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
-
 /** Of the noise. */
 export const NOISE = {
-  alpha1: { ...ALPHA, symbol: '*α*₁' },
-  alpha2: { ...ALPHA, symbol: '*α*₂' },
-  alpha3: { ...ALPHA, symbol: '*α*₃' },
-  alpha4: { ...ALPHA, symbol: '*α*₄' },
-  alpha5: { ...ALPHA, symbol: '*α*₅' },
+  ...alphaLooks(5),
   correlation: { symbol: '*ρ*', role: /** @type {const} */ ('prediction'), min: -1, max: 1, step: 0.05, decimals: 2 },
 };
 
@@ -73,6 +68,6 @@ export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 
 /** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
 export const room = [
-  [0, 47.2, 160], [20.3, 45.8, 160], [22.5, 44.1, 160], [24.5, 40.9, 160], [26.5, 36, 160], [30, 33.4, 125],
+  [0, 47.2, 160], [20.3, 45.8, 160], [22.5, 44.1, 160], [23, 43.4, 160], [24.5, 40.9, 160], [26.5, 36, 160], [30, 33.4, 125],
   [38, 27.1, 36], [41, 24.8, 36], [55, 23.4, 31.2], [65, 23.4, 25.2],
 ];

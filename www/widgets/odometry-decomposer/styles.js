@@ -3,6 +3,7 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
+import { poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
@@ -106,20 +107,6 @@ const own = css`
     min-width: 5em;
   }
 
-  .handle.body::after {
-    content: none;
-  }
-
-  .handle.turn {
-    width: 1.75em;
-    height: 1.75em;
-  }
-
-  .handle.turn::after {
-    inset: 0.45em;
-    border-width: 2.5px;
-  }
-
   .presets {
     margin-top: 0.2em;
   }
@@ -151,4 +138,4 @@ const own = css`
   }
 `;
 
-export const decomposerStyles = [...layoutStyles, plotStyles, own];
+export const decomposerStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];

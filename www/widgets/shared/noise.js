@@ -1,0 +1,16 @@
+/** The noise parameters of a model, as every widget shows them that has them all. */
+
+/** Up to a standard deviation of nearly half the command. */
+export const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
+
+/**
+ * How so many of them look, by the names of their settings.
+ *
+ * @param {number} count
+ * @returns {Record<string, import('../../figure/controls.js').Look>}
+ */
+export function alphaLooks(count) {
+  return Object.fromEntries(
+    Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA, symbol: `*α*${String.fromCharCode(0x2081 + i)}` }]),
+  );
+}

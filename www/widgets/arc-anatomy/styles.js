@@ -188,18 +188,24 @@ const own = css`
   }
 
   .handle.turn {
+    --ring: var(--prediction);
+
     width: 1.75em;
     height: 1.75em;
   }
 
+  .handle.turn.start {
+    --ring: var(--truth);
+  }
+
   .handle.turn::after {
     inset: 0.45em;
-    border-color: var(--prediction);
+    border-color: var(--ring);
     border-width: 2.5px;
   }
 
   .handle.turn:hover::after {
-    background: var(--prediction);
+    background: var(--ring);
   }
 
   .key {

@@ -4,16 +4,19 @@ import { html } from 'lit';
 import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button } from '../../ui/controls.js';
+import { fixed } from '../../ui/format.js';
 import { COMMAND, NOISE, PRESETS, presetIn, presetNamed } from './settings.js';
 
 /** @typedef {import('./dead-reckoning.js').DeadReckoningElement} Figure */
 
 /** @param {Figure} figure */
 export function walkControls(figure) {
-  const { steps } = figure.settings.told;
+  const { steps, step, command: { dt } } = figure.settings.told;
+  const { settings, walked } = words.reckoning;
+  const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<fieldset class="walk">
-    <legend class="visually-hidden">${words.reckoning.settings.step.name}</legend>
-    ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1 })}
+    <legend class="visually-hidden">${settings.step.name}</legend>
+    ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}
   </fieldset>`;
 }
 

@@ -95,6 +95,61 @@ test('moves and turns by keyboard, and stops where it ends', async ({ page }) =>
   await expect(body(widget)).toHaveAttribute('aria-valuetext', /No further from here$/);
 });
 
+test('the start is dragged and turned, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
+  const widget = await open(page);
+  const [start, ahead] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
+  const before = await told(widget);
+  const from = await centreOf(start);
+  await page.mouse.move(from.x + 4, from.y + 3);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 44, from.y + 33, { steps: 5 });
+  await frames(page);
+  const at = await centreOf(start);
+  expect(Math.abs(at.x - from.x - 40)).toBeLessThan(1);
+  expect(Math.abs(at.y - from.y - 30)).toBeLessThan(1);
+  await page.mouse.up();
+  const moved = await told(widget);
+  const { x, y, theta } = moved.config.start;
+  expect(x).toBeGreaterThan(0);
+  expect(y).toBeLessThan(0);
+  expect(theta).toBe(0);
+  expect(moved.config.next).toEqual(before.config.next);
+  const [endX, endY, endTheta] = before.stats.commanded.end;
+  for (const [i, value] of [endX + x, endY + y, endTheta].entries()) expect(moved.stats.commanded.end[i]).toBeCloseTo(value, 12);
+  await expect(widget).toHaveAttribute('startx', String(x));
+  await ahead.press('ArrowLeft');
+  const turned = await told(widget);
+  expect(turned.config.start).toEqual({ x, y, theta: Math.PI / 36 });
+  expect(turned.config.next).toEqual(before.config.next);
+  expect(turned.stats.commanded.end[2]).toBeCloseTo(endTheta + Math.PI / 36, 12);
+  await start.press('ArrowUp');
+  expect((await told(widget)).config.start.y).toBeCloseTo(y + 0.05, 12);
+  await expect(start).toHaveAttribute('aria-valuetext', /^x = /);
+});
+
+test('a centre out of sight is pointed to, with how far away it is', async ({ page }) => {
+  const widget = await open(page);
+  const svg = () => widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG());
+  expect(await svg()).not.toContain('>centre ');
+  for (const width of [1280, 375]) {
+    await page.setViewportSize({ width, height: 812 });
+    for (const [attributes, said] of /** @type {[Record<string, number>, string[]][]} */ ([
+      [{ omega: 0.025, nextY: 0.5 }, ['centre 40 m, ωΔt = 0.03']],
+      // Both on one side, and in one place.
+      [{ omega: 0.025, nextY: 0.012 }, ['centre 40 m, ωΔt = 0.03', 'centre 50 m, ω̂Δt = 0.02']],
+      [{ omega: -0.025, nextY: 0.012 }, ['centre 40 m, ωΔt = −0.03', 'centre 50 m, ω̂Δt = 0.02']],
+    ])) {
+      await widget.evaluate((element, given) => void Object.assign(element, given), attributes);
+      await frames(page);
+      const texts = [...(await svg()).matchAll(/<text[^>]* x="([\d.]+)" y="([\d.]+)"[^>]*>(centre [^<]*)</g)];
+      expect([...new Set(texts.map(([, , , text]) => text))].sort()).toEqual(said);
+      const heights = new Set(texts.map(([, , y]) => Number(y)));
+      expect(heights.size).toBe(said.length);
+      if (heights.size === 2) expect(Math.abs([...heights][0] - [...heights][1])).toBeGreaterThan(12);
+    }
+  }
+});
+
 test('as printed, a right turn and a reverse lose p, and a left turn does not', async ({ page }) => {
   const widget = await open(page);
   const printed = widget.getByRole('checkbox', { name: /^as printed/ });

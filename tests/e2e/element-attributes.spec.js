@@ -248,8 +248,48 @@ test.describe('properties', () => {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
+  test('that others depend on come first, in whatever order they were given; a state comes when it was given', async ({ page }) => {
+    await show(page, '', { script: '' });
+    const told = await page.evaluate(async () => {
+      const map = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
+      const given = /** @type {[string, Record<string, unknown>, string[]][]} */ ([
+        ['dead-reckoning', { step: 30, steps: 40 }, ['step', 'steps']],
+        ['banana-machine', { omega: 0.7, preset: 'hard', alpha2: 0.3, alphas: [0.1, 0.1, 0.1, 0.1], model: 'odometry' }, ['omega', 'v', 'dt', 'alphas']],
+        ['banana-machine', { marked: 60_000, samples: 70_000 }, ['marked', 'samples']],
+        ['map-squeeze', { marked: 3, start: { x: 3, y: 1, theta: 0 }, map }, ['marked', 'start']],
+      ]);
+      const figures = given.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
+        Object.assign(document.createElement(tag), Object.fromEntries(entries))));
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+      const late = /** @type {any} */ (document.createElement('dead-reckoning'));
+      late.setState({ widget: 'dead-reckoning', version: 1, steps: 10, step: 4 });
+      late.step = 7;
+      late.setState({ widget: 'dead-reckoning', version: 1, steps: 5 });
+      figures.push(late);
+      const loaded = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
+      document.body.append(...figures.map((figure) => {
+        const box = document.createElement('div');
+        box.style.cssText = 'position: fixed; inset: 0';
+        box.append(figure);
+        return box;
+      }));
+      await Promise.all(loaded);
+      const names = given.flatMap(([, , asked]) => [asked, asked]);
+      return [...figures].map((figure, i) => (names[i] ?? ['step', 'steps']).map((name) => Reflect.get(figure, name)));
+    });
+    const [hard, alphas] = [[0.7, 1, 1.4], [0.1, 0.3, 0.1, 0.1]];
+    expect(told).toEqual([
+      ...Array(2).fill([30, 40]),
+      ...Array(2).fill([...hard, alphas]),
+      ...Array(2).fill([60_000, 70_000]),
+      ...Array(2).fill([3, { x: 3, y: 1, theta: 0 }]),
+      [5, 5],
+    ]);
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
   for (const name of ALL) {
-    test(`of ${name} that were set before the element was one are its settings, as are those that are set later`, async ({ page }) => {
+    test(`of ${name} that were set before the element was one, in any order, are its settings, as are those that are set later`, async ({ page }) => {
       await show(page, '', { script: '' });
       for (const seed of SEEDS.slice(0, 4)) {
         const state = anyOf(seed)[name];
@@ -258,10 +298,11 @@ test.describe('properties', () => {
           const own = ['version', 'marked', 'shown', 'playing', 'isolateChoice', 'line', 'underway'];
           const others = Object.entries(rest).filter(([key]) => !own.includes(key));
           const settings = { ...Object.fromEntries(others), alphas: alphas[rest.model] ?? alphas, ...(typeof map === 'string' && { map }) };
-          const early = Object.assign(document.createElement(widget), settings);
+          const [early, other] = [Object.entries(settings), Object.entries(settings).reverse()].map((entries) =>
+            Object.assign(document.createElement(widget), Object.fromEntries(entries)));
           await import(/** @type {any} */ ('/motion-widgets.js'));
           const late = document.createElement(widget);
-          const figures = [early, late];
+          const figures = [early, other, late];
           const boxes = figures.map((figure) => {
             const box = document.createElement('div');
             box.style.cssText = 'position: fixed; inset: 0';

@@ -81,8 +81,10 @@ const ACTS = {
       await widget.locator('.slider:has(#alpha1) .typed').fill('0.12');
       await widget.locator('.slider:has(#alpha1) .typed').press('Enter');
     }],
-    ['robot by key', (widget) => widget.locator('.handle.body').press('ArrowUp')],
-    ['heading by key', (widget) => widget.locator('.handle.turn').press('ArrowUp')],
+    ['start by key', (widget) => widget.locator('.handle.body.start').press('ArrowUp')],
+    ['its heading by key', (widget) => widget.locator('.handle.turn.start').press('ArrowUp')],
+    ['robot by key', (widget) => widget.locator('.handle.body.next').press('ArrowUp')],
+    ['heading by key', (widget) => widget.locator('.handle.turn.next').press('ArrowUp')],
   ],
   'odometry-decomposer': [
     ['preset', (widget) => widget.locator('.presets button').nth(2).click()],
@@ -285,7 +287,7 @@ test('a key that was used goes no further; any other does', async ({ page }) => 
 });
 
 for (const [name, parts] of /** @type {[string, string[]][]} */ ([
-  ['arc-anatomy', ['.handle.body', '.handle.turn', '#omega', '#underway', 'input[type=radio] >> nth=0']],
+  ['arc-anatomy', ['.handle.body.start', '.handle.turn.next', '#omega', '#underway', 'input[type=radio] >> nth=0']],
   ['odometry-decomposer', ['.handle.body.from', '.handle.turn.to', '#phase', '#correlation', 'input[type=radio] >> nth=0']],
   ['dead-reckoning', ['#step', '#headingNoise', 'input[type=radio] >> nth=0']],
 ])) {

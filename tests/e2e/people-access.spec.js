@@ -434,6 +434,40 @@ test.describe('theming', () => {
   }
 });
 
+for (const name of ALL) for (const lang of ['en', 'de']) {
+  test(`${name} with all folds open fits into 320 px, also in the moment it becomes so narrow, in ${lang}`, async ({ page }) => {
+    await page.setViewportSize({ width: 320, height: 812 });
+    await show(page, `<${name} lang="${lang}"></${name}>`, {
+      head: '<style>body { margin: 0 }</style>',
+      script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/de.js"></script>',
+    });
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    /** What of it is right of the window, other than what can be scrolled to. */
+    const beyond = () => widget.evaluate((element) => {
+      const { body } = document;
+      const isReached = (/** @type {Element} */ part) => {
+        for (let at = part.parentElement; at; at = at.parentElement) if (getComputedStyle(at).overflowX !== 'visible') return false;
+        return part.checkVisibility({ visibilityProperty: true });
+      };
+      const parts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isReached(part));
+      return [document.documentElement.scrollWidth, body.scrollWidth, ...parts.map(({ outerHTML }) => outerHTML.slice(0, 80))];
+    });
+    await frames(page);
+    expect(await beyond()).toEqual([320, 320]);
+    await page.evaluate(() => void (document.body.style.width = '1280px'));
+    await expect.poll(() => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.width)).toBeGreaterThan(400);
+    await frames(page);
+    // At once: no frame comes between.
+    const narrow = await page.evaluate(() => {
+      document.body.style.width = '';
+      return document.documentElement.scrollWidth;
+    });
+    expect(narrow).toBe(320);
+  });
+}
+
 for (const name of ALL) {
   test(`${name}: the help of a slider covers no slider of its group, and no outline crosses it`, async ({ page }) => {
     for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [375, 'de'], [700, 'en'], [700, 'de']])) {

@@ -124,11 +124,28 @@ test('ticks of a tiny step stand on the picture', async ({ page }) => {
   for (const { text, left } of told) expect(left, text).toBeGreaterThanOrEqual(0);
 });
 
-test('the key of the floor names both Gaussians in the column of a book', async ({ page }) => {
-  await page.setViewportSize({ width: 680, height: 900 });
-  await keepLettering(page, 'plane');
-  await openReckoning(page, 'samples="1000"');
-  expect((await lettering(page)).map(({ text }) => text)).toEqual(expect.arrayContaining(['Gaussian in (x, y)', 'in ξ']));
+for (const [lang, names] of /** @type {[string, string[]][]} */ ([
+  ['en', ['Gaussian in (x, y)', 'in ξ', 'command']],
+  ['de', ['Gauß in (x, y)', 'in ξ', 'Befehl']],
+])) {
+  test(`the key of the floor names all that is drawn in the column of a book, in ${lang}`, async ({ page }) => {
+    await page.setViewportSize({ width: 680, height: 900 });
+    await keepLettering(page, 'plane');
+    await openReckoning(page, `samples="1000" lang="${lang}"`);
+    await page.addScriptTag({ type: 'module', url: '/de.js' });
+    await expect.poll(async () => (await lettering(page)).map(({ text }) => text)).toEqual(expect.arrayContaining(names));
+  });
+}
+
+test('the slider of the step says how much of the path is driven', async ({ page }) => {
+  const widget = await openReckoning(page, 'samples="1000"');
+  const help = widget.locator('.walk .effect');
+  await expect(help).toBeHidden();
+  await widget.locator('#step').press('End');
+  await expect(help).toBeVisible();
+  await expect(help).toHaveText('Walks along the path: 4.00 of 4.00 s are driven.');
+  await widget.locator('#step').press('ArrowLeft');
+  await expect(help).toHaveText('Walks along the path: 3.80 of 4.00 s are driven.');
 });
 
 test('with J_r, and to fourth order, every component is right', async ({ page }) => {

@@ -16,6 +16,8 @@ export class Reflection extends Part {
   #attributes;
   /** With the settings that have no attribute. @type {Attributes} */
   #entries;
+  /** Names in the order of the table, a group before its parts. */
+  #order;
   /** The settings whose values decide what others open with. */
   #basis;
   /** What the page asked for before there was a machine, first by attributes. @type {Map<string, string | null>} */
@@ -38,6 +40,8 @@ export class Reflection extends Part {
     super(host);
     this.#attributes = attributes;
     this.#entries = { ...groupsOf(host.kind.declared), ...attributes };
+    // A preset leaves a map, a map puts the robot somewhere, and a sample is marked of as many as there are.
+    this.#order = ['preset', 'map', ...host.kind.declared.map(({ key }) => key), ...Object.keys(attributes), 'marked'];
     this.#basis = basis;
   }
 
@@ -63,8 +67,12 @@ export class Reflection extends Part {
       if (text !== undefined) this.#take(name, text);
     }
     this.#early.clear();
-    const wishes = [...this.#wishes.values()];
+    // Properties too, in whatever order they were given; but a state is entered when it came.
+    let states = 0;
+    const wishes = [...this.#wishes].map(([name, { take }]) =>
+      ({ take, when: typeof name === 'string' ? [states, this.#order.indexOf(name)] : [++states, -1] }));
     this.#wishes.clear();
+    wishes.sort(({ when: [run, place] }, { when: [otherRun, otherPlace] }) => run - otherRun || place - otherPlace);
     for (const { take } of wishes) this.host.runtime.tolerate(take);
   }
 

@@ -29,7 +29,7 @@ const TICK_SPACING = { x: 60, y: 48 };
 const TICKS_A_STROKE = 25;
 
 /** Gap between entries of a key, and width of a sample in one: shares of the size of its type. */
-const KEY = { gap: 1.1, sample: 1.9, space: 0.4 };
+const KEY = { gap: 0.8, sample: 1.5, space: 0.35 };
 
 /**
  * Hairline axes with ticks at the left and the bottom, a faint grid, and above it the name of what runs upwards and a key.
@@ -90,7 +90,7 @@ export function drawAxes(brush, names, key) {
  * @param {KeyEntry[]} entries
  */
 function drawKey({ context, view, palette, font }, x, entries) {
-  const { right, top } = view.frame;
+  const { top } = view.frame;
   const size = parseFloat(font);
   const width = KEY.sample * size;
   for (const { name, draw } of entries) {
@@ -98,7 +98,7 @@ function drawKey({ context, view, palette, font }, x, entries) {
     const from = x + KEY.gap * size;
     const text = from + width + KEY.space * size;
     x = text + context.measureText(name).width;
-    if (x > right) return;
+    if (x > view.width) return;
     context.fillStyle = palette.ink;
     context.fillText(name, text, top - 22);
     draw(from, top - 22 + size / 2, width);

@@ -71,6 +71,8 @@ const layout = css`
 
   .stage {
     position: relative;
+    /* Handles stand where the former width had them until the next frame. */
+    overflow-x: clip;
   }
 
   canvas {

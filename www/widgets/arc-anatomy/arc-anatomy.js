@@ -24,7 +24,7 @@ import { longestVerdict, pictureText, verdictOf } from './words.js';
  * @import { Reading } from './reading.js'
  */
 
-/** Where the final pose can be dragged, m. */
+/** Where both poses can be dragged, m. */
 const BOUNDS = [-REACH, -REACH, REACH, REACH];
 
 /**
@@ -48,11 +48,15 @@ export class ArcAnatomyElement extends FigureElement {
 
   #picture = new ArcPicture();
   pictures = [this.#picture];
-  #next = new PoseHandles(this, 'next', {
-    view: () => this.#picture.view,
-    bounds: () => BOUNDS,
-    say: () => words.anatomy.robot,
-  });
+  /** The final one on top, where both poses are at one place. @type {PoseHandles[]} */
+  #handles = /** @type {const} */ (['start', 'next']).map(
+    (setting) =>
+      new PoseHandles(this, setting, {
+        view: () => this.#picture.view,
+        bounds: () => BOUNDS,
+        say: () => ({ ...words.anatomy.handles[setting], ends: words.anatomy.handles.ends }),
+      }),
+  );
 
   /** @type {Player<'underway'>} */
   player = new Player(this, {
@@ -95,7 +99,7 @@ export class ArcAnatomyElement extends FigureElement {
   announcement = verdictOf;
 
   get held() {
-    return this.#next.held;
+    return this.#handles.some(({ held }) => held);
   }
 
   /** The robot goes by whole per cents, each of which is a step that a page hears of. @param {number} at per cent of the way */
@@ -108,8 +112,10 @@ export class ArcAnatomyElement extends FigureElement {
   }
 
   /** @param {Reading} scene */
-  placeHandles({ config }) {
-    this.#next.place(config.next, RADIUS);
+  placeHandles({ config: { start, next } }) {
+    const [before, after] = this.#handles;
+    before.place(start, RADIUS);
+    after.place(next, RADIUS);
   }
 
   /** @param {Reading} reading */
@@ -119,7 +125,7 @@ export class ArcAnatomyElement extends FigureElement {
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
           <div class="stage" part="picture">
-            ${canvas(this, this.#picture, pictureText(reading))} ${this.#next.render()}
+            ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
           </div>
           ${this.stage.later(() => html`
           <p class="verdict caption roomy" part="caption" data-room=${longestVerdict()}><span>${verdictOf(reading)}</span></p>

@@ -25,11 +25,14 @@ export const de = {
   noiseLabel: 'Rauschen',
   noises: { normal: 'normal', triangular: 'dreieckig' },
   csvTitle: 'Die drei Schätzungen mit ihren Faktoren, und die Parameter',
-  robot: {
-    robot: 'Roboter, wo er gefunden wird',
-    robotTitle: 'Zieh den Roboter',
-    heading: 'Richtung des Roboters, wo er gefunden wird',
-    headingTitle: 'Dreh den Roboter',
+  handles: {
+    start: { robot: 'Start', robotTitle: 'Zieh den Start', heading: 'Richtung am Start', headingTitle: 'Dreh den Start' },
+    next: {
+      robot: 'Roboter, wo er gefunden wird',
+      robotTitle: 'Zieh den Roboter',
+      heading: 'Richtung des Roboters, wo er gefunden wird',
+      headingTitle: 'Dreh den Roboter',
+    },
     ends: 'Weiter geht es nicht',
   },
   bars: {
@@ -52,6 +55,7 @@ export const de = {
     straight: 'Der Weg dazwischen ist gerade.',
     estimates: (v, omega, gamma) => `v̂ = ${v} m/s, ω̂ = ${omega} rad/s, γ̂ = ${gamma} rad/s.`,
   },
+  centreAt: (metres) => `Mittelpunkt ${metres} m`,
   drawnShort: { prob: 'p', density: 'Dichte', commanded: 'befohlen', inverted: 'erschlossen', twist: 'gleichbleibender Twist' },
   key: {
     commanded: 'was befohlen war: Bogen, Mittelpunkt, beide Radien und seine Drehung *ωΔt*',

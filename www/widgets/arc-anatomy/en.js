@@ -24,11 +24,14 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   noiseLabel: 'Noise',
   noises: { normal: 'normal', triangular: 'triangular' },
   csvTitle: 'The three estimates with their factors, and the parameters',
-  robot: {
-    robot: 'Robot, where it is found',
-    robotTitle: 'Drag the robot',
-    heading: 'Heading of the robot, where it is found',
-    headingTitle: 'Turn the robot',
+  handles: {
+    start: { robot: 'Start', robotTitle: 'Drag the start', heading: 'Heading at the start', headingTitle: 'Turn the start' },
+    next: {
+      robot: 'Robot, where it is found',
+      robotTitle: 'Drag the robot',
+      heading: 'Heading of the robot, where it is found',
+      headingTitle: 'Turn the robot',
+    },
     ends: 'No further from here',
   },
   bars: {
@@ -51,6 +54,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     straight: 'The way between them is straight.',
     estimates: (v, omega, gamma) => `v̂ = ${v} m/s, ω̂ = ${omega} rad/s, γ̂ = ${gamma} rad/s.`,
   },
+  centreAt: (metres) => `centre ${metres} m`,
   drawnShort: { prob: 'p', density: 'density', commanded: 'commanded', inverted: 'inverted', twist: 'constant twist' },
   key: {
     commanded: 'what was commanded: arc, centre, both radii, and its turn *ωΔt*',

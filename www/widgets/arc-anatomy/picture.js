@@ -5,7 +5,7 @@ import { clipped, drawAxes, drawOutlines, drawRobot } from '../../scene/draw.js'
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { clamp } from '../../ui/clamp.js';
-import { fixed } from '../../ui/format.js';
+import { fixed, significant } from '../../ui/format.js';
 import { COMMAND_DASH } from '../shared/command.js';
 import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
@@ -36,6 +36,12 @@ const WEDGE = 64;
 
 /** Half of the cross at a centre, CSS pixels. */
 const CROSS = 4;
+
+/** Length of the arrow towards a centre that is out of sight, CSS pixels. */
+const ARROW = 9;
+
+/** From one line of letters to the next, CSS pixels. */
+const LINE = 17;
 
 /** Dash of the way of constant twist, CSS pixels. */
 const TWIST_DASH = [7, 3];
@@ -168,6 +174,7 @@ function drawCircle(brush, start, { center, end, turn, arcLength }, { colour, da
   const [toX, toY] = [view.toPixelX(end[0]), view.toPixelY(end[1])];
   const ahead = view.direction(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
+  const seen = shareSeen(view.frame, [fromX, fromY], [x, y]);
   stroke(context, colour, 1.25, dash, () => {
     context.moveTo(fromX + offX, fromY + offY);
     context.lineTo(x + offX, y + offY);
@@ -184,12 +191,49 @@ function drawCircle(brush, start, { center, end, turn, arcLength }, { colour, da
   const radius = Math.min(ANGLE, 0.4 * Math.hypot(fromX - x, fromY - y));
   // Pixels count downwards: to the left is backwards.
   stroke(context, colour, 1.5, [], () => context.arc(x, y, radius, first, first - turn, turn > 0));
-  // Behind the robot, where nothing of the arc is.
-  const behind = -Math.sign(arcLength);
-  for (const [text, share] of /** @type {const} */ ([[angle, 0], [signed, 0.5]])) {
-    const at = [x + share * (fromX - x) + 10 * behind * ahead.x, y + share * (fromY - y) + 10 * behind * ahead.y];
-    label(brush, text, at[0], at[1], colour, behind * ahead.x);
+  // Behind the robot, where nothing of the arc is; along it where it is so flat that a picture ends behind the robot.
+  const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
+  const tell = (/** @type {string} */ text, /** @type {number} */ share, below = 0) => {
+    const at = [fromX + share * (x - fromX) + 10 * beside * ahead.x, fromY + share * (y - fromY) + 10 * beside * ahead.y];
+    label(brush, text, at[0], at[1] + below, colour, beside * ahead.x);
+  };
+  tell(signed, seen / 2);
+  if (seen === 1) {
+    tell(angle, 1);
+    return;
   }
+  drawArrow(context, colour, [fromX + seen * (x - fromX), fromY + seen * (y - fromY)], Math.atan2(y - fromY, x - fromX));
+  const distance = significant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
+  // Inside of the border, and of two in one place each in a line of its own.
+  tell(`${words.anatomy.centreAt(distance)}, ${angle}`, seen, Math.sign(fromY - y) * LINE * (side < 0 ? 0.6 : 1.6));
+}
+
+/**
+ * @param {Brush['context']} context
+ * @param {string} colour
+ * @param {number[]} tip
+ * @param {number} way that it points, rad, downwards from the right
+ */
+function drawArrow(context, colour, [x, y], way) {
+  stroke(context, colour, 2.25, [], () => {
+    for (const wing of [2.6, -2.6]) {
+      context.moveTo(x + ARROW * Math.cos(way + wing), y + ARROW * Math.sin(way + wing));
+      context.lineTo(x, y);
+    }
+  });
+}
+
+/**
+ * How much of the way to a place is in sight, as a share.
+ *
+ * @param {import('../../scene/view.js').View['frame']} frame
+ * @param {[x: number, y: number]} from in sight
+ * @param {[x: number, y: number]} to
+ */
+function shareSeen({ left, right, top, bottom }, [fromX, fromY], [x, y]) {
+  const along = (/** @type {number} */ start, /** @type {number} */ end, /** @type {number} */ least, /** @type {number} */ most) =>
+    end >= least && end <= most ? 1 : (clamp(end, least, most) - start) / (end - start);
+  return Math.min(along(fromX, x, left, right), along(fromY, y, top, bottom));
 }
 
 /**

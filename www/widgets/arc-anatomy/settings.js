@@ -95,7 +95,7 @@ export const ALPHAS = alphaLooks(6);
 /** @type {Record<string, import('../../figure/controls.js').Look>} */
 export const looks = { ...COMMAND, ...ALPHAS };
 
-/** How far the final pose can be dragged from the origin, m. */
+/** How far the poses can be dragged from the origin, m. */
 export const REACH = 4;
 
 /** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */

@@ -159,12 +159,20 @@ const own = css`
     border-color: var(--accent);
   }
 
+  .handle.turn {
+    --ring: var(--prediction);
+  }
+
+  .handle.turn.start {
+    --ring: var(--truth);
+  }
+
   .handle.turn::after {
-    border-color: var(--prediction);
+    border-color: var(--ring);
   }
 
   .handle.turn:hover::after {
-    background: var(--prediction);
+    background: var(--ring);
   }
 
   .key svg {

@@ -3,6 +3,7 @@
 import { html } from 'lit';
 import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
+import { fixed } from '../../ui/format.js';
 import { presetButtons } from '../shared/presets.js';
 import { COMMAND, NOISE, presetIn, presetNamed } from './settings.js';
 
@@ -10,10 +11,12 @@ import { COMMAND, NOISE, presetIn, presetNamed } from './settings.js';
 
 /** @param {Figure} figure */
 export function walkControls(figure) {
-  const { steps } = figure.settings.told;
+  const { steps, step, command: { dt } } = figure.settings.told;
+  const { settings, walked } = words.reckoning;
+  const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<fieldset class="walk">
-    <legend class="visually-hidden">${words.reckoning.settings.step.name}</legend>
-    ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1 })}
+    <legend class="visually-hidden">${settings.step.name}</legend>
+    ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}
   </fieldset>`;
 }
 

@@ -11,7 +11,7 @@ export const de = {
     v: { effect: 'Wie schnell jeder Schritt gefahren wird; unter null rückwärts.' },
     omega: { effect: 'Wie eng jeder Schritt ist: Was der Rekursion fehlt, wächst mit *ωΔt*.' },
     dt: { name: 'Δt, Dauer eines Schritts', effect: 'Wie lange ein Schritt dauert; der Weg wächst mit.' },
-    step: { name: 'k, betrachteter Schritt', effect: 'Geht den Weg entlang.' },
+    step: { name: 'k, betrachteter Schritt' },
     steps: { name: 'n, Schritte desselben Wegs', effect: 'Derselbe Weg in mehr und kürzeren Schritten.' },
     headingNoise: { name: 'h, Richtungsrauschen', effect: 'Setzt *α*₃ und *α*₄ auf *h*, *α*₅ und *α*₆ auf *h*/4.' },
     compounding: { name: 'Rekursion' },
@@ -26,6 +26,7 @@ export const de = {
     },
     samples: { name: 'N, Roboter', effect: 'Je mehr Roboter, desto schmaler die Bänder.' },
   },
+  walked: (gone, whole) => `Geht den Weg entlang: ${gone} von ${whole} s sind gefahren.`,
   cloud: {
     legend: 'Roboter',
     play: 'Schickt die Roboter los, immer ein paar',

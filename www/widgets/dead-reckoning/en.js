@@ -12,7 +12,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     v: { effect: 'How fast each step is driven; below zero the robot backs up.' },
     omega: { effect: 'How sharply each step bends: what is missing from the recursion grows with *ωΔt*.' },
     dt: { name: 'Δt, duration of a step', effect: 'How long a step takes; the path grows with it.' },
-    step: { name: 'k, step that is looked at', effect: 'Walks along the path.' },
+    step: { name: 'k, step that is looked at' },
     steps: { name: 'n, steps of the same path', effect: 'The same path in more and shorter steps.' },
     headingNoise: { name: 'h, heading noise', effect: 'Sets *α*₃ and *α*₄ to *h*, *α*₅ and *α*₆ to *h*/4.' },
     compounding: { name: 'Recursion' },
@@ -27,6 +27,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     },
     samples: { name: 'N, robots', effect: 'The more robots, the narrower the bands.' },
   },
+  walked: (gone, whole) => `Walks along the path: ${gone} of ${whole} s are driven.`,
   cloud: {
     legend: 'Robots',
     play: 'Sends the robots, a few at a time',

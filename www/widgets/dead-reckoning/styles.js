@@ -9,20 +9,6 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
-  fieldset.walk {
-    padding: 0;
-  }
-
-  .walk .slider .effect {
-    display: none;
-  }
-
-  /* Over the sentence below: there is no line of help to say it in. */
-  .walk .slider.refused .effect {
-    top: 100%;
-    display: block;
-  }
-
   .ratios .plot-key {
     margin: 0;
   }

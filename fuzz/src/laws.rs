@@ -44,10 +44,10 @@ pub fn moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
 }
 
 /// A few dozen units in the last place.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// What a deviation may be of which the square is 0, and more than its double.
-const UNDERFLOW: f64 = 1e-161;
+pub const UNDERFLOW: f64 = 1e-161;
 
 /// The same numbers, NaN being NaN.
 pub fn same(what: &str, a: &[f64], b: &[f64]) {

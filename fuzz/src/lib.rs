@@ -1,10 +1,13 @@
 //! What is held of any input: one function a target, used by cargo-fuzz and by the tests of the package.
 
+pub mod anatomy;
 pub mod banana;
+pub mod decomposer;
 pub mod grid;
 pub mod input;
 pub mod laws;
 pub mod pgm;
 pub mod plan;
+pub mod reckoning;
 pub mod settings;
 pub mod squeeze;

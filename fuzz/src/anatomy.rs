@@ -1,0 +1,145 @@
+//! Arc Anatomy under any settings and calls.
+
+use super::input::Input;
+use super::settings::{allowed, changed};
+use super::{banana, laws};
+use motion::geom::se2::SE2;
+use motion::sim::arc_anatomy::{ArcAnatomy, Bend, Mapped, Paths, Settings, Stats, Surface, Table};
+use motion::sim::views::Grid;
+
+/// Calls of a run at most.
+const CALLS: usize = 4;
+
+pub fn run(bytes: &[u8]) {
+    let mut input = Input(bytes);
+    let with_paths = input.choice(8) == 1;
+    let opening = changed(&Settings::default(), &mut input);
+    if !allowed(&opening) {
+        assert!(ArcAnatomy::new(opening).is_err());
+        return;
+    }
+    let mut machine = ArcAnatomy::new(opening).expect("allowed");
+    for _ in 0..CALLS {
+        if input.is_empty() {
+            break;
+        }
+        if input.choice(3) == 0 {
+            underway(&machine, input.within(0.0..=1.0));
+        } else {
+            configure(&mut machine, &mut input);
+        }
+    }
+    shows_sense(&machine);
+    // Of a thousand points, each with its sine and cosine.
+    if with_paths {
+        paths(&machine);
+    }
+    // A map takes as long as hundreds of other calls.
+    if input.choice(128) == 1 {
+        surface(&machine, &mut input);
+    }
+}
+
+fn configure(machine: &mut ArcAnatomy, input: &mut Input) {
+    let settings = changed(machine.settings(), input);
+    if allowed(&settings) {
+        machine.configure(settings).expect("allowed");
+        return;
+    }
+    let before = *machine.settings();
+    assert!(machine.configure(settings).is_err());
+    assert_eq!(*machine.settings(), before);
+}
+
+/// Everything shown is a number, or as documented where it has no meaning.
+fn shows_sense(machine: &ArcAnatomy) {
+    let settings = machine.settings();
+    let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
+        machine.stats();
+    for (what, bend) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
+        is_bend(what, bend);
+    }
+    laws::finite("last turn", &[last_turn]);
+    laws::finite("xi", &xi);
+    for factor in &factors {
+        laws::finite("factor", &[factor.estimate, factor.residual, factor.deviation, factor.value]);
+        assert!(factor.deviation >= 0.0 && factor.value >= 0.0, "{factor:?}");
+        assert!((0.0..=1.0).contains(&factor.share), "{factor:?}");
+        let off = factor.deviations.abs();
+        assert!(off <= factors[weakest].deviations.abs(), "{factor:?} {weakest}");
+        assert!(off.is_finite() || factor.deviation == 0.0, "{factor:?}");
+    }
+    assert!(prob >= 0.0 && (0.0..=1.0).contains(&share), "p = {prob}, {share} of its highest");
+    let noisy = factors.iter().all(|factor| factor.deviation > 0.0);
+    assert!(density.is_some() == noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
+    assert!(settings.printed || driven == inverted, "{driven:?} {inverted:?}");
+
+    let (start, next) = poses(settings);
+    let size =
+        [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |most: f64, at| most.max(at.abs()));
+    let off = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
+    // With a signed radius, what was found leads to where the robot is found, and so does the constant twist.
+    let ends = [[inverted.end[0], inverted.end[1]], underway(machine, 1.0)];
+    let allowed = laws::ROUNDING * size + f64::MIN_POSITIVE;
+    assert!(ends.iter().all(|end| off(*end) <= allowed), "{ends:?} for {settings:?}");
+    assert_eq!(underway(machine, 0.0), [start.x(), start.y()]);
+    table(machine, prob);
+}
+
+fn poses(settings: &Settings) -> (SE2, SE2) {
+    let ([x, y, theta], next) = (settings.start, settings.next);
+    (SE2::new(x, y, theta), SE2::new(next.x, next.y, next.theta))
+}
+
+fn table(machine: &ArcAnatomy, prob: f64) {
+    let (start, next) = poses(machine.settings());
+    let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = machine.table();
+    let step = start.inverse() * next;
+    let stays = [step.x(), step.y()] == [0.0; 2];
+    assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
+    assert!(!mu.is_nan() || stays, "{mu} for {step:?}");
+    assert!(!machine.settings().printed || radius >= 0.0, "{radius}");
+    laws::finite("controls", &controls[..4]);
+    laws::same("p", &controls[4..], &[prob]);
+    laws::finite("middle and normal", &[middle, normal].concat());
+}
+
+fn paths(machine: &ArcAnatomy) {
+    let Paths { commanded, inverted, driven, lie, ticks } = machine.paths();
+    for (what, path) in
+        [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven), ("lie", &lie)]
+    {
+        laws::finite(what, path.as_flattened());
+    }
+    laws::finite("ticks", ticks.as_flattened());
+    let Stats { inverted: Bend { end: [x, y, _], .. }, .. } = machine.stats();
+    assert_eq!(inverted.last(), Some(&[x, y]));
+}
+
+fn is_bend(what: &str, bend: &Bend) {
+    laws::finite(what, &[bend.arc_length, bend.turn]);
+    laws::finite(what, &bend.end);
+    assert!(!bend.radius.is_nan(), "{what}: {bend:?}");
+    assert_eq!(bend.centre.is_some(), bend.radius.is_finite(), "{what}: {bend:?}");
+    laws::finite(what, &bend.centre.unwrap_or_default());
+}
+
+/// Where the way of constant twist is after a share of the time.
+fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
+    let poses = machine.underway(share);
+    poses.iter().for_each(|pose| laws::pose("underway", pose));
+    [poses[2].x(), poses[2].y()]
+}
+
+/// Contours are of finite points inside of the rectangle.
+fn surface(machine: &ArcAnatomy, input: &mut Input) {
+    let Grid { min, max, .. } = banana::grid(input);
+    let surface = machine.surface(min, max);
+    assert_eq!(surface.is_none(), machine.settings().map == Mapped::Nothing);
+    let Some(Surface { columns, rows, shades, prob, density }) = surface else { return };
+    assert!(shades.len() == columns * rows && !shades.is_empty(), "{columns} × {rows}");
+    for [x, y] in prob.iter().chain(&density).flatten() {
+        let inside = (min[0]..=max[0]).contains(x) && (min[1]..=max[1]).contains(y);
+        assert!(inside, "{x}, {y} of {min:?} to {max:?}");
+    }
+}

@@ -1,0 +1,273 @@
+//! Dead Reckoning under any settings and calls.
+
+use super::input::Input;
+use super::laws;
+use super::settings::{allowed, changed};
+use motion::sim::dead_reckoning::{
+    DeadReckoning, KEPT, Measured, Misses, Outlines, RECURSIONS, Settings, Stats, Straight,
+};
+use nalgebra::Matrix3;
+
+/// Robots (some blocks of 256, one of which is driven whole for a single robot), steps and calls of a run at most.
+const SAMPLES: usize = 800;
+const STEPS: u32 = 9;
+const CALLS: usize = 4;
+
+pub fn run(bytes: &[u8]) {
+    let mut input = Input(bytes);
+    let [with_straight, with_double] = [0; 2].map(|_| input.choice(4) == 1);
+    let opening = changed(&few(Settings { samples: 3, ..Settings::default() }), &mut input);
+    if !allowed(&opening) {
+        assert!(DeadReckoning::empty(opening).is_err());
+        return;
+    }
+    let mut machine = DeadReckoning::empty(few(opening)).expect("allowed");
+    if input.truth() {
+        machine.grow(SAMPLES);
+    }
+    for _ in 0..CALLS {
+        if input.is_empty() {
+            break;
+        }
+        call(&mut machine, &mut input);
+    }
+    shows_sense(&machine);
+    // What takes longest is not looked at every time.
+    if with_straight {
+        straight(&machine);
+    }
+    if with_double {
+        as_if_new(&machine);
+    }
+}
+
+/// The same settings with few enough robots and steps.
+fn few(settings: Settings) -> Settings {
+    Settings {
+        samples: settings.samples.min(SAMPLES),
+        steps: settings.steps.min(STEPS),
+        step: settings.step.min(settings.steps.min(STEPS)),
+        ..settings
+    }
+}
+
+fn call(machine: &mut DeadReckoning, input: &mut Input) {
+    let shown = machine.shown();
+    match input.choice(9) {
+        0 | 1 => configure(machine, input),
+        2 | 3 => in_slices(machine, input),
+        4 => {
+            let count = usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
+            assert_eq!(machine.grow(count), (shown + count).min(machine.settings().samples));
+        }
+        5 => {
+            machine.restart();
+            assert_eq!(machine.shown(), 0);
+        }
+        6 => nearest(machine, input),
+        7 => outlines(machine, 1 + input.choice(STEPS as usize) as u32),
+        _ => rollout(machine, usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES),
+    }
+}
+
+fn configure(machine: &mut DeadReckoning, input: &mut Input) {
+    let settings = changed(machine.settings(), input);
+    if allowed(&settings) {
+        machine.configure(few(settings)).expect("allowed");
+        return;
+    }
+    let before = told(machine);
+    assert!(machine.configure(settings).is_err() && machine.begin(settings).is_err());
+    assert_eq!(told(machine), before);
+}
+
+/// Changes in slices, of which the last may be given up or followed by a start from none.
+fn in_slices(machine: &mut DeadReckoning, input: &mut Input) {
+    let (before, shown) = (*machine.settings(), machine.shown());
+    for _ in 0..=input.choice(3) {
+        let present = *machine.settings();
+        let count = 1 + usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
+        match input.choice(4) {
+            0 => machine.begin_to_grow(count),
+            // The same way, looked at elsewhere or by more robots or fewer.
+            1 => {
+                let step = 1 + u32::from(input.byte()) % present.steps;
+                machine.begin(Settings { step, samples: count, ..present }).expect("allowed");
+            }
+            _ => {
+                let settings = changed(&present, input);
+                if allowed(&settings) {
+                    machine.begin(few(settings)).expect("allowed");
+                }
+            }
+        }
+        assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
+        let work = usize::from(u16::from_le_bytes(input.bytes()));
+        let done = machine.advance(work);
+        assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
+        if done {
+            assert_eq!(machine.shown_settings(), machine.settings());
+            shows_sense(machine);
+            return;
+        }
+        assert_eq!(machine.shown(), shown, "the former figures stay");
+    }
+    shows_sense(machine);
+    match input.choice(3) {
+        0 => {
+            machine.stop();
+            let Settings { step, compounding, .. } = *machine.settings();
+            assert_eq!(*machine.settings(), Settings { step, compounding, ..before });
+            assert_eq!(machine.shown(), shown);
+        }
+        1 => machine.restart(),
+        _ => {
+            let slices = (0..32).take_while(|i| !machine.advance(1 << i)).count();
+            assert!(slices < 32, "{slices} slices");
+        }
+    }
+    assert_eq!(machine.shown_settings(), machine.settings());
+}
+
+/// A machine is what its settings are, whatever came before.
+fn as_if_new(machine: &DeadReckoning) {
+    let mut machine = machine.clone();
+    machine.grow(0);
+    let mut other = DeadReckoning::empty(*machine.settings()).expect("allowed");
+    other.grow(machine.shown());
+    assert_eq!(told(&other), told(&machine));
+}
+
+/// All that is told of every step: as text, in which NaN is equal to itself.
+fn told(machine: &DeadReckoning) -> String {
+    let step = machine.settings().step;
+    let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured());
+    format!("{settings:?} {stats:?} {measured:?} {:?} {:?}", machine.poses(step), machine.outlines(step))
+}
+
+/// Everything shown is finite, or NaN or empty where it has no meaning.
+fn shows_sense(machine: &DeadReckoning) {
+    let settings = machine.shown_settings();
+    let (n, steps) = (machine.shown(), settings.steps as usize);
+    assert!(n <= SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
+    assert_eq!([machine.measured().len(), machine.nominal().len()], [steps; 2]);
+    machine.nominal().iter().for_each(|pose| laws::pose("nominal", pose));
+    laws::finite("commanded", machine.commanded().as_flattened());
+    for measured in machine.measured() {
+        if n > 0 {
+            laws::finite("mean", measured.mean.as_slice());
+        }
+        if n > 1 {
+            is_covariance("measured", &measured.cov, of_sums(measured));
+        }
+        for (i, error) in measured.relative_error.iter().enumerate() {
+            assert!(error.is_nan() || *error >= 0.0, "{measured:?}");
+            // What has no spread has no error that were a share of it.
+            let spreads = n > 1 && measured.cov[(i, i)] > 0.0;
+            assert!(error.is_nan() || spreads, "{measured:?} of {n}");
+        }
+    }
+    let step = settings.step;
+    assert_eq!(machine.poses(step).len(), n.min(KEPT));
+    assert!(machine.poses(0).is_empty() && machine.poses(settings.steps + 1).is_empty());
+    laws::finite("poses", machine.poses(step).as_flattened());
+    machine.twists().for_each(|twist| laws::finite("a twist", &twist));
+    assert_eq!(machine.twists().len(), n.min(KEPT));
+    for order in RECURSIONS {
+        let (predicted, compared) = (machine.predicted(order), machine.compared(order));
+        assert_eq!([predicted.len(), compared.ratios.len()], [steps; 2]);
+        for (cov, ratio) in predicted.iter().zip(&compared.ratios) {
+            assert!(
+                ratio.iter().all(|ratio| ratio.is_nan() || (cov.is_some() && *ratio >= 0.0)),
+                "{ratio:?}"
+            );
+            let Some(cov) = cov else { continue };
+            // Each step turns along and across into each other.
+            is_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
+        }
+        compared.misses.iter().for_each(|misses| are_misses(misses, steps));
+    }
+    let Stats { n: told, .. } = machine.stats();
+    assert_eq!(told, n);
+    outlines(machine, step);
+}
+
+/// Finite, symmetric, and no correlation above 1, to the rounding of what it was made of.
+fn is_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
+    laws::finite(what, cov.as_slice());
+    for i in 0..3 {
+        assert!(cov[(i, i)] >= 0.0, "{what}: {cov:?}");
+        for j in 0..i {
+            let rounded = rounding(i, j) + f64::MIN_POSITIVE;
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= rounded, "{what}: {cov:?}");
+            let [first, second] = [i, j].map(|k| (cov[(k, k)] + rounding(k, k)).sqrt());
+            assert!(cov[(i, j)].abs() <= first * second + rounded, "{what}: {cov:?}");
+        }
+    }
+}
+
+/// Of means of products, of which the product of the means is taken off: some dozen units in the last place of them.
+fn of_sums(Measured { mean, cov, .. }: &Measured) -> impl Fn(usize, usize) -> f64 + use<> {
+    let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
+    let sizes = [along + lateral, along + lateral, heading];
+    move |i, j| laws::ROUNDING * sizes[i] * sizes[j] + laws::UNDERFLOW * (sizes[i] + sizes[j])
+}
+
+fn are_misses(misses: &Misses, steps: usize) {
+    let Misses { told, first, last, end, error } = *misses;
+    assert_eq!(first.is_some(), last.is_some(), "{misses:?}");
+    assert!(told || first.is_none(), "{misses:?}");
+    let in_order = 1 <= first.unwrap_or(1) && first <= last && last.unwrap_or(1) as usize <= steps;
+    assert!(in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
+}
+
+fn straight(machine: &DeadReckoning) {
+    let Straight { durations, along, across, along_first_order, across_first_order, crossing } =
+        machine.straight();
+    for curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
+        laws::finite("straight", curve);
+        assert!(curve.len() == durations.len() && curve.iter().all(|variance| *variance >= 0.0), "{curve:?}");
+    }
+    assert!(crossing.is_none_or(|crossing| crossing.is_finite() && crossing > 0.0), "{crossing:?}");
+}
+
+fn outlines(machine: &DeadReckoning, step: u32) {
+    let settings = machine.shown_settings();
+    let Some(outlines) = machine.outlines(step) else {
+        assert!(step > settings.steps);
+        return;
+    };
+    let Outlines { ellipse, exponential, predicted, measured } = outlines;
+    for outline in [&ellipse, &exponential, &predicted, &measured] {
+        laws::finite("an outline", outline.as_flattened());
+        assert_eq!(outline.first(), outline.last(), "an outline is closed");
+    }
+    let none = machine.predicted(settings.compounding)[step as usize - 1].is_none();
+    assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == none));
+    assert_eq!(measured.is_empty(), machine.shown() < 2);
+}
+
+/// One robot's way is what the steps show of it.
+fn rollout(machine: &DeadReckoning, index: usize) {
+    let Some(way) = machine.rollout(index) else {
+        assert!(index >= machine.shown());
+        return;
+    };
+    assert_eq!(way.len(), machine.shown_settings().steps as usize);
+    laws::finite("a way", way.as_flattened());
+    for (step, pose) in (1..).zip(&way) {
+        assert!(machine.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
+    }
+}
+
+fn nearest(machine: &DeadReckoning, input: &mut Input) {
+    let target = [0; 2].map(|_| input.number());
+    let radius = input.within(0.0..=f64::INFINITY);
+    let Some(index) = machine.nearest(target, radius) else { return };
+    let poses = machine.poses(machine.shown_settings().step);
+    let away = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
+    let least = poses.iter().map(away).fold(f64::INFINITY, f64::min);
+    // A square of a distance below 1e-154 of the radius is 0.
+    let found = away(&poses[index]);
+    assert!(found <= least * (1.0 + 1e-9) + 1e-150 && found <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+}

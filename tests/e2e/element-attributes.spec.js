@@ -1,3 +1,4 @@
+import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { SEEDS, anyOf } from './any-state.js';
 import { ALL, KNOWN, NAMES, assign, heard, property, ready, show } from './element-support.js';
@@ -224,6 +225,23 @@ test.describe('attributes', () => {
     });
     expect(await property(widget, 'model')).toBe('velocity');
   });
+});
+
+test('what doc/embedding.md has an element show, it takes', async ({ page }) => {
+  const document = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
+  const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
+  expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL.length);
+  for (const { name, attributes } of examples) {
+    await show(page, `<${name}${attributes}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const unknown = await widget.evaluate((element) => {
+      const { observedAttributes } = /** @type {any} */ (element.constructor);
+      return [...element.attributes].map((attribute) => attribute.name).filter((attribute) => !observedAttributes.includes(attribute));
+    });
+    expect(unknown, `${name}${attributes}`).toEqual([]);
+    expect(await heard(page, ['error'])).toEqual([]);
+  }
 });
 
 test.describe('properties', () => {

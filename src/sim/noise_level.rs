@@ -3,25 +3,26 @@
 use super::settings::{Level, Settable, Setting};
 use std::ops::RangeInclusive;
 
-/// The level n of noise parameters that end with γ̂'s two: these are n/4, and all before them n.
-pub struct NoiseLevel<'a>(pub &'a mut [f64]);
+/// The α's of a noise level n: those of γ̂, the last two, are n/4, and all before them n.
+pub fn alphas_of_noise<const N: usize>(n: f64) -> [f64; N] {
+    std::array::from_fn(|i| if i + 2 < N { n } else { n / 4.0 })
+}
 
-impl Level for NoiseLevel<'_> {
+/// The level of α's that may be those of one.
+pub struct NoiseLevel<'a, const N: usize>(pub &'a mut [f64; N]);
+
+impl<const N: usize> Level for NoiseLevel<'_, N> {
     fn get(&self) -> Option<f64> {
-        let (first, last) = self.0.split_at(self.0.len() - 2);
-        let level = first[0];
-        let is = first.iter().all(|alpha| *alpha == level) && last.iter().all(|alpha| *alpha == level / 4.0);
-        is.then_some(level)
+        let n = self.0[0];
+        (*self.0 == alphas_of_noise(n)).then_some(n)
     }
 
     fn set(&mut self, level: f64) {
-        let (first, last) = self.0.split_at_mut(self.0.len() - 2);
-        first.fill(level);
-        last.fill(level / 4.0);
+        *self.0 = alphas_of_noise(level);
     }
 }
 
-impl Settable for NoiseLevel<'_> {
+impl<const N: usize> Settable for NoiseLevel<'_, N> {
     type Allowed = RangeInclusive<f64>;
     fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
         Setting::Level(self, allowed)

@@ -101,7 +101,7 @@ impl JsMapSqueeze {
     pub fn alphas_of_noise(
         #[wasm_bindgen(unchecked_param_type = "number")] n: &JsValue,
     ) -> Result<Float64Array, JsValue> {
-        float64_array(&alphas_of_noise(in_range("n", n, &ALPHA)?))
+        float64_array(&alphas_of_noise::<6>(in_range("n", n, &ALPHA)?))
     }
 
     /// Changes the settings that are named. `noise` sets all of `alphas`. A complete cloud stays complete.

@@ -61,8 +61,9 @@ settings! {
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
 impl Settings {
-    fn heading_level(&mut self) -> NoiseLevel<'_> {
-        NoiseLevel(&mut self.alphas[2..])
+    fn heading_level(&mut self) -> NoiseLevel<'_, 4> {
+        let [_, _, of_heading @ ..] = &mut self.alphas;
+        NoiseLevel(of_heading)
     }
 
     /// The level of the heading noise; None where α₃ to α₆ are not those of one.

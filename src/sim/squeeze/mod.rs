@@ -4,6 +4,7 @@ mod driver;
 mod picture;
 mod settings;
 
+pub use super::noise_level::alphas_of_noise;
 pub use driver::{ACCEPTED, Attempt, END_FREE, PATH_FREE};
 pub use picture::{KINDS, Kind};
 pub use settings::*;

@@ -3,7 +3,7 @@
 use crate::geom::se2::SE2;
 use crate::map::{Sampler, Unknown};
 use crate::models::VelocityCmd;
-use crate::sim::noise_level::NoiseLevel;
+use crate::sim::noise_level::{NoiseLevel, alphas_of_noise};
 use crate::sim::settings::{
     ALPHA, Level, MAX_SEED, QUANTITY, Rules, Settable, Setting, SettingsError, Words, check_whole, group,
     settings,
@@ -78,15 +78,8 @@ settings! {
     }
 }
 
-/// The α's of a noise level n: α₁₋₄ = n, α₅,₆ = n/4.
-pub fn alphas_of_noise(n: f64) -> [f64; 6] {
-    let mut alphas = [0.0; 6];
-    NoiseLevel(&mut alphas).set(n);
-    alphas
-}
-
 impl Settings {
-    fn noise_level(&mut self) -> NoiseLevel<'_> {
+    fn noise_level(&mut self) -> NoiseLevel<'_, 6> {
         NoiseLevel(&mut self.alphas)
     }
 

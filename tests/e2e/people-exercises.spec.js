@@ -56,6 +56,8 @@ async function spreads(widget) {
 }
 
 test('exercise 4: what α₄ alone and α₆ alone do, on a straight and in a turn', async ({ page }) => {
+  // A hundred keys and more, each awaited.
+  test.slow();
   const widget = await open(page);
   await page.keyboard.press('Tab');
   await press(widget.getByRole('button', { name: 'Straight' }), 'Enter');

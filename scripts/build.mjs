@@ -127,12 +127,15 @@ async function silencePanics(path) {
   module.dispose();
 }
 
+/** After the usual ones, variables that hold the same share a place once more. */
+const PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
+
 /**
  * @param {string} path of a module, which is changed
  * @param {string[]} passes
  * @returns {Promise<string>} what is printed
  */
-async function optimize(path, passes = ['-O3', '--converge']) {
+async function optimize(path, passes = PASSES) {
   // The features that rustc's default for this target has, and SIMD of .cargo/config.toml.
   const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [

@@ -68,11 +68,11 @@ export class Reflection extends Part {
     }
     this.#early.clear();
     // Properties too, in whatever order they were given; but a state is entered when it came.
-    let states = 0;
+    let since = 0;
     const wishes = [...this.#wishes].map(([name, { take }]) =>
-      ({ take, when: typeof name === 'string' ? [states, this.#order.indexOf(name)] : [++states, -1] }));
+      ({ take, when: typeof name === 'string' ? since + this.#order.indexOf(name) + 1 : (since += this.#order.length + 1) }));
     this.#wishes.clear();
-    wishes.sort(({ when: [run, place] }, { when: [otherRun, otherPlace] }) => run - otherRun || place - otherPlace);
+    wishes.sort((one, other) => one.when - other.when);
     for (const { take } of wishes) this.host.runtime.tolerate(take);
   }
 

@@ -50,7 +50,7 @@ export const KNOWN = {
     folded: ['squeeze', 'tally', 'tests'], fold: MARKED, paper: { at: 1, part: 'table' },
   },
   'arc-anatomy': {
-    ...COMMAND, handles: ['.handle.body', '.handle.turn'], group: ['next', 'y'], button: 'The next line', canvases: 1,
+    ...COMMAND, handles: ['.handle.body.start', '.handle.turn.start', '.handle.body.next', '.handle.turn.next'], group: ['next', 'y'], button: 'The next line', canvases: 1,
     fold: { at: 1, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 2, part: '.lines' },
   },
   'odometry-decomposer': {

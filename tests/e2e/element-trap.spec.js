@@ -135,6 +135,8 @@ for (const [i, name] of ALL.entries()) {
     await ready(widget);
     await unfold(widget);
     await widget.locator(`#${slider}`).fill(String(values[0]));
+    // What was drawn is what it comes back to.
+    await frames(page);
     const before = await stateOf(widget);
     const told = await widget.evaluate(async (element, [name, value]) => {
       const told = /** @type {string[]} */ ([]);

@@ -100,6 +100,9 @@ const stateOf = (widget) =>
 test.describe('from the keyboard alone', () => {
   test.use(STILL);
 
+  /** Stops of Tab on a page of all figures are fewer. */
+  const MANY_STOPS = 300;
+
   /**
    * Goes on by Tab until the focus is there.
    *
@@ -107,7 +110,7 @@ test.describe('from the keyboard alone', () => {
    */
   async function tabTo(target) {
     const page = target.page();
-    for (let presses = 0; presses < 120; presses++) {
+    for (let presses = 0; presses < MANY_STOPS; presses++) {
       if (await target.evaluate((element) => element.matches(':focus'))) return;
       await page.keyboard.press('Tab');
     }

@@ -42,6 +42,8 @@ export class Stage extends Part {
   /** When the first picture was drawn whose words have not come yet. @type {number | undefined} */
   #owedSince;
   #printing = false;
+  /** Words of other heights would change the sizes that are being told of: they wait for the next frame. */
+  #resizing = false;
   /** @type {ResizeObserver | undefined} */
   #sizes;
   /** Ends listening for the printer and for other words. */
@@ -170,7 +172,7 @@ export class Stage extends Part {
     const now = performance.now();
     const since = this.#owedSince;
     // With the first picture there comes nothing else.
-    if (this.opening ? since : now - began < QUICK || now - (since ?? now) > LATEST_WORDS) this.#tell();
+    if (this.opening ? since : !this.#resizing && (now - began < QUICK || now - (since ?? now) > LATEST_WORDS)) this.#tell();
     else {
       this.#owedSince ??= began;
       wake(this);
@@ -211,7 +213,9 @@ export class Stage extends Part {
     // Inside a closed tab neither.
     this.#colour();
     // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
+    this.#resizing = true;
     this.#drawNow(0);
+    this.#resizing = false;
   }
 
   /** The colours as they are now. */

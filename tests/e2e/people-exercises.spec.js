@@ -67,7 +67,7 @@ test('exercise 4: what α₄ alone and α₆ alone do, on a straight and in a tu
   // From the figure's start again; the arrows go through the group.
   const choose = async (/** @type {number} */ number) => {
     await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
-    for (let presses = 0; presses < 150 && !(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('name') === 'isolate')); presses++) {
+    for (let presses = 0; presses < 300 && !(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('name') === 'isolate')); presses++) {
       await page.keyboard.press('Tab');
     }
     for (let step = 0; step < 6 && !(await only(`α${'₀₁₂₃₄₅₆'[number]}`).isChecked()); step++) {

@@ -3,10 +3,14 @@
 // A page with one widget loads a module without the others: that is compiled with the widget's tag as its cfg `widget`.
 #![cfg_attr(widget, allow(dead_code, reason = "what the other widgets read and make"))]
 
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+mod alpha_calibrator;
 #[cfg(any(not(widget), widget = "arc-anatomy"))]
 mod arc_anatomy;
 #[cfg(any(not(widget), widget = "banana-machine"))]
 mod banana;
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+mod calibrate;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
 mod fields;

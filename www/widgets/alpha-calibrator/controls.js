@@ -1,0 +1,93 @@
+/** The Alpha Calibrator's controls: the leg that is looked at, the model, and what a leg is. */
+
+import { html, nothing } from 'lit';
+import { check, choices, slider } from '../../figure/controls.js';
+import { words } from '../../messages/registry.js';
+import { button, radioGroup } from '../../ui/controls.js';
+import { counted, fixed, numberIn, percent } from '../../ui/format.js';
+import { sliderRow } from '../../ui/slider.js';
+import { kindOf, settingsFor } from './settings.js';
+
+/** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
+
+/** Which leg is looked at, and how far it is off. @param {Figure} figure */
+export function legControls(figure) {
+  const { reading: { legs, stats }, chosen } = figure;
+  const say = words.calibrator.leg;
+  const { worst } = stats.doubts;
+  // From each of them to the next.
+  const next = worst[(worst.indexOf(chosen) + 1) % Math.max(1, worst.length)];
+  const take = (/** @type {number} */ number) => figure.look(number - 1);
+  return html`<fieldset class="leg">
+      <legend class="visually-hidden">${say.name}</legend>
+      ${sliderRow({
+        id: 'leg',
+        symbol: say.symbol,
+        name: say.name,
+        value: chosen + 1,
+        min: 1,
+        max: Math.max(2, legs.count),
+        step: 1,
+        show: counted,
+        effect: say.hint,
+        role: 'truth',
+        off: legs.count < 2,
+        keys: 'numeric',
+        input: take,
+        commit: () => figure.gesture.commit(),
+        type: (text) => {
+          const number = numberIn(text);
+          if (Number.isInteger(number) && number >= 1 && number <= legs.count) {
+            take(number);
+            figure.gesture.commit();
+            return counted(number);
+          }
+          figure.typing.refuse('leg', words.refused(say.name, Number.isNaN(number) ? `"${text}"` : text.trim(), '1', counted(legs.count), true));
+        },
+        refusal: figure.typing.refusalOf('leg'),
+        forget: () => figure.typing.forget(),
+      })}
+    </fieldset>
+    <p class="said">
+      ${chosen < 0 ? nothing : html`<span class="roomy" data-room=${`${said(0.999, 99.9, 3)} ${say.bad(percent(0.999))}`}>${saidOf(figure)}</span>`}
+      ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })}
+    </p>`;
+}
+
+/**
+ * @param {number} off m
+ * @param {number} squared
+ * @param {number} expected
+ */
+function said(off, squared, expected) {
+  const { leg } = words.calibrator;
+  return leg.off(`${fixed(off, 3)} m`, leg.squared(fixed(squared, 1), String(expected)));
+}
+
+/** @param {Figure} figure */
+function saidOf({ reading: { legs }, chosen, scene: { leg } }) {
+  if (!leg) return '';
+  const off = Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]);
+  const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;
+  const bad = legs.bad[chosen];
+  return `${said(off, legs.squaredError[chosen], told)}${bad > 0.005 ? ` ${words.calibrator.leg.bad(percent(bad))}` : ''}`;
+}
+
+/** The model with its rule, and whether legs may be bad. @param {Figure} figure */
+export function modelControls(figure) {
+  const { settings: { model }, kinds, robust, noises } = words.calibrator;
+  const choose = (/** @type {import('./settings.js').Kind} */ kind) => figure.gesture.decide(settingsFor(kind));
+  return html`<div class="models">
+    ${radioGroup(model.name, 'kind', kinds, kindOf(/** @type {any} */ (figure.settings.told)), choose)}
+    ${choices(figure, 'noise', noises)} ${check(figure, 'robust', robust)}
+  </div>`;
+}
+
+/** Where a leg ends. @param {Figure} figure */
+export function legLengths(figure) {
+  const { name } = words.calibrator.leg;
+  return ['distance', 'angle'].map((key) => html`<fieldset>
+    <legend class="visually-hidden">${name}</legend>
+    ${slider(figure, key)}
+  </fieldset>`);
+}

@@ -1,0 +1,63 @@
+/** The Alpha Calibrator's settings as attributes, in its state, and as the eye sees them. */
+
+import { attributesOf } from '../../figure/attributes.js';
+import { wholeNumber, word } from '../../figure/checks.js';
+import { settings } from '../../settings.js';
+
+/** @import { AlphaCalibratorSettings } from '../../types.d.ts' */
+
+export const declared = settings['alpha-calibrator'];
+
+/** The key of its words in the catalogues. */
+export const vocabulary = 'calibrator';
+
+export const attributes = attributesOf(declared);
+
+/** What a variance is made of: the squares of the turn and of the way. */
+export const DRIVERS = /** @type {const} */ (['turn', 'way']);
+
+/** @typedef {(typeof DRIVERS)[number]} Driver */
+
+/** @type {Record<string, import('../../figure/state.js').Owned>} */
+export const own = {
+  leg: { opening: null, check: (field, leg, machine) => (leg === null ? null : wholeNumber(field, leg, 0, machine.count - 1)) },
+  driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
+};
+
+/** @type {import('../../figure/attributes.js').Documentation} */
+export const documentation = {
+  properties: {
+    log: { type: 'CalibrationLog | null', sentence: 'A log of the page’s own; null for the simulated one.' },
+  },
+  state: {
+    leg: { type: 'number | null', sentence: 'The leg that is looked at, from 0; null for the worst of those that are not bad.' },
+    driver: { type: "'turn' | 'way'", sentence: 'What squared residuals are drawn against.' },
+  },
+};
+
+/** What the models are called together with their rules: two settings, and one choice. */
+export const KINDS = /** @type {const} */ (['table', 'nav2', 'beluga', 'omni', 'velocity']);
+
+/** @typedef {(typeof KINDS)[number]} Kind */
+
+/** @param {AlphaCalibratorSettings} config @returns {Kind} */
+export const kindOf = ({ model, rule }) => (model === 'velocity' ? 'velocity' : rule);
+
+/** The settings to make for one of them. @param {Kind} kind */
+export function settingsFor(kind) {
+  if (kind === 'velocity') return { model: 'velocity', rule: 'table' };
+  return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
+}
+
+/** What is systematic, in the order in which it is told. */
+export const SYSTEMATIC = /** @type {const} */ (['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale']);
+
+/** @type {Record<string, import('../../figure/controls.js').Look>} */
+export const looks = {
+  distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+  angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+  inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
+};
+
+/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
+export const room = [[0, 30, 0]];

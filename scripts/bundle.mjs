@@ -133,6 +133,7 @@ export async function bundle(changed = (_, script) => script) {
               contents: withoutEffects(readFileSync(path, 'utf8')),
               loader: 'js',
             }));
+            onLoad({ filter: /[/\\]zstddec\.mjs$/ }, ({ path }) => ({ contents: withoutFetch(readFileSync(path, 'utf8')), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({
               contents: changed(path, withShortStyles(readFileSync(path, 'utf8'), transformSync)),
               loader: 'js',
@@ -284,6 +285,22 @@ function withoutEffects(library) {
   return library
     .replaceAll(/^((?:var|const) \w+ = )((?:new |`|\w+[.(]).*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
+}
+
+/**
+ * A library whose module is a text in it, and that has the browser fetch this text: strict security policies forbid that.
+ *
+ * @param {string} library
+ */
+function withoutFetch(library) {
+  const changes = /** @type {const} */ ([
+    ['typeof fetch !== "undefined"', 'false'],
+    ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (each) => each.charCodeAt(0))'],
+  ]);
+  return changes.reduce((text, [is, instead]) => {
+    if (!text.includes(is)) throw new Error(`zstddec has no ${is}, as scripts/bundle.mjs takes it to have.`);
+    return text.replace(is, instead);
+  }, library);
 }
 
 /**

@@ -10,6 +10,9 @@ const PIECE = 2 ** 18;
 /** Bytes of a line at most: a row of a thousand columns. */
 const LONGEST = 2 ** 16;
 
+/** What some programs put at the beginning of a text. */
+const BYTE_ORDER_MARK = [0xef, 0xbb, 0xbf];
+
 const [LINE_FEED, RETURN, NUL] = [10, 13, 0];
 
 export class Lines {
@@ -61,7 +64,7 @@ export class Lines {
       this.bytes = new Uint8Array(rest.length + piece.length);
       this.bytes.set(rest);
       this.bytes.set(piece, rest.length);
-      this.#next = 0;
+      this.#next = this.number === 0 && BYTE_ORDER_MARK.every((byte, i) => byte === this.bytes[i]) ? BYTE_ORDER_MARK.length : 0;
       if (this.step()) return true;
     }
     const { length } = this.bytes;

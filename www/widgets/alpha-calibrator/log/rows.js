@@ -107,7 +107,7 @@ export class Rows {
     if (this.#count > MAX_ROWS) throw new LogError(this.#place, (say) => say.rows(MAX_ROWS));
     // The sum is finite where all are.
     if (!Number.isFinite(seconds + rest)) return this.#note('notFinite', line, NaN);
-    if (this.#kept === 0) this.#start = Math.floor(seconds);
+    if (this.#kept === 0) this.#start = Math.floor(seconds) - (rest < 0 ? 1 : 0);
     const at = seconds - this.#start + rest;
     if (!Number.isFinite(a + b + c)) return this.#note('notFinite', line, at);
     const t = this.#columns[0];

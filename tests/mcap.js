@@ -1,5 +1,6 @@
 /** MCAP recordings as ROS 2 writes them, for tests. */
 
+import { Buffer } from 'node:buffer';
 import zstd from '@foxglove/wasm-zstd';
 import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import { McapWriter } from '@mcap/core';

@@ -5,7 +5,7 @@ import { breathing } from './breath.js';
 import { MAX_CHUNK, decompressors } from './decompress.js';
 import { Frames } from './frames.js';
 import { KINDS, edgeReader, poseReader } from './messages.js';
-import { LogError, bytesOf, cut, listed } from './refusal.js';
+import { LogError, bytesOf, cut, listed, reasonOf } from './refusal.js';
 import { Rows } from './rows.js';
 
 /**
@@ -44,9 +44,6 @@ const MAX_CHANNELS = 2 ** 16;
 /** A recorder puts what never changes into a topic of this name. */
 const STATIC = /(^|\/)tf_static$/;
 
-/** What a library said, as the reason of a sentence. @param {unknown} error */
-const reasonOf = (error) => (error instanceof Error ? error.message : String(error)).replace(/ \[(library=[^\]]*|no header)\]$/, '');
-
 /**
  * Gives what a library throws a sentence.
  *
@@ -59,7 +56,7 @@ function sentenceOf(place, error) {
   const reason = reasonOf(error);
   const compression = /^Unsupported compression (.*)$/s.exec(reason);
   if (compression) return new LogError(place, (say) => say.compression(cut(compression[1])));
-  return new LogError(place, (say) => say.damaged(cut(reason)));
+  return new LogError(place, (say) => say.damaged(reason));
 }
 
 /**
@@ -290,7 +287,7 @@ export async function readRecording(source, { topic, frames }, watching) {
         });
       } catch (error) {
         if (error instanceof LogError) throw error;
-        throw new LogError(place, (say) => say.message(number, cut(reasonOf(error))));
+        throw new LogError(place, (say) => say.message(number, reasonOf(error)));
       }
     },
     watching,

@@ -16,8 +16,8 @@ import { log as english } from './en.js';
  * @property {string} [topic] of a recording
  */
 
-/** Characters of a name or a value that a sentence quotes. */
-const QUOTED = 40;
+/** Characters of a name or a value that a sentence quotes, and of a reason that a library gave. */
+const [QUOTED, REASON] = [40, 100];
 
 /** One sentence that names the file, the line or topic, the value, and what is expected. */
 export class LogError extends Error {
@@ -39,11 +39,18 @@ export class LogError extends Error {
  * As much of a text as a sentence quotes, on one line.
  *
  * @param {string} text
+ * @param {number} [most] characters
  */
-export function cut(text) {
+export function cut(text, most = QUOTED) {
   // eslint-disable-next-line no-control-regex
-  const line = text.slice(0, QUOTED + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
-  return line.length > QUOTED ? `${line.slice(0, QUOTED)}…` : line;
+  const line = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
+  return line.length > most ? `${line.slice(0, most)}…` : line;
+}
+
+/** What a library said, as the reason of a sentence. @param {unknown} error */
+export function reasonOf(error) {
+  const said = error instanceof Error ? error.message : String(error);
+  return cut(said.replace(/ \[(library=[^\]]*|no header)\]$/, ''), REASON);
 }
 
 /**
@@ -53,7 +60,7 @@ export function cut(text) {
  */
 export function listed(names) {
   const most = 8;
-  return [...names.slice(0, most).map(cut), ...(names.length > most ? ['…'] : [])].join(', ');
+  return [...names.slice(0, most).map((name) => cut(name)), ...(names.length > most ? ['…'] : [])].join(', ');
 }
 
 /**

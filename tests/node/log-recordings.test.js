@@ -84,7 +84,7 @@ for (const [what, options] of FORMS) {
       ],
     );
     assert.equal(topics[5].type, 'nav_msgs/msg/Odometry');
-    assert.deepEqual(usualTopics(topics), { odometry: '/odom', reference: '/mocap/pose' });
+    assert.deepEqual(usualTopics(topics), { odometry: '/odom', commands: '/cmd_vel', reference: '/mocap/pose' });
 
     const read = async (/** @type {string} */ topic, /** @type {object} */ more = {}) => {
       const log = await readLog(source, { topic, ...more });

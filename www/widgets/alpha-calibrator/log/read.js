@@ -53,14 +53,14 @@ export async function readLog(source, { kind, topic, frames, ...watching } = {})
   return readRecording(source, { topic: topic ?? '', frames }, watching);
 }
 
-/** Names that recorders give to odometry, and to what is better. */
-const [ODOMETRY, REFERENCE] = [/(^|\/)odom(etry)?$/i, /truth|gt|mocap|vicon|optitrack|qualisys|vrpn|reference|station|slam|amcl/i];
+/** Names that recorders give to odometry, to commands, and to what is better. */
+const [ODOMETRY, COMMANDS, REFERENCE] = [/(^|\/)odom(etry)?$/i, /(^|\/)cmd_vel$/i, /truth|gt|mocap|vicon|optitrack|qualisys|vrpn|reference|station|slam|amcl/i];
 
 /**
  * Which topics are meant, where that is clear.
  *
  * @param {Topic[]} topics
- * @returns {{ odometry: string | null, reference: string | null }}
+ * @returns {{ odometry: string | null, commands: string | null, reference: string | null }}
  */
 export function usualTopics(topics) {
   const poses = topics.filter(({ kind, count }) => kind === 'poses' && count > 1);
@@ -68,7 +68,9 @@ export function usualTopics(topics) {
   const ofOdometry = poses.filter(({ type, name }) => type === 'nav_msgs/msg/Odometry' && !REFERENCE.test(name));
   const odometry = only(ofOdometry.filter(({ name }) => ODOMETRY.test(name))) ?? only(ofOdometry);
   const others = poses.filter(({ name }) => name !== odometry);
-  return { odometry, reference: only(others.filter(({ name }) => REFERENCE.test(name))) ?? only(others) };
+  const driven = topics.filter(({ kind, count }) => kind === 'commands' && count > 1);
+  const commands = only(driven.filter(({ name }) => COMMANDS.test(name))) ?? only(driven);
+  return { odometry, commands, reference: only(others.filter(({ name }) => REFERENCE.test(name))) ?? only(others) };
 }
 
 /**

@@ -63,7 +63,6 @@ export class AlphaCalibratorElement extends FigureElement {
   read(machine) {
     const reading = readingOf(machine, this.#readOf === machine ? this.reading : undefined);
     this.#readOf = machine;
-    if ((this.state.own.leg ?? -1) >= reading.legs.count) this.state.own.leg = null;
     return reading;
   }
 

@@ -15,8 +15,8 @@ export function legControls(figure) {
   const { reading: { legs, stats }, chosen } = figure;
   const say = words.calibrator.leg;
   const { worst } = stats.doubts;
-  // From each of them to the next.
-  const next = worst[(worst.indexOf(chosen) + 1) % Math.max(1, worst.length)];
+  // From each of them to the next; that at which it opens may be among them.
+  const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
   const take = (/** @type {number} */ number) => figure.look(number - 1);
   return html`<fieldset class="leg">
       <legend class="visually-hidden">${say.name}</legend>
@@ -29,7 +29,6 @@ export function legControls(figure) {
         max: Math.max(2, legs.count),
         step: 1,
         show: counted,
-        effect: say.hint,
         role: 'truth',
         off: legs.count < 2,
         keys: 'numeric',

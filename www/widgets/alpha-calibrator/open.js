@@ -2,12 +2,12 @@
 
 import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.js';
-import { words } from '../../messages/registry.js';
+import { language, words } from '../../messages/registry.js';
 import { button, inputOf } from '../../ui/controls.js';
 
 /**
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
- * @typedef {import('./log/rows.js').Log} Log
+ * @typedef {import('./log/rows.js').Poses} Poses
  * @typedef {import('./log/read.js').Topic} Topic
  * @typedef {typeof import('./log/read.js')} Reader
  */
@@ -96,11 +96,8 @@ export class LogOpener extends Part {
       await reader.readLog(files.at(-1) ?? files[0], { ...topic(reference), ...(topics.length ? {} : { kind: 'poses' }), ...half(0.5) }),
     );
     watching.signal.throwIfAborted();
-    const poses = (/** @type {Log} */ { t, x, y, theta }) => ({ t, x, y, theta });
-    const commands = (/** @type {Log} */ { t, x, y }) => ({ t, v: x, omega: y });
-    const odometryOf = logs.odometry.kind === 'commands' ? commands : poses;
     const name = [...new Set(files.map((file) => file.name))].join(', ');
-    this.host.open({ name, odometry: odometryOf(logs.odometry), reference: poses(logs.reference) });
+    this.host.open({ name, odometry: logs.odometry.data, reference: /** @type {Poses} */ (logs.reference.data) });
     const say = await wordsOf();
     this.#found = () => [logs.odometry, logs.reference].flatMap((log) => [`${log.name}: ${reader.tell(log, say().found).join(' ')}`]);
   }
@@ -159,10 +156,10 @@ export class LogOpener extends Part {
   };
 }
 
-/** The words of logs, in the present language: they come with the first log. */
+/** The words of logs, which come with the first log. @returns {Promise<() => typeof import('./log/en.js').log>} those of the time when they are said */
 async function wordsOf() {
-  const { log } = await import('./log/en.js');
-  return () => log;
+  const [{ log: english }, { log: german }] = await Promise.all([import('./log/en.js'), import('./log/de.js')]);
+  return () => (language === 'de' ? german : english);
 }
 
 /**

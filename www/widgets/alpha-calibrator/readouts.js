@@ -26,7 +26,7 @@ export function alphaTable(reading) {
   return html`<table class="alphas" part="table">
     <caption>${truth ? trueCaption() : say.caption}</caption>
     <thead class="visually-hidden">
-      <tr><th scope="col">${rich(say.alpha)}</th><th></th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th></tr>
+      <tr><th scope="col">${rich(say.alpha)}</th><td></td><th scope="col">${say.value}</th><th scope="col">${say.interval}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
@@ -38,7 +38,7 @@ export function alphaTable(reading) {
             <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${intervals[i] ? say.between(significantly(intervals[i][0]), significantly(intervals[i][1])) : NOTHING}</td>`}
       </tr>`)}
       <tr aria-hidden="true">
-        <th></th>
+        <td></td>
         <td class="chart">
           <div class="scale">${place.decades.map((decade) => html`<span style="left: ${(100 * place.at(decade)) / CHART.width}%">${tick(decade, decade)}</span>`)}</div>
         </td>
@@ -113,14 +113,17 @@ export function systematicTable(figure) {
         const halves = intervalsOf(interval).map(([low, high]) => digits((high - low) / 2));
         return html`<tr>
           <th scope="row">${box}</th>
-          <td>${values.map(digits).join(', ')}</td>
-          <td class="between">± ${halves.join(', ')}</td>
-          ${truth ? html`<td class="muted">${[truth[key]].flat().map(digits).join(', ')}</td>` : nothing}
+          <td>${lines(values.map(digits))}</td>
+          <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
+          ${truth ? html`<td class="muted">${lines([truth[key]].flat().map(digits))}</td>` : nothing}
         </tr>`;
       })}
     </tbody>
   </table>`;
 }
+
+/** One below the other. @param {string[]} texts */
+const lines = (texts) => texts.map((text) => html`<div>${text}</div>`);
 
 /**
  * Intervals in a list: there is one of most errors, and two of a lever arm.

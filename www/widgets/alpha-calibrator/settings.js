@@ -18,9 +18,12 @@ export const DRIVERS = /** @type {const} */ (['turn', 'way']);
 
 /** @typedef {(typeof DRIVERS)[number]} Driver */
 
+/** Of a leg's number: how many there are is not known before all is fitted. */
+const MOST_LEGS = 9_999_999;
+
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
 export const own = {
-  leg: { opening: null, check: (field, leg, machine) => (leg === null ? null : wholeNumber(field, leg, 0, machine.count - 1)) },
+  leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
   driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
 };
 
@@ -30,7 +33,7 @@ export const documentation = {
     log: { type: 'CalibrationLog | null', sentence: 'A log of the page’s own; null for the simulated one.' },
   },
   state: {
-    leg: { type: 'number | null', sentence: 'The leg that is looked at, from 0; null for the worst of those that are not bad.' },
+    leg: { type: 'number | null', sentence: 'The leg that is looked at, from 0; null, or one that is not there, for the worst of those that are not bad.' },
     driver: { type: "'turn' | 'way'", sentence: 'What squared residuals are drawn against.' },
   },
 };
@@ -60,4 +63,7 @@ export const looks = {
 };
 
 /** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
-export const room = [[0, 30, 0]];
+export const room = [
+  [0, 56.6, 160], [21, 50.2, 160], [30, 46.8, 160], [34, 46, 160], [38, 26.6, 45], [41, 27.4, 45], [41.5, 25.2, 45], [45, 26.8, 37.5],
+  [50, 26.6, 37.5], [56, 13.6, 35], [60, 13.2, 35], [70, 10.8, 35], [90, 9.2, 35],
+];

@@ -108,8 +108,13 @@ const own = css`
     line-height: 1.25;
   }
 
+  .said button {
+    --size: 0.84;
+    --beside: 0.4em;
+  }
+
   .said > span {
-    flex: 1 1 11em;
+    flex: 1 1 100%;
   }
 
   .models {
@@ -186,6 +191,14 @@ const own = css`
   }
 
   @container (min-width: 38em) {
+    canvas {
+      aspect-ratio: 4 / 3;
+    }
+
+    .one canvas {
+      aspect-ratio: 3 / 2;
+    }
+
     .views {
       grid-template-columns: repeat(10, minmax(0, 1fr));
       gap: 0.25em 1.25em;
@@ -216,7 +229,25 @@ const own = css`
     }
   }
 
+  @container (45em <= width < 56em) {
+    .stage:not(.one) canvas {
+      aspect-ratio: 8 / 5;
+    }
+
+    .one canvas {
+      aspect-ratio: 9 / 5;
+    }
+  }
+
   @container (min-width: 56em) {
+    .stage:not(.one) canvas {
+      aspect-ratio: 8 / 7;
+    }
+
+    .one canvas {
+      aspect-ratio: 5 / 4;
+    }
+
     .views {
       grid-template-rows: auto 1fr auto;
     }

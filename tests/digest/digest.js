@@ -119,6 +119,30 @@ export const widgets = {
     return told;
   },
 
+  'alpha-calibrator'({ AlphaCalibrator }, _, { settings }) {
+    const machine = new AlphaCalibrator(settings);
+    const { stats: { alphas, intervals, bootstrap, systematic, logLikelihood, outliers, doubts, inflation }, legs, truth } = machine;
+    const { kinds, heldOut, squaredError, worst } = doubts;
+    const told = {
+      alphas: { alphas, intervals, bootstrap, logLikelihood, outliers },
+      systematic: Object.values(systematic).map(({ value, interval }) => ({ value, interval })),
+      doubts: {
+        kinds: kinds.map(({ name: _, ...figures }) => figures),
+        heldOut: [heldOut.count, heldOut.coverage, heldOut.interval, heldOut.logLikelihood],
+        squaredError,
+        worst,
+      },
+      inflation,
+      legs,
+      truth,
+      panels: ['turn', 'way'].map((driver) => machine.panels(/** @type {'turn' | 'way'} */ (driver))),
+      leg: machine.leg(5),
+      nearest: machine.nearest(0.5, 1, 3),
+    };
+    machine.free();
+    return told;
+  },
+
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
     const { from, to } = OdometryDecomposer.presets.find(({ name }) => name === preset) ?? {};
     const machine = new OdometryDecomposer({ from, to, ...settings });

@@ -119,11 +119,11 @@ export function anyOf(seed) {
     'alpha-calibrator': {
       version: 1,
       widget: 'alpha-calibrator',
-      ...one([
+      .../** @type {object} */ (one([
         { model: 'odometry', rule: one(['table', 'nav2', 'beluga']) },
         { model: 'omnidirectional', rule: 'omni' },
         { model: 'velocity', rule: one(['table', 'nav2']) },
-      ]),
+      ])),
       noise: one(['normal', 'triangular']),
       robust: one([true, false]),
       distance: real(0.1, 1),

@@ -1,10 +1,11 @@
 /** The Alpha Calibrator's controls: the leg that is looked at, the model, and what a leg is. */
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { check, choices, slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, radioGroup } from '../../ui/controls.js';
 import { counted, fixed, numberIn, percent } from '../../ui/format.js';
+import { readoutList } from '../../ui/readouts.js';
 import { sliderRow } from '../../ui/slider.js';
 import { kindOf, settingsFor } from './settings.js';
 
@@ -29,6 +30,7 @@ export function legControls(figure) {
         max: Math.max(2, legs.count),
         step: 1,
         show: counted,
+        effect: undefined,
         role: 'truth',
         off: legs.count < 2,
         keys: 'numeric',
@@ -47,29 +49,20 @@ export function legControls(figure) {
         forget: () => figure.typing.forget(),
       })}
     </fieldset>
-    <p class="said">
-      ${chosen < 0 ? nothing : html`<span class="roomy" data-room=${`${said(0.999, 99.9, 3)} ${say.bad(percent(0.999))}`}>${saidOf(figure)}</span>`}
-      ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })}
-    </p>`;
+    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })} ${readoutList(saidOf(figure))}`;
 }
 
-/**
- * @param {number} off m
- * @param {number} squared
- * @param {number} expected
- */
-function said(off, squared, expected) {
-  const { leg } = words.calibrator;
-  return leg.off(`${fixed(off, 3)} m`, leg.squared(fixed(squared, 1), String(expected)));
-}
-
-/** @param {Figure} figure */
+/** How far the leg is off. @param {Figure} figure @returns {Parameters<typeof readoutList>[0]} */
 function saidOf({ reading: { legs }, chosen, scene: { leg } }) {
-  if (!leg) return '';
-  const off = Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]);
+  const say = words.calibrator.leg;
+  const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;
-  const bad = legs.bad[chosen];
-  return `${said(off, legs.squaredError[chosen], told)}${bad > 0.005 ? ` ${words.calibrator.leg.bad(percent(bad))}` : ''}`;
+  const [squared, bad] = leg ? [legs.squaredError[chosen], legs.bad[chosen]] : [NaN, NaN];
+  return [
+    [say.off, `${fixed(off, 3)} m`, '0.000 m'],
+    [say.squared(String(told)), fixed(squared, 1), '0000.0'],
+    [say.bad, percent(bad), percent(0.999)],
+  ];
 }
 
 /** The model with its rule, and whether legs may be bad. @param {Figure} figure */

@@ -69,9 +69,9 @@ export const de = {
     symbol: 'Etappe',
     worst: 'Nächste schlechte',
     worstTitle: 'Die zehn Etappen mit den größten quadratischen Fehlern haben im Bild einen Ring',
-    off: (off, squared) => `${off} daneben, quadratischer Fehler ${squared}.`,
-    squared: (error, expected) => `${error}; üblich sind ${expected}`,
-    bad: (share) => `Schlecht: ${share}.`,
+    off: 'daneben',
+    squared: (usual) => `(*r*/*σ*)², üblich ${usual}`,
+    bad: 'schlecht',
   },
   panels: {
     title: 'Warum diese α',

@@ -68,9 +68,9 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     symbol: 'leg',
     worst: 'Next worst leg',
     worstTitle: 'The ten legs whose squared errors are largest are ringed in the picture',
-    off: (off, squared) => `${off} off, squared error ${squared}.`,
-    squared: (error, expected) => `${error}; ${expected} is usual`,
-    bad: (share) => `Bad: ${share}.`,
+    off: 'off',
+    squared: (usual) => `(*r*/*σ*)², usually ${usual}`,
+    bad: 'bad',
   },
   panels: {
     title: 'Why these α’s',

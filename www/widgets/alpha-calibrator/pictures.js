@@ -8,7 +8,7 @@ import { channels } from '../../ui/theme.js';
 import { lineKey } from '../shared/line-key.js';
 
 /**
- * @import { AlphaCalibrator as Machine, LegView } from '../../types.d.ts'
+ * @import { AlphaCalibrator as Machine, CalibrationLegs, LegView } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Palette } from '../../ui/theme.js'
  * @import { Reading } from './reading.js'
@@ -73,8 +73,10 @@ export class WayPicture extends Picture {
     const { context, palette, view } = brush;
     const styles = stylesOf(palette);
     const { key } = words.calibrator;
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, styles.map((style, i) => lineKey(brush, key.classes[i], style)).reverse());
+    const entries = styles.map((style, i) => lineKey(brush, key.classes[i], style)).reverse();
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, [...entries, lineKey(brush, key.read, { colour: palette.prior, width: 1.25, dash: READ_DASH })]);
     clipped(brush, () => {
+      drawReckoned(brush, legs);
       context.lineCap = 'round';
       styles.forEach((style, place) => drawLegs(brush, legs.reference, (leg) => classes[leg] === place, style));
       context.strokeStyle = palette.ink;
@@ -91,6 +93,29 @@ export class WayPicture extends Picture {
       context.lineCap = 'butt';
     });
   };
+}
+
+/**
+ * Where the odometry has the robot, from where that began: it drifts away, and each leg is compared by itself.
+ *
+ * @param {Brush} brush
+ * @param {CalibrationLegs} legs
+ */
+function drawReckoned({ context, view, palette }, { count, odometry, reference }) {
+  if (count === 0) return;
+  const turn = reference[2] - odometry[2];
+  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  context.beginPath();
+  for (let leg = 0; leg < count; leg++) {
+    const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
+    const [x, y] = [reference[0] + cos * dx - sin * dy, reference[1] + sin * dx + cos * dy];
+    context.lineTo(view.toPixelX(x), view.toPixelY(y));
+  }
+  context.strokeStyle = palette.prior;
+  context.lineWidth = 1.25;
+  context.setLineDash(READ_DASH);
+  context.stroke();
+  context.setLineDash([]);
 }
 
 /**

@@ -93,28 +93,31 @@ const own = css`
     color: var(--muted);
   }
 
+  /* As high as whole pixels have it: those of a table are rounded. */
+  .systematic :is(th, td) {
+    padding-block: 0;
+  }
+
   .systematic .toggle {
-    min-height: 1.6em;
+    min-height: calc(1.5em / 0.84);
   }
 
-  .views .said {
-    display: flex;
-    flex-wrap: wrap;
+  .looked {
+    display: grid;
+    gap: 0 0.8em;
     align-items: center;
-    justify-content: space-between;
-    gap: 0.2em 0.8em;
-    margin: 0;
-    font-size: 0.92em;
-    line-height: 1.25;
+    grid-template-columns: minmax(0, 1fr) auto;
   }
 
-  .said button {
+  .looked .readouts {
+    grid-column: 1 / -1;
+    gap: 0.2em 1.2em;
+    margin: 0;
+  }
+
+  .looked button {
     --size: 0.84;
     --beside: 0.4em;
-  }
-
-  .said > span {
-    flex: 1 1 100%;
   }
 
   .models {

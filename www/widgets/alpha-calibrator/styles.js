@@ -195,7 +195,7 @@ const own = css`
 
   @container (min-width: 38em) {
     canvas {
-      aspect-ratio: 4 / 3;
+      aspect-ratio: 7 / 5;
     }
 
     .one canvas {

@@ -199,7 +199,7 @@ const own = css`
     }
 
     .one canvas {
-      aspect-ratio: 3 / 2;
+      aspect-ratio: 9 / 5;
     }
 
     .views {
@@ -235,10 +235,6 @@ const own = css`
   @container (45em <= width < 56em) {
     .stage:not(.one) canvas {
       aspect-ratio: 8 / 5;
-    }
-
-    .one canvas {
-      aspect-ratio: 9 / 5;
     }
   }
 

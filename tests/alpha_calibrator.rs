@@ -88,7 +88,7 @@ fn panels_are_means_of_squared_residuals() {
             [exactly, square, 1.0 - judged.bad]
         })
         .collect();
-    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    points.sort_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));
     let size = points.len().div_ceil(8);
     for (i, bin) in points.chunks(size).enumerate() {
         let total: f64 = bin.iter().map(|point| point[2]).sum();

@@ -1,4 +1,6 @@
+import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
+import { odometry, poseOf, recordingOf, stampOf } from '../mcap.js';
 import { expectAccessible } from './axe.js';
 import { heard, ready, show, stateOf } from './element-support.js';
 import { STILL, frames, pixelsOf, test, unfold } from './support.js';
@@ -178,6 +180,38 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(fold(widget, 'Your log').locator('.present')).toHaveText('The log at present: odom.csv, truth.csv.');
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+/** A table of the example's. @param {'odometry' | 'reference'} name */
+const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
+
+/** The example as a recording, in which a third topic may be the reference too. @param {string[]} topics */
+async function recordingWith(topics) {
+  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const reference = topics.flatMap((topic) => rows('reference').map(([t, x, y, yaw]) => ({
+    topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
+  })));
+  const wheels = rows('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
+  return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+}
+
+test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv\./);
+  await settled(widget);
+  const { alphas } = await stats(widget);
+  for (const topics of [['/mocap/pose'], ['/mocap/pose', '/slam/pose']]) {
+    const name = `run-${topics.length}.mcap`;
+    const buffer = await recordingWith(topics);
+    await widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
+    if (topics.length > 1) await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
+    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}\\.`));
+    await settled(widget);
+    const read = await stats(widget);
+    // Quaternions round the headings.
+    alphas.forEach((alpha, i) => expect(Number(read.alphas[i]) / Number(alpha)).toBeCloseTo(1, 3));
+  }
 });
 
 test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {

@@ -70,7 +70,7 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
             [coefficients[own], square - answered, 1.0 - judged.bad]
         })
         .collect();
-    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    points.sort_unstable_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));
     let alpha = pair[own];
     let mut panel = Panel {
         alpha,

@@ -59,6 +59,7 @@ export class LogOpener extends Part {
   /** @param {File[]} files */
   choose(files) {
     if (files.length === 0) return;
+    this.chosen = undefined;
     this.#attempt(async (reader, watching) => {
       if (files.length > 2) throw new Error(words.calibrator.own.two(files.length));
       const recording = files.length === 1;
@@ -206,7 +207,7 @@ function whichIsWhich(opener, { files, topics, odometry, reference }) {
   }
   const select = (/** @type {string} */ label, /** @type {string} */ current, /** @type {(name: string) => void} */ choose) => html`<label>
     ${label}
-    <select @change=${(/** @type {Event} */ event) => choose(/** @type {HTMLSelectElement} */ (event.target).value)}>
+    <select aria-label=${label} @change=${(/** @type {Event} */ event) => choose(/** @type {HTMLSelectElement} */ (event.target).value)}>
       <option value="" ?selected=${current === ''}></option>
       ${topics.filter(({ kind }) => kind === 'poses' || kind === 'commands').map(({ name, count }) => html`<option value=${name} ?selected=${name === current}>${name} (${count})</option>`)}
     </select>

@@ -80,7 +80,8 @@ fn panels_are_means_of_squared_residuals() {
         .zip(judged)
         .map(|(observation, judged)| {
             let [first, way, second] = observation.reading;
-            let square = observation.residuals[1].powi(2) - estimate.alphas[2] * way * way;
+            let square =
+                observation.residuals[1].powi(2) - estimate.alphas[2] * way * way - observation.floors[1];
             let turns = first * first + second * second;
             // Of many legs as long as the others to rounding, which decides on their bins.
             let exactly = observation.coefficients[1][1];

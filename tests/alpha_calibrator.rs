@@ -126,7 +126,7 @@ fn a_leg_is_seen_from_where_it_began() {
         let mean = view.outcomes.iter().map(of).sum::<f64>() / count;
         view.outcomes.iter().map(|outcome| (of(outcome) - mean).powi(2)).sum::<f64>() / count
     };
-    let length = variance(&|[x, y, _]| x.hypot(*y));
+    let length = variance(&|[x, y, _]| libm::hypot(*x, *y));
     assert!(
         (length / variances.trans.0 - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
         "{length}, {}",
@@ -146,7 +146,7 @@ fn the_nearest_leg_is_the_one_that_leads_by() {
     let middle = [0.5 * (from.x() + to.x()), 0.5 * (from.y() + to.y())];
     let found = machine.nearest(middle, 1e-9).expect("it leads through there");
     let [from, to] = calibration.legs[found].reference.map(|pose| calibration.removed.base(&pose));
-    let way = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let way = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let [from, to] = [from, to].map(|pose| [pose.x(), pose.y()]);
     assert!(way(from, middle) + way(middle, to) - way(from, to) < 1e-9);
     assert_eq!(machine.nearest([1e6, 0.0], 1.0), None);

@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, radioGroup, rich } from '../../ui/controls.js';
-import { NOTHING, counted, fixed, percent } from '../../ui/format.js';
+import { NOTHING, counted, fixed, percent, powerOfTen } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
 import { alphaName, significantly } from './words.js';
@@ -42,22 +42,25 @@ export function panels(figure) {
 function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const say = words.calibrator.panels;
   const last = 1.06 * Math.max(...x, 1e-9);
-  const top = 1.1 * Math.max(1e-12, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
+  const highest = 1.1 * Math.max(1e-12, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
+  // Small numbers have no room beside an axis: in thousandths, or thousandths of these.
+  const exponent = 3 * Math.floor(Math.log10(highest) / 3);
+  const scaled = (/** @type {number} */ value) => value * 10 ** -exponent;
   const name = alphaName(alpha);
   // The band has the width of the interval, on either side of its middle.
   const [low, high] = interval ?? [NaN, NaN];
   const middle = (low + high) / 2;
   /** @type {Curve[]} */
   const lines = slope === null ? [] : [
-    { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, slope * last] },
-    { name: words.calibrator.alphas.interval, role: 'cloud', dash: '1 4', x: [0, last], y: [0, middle * last], error: [0, ((high - low) / 2) * last] },
+    { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, scaled(slope * last)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', dash: '1 4', x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
   ];
   return html`${plot({
     label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : significantly(slope)),
     x: { name: axis, from: 0, to: last },
-    y: { name: say.axis, from: Math.min(0, ...y.map((value, i) => value - error[i])), to: top },
+    y: { name: exponent < 0 ? `${say.axis} (${powerOfTen(exponent)})` : say.axis, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
     curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
-    points: x.map((at, i) => ({ role: /** @type {const} */ ('ink'), x: at, y: y[i], error: error[i] })),
+    points: x.map((at, i) => ({ role: /** @type {const} */ ('ink'), x: at, y: scaled(y[i]), error: scaled(error[i]) })),
   })}
   ${slope === null ? html`<p class="note">${rich(say.noSlope(name))}</p>` : ''}`;
 }

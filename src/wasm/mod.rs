@@ -7,6 +7,8 @@
 mod arc_anatomy;
 #[cfg(any(not(widget), widget = "banana-machine"))]
 mod banana;
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+mod calibrate;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
 mod fields;

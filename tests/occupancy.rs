@@ -413,7 +413,7 @@ fn the_largest_free_square_is_found() {
         for row in cells.chunks_mut(width) {
             let stripe = if uniform(&mut rng, 0.0, 1.0) < share { width / 2 } else { 0 };
             for (column, cell) in row.iter_mut().enumerate() {
-                let kind = if rng.next_u32() % 2 == 0 { Cell::Occupied } else { Cell::Unknown };
+                let kind = if rng.next_u32().is_multiple_of(2) { Cell::Occupied } else { Cell::Unknown };
                 if column < stripe || uniform(&mut rng, 0.0, 1.0) < share {
                     *cell = kind;
                 }

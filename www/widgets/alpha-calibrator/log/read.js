@@ -123,7 +123,7 @@ function span({ start, data: { t } }) {
  * @param {Words['found']} say
  * @returns {string[]}
  */
-export function tell({ data: { t }, how, found }, say) {
+export function tell({ data: { t }, start, how, found }, say) {
   const { rows, leftOut, gaps, jumps, step } = found;
   const out = /** @type {[Reason, import('./rows.js').Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
   return [
@@ -131,8 +131,8 @@ export function tell({ data: { t }, how, found }, say) {
     ...(how.unitBy === 'size' && how.unit !== 's' ? [say.unit(how.unit)] : []),
     ...(how.heading === 'degrees' ? [say.degrees] : []),
     ...out.map(([reason, { count, line }]) => say.leftOut(say.reasons[reason], count, how.format === 'mcap' ? 0 : line)),
-    ...(gaps.count ? [say.gaps(gaps.count, gaps.t, gaps.longest)] : []),
-    ...(jumps.count ? [say.jumps(jumps.count, jumps.t)] : []),
+    ...(gaps.count ? [say.gaps(gaps.count, start + gaps.t, gaps.longest)] : []),
+    ...(jumps.count ? [say.jumps(jumps.count, start + jumps.t)] : []),
     ...(how.cutShort ? [say.cutShort] : []),
   ];
 }

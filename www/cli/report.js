@@ -46,12 +46,16 @@ const SYSTEMATIC = [
   ['turnScale', 'scale of turning', ''],
 ];
 
-const short = (/** @type {number} */ value, digits = DIGITS) => String(Number(value.toPrecision(digits)));
+/** What stands for a figure that a log is too short for. */
+const NONE = '–';
 
-/** As many decimals as an interval has a meaning in. @param {number} value @param {Interval | undefined} interval */
+/** @param {number | null} value */
+const short = (value, digits = DIGITS) => (value !== null && Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : NONE);
+
+/** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
 function fixed(value, interval) {
   const width = interval ? interval[1] - interval[0] : 0;
-  if (!(width > 0 && width < Infinity)) return short(value);
+  if (value === null || !Number.isFinite(value) || !(width > 0 && width < Infinity)) return short(value);
   return value.toFixed(Math.max(0, Math.min(12, OF_WIDTH - 1 - Math.floor(Math.log10(width)))));
 }
 
@@ -103,20 +107,21 @@ function lengthOf({ distance, angle, duration }) {
 function systematicRow([key, name, unit], systematic) {
   const { value, interval, removed } = systematic[key];
   const said = (/** @type {any} */ one, /** @type {any} */ its) => [`${fixed(one, its)}${unit && ` ${unit}`}`, between(its)];
-  if (value === null) return [name, 'not determined', '', ''];
+  const isThere = (/** @type {number | null} */ one) => one !== null && Number.isFinite(one);
+  if (![value].flat().every(isThere)) return [name, 'not determined', '', ''];
   const [told, ends] = Array.isArray(value) ? value.map((one, i) => said(one, interval?.[i])).reduce(([a, b], [c, d]) => [`${a}, ${c}`, `${b}, ${d}`]) : said(value, interval);
   return [name, told, ends, removed ? 'removed' : 'left in'];
 }
 
 /** @param {any} doubts @returns {string[][]} */
 function doubtRows({ kinds, heldOut, squaredError }) {
-  const percent = (/** @type {number} */ share) => `${short(100 * share)} %`;
+  const percent = (/** @type {number | null} */ share) => (share === null || Number.isNaN(share) ? NONE : `${short(100 * share)} %`);
   return [
     ['held-out legs inside of 95 %', percent(heldOut.coverage), heldOut.interval ? heldOut.interval.map(percent).join(' to ') : ''],
     ['squared error by degree of freedom', fixed(squaredError.mean, squaredError.interval), between(squaredError.interval)],
     ...kinds.flatMap((/** @type {any} */ { name, kurtosis, autocorrelation, autocorrelationLimit }) => [
       [`kurtosis, ${name}`, short(kurtosis), ''],
-      [`autocorrelation, ${name}`, short(autocorrelation), `within ±${short(autocorrelationLimit)}`],
+      [`autocorrelation, ${name}`, short(autocorrelation), autocorrelationLimit ? `within ±${short(autocorrelationLimit)}` : ''],
     ]),
   ];
 }

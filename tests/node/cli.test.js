@@ -145,6 +145,26 @@ test('the example log: the truth lies in the intervals, and the command says wha
   assert.deepEqual(told.legs.residuals, Array.from(calibration.legs.residuals, (each) => (Number.isNaN(each) ? null : each)));
 });
 
+test('a recording says the same as tables of the same drive', async () => {
+  /** @type {import('../mcap.js').Message[]} */
+  const messages = [];
+  for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
+    for (const row of readFileSync(example(name), 'utf8').trim().split('\n').slice(1)) {
+      const [t, x, y, theta] = row.split(',').map(Number);
+      const message = topic === '/odom' ? odometry(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
+      messages.push({ topic, type, t, message });
+    }
+  }
+  messages.sort((a, b) => a.t - b.t);
+  const tables = JSON.parse((await said(['calibrate', ...FILES, '--json'])).out);
+  for (const compression of /** @type {const} */ (['zstd', 'lz4'])) {
+    const path = file(`${compression}.mcap`, await recordingOf(messages, { compression, chunkSize: 100_000 }));
+    const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', path, '--json'], { encoding: 'utf8' });
+    assert.equal(status, 0, stderr);
+    for (const [i, alpha] of JSON.parse(stdout).alphas.entries()) assert.ok(Math.abs(alpha / tables.alphas[i] - 1) < 1e-6, `${alpha} ${tables.alphas[i]}`);
+  }
+});
+
 test('as text: a table of the α’s, what is systematic, the doubts, a verdict, and lines for Nav2', async () => {
   const { code, out } = await said(['calibrate', ...FILES, '--rule', 'nav2']);
   assert.equal(code, 0);

@@ -56,7 +56,7 @@ export const log = {
     type: (type) => `sein Typ ist „${type}“; erwartet wird ${TYPES}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr, die Kodierung von ROS 2.`,
     message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
-    frames: 'Transformationen verbinden viele Frames; erwartet werden ein äußerer und ein innerer, wie in map,base_link.',
+    frames: (known) => `welche Frames gemeint sind, ist nicht gesagt; erwartet werden ein äußerer und ein innerer, verbunden durch ${known || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, known) =>
       `keine Transformationen führen von ${frames.replace(',', ' nach ')}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
     noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',

@@ -62,7 +62,7 @@ export const log = {
     encoding: (/** @type {string} */ value) => `its messages are encoded as “${value}”; expected is cdr, that of ROS 2.`,
     message: (/** @type {number} */ number, /** @type {string} */ reason) =>
       `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
-    frames: 'transforms are between many frames; expected are a parent and a child, as in map,base_link.',
+    frames: (/** @type {string} */ known) => `which frames are meant is not told; expected are a parent and a child, connected by ${known || 'transforms, of which there are none'}.`,
     noChain: (/** @type {string} */ frames, /** @type {string} */ known) =>
       `no transforms lead from ${frames.replace(',', ' to ')}; expected are frames that are connected, of ${known || 'none'}.`,
     noMessages: 'there are no messages on it; expected are at least 2.',

@@ -38,6 +38,9 @@ const PIECE = 2 ** 20;
 /** Messages between two looks at the clock. */
 const MESSAGES_A_LOOK = 64;
 
+/** Messages of transforms that are looked at to tell which frames there are. */
+const MESSAGES_OF_FRAMES = 1000;
+
 /** Channels at most. */
 const MAX_CHANNELS = 2 ** 16;
 
@@ -164,15 +167,19 @@ function fromStart(source, decompressHandlers) {
     async read(isWanted, each, watching) {
       const breathe = breathing(watching);
       let seen = 0;
+      // What comes then is the index.
+      let isComplete = false;
       const reader = new McapStreamReader({ decompressHandlers });
       /** @type {Map<number, McapTypes.TypedMcapRecords['Schema']>} */
       const schemas = new Map();
       try {
-        for (let at = 0; at < source.size && !reader.done(); at += PIECE) {
+        for (let at = 0; at < source.size && !isComplete; at += PIECE) {
           const piece = await bytesOf(source, at, Math.min(at + PIECE, source.size));
           if (piece.length === 0) break;
           reader.append(piece);
           for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
+            isComplete = record.type === 'DataEnd';
+            if (isComplete) break;
             if (record.type === 'Schema') schemas.set(record.id, record);
             if (record.type === 'Channel' && recording.channels.size < MAX_CHANNELS) recording.channels.set(record.id, channelOf(record, schemas));
             if (record.type !== 'Message') continue;
@@ -188,7 +195,7 @@ function fromStart(source, decompressHandlers) {
       } catch (error) {
         throw sentenceOf(place, error);
       }
-      recording.cutShort = !reader.done();
+      recording.cutShort = !isComplete;
     },
   };
   return recording;
@@ -257,17 +264,20 @@ export async function readRecording(source, { topic, frames }, watching) {
       type = channel.type;
       return (data, add) => add(read(data));
     }
-    if (!frames) throw new LogError(place, (say) => say.frames);
     if (channel.topic === topic) type = channel.type;
-    tree ??= new Frames(frames);
+    tree ??= new Frames(frames ?? { parent: '', child: '' });
     const [links, read, isStatic] = [tree, edgeReader(), STATIC.test(channel.topic)];
     return (data, add) => {
       for (const edge of read(data)) {
         const reading = links.take(edge, isStatic);
-        if (reading) add(reading);
+        if (reading && frames) add(reading);
       }
+      // By then, those that come at all have come.
+      if (!frames && number >= MESSAGES_OF_FRAMES) throw unchosen();
     };
   };
+
+  const unchosen = () => new LogError(place, (say) => say.frames(listed(tree?.known ?? [])));
 
   const isThere = () => [...recording.channels.values()].some((each) => each.topic === topic);
   if (recording.channels.size && !isThere()) throw noTopic(place, recording);
@@ -294,8 +304,9 @@ export async function readRecording(source, { topic, frames }, watching) {
   );
   if (!isThere()) throw noTopic(place, recording);
   if (number === 0) throw new LogError(place, (say) => say.noMessages);
-  if (tree && rows.count === 0) {
-    const { parent, child } = /** @type {{ parent: string, child: string }} */ (frames);
+  if (tree && !frames) throw unchosen();
+  if (tree && frames && rows.count === 0) {
+    const { parent, child } = frames;
     throw new LogError(place, (say) => say.noChain(`${cut(parent)},${cut(child)}`, listed(tree?.known ?? [])));
   }
   const kind = kindOf(type) === 'commands' ? 'commands' : 'poses';

@@ -141,6 +141,25 @@ test('two logs get one start', async () => {
   assert.equal(message, 'run.csv: its times (0.00 s to 1.00 s) and those of run.csv (1700000000.25 s to 1700000009.50 s) have nothing in common; expected are two logs of one drive, by one clock.');
 });
 
+test('a reference that has lost the robot is left out while the odometry moves on, and one that stands with it is not', async () => {
+  const poses = (/** @type {(i: number) => number} */ x) => read(['t,x,y,yaw', ...Array.from({ length: 400 }, (_, i) => [i / 20, x(i), 0, 0].join(','))].join('\n'));
+  const drives = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
+  const [odometry, good, lost] = await Promise.all([poses(drives), poses(drives), poses((i) => drives(i >= 200 && i < 300 ? 200 : i))]);
+  const same = together(odometry, good);
+  assert.deepEqual([same.reference.data, same.reference.found], [good.data, good.found]);
+  const { reference } = together(odometry, lost);
+  assert.deepEqual([...reference.data.t], [...lost.data.t].filter((_, i) => i <= 200 || i >= 300));
+  assert.deepEqual([...reference.breaks], [201]);
+  assert.deepEqual(reference.found.leftOut.held, { count: 99, line: 0, t: 10.05 });
+  assert.ok(tell(reference, english.found).includes('left out 99 rows: the pose stands while the odometry moves on'));
+  const { message } = await refusalOf(poses(() => 7).then((still) => together(odometry, still)));
+  assert.equal(message, 'run.csv: its pose stands while the odometry moves on; expected is one that follows the robot.');
+  assert.equal((await refusalOf(read('t,v,omega\n0,0,0\n1,0,0').then((driven) => together(odometry, driven)))).message, 'run.csv: the columns are t, v, omega; expected are x, y and yaw (or qx, qy, qz and qw) among them.');
+  // Commands tell too that the robot moves.
+  const commands = await read(['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n'));
+  assert.equal(together(commands, lost).reference.found.leftOut.held.count, 99);
+});
+
 const LONG = 'x'.repeat(100);
 
 /** What is refused, and what is said of it. @type {[string, string | Uint8Array<ArrayBuffer>, string, ('poses' | 'commands')?][]} */

@@ -76,7 +76,7 @@ async function read({ path, topic, frames }, role, { fit }) {
       if (topic !== undefined) throw new UsageError(`${source.name} is no recording and has no topic ${cut(topic)}; expected is an MCAP file.`);
       return await readLog(source, { kind });
     }
-    return await readLog(source, { topic: topic ?? (await usualTopic(source, role, kind)), frames });
+    return await readLog(source, { topic: topic ?? (await usualTopic(source, role, kind)), frames, kind });
   } finally {
     await source.close();
   }

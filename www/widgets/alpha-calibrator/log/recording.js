@@ -238,11 +238,11 @@ export async function listTopics(source, watching) {
 
 /**
  * @param {Source} source
- * @param {{ topic: string, frames?: { parent: string, child: string } }} choice
+ * @param {{ kind?: 'poses' | 'commands', topic: string, frames?: { parent: string, child: string } }} choice
  * @param {Watching} watching
  * @returns {Promise<Log>} rejects with a LogError
  */
-export async function readRecording(source, { topic, frames }, watching) {
+export async function readRecording(source, { kind: wanted, topic, frames }, watching) {
   const place = { file: source.name, topic };
   const recording = await open(source);
   const rows = new Rows(place);
@@ -257,7 +257,8 @@ export async function readRecording(source, { topic, frames }, watching) {
   const prepare = (id) => {
     const channel = /** @type {Channel} */ (recording.channels.get(id));
     const kind = kindOf(channel.type);
-    if (!kind) throw new LogError(place, (say) => say.type(cut(channel.type)));
+    const isWanted = kind !== null && (!wanted || (kind === 'commands') === (wanted === 'commands'));
+    if (!isWanted) throw new LogError(place, (say) => say.type(cut(channel.type), wanted ?? 'either'));
     if (channel.encoding !== 'cdr') throw new LogError(place, (say) => say.encoding(cut(channel.encoding)));
     if (kind !== 'transforms') {
       const read = poseReader(channel.type);

@@ -32,7 +32,7 @@ const MAX_SUMMARY = 2 ** 24;
 /** Bytes of chunks that overlap in time, which the reader of an index holds all at once. */
 const MAX_OVERLAP = 4 * MAX_CHUNK;
 
-/** Bytes that are read at once where there is no index. */
+/** Bytes that are read at once. */
 const PIECE = 2 ** 20;
 
 /** Messages between two looks at the clock. */
@@ -83,12 +83,13 @@ async function byIndex(source, decompressHandlers) {
   const place = { file: source.name };
   const total = BigInt(source.size);
   let most = MAX_SUMMARY;
+  const ahead = readingAhead(source);
   const readable = {
     size: async () => total,
     read: async (/** @type {bigint} */ offset, /** @type {bigint} */ length) => {
       if (length > BigInt(most)) throw new LogError(place, (say) => say.large('a record', `${length}`, most));
       if (offset < 0n || length < 0n || offset + length > total) throw new RangeError('it ends before what it refers to');
-      return bytesOf(source, Number(offset), Number(offset + length));
+      return ahead(Number(offset), Number(offset + length));
     },
   };
   /** @type {McapIndexedReader} */
@@ -122,6 +123,22 @@ async function byIndex(source, decompressHandlers) {
         throw sentenceOf(place, error);
       }
     },
+  };
+}
+
+/**
+ * Chunks lie one behind the other, and to ask for a few bytes takes a browser as long as for a million.
+ *
+ * @param {Source} source
+ * @returns {(from: number, to: number) => Promise<Uint8Array<ArrayBuffer>>}
+ */
+function readingAhead(source) {
+  let [start, bytes] = [0, new Uint8Array()];
+  return async (from, to) => {
+    if (from < start || to > start + bytes.length) {
+      [start, bytes] = [from, await bytesOf(source, from, Math.min(Math.max(to, from + PIECE), source.size))];
+    }
+    return bytes.subarray(from - start, to - start);
   };
 }
 

@@ -14,6 +14,7 @@ export default [
     },
   },
   { files: ['www/**', 'examples/**'], languageOptions: { globals: globals.browser } },
+  { files: ['www/cli.js', 'www/cli/**'], languageOptions: { globals: globals.node } },
   // They run in Node and in a page.
   { files: ['benches/**', 'tests/digest/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
   { files: ['scripts/**', 'tests/fuzz/**', 'tests/node/**', '*.config.js', 'examples/**/*.config.js'], languageOptions: { globals: globals.node } },

@@ -1,7 +1,7 @@
 // www/ to dist/: what a page, a bundler, an iframe, a disk and Node each take. doc/embedding.md says which is for whom.
 
 import { createHash } from 'node:crypto';
-import { appendFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { appendFileSync, chmodSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
 import { keptTillThen } from '../www/figure/page/room.js';
 import * as declared from '../www/settings.js';
@@ -134,6 +134,7 @@ export async function bundle(changed = (_, script) => script) {
               contents: withoutEffects(readFileSync(path, 'utf8')),
               loader: 'js',
             }));
+            onLoad({ filter: /[/\\]zstddec\.mjs$/ }, ({ path }) => ({ contents: withoutFetch(readFileSync(path, 'utf8')), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({
               contents: changed(path, withShortStyles(readFileSync(path, 'utf8'), transformSync)),
               loader: 'js',
@@ -154,6 +155,8 @@ export async function bundle(changed = (_, script) => script) {
     bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundled({ de: 'de.js', 'server-component': 'server-component.js' }, 'inlined', { inject: [] }),
+    // The core is the file beside it.
+    bundled({ cli: 'cli.js' }, 'inlined', { platform: 'node', external: ['./core.js'], sourcemap: false, inject: [] }),
     bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
   if (!results.length || results.some(({ warnings }) => warnings.length)) {
@@ -184,6 +187,7 @@ export async function bundle(changed = (_, script) => script) {
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);
   for (const name of ['de', 'motion-widgets.iife']) write(at(`dist/${name}.d.ts`), 'export {};\n');
   write(at('dist/anywidget.d.ts'), ANYWIDGET);
+  chmodSync(at('dist/cli.js'), 0o755);
   write(at('dist/classroom.html'), inOneFile('index.html'));
   write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);
   // What weighs how much: read by scripts/sizes.mjs.
@@ -268,6 +272,22 @@ function withoutEffects(library) {
   return library
     .replaceAll(/^((?:var|const) \w+ = )((?:new |`|\w+[.(]).*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
+}
+
+/**
+ * A library whose module is a text in it, and that has the browser fetch this text: strict security policies forbid that.
+ *
+ * @param {string} library
+ */
+function withoutFetch(library) {
+  const changes = /** @type {const} */ ([
+    ['typeof fetch !== "undefined"', 'false'],
+    ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (each) => each.charCodeAt(0))'],
+  ]);
+  return changes.reduce((text, [is, instead]) => {
+    if (!text.includes(is)) throw new Error(`zstddec has no ${is}, as scripts/bundle.mjs takes it to have.`);
+    return text.replace(is, instead);
+  }, library);
 }
 
 /**

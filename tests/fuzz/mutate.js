@@ -8,6 +8,7 @@ const TOKENS = [
   ...['-', '0', '-0', '1e999', '-1', '0x10', '.nan', '.inf', 'NaN', 'null', 'true', '16777216', '65536', '4294967295', '99999999999999999999'],
   ...['__proto__', 'constructor', 'toString', 'image', 'resolution', 'origin', 'negate', 'mode', 'bounds', 'walls', 'map', '!!js/function ', '!!binary '],
   ...['<script>alert(1)</script>', '"><img src=x onerror=alert(1)>', ']]>', '&lt;', '\u202e', '\ufeff', '\u2028', '\u{1f916}', 'é'],
+  ...['yaw', 't_ns', 'stamp', 'qw', 'v', ';', '1e17', '1700000000.123456789', 'zstd', 'lz4', '/tf', 'cdr'],
   ...['IHDR', 'PLTE', 'tRNS', 'IDAT', 'IEND', 'P2', 'P5'],
 ].map((token) => Buffer.from(token));
 

@@ -2,8 +2,8 @@
 
 import { Session } from 'node:inspector/promises';
 
-/** What parses: ours, and the reader of YAML. */
-const PARSES = /\/(www|node_modules\/js-yaml)\//;
+/** What parses: ours, and the readers of YAML and of recordings. */
+const PARSES = /\/(www|node_modules\/(js-yaml|@mcap\/core|@foxglove\/(cdr|rosmsg2-serialization)))\//;
 
 /** The characters of each script that ran: 1 for one that did, as far as is told. @typedef {Map<string, Uint8Array>} Places */
 

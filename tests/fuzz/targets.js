@@ -10,7 +10,9 @@ import { load } from '../../dist/core.js';
 import { attributesOf, isSetting } from '../../www/figure/attributes.js';
 import { pack, unpack } from '../../www/figure/packing.js';
 import { settings } from '../../www/settings.js';
+import { LogError, readLog, topicsOf } from '../../www/widgets/alpha-calibrator/log/read.js';
 import { applyMap, mapData } from '../../www/widgets/map-squeeze/maps/data.js';
+import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { description, file, refusalOf } from '../node/map-support.js';
 import { SIGNATURE, chunk, header, pngOf, rasterOf } from '../png.js';
 
@@ -73,6 +75,60 @@ function isTaken(give) {
     return false;
   }
 }
+
+/**
+ * Whether a log is read, and then as it is promised: finite numbers, and times that rise.
+ *
+ * @param {() => ReturnType<typeof readLog>} read
+ */
+async function logIsRead(read) {
+  let log;
+  try {
+    log = await read();
+  } catch (error) {
+    if (!(error instanceof LogError)) throw error;
+    assert.ok(error.message.startsWith('run.'), error.message);
+    look(error.message);
+    return false;
+  }
+  const { t, ...values } = log.data;
+  assert.ok(t.length > 1 && t.every((each, i) => Number.isFinite(each) && each > (t[i - 1] ?? -1)));
+  for (const column of Object.values(values)) assert.ok(column.length === t.length && column.every(Number.isFinite));
+  const { rows, leftOut } = log.found;
+  assert.equal(Object.values(leftOut).reduce((sum, { count }) => sum + count, t.length), rows);
+  assert.ok(log.breaks.every((row, i) => row > (log.breaks[i - 1] ?? 0) && row < t.length));
+  return true;
+}
+
+/** Recordings of a second in every form, of which the topics of the first are chosen. */
+async function recordings() {
+  const messages = Array.from({ length: 2 }, (_, i) => {
+    const [t, stamp] = [1 + i / 8, stampOf(1 + i / 8)];
+    const TF = 'tf2_msgs/msg/TFMessage';
+    return [
+      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, i, 0, 0) },
+      { topic: '/pose', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp, frame_id: 'map' }, pose: poseOf(i, 0, 0) } },
+      { topic: '/cmd_vel', type: 'geometry_msgs/msg/TwistStamped', t, message: { header: { stamp, frame_id: '' }, twist: twistOf(1, 0) } },
+      { topic: '/tf', type: TF, t, message: { transforms: [transform(t, 'map', 'odom', i, 0, 0), transform(t, 'odom', 'base', i, 0, 0)] } },
+    ];
+  }).flat();
+  const forms = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { index: false }, { index: false, chunks: true, compression: 'lz4' }]);
+  return Promise.all(forms.map(async (form) => unchecked(await recordingOf(messages, { chunkSize: 1024, ...form }))));
+}
+
+/** A recording without checksums, in whose chunks little could be changed otherwise. @param {Buffer<ArrayBuffer>} bytes */
+function unchecked(bytes) {
+  const [CHUNK, FOOTER] = [6, 2];
+  for (let at = 8; at + 9 < bytes.length; at += 9 + Number(bytes.readBigUInt64LE(at + 1))) {
+    // Behind two times and a size; behind two places.
+    const before = { [CHUNK]: 24, [FOOTER]: 16 }[bytes[at]];
+    if (before) bytes.writeUInt32LE(0, at + 9 + before);
+  }
+  return bytes;
+}
+
+/** What of a recording is read. */
+const CHOICES = [{ topic: '/odom' }, { topic: '/pose' }, { topic: '/cmd_vel' }, { topic: '/tf', frames: { parent: 'map', child: 'base' } }];
 
 /** A PNG image with the checksums of its chunks put right, as far as it has chunks. @param {Buffer} bytes */
 function mended(bytes) {
@@ -137,6 +193,33 @@ export const targets = {
   },
   yaml: { corpus: YAMLS, run: (bytes) => filesAreTaken(file('map.yaml', bytes), file('map.pgm', 'P5 2 1 255\nab')) },
   plan: { corpus: PLANS, run: (bytes) => filesAreTaken(file('map.json', bytes)) },
+  csv: {
+    corpus: texts(
+      't,x,y,yaw\n0.5,1,2,3\n0.75,1,2,-3\n1,nan,2,3\n1.25,1,2,3\n',
+      '# by hand\nstamp_ns;v;omega\n1700000000000000001;0.5;-1e-1\n1700000000100000001;.5;+0.1',
+      '"time [ms]"\t"x"\t"y"\t"heading_deg"\r\n0\t1\t2\t90\r\n50\t1\t2\t91\r\n',
+      'header.stamp.sec,header.stamp.nanosec,pose.pose.position.x,pose.pose.position.y,pose.pose.orientation.z,pose.pose.orientation.w\n7,5,1,2,0,1\n7,9,1,2,1,0\n',
+    ),
+    run: (bytes) => logIsRead(() => readLog(new File([bytes], 'run.csv'), { kind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
+  },
+  tum: {
+    corpus: texts('# timestamp tx ty tz qx qy qz qw\n1305031098.6659 1.25 -0.5 9 0 0 0 1\n1305031098.6759 1.5 -0.5 9 0 0 0.6 0.8\n', '0 0 0 0 0 0 0 1\n\t1  2 3 4 0 0 1 0\n2 0 0 0 0 0 0 0\n'),
+    run: (bytes) => logIsRead(() => readLog(new File([bytes], 'run.tum'), {})),
+  },
+  mcap: {
+    corpus: await recordings(),
+    async run(bytes) {
+      const source = new File([bytes], 'run.mcap');
+      const taken = await logIsRead(() => readLog(source, CHOICES[bytes.length % CHOICES.length]));
+      try {
+        for (const { name, count } of await topicsOf(source)) assert.ok(typeof name === 'string' && count >= 0);
+      } catch (error) {
+        if (!(error instanceof LogError)) throw error;
+        look(error.message);
+      }
+      return taken;
+    },
+  },
   link: {
     corpus: [...texts(...(await Promise.all(states().map(pack)))), ...texts(...states().map((state) => JSON.stringify(state)))],
     async run(bytes) {

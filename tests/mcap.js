@@ -1,0 +1,161 @@
+/** MCAP recordings as ROS 2 writes them, for tests. */
+
+import { Buffer } from 'node:buffer';
+import zstd from '@foxglove/wasm-zstd';
+import { MessageWriter } from '@foxglove/rosmsg2-serialization';
+import { McapWriter } from '@mcap/core';
+
+await zstd.isLoaded;
+
+/** @typedef {{ sec: number, nanosec: number }} Stamp */
+
+/** @param {number} t */
+export const stampOf = (t) => ({ sec: Math.floor(t), nanosec: Math.round((t - Math.floor(t)) * 1e9) });
+
+const of = (/** @type {string} */ type, /** @type {string[]} */ ...names) => names.map((name) => ({ type, name, isComplex: /[A-Z]/.test(type) }));
+const covariance = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
+
+/** The messages in full. @type {Record<string, any[]>} */
+const DEFINITIONS = {
+  Header: [{ type: 'time', name: 'stamp' }, ...of('string', 'frame_id')],
+  Vector3: of('float64', 'x', 'y', 'z'),
+  Quaternion: of('float64', 'x', 'y', 'z', 'w'),
+  Pose: [...of('Vector3', 'position'), ...of('Quaternion', 'orientation')],
+  PoseWithCovariance: [...of('Pose', 'pose'), covariance],
+  Twist: of('Vector3', 'linear', 'angular'),
+  TwistWithCovariance: [...of('Twist', 'twist'), covariance],
+  'nav_msgs/msg/Odometry': [...of('Header', 'header'), ...of('string', 'child_frame_id'), ...of('PoseWithCovariance', 'pose'), ...of('TwistWithCovariance', 'twist')],
+  'geometry_msgs/msg/PoseStamped': [...of('Header', 'header'), ...of('Pose', 'pose')],
+  'geometry_msgs/msg/PoseWithCovarianceStamped': [...of('Header', 'header'), ...of('PoseWithCovariance', 'pose')],
+  'geometry_msgs/msg/Twist': of('Vector3', 'linear', 'angular'),
+  'geometry_msgs/msg/TwistStamped': [...of('Header', 'header'), ...of('Twist', 'twist')],
+  Transform: [...of('Vector3', 'translation'), ...of('Quaternion', 'rotation')],
+  TransformStamped: [...of('Header', 'header'), ...of('string', 'child_frame_id'), ...of('Transform', 'transform')],
+  'tf2_msgs/msg/TFMessage': [{ ...of('TransformStamped', 'transforms')[0], isArray: true }],
+  'std_msgs/msg/String': of('string', 'data'),
+};
+
+/** @param {number} x @param {number} y @param {number} theta @param {number} [scale] of the quaternion */
+export const poseOf = (x, y, theta, scale = 1) => ({
+  position: { x, y, z: 0.1 },
+  orientation: { x: 0, y: 0, z: scale * Math.sin(theta / 2), w: scale * Math.cos(theta / 2) },
+});
+
+/** @param {number} t @param {number} x @param {number} y @param {number} theta @param {number} [scale] */
+export const odometry = (t, x, y, theta, scale) => ({
+  header: { stamp: stampOf(t), frame_id: 'odom' },
+  child_frame_id: 'base_link',
+  pose: { pose: poseOf(x, y, theta, scale), covariance: new Float64Array(36) },
+  twist: { twist: twistOf(0, 0), covariance: new Float64Array(36) },
+});
+
+/** @param {number} v @param {number} omega */
+export const twistOf = (v, omega) => ({ linear: { x: v, y: 0, z: 0 }, angular: { x: 0, y: 0, z: omega } });
+
+/** @param {number} t @param {string} parent @param {string} child @param {number} x @param {number} y @param {number} theta */
+export const transform = (t, parent, child, x, y, theta) => {
+  const { position, orientation } = poseOf(x, y, theta);
+  return { header: { stamp: stampOf(t), frame_id: parent }, child_frame_id: child, transform: { translation: position, rotation: orientation } };
+};
+
+/** One frame of literals and, where a run repeats, matches. @param {Uint8Array} bytes */
+export function lz4(bytes) {
+  /** @type {number[]} */
+  const block = [];
+  const put = (/** @type {number} */ from, /** @type {number} */ to, /** @type {number} */ match, /** @type {number} */ distance) => {
+    const literals = to - from;
+    const length = match ? match - 4 : 0;
+    const more = (/** @type {number} */ rest) => {
+      for (; rest >= 255; rest -= 255) block.push(255);
+      block.push(rest);
+    };
+    block.push((Math.min(literals, 15) << 4) | Math.min(length, 15));
+    if (literals >= 15) more(literals - 15);
+    for (let i = from; i < to; i++) block.push(bytes[i]);
+    if (!match) return;
+    block.push(distance & 255, distance >> 8);
+    if (length >= 15) more(length - 15);
+  };
+  const seen = new Map();
+  let from = 0;
+  for (let at = 0; at + 12 < bytes.length; ) {
+    const key = bytes[at] | (bytes[at + 1] << 8) | (bytes[at + 2] << 16) | (bytes[at + 3] << 24);
+    const before = seen.get(key);
+    seen.set(key, at);
+    if (before === undefined || at - before > 65535) {
+      at += 1;
+      continue;
+    }
+    let length = 4;
+    while (at + length + 5 < bytes.length && bytes[before + length] === bytes[at + length]) length += 1;
+    put(from, at, length, at - before);
+    at += length;
+    from = at;
+  }
+  put(from, bytes.length, 0, 0);
+  const head = [0x04, 0x22, 0x4d, 0x18, 0x40, 0x70, 0xdf];
+  const [size, end] = [block.length, [0, 0, 0, 0]];
+  return Uint8Array.from([...head, size & 255, (size >> 8) & 255, (size >> 16) & 255, size >>> 24, ...block, ...end]);
+}
+
+/** @type {Record<string, ((bytes: Uint8Array) => { compression: string, compressedData: Uint8Array }) | undefined>} */
+const COMPRESSION = {
+  none: undefined,
+  zstd: (bytes) => ({ compression: 'zstd', compressedData: new Uint8Array(zstd.compress(Buffer.from(bytes))) }),
+  lz4: (bytes) => ({ compression: 'lz4', compressedData: lz4(bytes) }),
+  odd: (bytes) => ({ compression: 'snappy', compressedData: bytes }),
+};
+
+/**
+ * @typedef {object} Message
+ * @property {string} topic
+ * @property {string} type
+ * @property {any} message
+ * @property {number} t when it was recorded, in seconds
+ *
+ * @param {Iterable<Message>} messages
+ * @param {object} [options]
+ * @param {'none' | 'zstd' | 'lz4' | 'odd'} [options.compression]
+ * @param {boolean} [options.index] whether it has chunks and an index; both, or neither
+ * @param {boolean} [options.chunks]
+ * @param {number} [options.chunkSize] bytes
+ * @param {string} [options.encoding] of messages
+ * @param {(bytes: Uint8Array) => void} [options.write] is given it piece by piece, in the place of the result
+ * @returns {Promise<Buffer<ArrayBuffer>>}
+ */
+export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr', write } = {}) {
+  /** @type {Uint8Array[]} */
+  const parts = [];
+  let size = 0n;
+  const writable = {
+    position: () => size,
+    write: async (/** @type {Uint8Array} */ bytes) => {
+      if (write) write(bytes);
+      else parts.push(bytes.slice());
+      size += BigInt(bytes.length);
+    },
+  };
+  const writer = new McapWriter({
+    writable, useChunks: chunks, useChunkIndex: index, useMessageIndex: index, useStatistics: index, useSummaryOffsets: index,
+    repeatChannels: index, repeatSchemas: index, chunkSize, compressChunk: COMPRESSION[compression],
+  });
+  await writer.start({ profile: 'ros2', library: 'test' });
+  /** @type {Map<string, { id: number, writer: MessageWriter }>} */
+  const channels = new Map();
+  let sequence = 0;
+  for (const { topic, type, message, t } of messages) {
+    let channel = channels.get(topic);
+    if (!channel) {
+      const schemaId = await writer.registerSchema({ name: type, encoding: 'ros2msg', data: Buffer.from(`# ${type}`) });
+      const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
+      const all = Object.entries(DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
+      const first = all.find(({ name }) => name === type);
+      channel = { id, writer: new MessageWriter(first ? [first, ...all] : all) };
+      channels.set(topic, channel);
+    }
+    const logTime = BigInt(Math.round(t * 1e3)) * 1_000_000n;
+    await writer.addMessage({ channelId: channel.id, sequence: sequence++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
+  }
+  await writer.end();
+  return Buffer.concat(parts);
+}

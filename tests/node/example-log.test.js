@@ -1,0 +1,36 @@
+// The log that comes with the package is what its script writes, and what its README says it is.
+
+import assert from 'node:assert/strict';
+import { readFileSync, statSync } from 'node:fs';
+import { test } from 'node:test';
+import { load } from '../../dist/core.js';
+import { LEGS, TRUTH, exampleLog } from '../../scripts/example-log.mjs';
+import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
+
+const folder = new URL('../../examples/calibration/', import.meta.url);
+const textOf = (/** @type {string} */ name) => readFileSync(new URL(name, folder), 'utf8');
+
+test('the example log is what its script writes', async () => {
+  const logs = exampleLog(await load());
+  for (const [name, text] of Object.entries(logs)) assert.ok(text === textOf(`${name}.csv`), `${name}.csv: \`node scripts/example-log.mjs\` writes another`);
+});
+
+test('its README says what it was made with', () => {
+  const readme = textOf('README.md');
+  const { alphas, mountYaw, clockOffset, distanceScale } = TRUTH;
+  for (const said of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEGS.distance} m`, `${LEGS.angle} rad`]) {
+    assert.ok(readme.includes(said), said);
+  }
+});
+
+test('it is small, and read without a complaint', async () => {
+  const logs = await Promise.all(['odometry.csv', 'reference.csv'].map((name) => readLog(new File([textOf(name)], name))));
+  assert.ok(logs.reduce((sum, { name }) => sum + statSync(new URL(name, folder)).size, 0) <= 300_000);
+  for (const { found, breaks } of logs) {
+    assert.deepEqual([found.gaps.count, found.jumps.count, breaks.length], [0, 0, 0]);
+    assert.ok(Object.values(found.leftOut).every(({ count }) => count === 0));
+  }
+  const { odometry, reference } = together(logs[0], logs[1]);
+  const [own, other] = [odometry.data.t, reference.data.t];
+  assert.ok(other[0] < own[0] && other[other.length - 1] > own[own.length - 1]);
+});

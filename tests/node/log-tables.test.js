@@ -1,0 +1,252 @@
+// Logs in text: what is found in them, what is left out, and what is refused with which sentence.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { log as german } from '../../www/widgets/alpha-calibrator/log/de.js';
+import { log as english } from '../../www/widgets/alpha-calibrator/log/en.js';
+import { LogError, readLog, tell, together } from '../../www/widgets/alpha-calibrator/log/read.js';
+
+/** @param {string | Uint8Array<ArrayBuffer>} contents @param {import('../../www/widgets/alpha-calibrator/log/read.js').Choice} [choice] */
+const read = (contents, choice) => readLog(new File([contents], 'run.csv'), choice);
+
+/** @param {string} contents @returns {Promise<any>} */
+const dataOf = async (contents, choice = {}) => Object.fromEntries(Object.entries((await read(contents, choice)).data).map(([name, values]) => [name, [...values]]));
+
+/** @param {Promise<unknown>} reading @returns {Promise<LogError>} */
+async function refusalOf(reading) {
+  try {
+    await reading;
+  } catch (error) {
+    assert.ok(error instanceof LogError, String(error));
+    return error;
+  }
+  throw new assert.AssertionError({ message: 'nothing was refused' });
+}
+
+const close = (/** @type {number} */ is, /** @type {number} */ expected) => assert.ok(Math.abs(is - expected) < 1e-12, `${is} ${expected}`);
+
+test('columns are found by their names, whatever separates them', async () => {
+  const expected = { t: [0.5, 0.75], x: [1, 2], y: [-3, 4], theta: [0.25, 0.5] };
+  for (const [header, ...rows] of [
+    ['t,x,y,yaw', '0.5,1,-3,0.25', '0.75,2,4,0.5'],
+    ['Time;Y;X;Theta', '0.5;-3;1;0.25', '0.75;4;2;0.5'],
+    ['heading\ttimestamp\tx\ty', '0.25\t0.5\t1\t-3', '0.5\t0.75\t2\t4'],
+    ['"time [s]", "x [m]", "y [m]", "yaw [rad]"', '0.5, 1, -3, 0.25', '0.75, 2e0, +4., 5E-1'],
+    ['stamp x y z yaw', '0.5  1 -3 0 0.25', '  0.75 2   4 0 .5'],
+    ['frame_id,header.stamp.sec,header.stamp.nanosec,pose.position.x,pose.position.y,yaw', '"map, odom",0,500000000,1,-3,0.25', 'map,0,750000000,2,4,0.5'],
+  ]) {
+    for (const end of ['\n', '\r\n']) assert.deepEqual(await dataOf([header, ...rows, ''].join(end)), expected, header);
+    // Without the last line's end, behind a byte order mark, and with comments.
+    assert.deepEqual(await dataOf(`\ufeff# by hand\n\n${header}\n# more\n${rows.join('\n')}`), expected, header);
+  }
+});
+
+test('a header may be a comment, as in data sets of visual odometry', async () => {
+  const { data, how } = await read('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []\n1403636579758555392,4,5,6,0,0,0,1\n1403636579763555584,4,5,6,0,0,0,-1\n');
+  assert.equal(how.columns.x, 'p_RS_R_x [m]');
+  assert.equal(how.unitBy, 'name');
+  close(/** @type {any} */ (data).theta[0], Math.PI);
+});
+
+test('a log that a recorder exported: the stamp of the message, and poses before commands unless these are wanted', async () => {
+  const name = (/** @type {string} */ each) => `field.${each}`;
+  const header = ['%time', ...['header.seq', 'header.stamp', 'header.frame_id', 'child_frame_id', 'pose.pose.position.x', 'pose.pose.position.y', 'pose.pose.position.z', 'pose.pose.orientation.x', 'pose.pose.orientation.y', 'pose.pose.orientation.z', 'pose.pose.orientation.w', 'pose.covariance0', 'twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'].map(name)];
+  const row = (/** @type {number} */ i) => [2e18, i, `1700000000${100000000 + i}`, 'odom', 'base', i, -i, 0, 0, 0, Math.SQRT1_2, Math.SQRT1_2, 9, 0.5, 9, 9, 0.1].join(',');
+  const text = [header.join(','), row(1), row(2), row(3)].join('\n');
+  const poses = await read(text);
+  assert.equal(poses.start, 1_700_000_000);
+  assert.deepEqual([...poses.data.t], [0.100000001, 0.100000002, 0.100000003]);
+  close(/** @type {any} */ (poses.data).theta[1], Math.PI / 2);
+  const commands = await read(text, { kind: 'commands' });
+  assert.deepEqual([commands.kind, [.../** @type {any} */ (commands.data).v], [.../** @type {any} */ (commands.data).omega]], ['commands', [0.5, 0.5, 0.5], [0.1, 0.1, 0.1]]);
+});
+
+test('of a message that holds another one, its own fields are read', async () => {
+  const { how } = await read('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw\n0,9,1,2,3\n1,9,1,2,3\n');
+  assert.equal(how.columns.x, 'pose.position.x');
+});
+
+test('TUM: eight numbers a row', async () => {
+  const { data, how, start } = await read('# timestamp tx ty tz qx qy qz qw\n1305031098.6659 1.25 -0.5 9 0 0 0 1\n1305031098.675900001 1.5 -0.5 9 0 0 0.6 0.8\n');
+  assert.deepEqual([how.format, start], ['tum', 1_305_031_098]);
+  assert.deepEqual([...data.t], [0.6659, 0.675900001]);
+  close(/** @type {any} */ (data).theta[1], 2 * Math.asin(0.6));
+});
+
+test('nanoseconds of the present keep their digits, in every unit', async () => {
+  const times = [['1699999999999999999', '1700000000000000001'], ['1699999999999999.999', '1700000000000000.001'], ['1699999999999.999999', '1700000000000.000001'], ['1699999999.999999999', '1700000000.000000001']];
+  for (const [i, unit] of /** @type {const} */ (['ns', 'us', 'ms', 's']).entries()) {
+    const [one, other] = times[i];
+    const { data, start, how } = await read(`t,x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
+    assert.deepEqual([start, how.unit, how.unitBy], [1_699_999_999, unit, 'size']);
+    close(data.t[0], 0.999999999);
+    close(data.t[1], 1.000000001);
+    const named = await read(`t_${unit},x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
+    assert.deepEqual([named.data, named.how.unitBy], [data, 'name']);
+  }
+  // What the size does not tell, a name does; negative times, and short ones.
+  assert.deepEqual((await dataOf('time (ms),x,y,yaw\n-250,0,0,0\n5,0,0,0\n10.5,0,0,0')).t, [0.75, 1.005, 1.0105]);
+  assert.deepEqual((await dataOf('t_ns,x,y,yaw\n5,0,0,0\n10,0,0,0')).t, [5e-9, 1e-8]);
+  assert.deepEqual((await dataOf('t,x,y,yaw\n1e1,0,0,0\n1.05e1,0,0,0')).t, [0, 0.5]);
+});
+
+test('numbers are the nearest doubles', async () => {
+  const values = ['0.1', '-12345.6789012345', '1e-7', '123456789012345678', '3.141592653589793238462643', '-0', '.5', '7.', '1.7976931348623157e308'];
+  const { x } = await dataOf(['t,x,y,yaw', ...values.map((value, i) => `${i},${value},0,0`)].join('\n'));
+  assert.deepEqual(x, values.map(Number));
+});
+
+test('degrees are known by their name', async () => {
+  const { data } = await read('t,x,y,yaw_deg\n0,0,0,180\n1,0,0,90');
+  assert.deepEqual([.../** @type {any} */ (data).theta], [Math.PI, Math.PI / 2]);
+});
+
+test('rows that are of no use are left out, counted, and said where first; nothing leads across', async () => {
+  const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '2.5,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0'];
+  const log = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual([...log.data.t], [0, 3, 4, 6]);
+  const { leftOut, rows: count } = log.found;
+  assert.equal(count, rows.length);
+  assert.deepEqual(leftOut.notFinite, { count: 4, line: 3, t: 1 });
+  assert.deepEqual(leftOut.duplicate, { count: 1, line: 6, t: 3 });
+  assert.deepEqual(leftOut.falling, { count: 1, line: 8, t: 2.5 });
+  assert.deepEqual([leftOut.short.count, leftOut.short.line, log.how.cutShort], [1, 12, true]);
+  assert.deepEqual([...log.breaks], [1, 2, 3]);
+  assert.equal(tell(log, english.found).length, 6);
+  assert.equal(tell(log, german.found).length, 6);
+});
+
+test('one time that is far ahead does not make all that follow late', async () => {
+  const rows = Array.from({ length: 50 }, (_, i) => `${i === 20 ? 1e6 : i / 10},0,0,0`);
+  const log = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.equal(log.data.t.length, 49);
+  assert.deepEqual(log.found.leftOut.falling, { count: 1, line: 22, t: 1e6 });
+  assert.deepEqual([...log.breaks], [20]);
+});
+
+test('pauses and jumps are found', async () => {
+  const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + (i >= 100 ? 3 : 0), i / 100 + (i >= 200 ? 1 : 0), 0, i / 50 + (i >= 300 ? 1.5 : 0)].join(','));
+  const { found, breaks } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual([found.gaps.count, found.gaps.t, found.gaps.longest], [1, 99 / 20, 3.05]);
+  assert.deepEqual([found.jumps.count, found.jumps.t], [2, 13]);
+  assert.deepEqual([...breaks], [200, 300]);
+});
+
+test('a heading that goes round is no jump', async () => {
+  const rows = Array.from({ length: 400 }, (_, i) => [i / 20, 0, 0, ((i / 20 + Math.PI) % (2 * Math.PI)) - Math.PI].join(','));
+  assert.equal((await read(`t,x,y,yaw\n${rows.join('\n')}`)).found.jumps.count, 0);
+});
+
+test('two logs get one start', async () => {
+  const [odometry, reference] = await Promise.all([read('t,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0'), read('t,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0')]);
+  const both = together(odometry, reference);
+  assert.equal(both.start, 1_700_000_000);
+  assert.deepEqual([[...both.odometry.data.t], [...both.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
+  const { message } = await refusalOf(read('t,x,y,yaw\n0,0,0,0\n1,0,0,0').then((other) => together(odometry, other)));
+  assert.equal(message, 'run.csv: its times (0.00 s to 1.00 s) and those of run.csv (1700000000.25 s to 1700000009.50 s) have nothing in common; expected are two logs of one drive, by one clock.');
+});
+
+test('a reference that has lost the robot is left out while the odometry moves on, and one that stands with it is not', async () => {
+  const poses = (/** @type {(i: number) => number} */ x) => read(['t,x,y,yaw', ...Array.from({ length: 400 }, (_, i) => [i / 20, x(i), 0, 0].join(','))].join('\n'));
+  const drives = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
+  const [odometry, good, lost] = await Promise.all([poses(drives), poses(drives), poses((i) => drives(i >= 200 && i < 300 ? 200 : i))]);
+  const same = together(odometry, good);
+  assert.deepEqual([same.reference.data, same.reference.found], [good.data, good.found]);
+  const { reference } = together(odometry, lost);
+  assert.deepEqual([...reference.data.t], [...lost.data.t].filter((_, i) => i <= 200 || i >= 300));
+  assert.deepEqual([...reference.breaks], [201]);
+  assert.deepEqual(reference.found.leftOut.held, { count: 99, line: 0, t: 10.05 });
+  assert.ok(tell(reference, english.found).includes('left out 99 rows: the pose stands while the odometry moves on'));
+  const { message } = await refusalOf(poses(() => 7).then((still) => together(odometry, still)));
+  assert.equal(message, 'run.csv: its pose stands while the odometry moves on; expected is one that follows the robot.');
+  assert.equal((await refusalOf(read('t,v,omega\n0,0,0\n1,0,0').then((driven) => together(odometry, driven)))).message, 'run.csv: the columns are t, v, omega; expected are x, y and yaw (or qx, qy, qz and qw) among them.');
+  // Commands tell too that the robot moves.
+  const commands = await read(['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n'));
+  assert.equal(together(commands, lost).reference.found.leftOut.held.count, 99);
+});
+
+const LONG = 'x'.repeat(100);
+
+/** What is refused, and what is said of it. @type {[string, string | Uint8Array<ArrayBuffer>, string, ('poses' | 'commands')?][]} */
+const REFUSED = [
+  ['nothing', '', 'run.csv: there is nothing in it; expected is a log of poses or commands.'],
+  ['comments alone', '# t,x,y,yaw\n\n', 'run.csv: there is nothing in it; expected is a log of poses or commands.'],
+  ['a header alone', 't,x,y,yaw\n', 'run.csv: 0 of 0 rows can be used; expected are at least 2.'],
+  ['no text', Uint8Array.of(1, 2, 0, 4), 'run.csv, line 1: it is neither text nor an MCAP recording; expected is CSV, TUM or MCAP.'],
+  ['no header', '1,2,3,4\n', 'run.csv, line 1: the first row is “1,2,3,4”; expected is a header with names such as t, x, y and yaw.'],
+  ['no time', 'x,y,yaw\n', 'run.csv, line 1: none of the columns x, y, yaw is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec.'],
+  ['no heading', 't,x,y,qx\n', 'run.csv, line 1: none of the columns t, x, y, qx is the heading; expected is yaw, theta or heading, or qx, qy, qz and qw.'],
+  ['no pose', `t,${LONG}\n`, `run.csv, line 1: the columns are t, ${LONG.slice(0, 40)}…; expected are x, y and yaw (or qx, qy, qz and qw), or v and omega among them.`],
+  ['no commands', 't,x,y,yaw\n', 'run.csv, line 1: the columns are t, x, y, yaw; expected are v and omega among them.', 'commands'],
+  ['no poses', 't,v,omega\n', 'run.csv, line 1: the columns are t, v, omega; expected are x, y and yaw (or qx, qy, qz and qw) among them.', 'poses'],
+  ['two times', 't,t,x,y,yaw\n', 'run.csv, line 1: both “t” and “t” may be the time; expected is one of them.'],
+  ['two robots', '__time,/odom/pose/pose/position/x,/odom/pose/pose/position/y,/truth/pose/pose/position/x\n', 'run.csv, line 1: both “/odom/pose/pose/position/x” and “/truth/pose/pose/position/x” may be x; expected is one of them.'],
+  ['no number', `t,x,y,yaw\n0,0,0,0\n1,${LONG},0,0\n`, `run.csv, line 3: x is “${LONG.slice(0, 40)}…”; expected is a number.`],
+  ['a hexadecimal one', 't,x,y,yaw\n0x10,0,0,0\n', 'run.csv, line 2: t is “0x10”; expected is a number.'],
+  ['too few cells', 't,x,y,yaw\n0,0,0\n1,0,0,0\n', 'run.csv, line 2: the row has 3 cells; expected are at least 4.'],
+  ['a line without end', `t,x,y,yaw\n${'1'.repeat(400_000)}`, 'run.csv, line 2: the line has more than 65536 bytes; expected is one row a line.'],
+  ['no number at all', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', 'run.csv, line 2: 1 of 2 rows can be used (a value here is no finite number); expected are at least 2.'],
+  ['quaternions of nothing', '0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0\n', 'run.csv, line 1: 0 of 2 rows can be used (the quaternion here has not the length 1); expected are at least 2.'],
+  ['times that stand', 't,x,y,yaw\n1,0,0,0\n1,0,0,0\n', 'run.csv, line 3: 1 of 2 rows can be used (the time here is that of the row before); expected are at least 2.'],
+  ['times that fall', 't,x,y,yaw\n5,0,0,0\n4,0,0,0\n3,0,0,0\n2,0,0,0\n', 'run.csv, line 3: 3 of 4 rows, this one first, go back in time; expected are times that grow.'],
+  ['a unit that nobody tells', 't,x,y,yaw\n0,0,0,0\n10000000,0,0,0\n20000000,0,0,0\n', 'run.csv: in s, 10000000 s pass from row to row; expected is another unit in the name of the time, as in t_ns.'],
+];
+
+for (const [what, contents, sentence, kind] of REFUSED) {
+  test(`${what}: a sentence`, async () => {
+    const error = await refusalOf(read(contents, { kind }));
+    assert.equal(error.message, sentence);
+    assert.match(error.sentence(german), /^run\.csv(, Zeile \d+)?: .+; (erwartet) (wird|werden) .+\.$/);
+  });
+}
+
+test('a file that has gone: a sentence', async () => {
+  const gone = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
+  const { message } = await refusalOf(readLog(gone));
+  assert.equal(message, `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that is still there.`);
+});
+
+/** A file of an hour at 100 Hz. */
+const hour = () => {
+  const rows = Array.from({ length: 360_000 }, (_, i) => {
+    const fixed = (/** @type {number} */ value) => value.toFixed(9);
+    return [1_700_000_000 + Math.floor(i / 100), `.${String(i % 100).padStart(2, '0')}1234567,`, [Math.sin(i / 1000), Math.cos(i / 1000), 0, 0, 0, Math.sin(i / 5000), Math.cos(i / 5000)].map(fixed).join(',')].join('');
+  });
+  return new File([`t,x,y,z,qx,qy,qz,qw\n${rows.join('\n')}\n`], 'hour.csv');
+};
+
+test('an hour at 100 Hz takes less than a second of a processor, and others their turns in between', async () => {
+  const file = hour();
+  // As on a page that has done it before.
+  await readLog(file);
+  /** @type {number[]} */
+  const turns = [];
+  let last = performance.now();
+  const others = setInterval(() => {
+    turns.push(performance.now() - last);
+    last = performance.now();
+  });
+  const start = process.cpuUsage();
+  const { data } = await readLog(file);
+  const { user, system } = process.cpuUsage(start);
+  clearInterval(others);
+  assert.equal(data.t.length, 360_000);
+  console.log(`${((user + system) / 1000).toFixed(0)} ms of a processor, ${turns.length} turns, the longest wait ${Math.max(...turns).toFixed(0)} ms`);
+  assert.ok(user + system < 1e6, `${(user + system) / 1e6} s`);
+  assert.ok(turns.length > 20, `${turns.length} turns`);
+});
+
+test('reading stops where it is told to', async () => {
+  const stop = new AbortController();
+  const file = hour();
+  const progress = /** @type {number[]} */ ([]);
+  const reading = readLog(file, {
+    signal: stop.signal,
+    onProgress(share) {
+      progress.push(share);
+      if (share > 0.1) stop.abort();
+    },
+  });
+  await assert.rejects(reading, { name: 'AbortError' });
+  assert.ok(progress.every((share, i) => share >= (progress[i - 1] ?? 0) && share < 0.9), progress.join(' '));
+});

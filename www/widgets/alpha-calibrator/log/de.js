@@ -1,0 +1,85 @@
+/** What is said of logs, in German. */
+
+/** @type {Record<string, string>} */
+const FIELDS = {
+  t: 'die Zeit', seconds: 'die Sekunden der Zeit', nanoseconds: 'die Nanosekunden der Zeit', x: 'x', y: 'y', yaw: 'die Richtung',
+  qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'die Geschwindigkeit v', omega: 'die Drehrate omega',
+};
+
+const NEEDED = {
+  poses: 'x, y und yaw (oder qx, qy, qz und qw)',
+  commands: 'v und omega',
+  either: 'x, y und yaw (oder qx, qy, qz und qw), oder v und omega',
+};
+
+const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped oder tf2_msgs/msg/TFMessage';
+const OF_COMMANDS = 'geometry_msgs/msg/Twist oder TwistStamped';
+const TYPES = { poses: OF_POSES, commands: OF_COMMANDS, either: `${OF_POSES}, oder ${OF_COMMANDS}` };
+
+const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
+const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
+
+/** @type {import('./refusal.js').Words} */
+export const log = {
+  place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
+  refused: {
+    gone: (reason) => `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`,
+    empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
+    binary: 'das ist weder Text noch eine MCAP-Aufzeichnung; erwartet wird CSV, TUM oder MCAP.',
+    longLine: (most) => `die Zeile hat mehr als ${most} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
+    header: (value) => `die erste Zeile ist „${value}“; erwartet wird eine Kopfzeile mit Namen wie t, x, y und yaw.`,
+    noTime: (columns) =>
+      `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec.`,
+    noHeading: (columns) =>
+      `keine der Spalten ${columns} ist die Richtung; erwartet wird yaw, theta oder heading, oder qx, qy, qz und qw.`,
+    noColumns: (wanted, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[wanted]}.`,
+    twice: (field, one, other) => `sowohl „${one}“ als auch „${other}“ kann ${FIELDS[field]} sein; erwartet wird eines davon.`,
+    cells: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
+    number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl.`,
+    rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
+    falling: (count, rows) => `${count} von ${rows} Zeilen, diese zuerst, gehen in der Zeit zurück; erwartet werden wachsende Zeiten.`,
+    few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason && ` (${reason})`}; erwartet werden mindestens 2.`,
+    reasons: {
+      notFinite: 'ein Wert hier ist keine endliche Zahl',
+      noRotation: 'das Quaternion hier hat nicht die Länge 1',
+      short: 'die Zeile bricht hier ab',
+      duplicate: 'die Zeit hier ist die der Zeile davor',
+      falling: 'die Zeit hier geht zurück',
+    },
+    unit: (step, unit) =>
+      `in ${unit} vergehen von Zeile zu Zeile ${Math.round(step)} s; erwartet wird eine andere Einheit im Namen der Zeit, wie in t_ns.`,
+    damaged: (reason) => `die Aufzeichnung ist beschädigt (${reason}); erwartet wird eine vollständige MCAP-Datei.`,
+    large: (what, bytes, most) => `angekündigt wird ${{ 'a chunk': 'ein Chunk', 'a record': 'ein Record' }[what] ?? what} von ${bytes} Bytes; erwartet werden höchstens ${most}.`,
+    compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
+    noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,
+    noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES.either}.`,
+    choose: (role, topics) => `welches Topic ${role === 'odometry' ? 'die Odometrie' : 'die Referenz'} ist, steht nicht fest; erwartet wird eine Wahl aus ${topics}.`,
+    type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
+    encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr, die Kodierung von ROS 2.`,
+    message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
+    frames: (known) => `welche Frames gemeint sind, ist nicht gesagt; erwartet werden ein äußerer und ein innerer, verbunden durch ${known || 'Transformationen, von denen es keine gibt'}.`,
+    noChain: (frames, known) =>
+      `keine Transformationen führen von ${frames.replace(',', ' nach ')}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
+    noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',
+    held: 'ihre Pose steht, während die Odometrie weitergeht; erwartet wird eine, die dem Roboter folgt.',
+    apart: (name, one, other) =>
+      `seine Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam; erwartet werden zwei Logs einer Fahrt, nach einer Uhr.`,
+  },
+  found: {
+    rows: (kept, rows, seconds, rate) => `${kept} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz`,
+    leftOut: (reason, count, line) => `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ab Zeile ${line}` : ''}: ${reason}`,
+    reasons: {
+      notFinite: 'keine endliche Zahl',
+      noRotation: 'ein Quaternion, das keine Drehung ist',
+      short: 'abgebrochen',
+      duplicate: 'die Zeit der Zeile davor',
+      falling: 'eine Zeit, die zurückgeht',
+      held: 'die Pose steht, während die Odometrie weitergeht',
+    },
+    gaps: (count, first, longest) => `${times(count, 'Pause', 'Pausen')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
+    jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,
+    unit: (unit) => `Zeiten in ${unit}, nach ihrer Größe`,
+    degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
+    cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
+  },
+};

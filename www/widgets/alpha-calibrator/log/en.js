@@ -1,0 +1,96 @@
+/** What is said of logs, in English. */
+
+/** Fields of a table, as a sentence names them. @type {Record<string, string>} */
+const FIELDS = {
+  t: 'the time', seconds: 'the seconds of the time', nanoseconds: 'the nanoseconds of the time', x: 'x', y: 'y', yaw: 'the heading',
+  qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'the speed v', omega: 'the turn rate omega',
+};
+
+const NEEDED = {
+  poses: 'x, y and yaw (or qx, qy, qz and qw)',
+  commands: 'v and omega',
+  either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
+};
+
+const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped or tf2_msgs/msg/TFMessage';
+const OF_COMMANDS = 'geometry_msgs/msg/Twist or TwistStamped';
+const TYPES = { poses: OF_POSES, commands: OF_COMMANDS, either: `${OF_POSES}, or ${OF_COMMANDS}` };
+
+export const log = {
+  place: (/** @type {string} */ file, /** @type {number} */ line, /** @type {string} */ topic) =>
+    `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
+  /** Why a log is refused, each after its place. */
+  refused: {
+    gone: (/** @type {string} */ reason) => `the file cannot be read (${reason}); expected is one that is still there.`,
+    empty: 'there is nothing in it; expected is a log of poses or commands.',
+    binary: 'it is neither text nor an MCAP recording; expected is CSV, TUM or MCAP.',
+    longLine: (/** @type {number} */ most) => `the line has more than ${most} bytes; expected is one row a line.`,
+    header: (/** @type {string} */ value) => `the first row is “${value}”; expected is a header with names such as t, x, y and yaw.`,
+    noTime: (/** @type {string} */ columns) =>
+      `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec.`,
+    noHeading: (/** @type {string} */ columns) =>
+      `none of the columns ${columns} is the heading; expected is yaw, theta or heading, or qx, qy, qz and qw.`,
+    noColumns: (/** @type {keyof typeof NEEDED} */ wanted, /** @type {string} */ columns) =>
+      `the columns are ${columns}; expected are ${NEEDED[wanted]} among them.`,
+    twice: (/** @type {string} */ field, /** @type {string} */ one, /** @type {string} */ other) =>
+      `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
+    cells: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells; expected are at least ${needed}.`,
+    number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number.`,
+    rows: (/** @type {number} */ most) => `there are more rows; expected are at most ${most}.`,
+    falling: (/** @type {number} */ count, /** @type {number} */ rows) =>
+      `${count} of ${rows} rows, this one first, go back in time; expected are times that grow.`,
+    few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {string} */ reason) =>
+      `${kept} of ${rows} rows can be used${reason && ` (${reason})`}; expected are at least 2.`,
+    /** Why rows cannot be used. */
+    reasons: /** @type {Record<string, string>} */ ({
+      notFinite: 'a value here is no finite number',
+      noRotation: 'the quaternion here has not the length 1',
+      short: 'the row is cut short here',
+      duplicate: 'the time here is that of the row before',
+      falling: 'the time here goes back',
+    }),
+    unit: (/** @type {number} */ step, /** @type {string} */ unit) =>
+      `in ${unit}, ${Math.round(step)} s pass from row to row; expected is another unit in the name of the time, as in t_ns.`,
+    /** Of recordings. */
+    damaged: (/** @type {string} */ reason) => `the recording is damaged (${reason}); expected is a complete MCAP file.`,
+    large: (/** @type {string} */ what, /** @type {string} */ bytes, /** @type {number} */ most) =>
+      `${what} of ${bytes} bytes is announced; expected are at most ${most}.`,
+    compression: (/** @type {string} */ value) => `its chunks are compressed by “${value}”; expected is zstd, lz4 or none.`,
+    noTopic: (/** @type {string} */ topics) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
+    noTopics: (/** @type {string} */ topics) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
+    choose: (/** @type {string} */ role, /** @type {string} */ topics) => `which topic is the ${role} is not clear; expected is a choice of ${topics}.`,
+    type: (/** @type {string} */ type, /** @type {keyof typeof TYPES} */ wanted) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
+    encoding: (/** @type {string} */ value) => `its messages are encoded as “${value}”; expected is cdr, that of ROS 2.`,
+    message: (/** @type {number} */ number, /** @type {string} */ reason) =>
+      `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
+    frames: (/** @type {string} */ known) => `which frames are meant is not told; expected are a parent and a child, connected by ${known || 'transforms, of which there are none'}.`,
+    noChain: (/** @type {string} */ frames, /** @type {string} */ known) =>
+      `no transforms lead from ${frames.replace(',', ' to ')}; expected are frames that are connected, of ${known || 'none'}.`,
+    noMessages: 'there are no messages on it; expected are at least 2.',
+    /** Of two logs. */
+    held: 'its pose stands while the odometry moves on; expected is one that follows the robot.',
+    apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
+      `its times (${one}) and those of ${name} (${other}) have nothing in common; expected are two logs of one drive, by one clock.`,
+  },
+  /** What was found in a log, a sentence each. */
+  found: {
+    rows: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {number} */ seconds, /** @type {number} */ rate) =>
+      `${kept} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz`,
+    leftOut: (/** @type {string} */ reason, /** @type {number} */ count, /** @type {number} */ line) =>
+      `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${reason}`,
+    reasons: /** @type {Record<string, string>} */ ({
+      notFinite: 'no finite number',
+      noRotation: 'a quaternion that is no rotation',
+      short: 'cut short',
+      duplicate: 'the time of the row before',
+      falling: 'a time that goes back',
+      held: 'the pose stands while the odometry moves on',
+    }),
+    gaps: (/** @type {number} */ count, /** @type {number} */ first, /** @type {number} */ longest) =>
+      `${count} ${count === 1 ? 'pause' : 'pauses'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
+    jumps: (/** @type {number} */ count, /** @type {number} */ first) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,
+    unit: (/** @type {string} */ unit) => `times in ${unit}, by their size`,
+    degrees: 'headings in degrees, by the name of the column',
+    cutShort: 'the file ends in the middle of a row or record',
+  },
+};

@@ -1,0 +1,143 @@
+/** Logs of robots: poses or commands with times, of CSV, TUM and MCAP files. */
+
+import { withoutHeld } from './held.js';
+import { LogError, bytesOf } from './refusal.js';
+import { readTable } from './table.js';
+
+/**
+ * @import { Watching } from './breath.js'
+ * @import { Source, Words } from './refusal.js'
+ * @import { Log, Reason } from './rows.js'
+ *
+ * @typedef {object} Topic of a recording
+ * @property {string} name
+ * @property {string} type
+ * @property {number} count of its messages
+ * @property {'poses' | 'commands' | 'transforms' | null} kind what it holds; null where it is of no use here
+ *
+ * @typedef {object} Choice what is to be read
+ * @property {'poses' | 'commands'} [kind] that is wanted; of a table that has both, poses where nothing is said
+ * @property {string} [topic] of a recording
+ * @property {{ parent: string, child: string }} [frames] of a topic of transforms
+ */
+
+export { LogError };
+
+/** The first bytes of every recording. */
+const MAGIC = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
+
+/** Whether a file is a recording, with topics to choose of. @param {Source} source @returns {Promise<boolean>} */
+export async function isRecording(source) {
+  const start = await bytesOf(source, 0, MAGIC.length);
+  return MAGIC.every((byte, i) => byte === start[i]);
+}
+
+/**
+ * @param {Source} source a recording
+ * @param {Watching} [watching]
+ * @returns {Promise<Topic[]>} by their names; rejects with a LogError
+ */
+export async function topicsOf(source, watching = {}) {
+  const { listTopics } = await import('./recording.js');
+  return listTopics(source, watching);
+}
+
+/**
+ * @param {Source} source
+ * @param {Choice & Watching} [choice]
+ * @returns {Promise<Log>} rejects with a LogError that names file, line or topic, and what is expected
+ */
+export async function readLog(source, { kind, topic, frames, ...watching } = {}) {
+  if (source.size === 0) throw new LogError({ file: source.name }, (say) => say.empty);
+  if (!(await isRecording(source))) return readTable(source, kind, watching);
+  const { readRecording } = await import('./recording.js');
+  return readRecording(source, { kind, topic: topic ?? '', frames }, watching);
+}
+
+/** Names that recorders give to odometry, to commands, and to what is better. */
+const [ODOMETRY, COMMANDS, REFERENCE] = [/(^|\/)odom(etry)?$/i, /(^|\/)cmd_vel$/i, /truth|gt|mocap|vicon|optitrack|qualisys|vrpn|reference|station|slam|amcl/i];
+
+/**
+ * Which topics are meant, where that is clear.
+ *
+ * @param {Topic[]} topics
+ * @returns {{ odometry: string | null, commands: string | null, reference: string | null }}
+ */
+export function usualTopics(topics) {
+  const poses = topics.filter(({ kind, count }) => kind === 'poses' && count > 1);
+  const only = (/** @type {Topic[]} */ some) => (some.length === 1 ? some[0].name : null);
+  const ofOdometry = poses.filter(({ type, name }) => type === 'nav_msgs/msg/Odometry' && !REFERENCE.test(name));
+  const odometry = only(ofOdometry.filter(({ name }) => ODOMETRY.test(name))) ?? only(ofOdometry);
+  const others = poses.filter(({ name }) => name !== odometry);
+  const driven = topics.filter(({ kind, count }) => kind === 'commands' && count > 1);
+  const commands = only(driven.filter(({ name }) => COMMANDS.test(name))) ?? only(driven);
+  return { odometry, commands, reference: only(others.filter(({ name }) => REFERENCE.test(name))) ?? only(others) };
+}
+
+/**
+ * Two logs of one drive, by one clock: the times of both are those after the same start, and the reference is without rows in
+ * which it had lost the robot.
+ *
+ * @param {Log} odometry
+ * @param {Log} reference of poses
+ * @returns {{ odometry: Log, reference: Log, start: number }}
+ * @throws {LogError} where they have no time in common
+ */
+export function together(odometry, reference) {
+  if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', Object.keys(reference.data).join(', ')));
+  const start = Math.min(odometry.start, reference.start);
+  const [first, second] = [odometry, reference].map((log) => after(start, log));
+  const [one, other] = [first.data.t, second.data.t];
+  if (one[0] > other[other.length - 1] || other[0] > one[one.length - 1]) {
+    throw new LogError({ file: reference.name }, (say) => say.apart(odometry.name, span(reference), span(odometry)));
+  }
+  const reliable = withoutHeld(second, first);
+  if (reliable.data.t.length < 2) throw new LogError({ file: reference.name }, (say) => say.held);
+  return { odometry: first, reference: reliable, start };
+}
+
+/** @param {number} start @param {Log} log @returns {Log} */
+function after(start, log) {
+  const later = log.start - start;
+  const { found } = log;
+  if (later === 0) return log;
+  const moved = (/** @type {any} */ trouble) => ({ ...trouble, t: trouble.t + later });
+  return {
+    ...log,
+    start,
+    data: { ...log.data, t: log.data.t.map((each) => each + later) },
+    found: {
+      ...found,
+      gaps: moved(found.gaps),
+      jumps: moved(found.jumps),
+      leftOut: /** @type {any} */ (Object.fromEntries(Object.entries(found.leftOut).map(([key, each]) => [key, moved(each)]))),
+    },
+  };
+}
+
+/** @param {Log} log */
+function span({ start, data: { t } }) {
+  const [from, to] = [t[0], t[t.length - 1]].map((each) => (start + each).toFixed(2));
+  return `${from} s to ${to} s`;
+}
+
+/**
+ * What was found in a log, a sentence each: all that was decided or left out.
+ *
+ * @param {Log} log
+ * @param {Words['found']} say
+ * @returns {string[]}
+ */
+export function tell({ data: { t }, start, how, found }, say) {
+  const { rows, leftOut, gaps, jumps, step } = found;
+  const out = /** @type {[Reason, import('./rows.js').Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
+  return [
+    say.rows(t.length, rows, t[t.length - 1] - t[0], 1 / step),
+    ...(how.unitBy === 'size' && how.unit !== 's' ? [say.unit(how.unit)] : []),
+    ...(how.heading === 'degrees' ? [say.degrees] : []),
+    ...out.map(([reason, { count, line }]) => say.leftOut(say.reasons[reason], count, how.format === 'mcap' ? 0 : line)),
+    ...(gaps.count ? [say.gaps(gaps.count, start + gaps.t, gaps.longest)] : []),
+    ...(jumps.count ? [say.jumps(jumps.count, start + jumps.t)] : []),
+    ...(how.cutShort ? [say.cutShort] : []),
+  ];
+}

@@ -1,6 +1,7 @@
 //! How well the α's are known if legs are not independent: by logs made of pieces of this one.
 
 use super::profile::Fitted;
+use super::trajectory::sort;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -29,7 +30,7 @@ pub(super) fn intervals(fitted: &Fitted, count: usize, seed: u64) -> Vec<Option<
     }
     let mut interval = |alpha: usize| {
         let drawn = &mut drawn[alpha];
-        drawn.sort_unstable_by(f64::total_cmp);
+        sort(drawn);
         [drawn[LOGS / 40], drawn[LOGS - 1 - LOGS / 40]]
     };
     (0..count).map(|alpha| fitted.free.contains(&alpha).then(|| interval(alpha))).collect()

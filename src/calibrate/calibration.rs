@@ -268,7 +268,7 @@ impl Calibrating {
         for (i, error) in Error::ALL.into_iter().enumerate() {
             let Some(deviation) = deviations[i] else { continue };
             let most = 2.0 * error.largest_deviation();
-            let change = change[i].clamp(-most, most);
+            let change = change[i].max(-most).min(most);
             self.systematic.set(error, self.systematic.get(error) + change);
             stays &= change.abs() <= STAYS * deviation;
         }

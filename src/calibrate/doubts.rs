@@ -3,6 +3,7 @@
 use super::likelihood::{Evidence, Parameters, Robust};
 use super::model::{Model, Observation};
 use super::profile::Fitted;
+use super::trajectory::sort;
 use crate::noise::NoiseKind;
 
 /// What there is to doubt about a fit.
@@ -256,9 +257,12 @@ pub(super) fn doubts(
             kind_doubts(kind.name, &of_kind, neighbours)
         })
         .collect();
-    let mut worst: Vec<usize> = (0..judged.len()).collect();
-    worst.sort_by(|a, b| judged[*b].squared_error.total_cmp(&judged[*a].squared_error));
-    worst.truncate(WORST);
+    let mut worst: Vec<usize> = Vec::with_capacity(WORST + 1);
+    for (place, leg) in judged.iter().enumerate() {
+        let before = worst.iter().filter(|other| judged[**other].squared_error >= leg.squared_error).count();
+        worst.insert(before, place);
+        worst.truncate(WORST);
+    }
     let held_out = halves.held_out();
     let verdict = verdict(observations.len(), &kinds, &held_out, noise);
     Doubts { kinds, held_out, worst, verdict }
@@ -266,7 +270,7 @@ pub(super) fn doubts(
 
 fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) -> KindDoubts {
     let mut told: Vec<f64> = standardized.iter().copied().filter(|z| z.is_finite()).collect();
-    told.sort_unstable_by(f64::total_cmp);
+    sort(&mut told);
     let count = told.len();
     let mean = |power: i32| told.iter().map(|z| z.powi(power)).sum::<f64>() / count as f64;
     let square = mean(2);

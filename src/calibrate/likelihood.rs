@@ -2,6 +2,7 @@
 
 use super::density::{Density, LogProduct};
 use super::model::{Model, Observation};
+use super::trajectory::sort;
 use crate::noise::NoiseKind;
 
 /// What the α's are at a point: of as many as there may be, six.
@@ -91,8 +92,8 @@ impl Evidence {
             if squares.is_empty() {
                 continue;
             }
-            let middle = squares.len() / 2;
-            let most = *squares.select_nth_unstable_by(middle, f64::total_cmp).1 * FAR;
+            sort(&mut squares);
+            let most = squares[squares.len() / 2] * FAR;
             let sum: f64 = told()
                 .map(|row| if robust == Robust::No { row.squares[kind] } else { row.squares[kind].min(most) })
                 .sum();
@@ -234,7 +235,7 @@ impl Evidence {
             let step = if spread[k][1] > 0.0 { spread[k][0] / spread[k][1] } else { 0.0 };
             let least = if usual[k][1] > 0.0 { LEAST_SPREAD * usual[k][0] / usual[k][1] } else { 0.0 };
             // Not by more than tenfold at once: far from the maximum the step is too long.
-            (bad.spreads[k] + step).clamp(0.1 * bad.spreads[k], 10.0 * bad.spreads[k]).max(least)
+            (bad.spreads[k] + step).max(0.1 * bad.spreads[k]).min(10.0 * bad.spreads[k]).max(least)
         });
         Some(Bad { share: share.clamp(1e-9, 0.5), spreads })
     }

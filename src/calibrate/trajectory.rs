@@ -75,9 +75,8 @@ impl Trajectory {
             poses.push(pose);
         }
         let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = steps.len() / 2;
-        let usual =
-            if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        sort(&mut steps);
+        let usual = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
         Ok(Self { times, poses, longest_gap: STEPS_OF_A_GAP * usual })
     }
 
@@ -174,4 +173,10 @@ impl Trajectory {
         let way = pose.boxminus(&self.poses[before]);
         (step <= self.longest_gap).then(|| self.poses[before].boxplus(way * share))
     }
+}
+
+/// In one place: sorting is long code.
+#[inline(never)]
+pub(super) fn sort(numbers: &mut [f64]) {
+    numbers.sort_unstable_by(f64::total_cmp);
 }

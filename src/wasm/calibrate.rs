@@ -1,18 +1,18 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
+use super::calibration::{calibration_to_js, legs_to_js};
 use super::fields::{
-    Fields, boolean, doubles, in_range, item, length, no_memory, number, type_error, whole, word,
+    Fields, boolean, doubles, in_range, item, length, no_memory, number, printed, type_error, whole, word,
 };
-use super::values::{float64_array, list, number_or_null, object};
 use crate::calibrate::{
-    Calibration, Doubts, ERRORS, Error, Inflation, KindDoubts, LegLength, Model, Options, ReferenceError,
-    Robust, Trajectory, Verdict, Which, calibrate,
+    ERRORS, Error, LegLength, Model, Options, ReferenceError, Robust, Trajectory, TrajectoryError,
+    TrajectoryFault, Which, calibrate,
 };
 use crate::geom::se2::SE2;
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{MAX_SEED, Words, check_real};
-use js_sys::{Array, Float64Array, RangeError};
+use js_sys::{Float64Array, RangeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
@@ -206,7 +206,7 @@ pub fn calibrated(
         calibrate(&odometry, &reference, &options).map_err(|error| RangeError::new(&error.to_string()))?;
     let gaps = [odometry.gaps(), reference.gaps()];
     let legs = legs_to_js(&calibration)?;
-    calibration_to_js(&calibration, options.remove, gaps, Some(legs))
+    calibration_to_js(&calibration, options.remove, gaps, legs)
 }
 
 fn model(fields: &Fields) -> Result<Model, JsValue> {
@@ -262,7 +262,7 @@ fn robust(field: &str, value: &JsValue) -> Result<Robust, JsValue> {
 }
 
 /// What each systematic error is called, and which of [`Error::ALL`] it is.
-const SYSTEMATIC: [(&str, &[Error]); 5] = [
+pub const SYSTEMATIC: [(&str, &[Error]); 5] = [
     ("clockOffset", &[Error::ClockOffset]),
     ("mountYaw", &[Error::MountYaw]),
     ("leverArm", &[Error::LeverArmAhead, Error::LeverArmLeft]),
@@ -322,8 +322,20 @@ fn poses(fields: &Fields) -> Result<Trajectory, JsValue> {
     trajectory(fields.path("").trim_end_matches('.'), Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-fn trajectory<E: ToString>(field: &str, read: Result<Trajectory, E>) -> Result<Trajectory, JsValue> {
-    read.map_err(|error| RangeError::new(&format!("{field}: {}", error.to_string())).into())
+/// In the words of [`TrajectoryError`], whose numbers Rust would print: that is a twentieth of a module.
+fn trajectory(field: &str, read: Result<Trajectory, TrajectoryError>) -> Result<Trajectory, JsValue> {
+    read.map_err(|TrajectoryError { sample, fault }| {
+        let what = match fault {
+            TrajectoryFault::NotFinite => {
+                "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned()
+            }
+            TrajectoryFault::NotLater { before } => {
+                let before = printed(before);
+                format!("is not later than the one before, at {before} s; allowed are times that rise")
+            }
+        };
+        RangeError::new(&format!("{field}: sample {sample} {what}")).into()
+    })
 }
 
 /// Arrays of numbers, as long as the first of them, which has times.
@@ -367,142 +379,4 @@ fn column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue>
         });
     }
     Ok(column)
-}
-
-/// All that is told of a calibration; the legs by themselves, for there are many.
-pub fn calibration_to_js(
-    calibration: &Calibration,
-    remove: Which,
-    gaps: [usize; 2],
-    legs: Option<JsValue>,
-) -> Result<JsValue, JsValue> {
-    let Calibration { estimate, bootstrap, doubts, inflation, .. } = calibration;
-    let alphas: Array = estimate.alphas.iter().map(|alpha| known(*alpha)).collect();
-    let [odometry_gaps, reference_gaps] = gaps.map(|gaps| JsValue::from(gaps as f64));
-    let mut entries = vec![
-        ("alphas", alphas.into()),
-        ("intervals", intervals(&estimate.intervals)?),
-        ("bootstrap", intervals(bootstrap)?),
-        ("systematic", systematic_to_js(calibration, remove)?),
-        ("logLikelihood", estimate.log_likelihood.into()),
-        ("outliers", number_or_null(estimate.outliers)),
-        ("doubts", doubts_to_js(doubts)?),
-        ("inflation", inflation_to_js(inflation)?),
-        ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])?),
-    ];
-    entries.extend(legs.map(|legs| ("legs", legs)));
-    object(&entries)
-}
-
-fn known(number: f64) -> JsValue {
-    number_or_null(Some(number).filter(|number| !number.is_nan()))
-}
-
-fn interval(interval: Option<[f64; 2]>) -> Result<JsValue, JsValue> {
-    interval.map_or(Ok(JsValue::NULL), |interval| list(&interval))
-}
-
-fn intervals(intervals: &[Option<[f64; 2]>]) -> Result<JsValue, JsValue> {
-    Ok(intervals.iter().map(|each| interval(*each)).collect::<Result<Array, JsValue>>()?.into())
-}
-
-fn systematic_to_js(calibration: &Calibration, remove: Which) -> Result<JsValue, JsValue> {
-    let value = |error: Error| {
-        let determined = calibration.deviations[error as usize].is_some();
-        number_or_null(determined.then(|| calibration.systematic.get(error)))
-    };
-    let of = |error: Error| interval(calibration.interval_of(error));
-    let entries = SYSTEMATIC.iter().map(|(key, errors)| {
-        let [value, interval] = match errors {
-            [error] => [value(*error), of(*error)?],
-            errors => [
-                errors.iter().map(|error| value(*error)).collect::<Array>().into(),
-                errors.iter().map(|error| of(*error)).collect::<Result<Array, JsValue>>()?.into(),
-            ],
-        };
-        let removed = remove[errors[0] as usize].into();
-        Ok((*key, object(&[("value", value), ("interval", interval), ("removed", removed)])?))
-    });
-    object(&entries.collect::<Result<Vec<_>, JsValue>>()?)
-}
-
-fn doubts_to_js(doubts: &Doubts) -> Result<JsValue, JsValue> {
-    let Doubts { kinds, held_out, worst, verdict } = doubts;
-    let kinds = kinds.iter().map(kind_to_js).collect::<Result<Array, JsValue>>()?;
-    let worst: Vec<f64> = worst.iter().map(|place| *place as f64).collect();
-    object(&[
-        ("kinds", kinds.into()),
-        (
-            "heldOut",
-            object(&[
-                ("count", (held_out.count as f64).into()),
-                ("coverage", held_out.coverage.into()),
-                ("expected", 0.95.into()),
-                ("interval", list(&held_out.coverage_interval)?),
-                ("logLikelihood", held_out.log_likelihood.into()),
-            ])?,
-        ),
-        (
-            "squaredError",
-            object(&[
-                ("mean", held_out.squared_error.into()),
-                ("interval", list(&held_out.squared_error_interval)?),
-            ])?,
-        ),
-        ("worst", list(&worst)?),
-        ("verdict", verdict_word(*verdict).into()),
-    ])
-}
-
-fn kind_to_js(kind: &KindDoubts) -> Result<JsValue, JsValue> {
-    object(&[
-        ("name", kind.name.into()),
-        ("count", (kind.count as f64).into()),
-        ("kurtosis", kind.kurtosis.into()),
-        ("autocorrelation", kind.autocorrelation.into()),
-        ("autocorrelationLimit", kind.autocorrelation_limit.into()),
-        ("quantiles", float64_array(&kind.quantiles)?.into()),
-    ])
-}
-
-fn verdict_word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::FewLegs => "few-legs",
-        Verdict::HeavyTails => "heavy-tails",
-        Verdict::Correlated => "correlated",
-        Verdict::Overconfident => "overconfident",
-        Verdict::Lazy => "lazy",
-        Verdict::Fits => "fits",
-    }
-}
-
-fn inflation_to_js(inflation: &Inflation) -> Result<JsValue, JsValue> {
-    object(&[
-        ("factors", float64_array(&inflation.factors)?.into()),
-        ("coverage", float64_array(&inflation.coverage)?.into()),
-        ("logLikelihood", float64_array(&inflation.log_likelihood)?.into()),
-    ])
-}
-
-/// The legs of a calibration.
-pub fn legs_to_js(calibration: &Calibration) -> Result<JsValue, JsValue> {
-    let Calibration { legs, observations, judged, removed, .. } = calibration;
-    let array = |numbers: Vec<f64>| float64_array(&numbers).map(JsValue::from);
-    let pose = |pose: SE2| [pose.x(), pose.y(), pose.theta()];
-    object(&[
-        ("count", (legs.len() as f64).into()),
-        ("times", array(legs.iter().flat_map(|leg| leg.times).collect())?),
-        ("odometry", array(legs.iter().flat_map(|leg| leg.odometry).flat_map(pose).collect())?),
-        (
-            "reference",
-            array(
-                legs.iter().flat_map(|leg| leg.reference).flat_map(|end| pose(removed.base(&end))).collect(),
-            )?,
-        ),
-        ("readings", array(observations.iter().flat_map(|each| each.reading).collect())?),
-        ("residuals", array(observations.iter().flat_map(|each| each.residuals).collect())?),
-        ("deviations", array(judged.iter().flat_map(|leg| leg.deviations).collect())?),
-        ("squaredError", array(judged.iter().map(|leg| leg.squared_error).collect())?),
-        ("bad", array(judged.iter().map(|leg| leg.bad).collect())?),
-    ])
 }

@@ -7,8 +7,10 @@
 mod arc_anatomy;
 #[cfg(any(not(widget), widget = "banana-machine"))]
 mod banana;
-#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+#[cfg(not(widget))]
 mod calibrate;
+#[cfg(not(widget))]
+mod calibration;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
 mod fields;

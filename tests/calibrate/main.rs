@@ -3,4 +3,5 @@
 mod errors;
 mod fits;
 mod logs;
+mod same;
 mod simulated;

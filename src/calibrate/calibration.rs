@@ -256,9 +256,12 @@ impl Calibrating {
         let mut squares = LeastSquares::after(self.known);
         let legs = self.legs.iter().zip(&self.observations).zip(self.evidence.each(&best));
         for ((leg, observation), density) in legs {
-            let weights = density
-                .variances
-                .map(|variance| variance.filter(|v| *v > 0.0).map_or(0.0, |v| (1.0 - density.bad) / v));
+            let variances = density.variances.map(|variance| variance.unwrap_or(0.0));
+            let weights = self
+                .options
+                .model
+                .first_order_variances(observation, variances)
+                .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 });
             squares.add(&self.systematic, leg, observation, weights);
         }
         self.best = Some(best);

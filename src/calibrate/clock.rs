@@ -18,11 +18,17 @@ const MOST: f64 = 100_000.0;
 /// How alike the turn rates have to be: what two that have nothing to do with each other reach in a few seconds.
 const ALIKE: f64 = 0.5;
 
+/// Turns of one robot, at the right offset, are alike to a few hundredths: further away nothing is looked for.
+const SURELY: f64 = 0.9;
+
+/// By how much more alike they have to be far away.
+const CLEARLY: f64 = 0.05;
+
 /// By how much (s) the reference's clock is ahead of the odometry's: where the correlation of their turn rates is largest. 0 where
 /// they are not alike anywhere, as of a robot that does not turn.
 ///
-/// Where the recordings overlap for half of the shorter one at least, clocks are taken to differ by [`NEARLY`] 10 s at most;
-/// otherwise by any time that makes them overlap so.
+/// Where the recordings overlap for half of the shorter one at least, and are surely alike at an offset of [`NEARLY`] 10 s at most, that
+/// is taken; otherwise any that makes them overlap so is looked at.
 pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> f64 {
     let [Some([from, to]), Some([start, end])] = [odometry, reference].map(Trajectory::span) else {
         return 0.0;
@@ -30,18 +36,27 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> f64
     let [read, seen] = [odometry, reference].map(Turns::new);
     let half = 0.5 * (to - from).min(end - start);
     let finest = STEP.max(0.5 * odometry.usual_step()).max((to - from) / MOST);
-    if to.min(end) - from.max(start) >= half {
-        return best(&read, &seen, [-NEARLY, NEARLY], finest.max(NEARLY / COARSE)).unwrap_or(0.0);
+    let overlap = to.min(end) - from.max(start) >= half;
+    let near =
+        if overlap { best(&read, &seen, [-NEARLY, NEARLY], finest.max(NEARLY / COARSE)) } else { None };
+    if let Some((lag, _)) = near.filter(|(_, alike)| *alike >= SURELY) {
+        return lag;
     }
     let range = [start - to + half, end - from - half];
     let mut step = finest.max((range[1] - range[0]) / COARSE);
-    let Some(mut about) = best(&read, &seen, range, step) else { return 0.5 * (range[0] + range[1]) };
-    while step > finest {
+    let mut far = best(&read, &seen, range, step);
+    while let Some((about, _)) = far.filter(|_| step > finest) {
         let around = [about - 2.0 * step, about + 2.0 * step];
         step = finest.max(step / 50.0);
-        about = best(&read, &seen, around, step).unwrap_or(about);
+        far = best(&read, &seen, around, step);
     }
-    about
+    // Of two that are as alike the nearer one.
+    match [near, far] {
+        [Some((lag, alike)), Some((_, farther))] if farther - alike < CLEARLY => lag,
+        [_, Some((lag, _))] | [Some((lag, _)), None] => lag,
+        [None, None] if overlap => 0.0,
+        [None, None] => 0.5 * (range[0] + range[1]),
+    }
 }
 
 /// Turns of a trajectory since its beginning.
@@ -75,8 +90,8 @@ impl Turns {
     }
 }
 
-/// The lag in a range at which two are most alike, to a part of `step`; none where they are not.
-fn best(read: &Turns, seen: &Turns, [from, to]: [f64; 2], step: f64) -> Option<f64> {
+/// The lag in a range at which two are most alike, to a part of `step`, and how much; none where they are not.
+fn best(read: &Turns, seen: &Turns, [from, to]: [f64; 2], step: f64) -> Option<(f64, f64)> {
     let (first, last) = (*read.times.first()?, *read.times.last()?);
     let count = ((last - first) / step) as usize;
     let lags = ((to - from) / step).round() as usize + 1;
@@ -92,7 +107,7 @@ fn best(read: &Turns, seen: &Turns, [from, to]: [f64; 2], step: f64) -> Option<f
     let (before, after) = (beside(lag.wrapping_sub(1)), beside(lag + 1));
     let bend = before - 2.0 * most + after;
     let part = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
-    Some(from + (lag as f64 + part) * step)
+    Some((from + (lag as f64 + part) * step, most))
 }
 
 /// Pearson's, of as many as are known of both; 0 where that is less than half, or one does not change.

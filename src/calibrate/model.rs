@@ -120,6 +120,27 @@ impl Model {
     }
 }
 
+impl Model {
+    /// The variances of [`Observation::first_order`], where those of its residuals are these: what is across the drive over the length
+    /// that was read varies with the length that was driven too, E\[t̂²\] = t² + σ².
+    pub(super) fn first_order_variances(self, observation: &Observation, variances: [f64; 3]) -> [f64; 3] {
+        let (length, direction) = match self {
+            Self::Odometry(OdometryRule::Omni) => return variances,
+            Self::Odometry(_) => (1, 0),
+            Self::Velocity => (0, 1),
+        };
+        if observation.residuals[direction].is_nan() {
+            return variances;
+        }
+        let read = observation.reading[length];
+        let added = variances[direction] * variances[length] / (read * read);
+        let mut first_order = variances;
+        first_order[direction] += added;
+        first_order[2] += added;
+        first_order
+    }
+}
+
 /// What each of five α's adds to the variances by itself: they are linear in them.
 fn alone(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] {
     std::array::from_fn(|alpha| {

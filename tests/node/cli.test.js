@@ -174,11 +174,20 @@ test('as text: a table of the α’s, what is systematic, the doubts, a verdict,
     assert.ok(Math.abs(Number(value) / alpha - 1) < 0.01, `${value} ${alpha}`);
     assert.match(out, new RegExp(`^alpha${i + 1}  +${value}  `, 'm'));
   }
-  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
-  for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out legs inside of 95 % +\S+ % /m]) assert.match(out, line);
+  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# The tails are heavier [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
+  for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out residuals inside of 95 % +\S+ % /m]) assert.match(out, line);
   const { out: byTable } = await said(['calibrate', ...FILES]);
   assert.match(byTable, /^The model fits this log\.$/m);
   assert.match(byTable, /^ {4}# fitted under another rule than Nav2's: see --rule nav2$/m);
+});
+
+test('by the omnidirectional rule five α’s, and one table is no two logs', async () => {
+  const { code, out } = await said(['calibrate', ...FILES, '--rule', 'omni']);
+  assert.equal(code, 0);
+  assert.match(out, /^alpha5  +0\.\d+ .*sideways, with the way$/m);
+  const twice = await said(['calibrate', '--odometry', FILES[1], '--reference', FILES[1]]);
+  assert.equal(twice.code, 2);
+  assert.match(twice.err, /^odometry\.csv is both odometry and reference; expected are two tables, or an MCAP file\.$/m);
 });
 
 test('where a log does not determine an α, no line says one', async () => {

@@ -92,7 +92,7 @@ export function optionsOf(args) {
   if (stranger !== undefined) throw new UsageError(`--without has “${cut(stranger)}”; expected are names of ${SYSTEMATIC.join(', ')}.`);
   const share = values.robust === '' ? undefined : number('robust');
   const given = {
-    model: values.model,
+    model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
     rule: values.rule,
     noise: values.noise,
     robust: values.robust === undefined ? undefined : share === undefined ? true : { outliers: share },

@@ -117,7 +117,7 @@ function systematicRow([key, name, unit], systematic) {
 function doubtRows({ kinds, heldOut, squaredError }) {
   const percent = (/** @type {number | null} */ share) => (share === null || Number.isNaN(share) ? NONE : `${short(100 * share)} %`);
   return [
-    ['held-out legs inside of 95 %', percent(heldOut.coverage), heldOut.interval ? heldOut.interval.map(percent).join(' to ') : ''],
+    ['held-out residuals inside of 95 %', percent(heldOut.coverage), heldOut.interval ? heldOut.interval.map(percent).join(' to ') : ''],
     ['squared error by degree of freedom', fixed(squaredError.mean, squaredError.interval), between(squaredError.interval)],
     ...kinds.flatMap((/** @type {any} */ { name, kurtosis, autocorrelation, autocorrelationLimit }) => [
       [`kurtosis, ${name}`, short(kurtosis), ''],
@@ -140,7 +140,7 @@ function worstOf({ worst }, legs, start) {
  * @returns {string[]}
  */
 export function nav2Lines({ calibration, fit, logs, date }) {
-  const { alphas, intervals, legs } = calibration;
+  const { alphas, intervals, legs, doubts } = calibration;
   const { model = 'odometry', rule = 'table' } = fit;
   if (!Object.hasOwn(NAV2, model)) return ['nav2_params.yaml has no lines for the velocity model.'];
   const names = [...new Set(logs.map(({ name }) => name))].join(' and ');
@@ -148,6 +148,7 @@ export function nav2Lines({ calibration, fit, logs, date }) {
     // A name may have lines of its own, which would end the comment.
     `${legs.count} legs ${lengthOf(fit.legs)} of ${names}, ${date}; 95 % intervals`.replaceAll(/\s+/g, ' '),
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : ['fitted under another rule than Nav2\'s: see --rule nav2']),
+    ...(doubts.verdict === 'fits' ? [] : [VERDICTS[doubts.verdict]]),
   ];
   const lines = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => {
     if (alpha === null) return `# alpha${i + 1}: not determined by this log`;

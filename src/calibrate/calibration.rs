@@ -2,7 +2,7 @@
 
 use super::bootstrap;
 use super::clock::clock_offset;
-use super::doubts::{Doubts, Halves, Inflation, Judged, doubts};
+use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, doubts};
 use super::legs::{Leg, LegLength, cut};
 use super::likelihood::{Evidence, Parameters, Robust};
 use super::model::{Model, Observation, Uncertainty};
@@ -62,9 +62,6 @@ impl Calibration {
         Some([value - NORMAL_95 * deviation, value + NORMAL_95 * deviation])
     }
 }
-
-/// 95 % of a normal distribution are within so many deviations.
-const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// Why a log says nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -205,7 +202,7 @@ impl Calibrating {
             }
             Stage::Interval(alpha) => {
                 let fitted = self.fitted(self.options.robust);
-                self.intervals.push(fitted.free.contains(&alpha).then(|| fitted.interval(alpha)).flatten());
+                self.intervals.push(fitted.interval(alpha));
                 if alpha + 1 < self.options.model.alphas() {
                     Stage::Interval(alpha + 1)
                 } else {
@@ -270,7 +267,7 @@ impl Calibrating {
         let mut stays = true;
         for (i, error) in Error::ALL.into_iter().enumerate() {
             let Some(deviation) = deviations[i] else { continue };
-            let most = 2.0 * error.largest_deviation();
+            let most = 4.0 * error.largest_deviation();
             let change = change[i].max(-most).min(most);
             self.systematic.set(error, self.systematic.get(error) + change);
             stays &= change.abs() <= STAYS * deviation;
@@ -281,16 +278,12 @@ impl Calibrating {
     fn judge(&mut self) -> Calibration {
         let Options { model, noise, robust, seed, .. } = self.options;
         let fitted = self.fitted(self.options.robust);
-        let known = |alpha: usize| self.intervals[alpha].is_some();
-        let alphas = (0..model.alphas()).map(|k| if known(k) { fitted.best.alphas[k] } else { f64::NAN });
-        let estimate = Estimate {
-            alphas: alphas.collect(),
-            intervals: self.intervals.clone(),
-            log_likelihood: fitted.slope.log_likelihood,
-            outliers: fitted.best.bad.map(|bad| bad.share),
-        };
+        let estimate = fitted.estimate(self.intervals.clone());
         let mut bootstrap = bootstrap::intervals(&fitted, model.alphas(), seed);
-        bootstrap.iter_mut().enumerate().for_each(|(k, interval)| *interval = interval.filter(|_| known(k)));
+        bootstrap
+            .iter_mut()
+            .enumerate()
+            .for_each(|(k, interval)| *interval = interval.filter(|_| self.intervals[k].is_some()));
         let judged = Judged::all(&self.evidence, &fitted.best, &self.observations);
         let halves = Halves::new(model, noise, robust, &self.observations, &fitted.best);
         let neighbours: Vec<bool> = (0..self.legs.len())

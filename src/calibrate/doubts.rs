@@ -1,6 +1,6 @@
 //! Whether the model is any good: what the residuals say against it.
 
-use super::likelihood::{Evidence, Parameters, Robust};
+use super::likelihood::{Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
 use super::model::{Model, Observation};
 use super::profile::Fitted;
 use super::trajectory::sort;
@@ -104,10 +104,17 @@ struct Shape {
     slope: f64,
 }
 
+/// 95 % of a normal distribution are within so many deviations.
+pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
+
 fn shape(noise: NoiseKind) -> Shape {
     match noise {
-        // 1.96 · φ(1.96).
-        NoiseKind::Normal => Shape { end: 1.959_963_984_540_054, kurtosis: 3.0, slope: 0.114_55 },
+        // With c its end: c · φ(c).
+        NoiseKind::Normal => Shape {
+            end: NORMAL_95,
+            kurtosis: 3.0,
+            slope: NORMAL_95 * libm::exp(-0.5 * NORMAL_95 * NORMAL_95) / ROOT_TAU,
+        },
         // √6 (1 − √0.05); with u = √0.05, the density there is 2u/√6 on both sides, half of it for the root of the variance.
         NoiseKind::Triangular => {
             let rest = 0.05f64.sqrt();
@@ -129,7 +136,7 @@ pub struct Judged {
 
 impl Judged {
     pub(super) fn all(evidence: &Evidence, at: &Parameters, observations: &[Observation]) -> Vec<Self> {
-        let judged = |(leg, observation): (super::likelihood::LegDensity, &Observation)| {
+        let judged = |(leg, observation): (LegDensity, &Observation)| {
             let deviations = leg.variances.map(|variance| variance.map_or(f64::NAN, f64::sqrt));
             let of = Self { deviations, squared_error: 0.0, bad: leg.bad };
             let squared_error =
@@ -209,8 +216,9 @@ impl Halves {
         let Shape { kurtosis, slope, .. } = shape(self.noise);
         // Of the variances that the α's make, by the fit.
         let of_fit = (kurtosis - 1.0) / seen;
-        let about =
-            |middle: f64, variance: f64| [-1.0, 1.0].map(|side| middle + side * 1.96 * f64::sqrt(variance));
+        let about = |middle: f64, variance: f64| {
+            [-1.0, 1.0].map(|side| middle + side * NORMAL_95 * f64::sqrt(variance))
+        };
         HeldOut {
             count: standardized.len(),
             coverage: self.coverage(&standardized),
@@ -291,7 +299,7 @@ fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) ->
         count,
         kurtosis: mean(4) / (square * square),
         autocorrelation: pairs().sum::<f64>() / neighbouring / square,
-        autocorrelation_limit: 1.96 / neighbouring.sqrt(),
+        autocorrelation_limit: NORMAL_95 / neighbouring.sqrt(),
         quantiles: if count > 0 { (1..100).map(|i| at(f64::from(i) / 100.0)).collect() } else { Vec::new() },
     }
 }

@@ -20,7 +20,11 @@ pub enum LegLength {
 
 impl LegLength {
     /// The defaults of AMCL in Navigation2.
-    pub const AMCL: Self = Self::Moved { distance: 0.25, angle: 0.2 };
+    pub const AMCL: Self = Self::Moved { distance: Self::AMCL_DISTANCE, angle: Self::AMCL_ANGLE };
+    /// `update_min_d`, m.
+    pub const AMCL_DISTANCE: f64 = 0.25;
+    /// `update_min_a`, rad.
+    pub const AMCL_ANGLE: f64 = 0.2;
 
     fn ends(&self, time: f64, reading: &SE2, began: (f64, SE2)) -> bool {
         let (start_time, start) = began;

@@ -242,7 +242,7 @@ impl Evidence {
 }
 
 /// √(2π).
-const ROOT_TAU: f64 = 2.506_628_274_631_000_5;
+pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_5;
 
 /// A residual's square is far from the rest beyond this many medians of them: of a normal distribution one in 25,000 is, of a
 /// mixture of straight legs and turns a few in a hundred are.

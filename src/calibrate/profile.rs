@@ -39,19 +39,7 @@ const WIDER: usize = 6;
 /// Fits the α's of a model to what its legs say.
 pub fn fit(evidence: &Evidence, count: usize, robust: Robust) -> Estimate {
     let fitted = Fitted::new(evidence, count, robust, None);
-    let mut estimate = Estimate {
-        alphas: vec![f64::NAN; count],
-        intervals: vec![None; count],
-        log_likelihood: fitted.slope.log_likelihood,
-        outliers: fitted.best.bad.map(|bad| bad.share),
-    };
-    for &alpha in &fitted.free {
-        if let Some(interval) = fitted.interval(alpha) {
-            estimate.alphas[alpha] = fitted.best.alphas[alpha];
-            estimate.intervals[alpha] = Some(interval);
-        }
-    }
-    estimate
+    fitted.estimate((0..count).map(|alpha| fitted.interval(alpha)).collect())
 }
 
 /// The maximum of a likelihood.
@@ -77,8 +65,24 @@ impl<'a> Fitted<'a> {
         Self { evidence, best, slope, free }
     }
 
+    /// What is told of it, with the intervals of its α's.
+    pub fn estimate(&self, intervals: Vec<Option<[f64; 2]>>) -> Estimate {
+        let told = |(alpha, interval): (usize, &Option<[f64; 2]>)| {
+            interval.map_or(f64::NAN, |_| self.best.alphas[alpha])
+        };
+        Estimate {
+            alphas: intervals.iter().enumerate().map(told).collect(),
+            intervals,
+            log_likelihood: self.slope.log_likelihood,
+            outliers: self.best.bad.map(|bad| bad.share),
+        }
+    }
+
     /// The 95 % interval of an α; none where the log does not determine it.
     pub fn interval(&self, alpha: usize) -> Option<[f64; 2]> {
+        if !self.free.contains(&alpha) {
+            return None;
+        }
         let profile = Profile { fitted: self, alpha };
         let interval = [profile.lower(), profile.upper()];
         (interval[0] > 0.0 || interval[1] <= ANYTHING).then_some(interval)

@@ -48,10 +48,10 @@ impl Error {
     /// log, and none smaller is hidden by leaving it alone.
     pub(super) fn largest_deviation(self) -> f64 {
         match self {
-            Self::ClockOffset => 0.5,
-            Self::MountYaw => 0.2,
-            Self::LeverArmAhead | Self::LeverArmLeft => 0.5,
-            Self::DistanceScale | Self::TurnScale => 0.1,
+            Self::ClockOffset => 0.25,
+            Self::MountYaw => 0.1,
+            Self::LeverArmAhead | Self::LeverArmLeft => 0.25,
+            Self::DistanceScale | Self::TurnScale => 0.05,
         }
     }
 }
@@ -238,8 +238,7 @@ impl LeastSquares {
                     (i, swept[i][i] * Error::ALL[i].largest_deviation() * Error::ALL[i].largest_deviation())
                 })
                 .max_by(|a, b| a.1.total_cmp(&b.1));
-            // Each that comes later makes those before it less certain: half of what is allowed leaves room.
-            let Some((pivot, _)) = next.filter(|(_, known)| *known > 4.0) else { break };
+            let Some((pivot, _)) = next.filter(|(_, known)| *known > 1.0) else { break };
             chosen[pivot] = true;
             sweep(&mut swept, pivot);
         }

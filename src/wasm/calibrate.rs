@@ -234,9 +234,6 @@ fn legs(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let [distance, angle, duration] = ["distance", "angle", "duration"]
         .map(|key| fields.optional(key, |path, value| in_range(path, value, &LEG)));
     let (distance, angle) = (distance?, angle?);
-    let LegLength::Moved { distance: usual_distance, angle: usual_angle } = LegLength::AMCL else {
-        unreachable!("AMCL's are by distance")
-    };
     match duration? {
         Some(_) if distance.is_some() || angle.is_some() => {
             let message = "legs.duration is given beside a distance or an angle; allowed is one of the two";
@@ -244,8 +241,8 @@ fn legs(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
         }
         Some(duration) => Ok(LegLength::Lasted { duration }),
         None => Ok(LegLength::Moved {
-            distance: distance.unwrap_or(usual_distance),
-            angle: angle.unwrap_or(usual_angle),
+            distance: distance.unwrap_or(LegLength::AMCL_DISTANCE),
+            angle: angle.unwrap_or(LegLength::AMCL_ANGLE),
         }),
     }
 }

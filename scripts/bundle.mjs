@@ -3,6 +3,7 @@
 import { createHash } from 'node:crypto';
 import { appendFileSync, chmodSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
+import { keptTillThen } from '../www/figure/page/room.js';
 import * as declared from '../www/settings.js';
 import { widgets } from './declarations.mjs';
 import { licences, packagesOf } from './licences.mjs';
@@ -178,7 +179,7 @@ export async function bundle(changed = (_, script) => script) {
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
   // Before and after: a page that takes all margins away takes this too.
-  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${await heights()}\n`);
+  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${keptTillThen(await rooms())}\n`);
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
@@ -242,31 +243,14 @@ async function chunks() {
     '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
     `export const widgets = {\n${loaders.join('')}};\n\n` +
     `export const vocabularies = ${JSON.stringify(modules.map(({ vocabulary }) => vocabulary))};\n\n` +
-    `export const heights = ${JSON.stringify((await heights()).replaceAll('\n', ''))};\n`
+    `/** @type {Record<string, import('../www/figure/page/reserve.js').Room>} */\nexport const rooms = ${JSON.stringify(await rooms())};\n`
   );
 }
 
-/**
- * The heights of the elements before their script is there. Where scripts are off, nothing is to come, and what stands
- * between the tags is shown.
- */
-async function heights() {
-  const { highScreen, roomLength } = await import('../www/figure/page/reserve.js');
-  const { likedWidth } = await import('../www/ui/theme.js');
-  const waiting = (/** @type {string | string[]} */ tags) => `:is(${tags}):not(:defined)`;
-  const rooms = WIDGETS.map(async (tag) => {
-    const { room } = await import(`../www/widgets/${tag}/settings.js`);
-    return `${waiting(tag)}::before{padding-top:${roomLength(room, '%')}}`;
-  });
-  return [
-    '@media (scripting:enabled){',
-    `${waiting(WIDGETS)}{display:block;position:relative;min-width:0;max-width:100%}`,
-    `${waiting(WIDGETS)}::before{${likedWidth}}`,
-    `${waiting(WIDGETS)}>:not([slot]){position:absolute;top:0;margin:0}`,
-    ...(await Promise.all(rooms)),
-    highScreen(waiting(WIDGETS)),
-    '}',
-  ].join('\n');
+/** @returns {Promise<Record<string, import('../www/figure/page/reserve.js').Room>>} what each figure takes, by its tag */
+async function rooms() {
+  const modules = await Promise.all(WIDGETS.map((tag) => import(`../www/widgets/${tag}/settings.js`)));
+  return Object.fromEntries(WIDGETS.map((tag, i) => [tag, modules[i].room]));
 }
 
 /** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */

@@ -9,7 +9,7 @@ import { ROOT, runAsScript } from './process.mjs';
 /** @typedef {Awaited<ReturnType<typeof import('../www/core.js').load>>} Motion */
 
 /** What the logs were made with. */
-export const TRUTH = { alphas: [0.03, 0.008, 0.006, 0.004], mountYaw: 0.03, clockOffset: 0.12, distanceScale: 1.01 };
+export const TRUTH = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03, clockOffset: 0.12, distanceScale: 1.01 };
 
 /** How AMCL cuts legs, in metres along either axis and in radians. */
 export const LEGS = { distance: 0.25, angle: 0.2 };
@@ -17,8 +17,14 @@ export const LEGS = { distance: 0.25, angle: 0.2 };
 /** Seconds at which the drive begins, that it takes, between two steps of it, and between two rows of a log. */
 const [START, DURATION, STEP, ROW] = [10, 225, 0.005, 0.05];
 
-/** The reference goes on for so long before and after, and has its rows a little later than the odometry. */
-const [AROUND, LATE] = [1, 0.015];
+/**
+ * The reference goes on for so long before and after. But for the clocks it has its rows when the odometry does: a turn of a
+ * leg takes five rows, and what lies between two of them would be known to some hundredths of its error.
+ */
+const AROUND = 1;
+
+/** Of the noise of the log that comes with the package. */
+const SEED = 1;
 
 /** m/s² and rad/s²: what the robot's speeds change by at most. */
 const CHANGES = { v: 0.8, omega: 2 };
@@ -85,9 +91,10 @@ function endsOf(rows) {
  *
  * @param {Motion} motion
  * @param {Pose[]} told every STEP seconds
+ * @param {number} seed of the first leg's noise; each leg has the next one
  * @returns {Pose[]} every STEP seconds
  */
-function real(motion, told) {
+function real(motion, told, seed) {
   const { se2 } = motion;
   const every = Math.round(ROW / STEP);
   const rows = told.filter((_, i) => i % every === 0).map(rounded);
@@ -101,7 +108,7 @@ function real(motion, told) {
     const [from, to] = [ends[leg - 1] * every, end * every];
     const [start, goal] = [ends[leg - 1], end].map((row) => scaled(posed(rows[row])));
     const began = truth[from];
-    const [x, y, theta] = model.sample(motion.decompose(start, goal), began, 1, leg);
+    const [x, y, theta] = model.sample(motion.decompose(start, goal), began, 1, seed + leg);
     const motionTo = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(start), pose);
     const error = se2.boxminus(se2.compose(se2.inverse(began), { x, y, theta }), motionTo(goal));
     for (let i = from + 1; i <= to; i++) {
@@ -116,11 +123,12 @@ function real(motion, told) {
 
 /**
  * @param {Motion} motion
+ * @param {number} [seed]
  * @returns {{ odometry: string, reference: string }} CSV
  */
-export function exampleLog(motion) {
+export function exampleLog(motion, seed = SEED) {
   const told = driven(motion);
-  const truth = real(motion, told);
+  const truth = real(motion, told, seed);
   const after = (/** @type {number} */ seconds) => Math.round(seconds / STEP);
   const line = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...rounded(pose)].join(',')}\n`;
   const table = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
@@ -129,7 +137,7 @@ export function exampleLog(motion) {
   // The last leg is not complete: nobody knows what the model makes of it.
   const last = truth.length - 1;
   for (let i = 0; i <= last; i += after(ROW)) odometry.push(line(START + i * STEP, told[i]));
-  for (let i = after(LATE - AROUND); i <= last + after(AROUND); i += after(ROW)) {
+  for (let i = -after(AROUND); i <= last + after(AROUND); i += after(ROW)) {
     const pose = truth[Math.max(0, Math.min(i, last))];
     reference.push(line(START + i * STEP + TRUTH.clockOffset, motion.se2.compose(pose, mount)));
   }

@@ -11,7 +11,7 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, Unknown,
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, Unknown, read_pgm,
 };
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -399,6 +399,80 @@ fn a_place_is_found_where_there_is_one() {
         }
     }
     assert!(found > 300 && none > 100, "{found} {none}");
+}
+
+/// The robot is put in the middle of the largest square of free cells: of several, of that whose upper right corner is the first.
+#[test]
+fn the_largest_free_square_is_found() {
+    let mut rng = seeded(27_184);
+    for round in 0..3000 {
+        let [width, height] = [0, 1].map(|_| 1 + (rng.next_u32() % 40) as usize);
+        // From a few marks on open ground to as many as there are free cells; in stripes, whole parts of rows are alike.
+        let share = [0.003, 0.03, 0.2, 0.5][round % 4];
+        let mut cells = vec![Cell::Free; width * height];
+        for row in cells.chunks_mut(width) {
+            let stripe = if uniform(&mut rng, 0.0, 1.0) < share { width / 2 } else { 0 };
+            for (column, cell) in row.iter_mut().enumerate() {
+                let kind = if rng.next_u32().is_multiple_of(2) { Cell::Occupied } else { Cell::Unknown };
+                if column < stripe || uniform(&mut rng, 0.0, 1.0) < share {
+                    *cell = kind;
+                }
+            }
+        }
+        let shade = |cell: &Cell| match cell {
+            Cell::Free => 1.0,
+            Cell::Occupied => 0.0,
+            Cell::Unknown => 0.5,
+        };
+        let pixels: Vec<_> = cells
+            .chunks(width)
+            .rev()
+            .flatten()
+            .map(|cell| Pixel { shade: shade(cell), opacity: 1.0 })
+            .collect();
+        let grid = OccupancyGrid::new(&Image { width, height, pixels }, &TRINARY, 1.0, SE2::identity());
+        assert!(grid.cells().eq(cells.iter().copied()), "cells are those of their pixels");
+
+        let (mut largest, mut middle) = (0, None);
+        let mut sizes = vec![vec![0; width + 1]; height + 1];
+        for row in 0..height {
+            for column in 0..width {
+                if cells[row * width + column] == Cell::Free {
+                    let (below, left) = (sizes[row][column + 1], sizes[row + 1][column]);
+                    sizes[row + 1][column + 1] = 1 + sizes[row][column].min(below).min(left);
+                }
+                let size = sizes[row + 1][column + 1];
+                if size > largest {
+                    let half = 0.5 * f64::from(size);
+                    (largest, middle) = (size, Some([column as f64 + 1.0 - half, row as f64 + 1.0 - half]));
+                }
+            }
+        }
+        let Some(middle) = middle else { continue };
+        let plan = FloorPlan::from_grid(grid).expect("a small grid");
+        let place = plan.open_place(0.1).expect("a free cell");
+        assert_eq!([place.x(), place.y()], middle);
+    }
+}
+
+/// Shades that have a byte in common are told apart.
+#[test]
+fn shades_of_two_bytes_are_cells() {
+    let mut rng = seeded(27_185);
+    let (width, height) = (37, 300);
+    let values: Vec<u16> =
+        (0..width * height).map(|_| (rng.next_u32() % 256 * 256 + rng.next_u32() % 3) as u16).collect();
+    let mut file = format!("P5 {width} {height} 65535\n").into_bytes();
+    file.extend(values.iter().flat_map(|value| value.to_be_bytes()));
+    let image = read_pgm(&file).expect("an image");
+    let grid = OccupancyGrid::new(&image, &TRINARY, 0.05, SE2::identity());
+    let shade = |value: &u16| f32::from(*value) / 65535.0;
+    let expected = values
+        .chunks(width)
+        .rev()
+        .flatten()
+        .map(|value| TRINARY.cell(Pixel { shade: shade(value), opacity: 1.0 }));
+    assert!(grid.cells().eq(expected));
 }
 
 /// Where nothing is known to be free, the robot is put into the first cell, row by row from the bottom, in whose middle it fits.

@@ -4,6 +4,11 @@
 import { load } from './core.js';
 import { run } from './cli/run.js';
 
+// Whoever reads it may have seen enough, as `head` has.
+process.stdout.on('error', (error) => {
+  if (/** @type {NodeJS.ErrnoException} */ (error).code !== 'EPIPE') throw error;
+});
+
 process.exitCode = await run(process.argv.slice(2), {
   load,
   print: (text) => process.stdout.write(text),

@@ -3,8 +3,9 @@
  * loaded when its tag is met: in the document, or in an open shadow root.
  */
 
-import { heights, vocabularies, widgets } from '../build/widgets.js';
+import { rooms, vocabularies, widgets } from '../build/widgets.js';
 import { expected } from './core.js';
+import { keptTillThen } from './figure/page/room.js';
 import { en } from './messages/en.js';
 import { addEnglish } from './messages/registry.js';
 
@@ -59,7 +60,7 @@ function watch(root) {
 if (observer) {
   // Nothing is to move when they come.
   const sheet = new CSSStyleSheet();
-  sheet.replaceSync(heights);
+  sheet.replaceSync(keptTillThen(rooms));
   document.adoptedStyleSheets.push(sheet);
   watch(document);
 }

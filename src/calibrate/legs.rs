@@ -6,6 +6,7 @@
 
 use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
+use nalgebra::Vector3;
 
 /// When a leg ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +19,13 @@ pub enum LegLength {
 }
 
 impl LegLength {
+    /// The defaults of AMCL in Navigation2.
+    pub const AMCL: Self = Self::Moved { distance: Self::AMCL_DISTANCE, angle: Self::AMCL_ANGLE };
+    /// `update_min_d`, m.
+    pub const AMCL_DISTANCE: f64 = 0.25;
+    /// `update_min_a`, rad.
+    pub const AMCL_ANGLE: f64 = 0.2;
+
     fn ends(&self, time: f64, reading: &SE2, began: (f64, SE2)) -> bool {
         let (start_time, start) = began;
         match *self {
@@ -35,40 +43,51 @@ impl LegLength {
 /// A motion: what the wheels said of it, and what it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
-    /// Beginning and end, s.
+    /// Beginning and end by the clock of the odometry, s.
     pub times: [f64; 2],
     /// Both ends in the odometry frame.
     pub odometry: [SE2; 2],
+    /// Velocities by the odometry at both ends: m/s ahead and to the left, rad/s.
+    pub velocities: [Vector3<f64>; 2],
     /// Both ends in the reference’s.
     pub reference: [SE2; 2],
 }
 
-/// The legs of a log: one begins where the one before ended. None leads across a gap of either trajectory; the next one
-/// begins after it.
-pub fn cut(odometry: &Trajectory, reference: &Trajectory, length: LegLength) -> Vec<Leg> {
+impl Leg {
+    /// s.
+    pub fn duration(&self) -> f64 {
+        self.times[1] - self.times[0]
+    }
+}
+
+/// The legs of a log: one begins where the one before ended. Where a leg of the odometry led across a gap of either trajectory,
+/// or beyond an end of the reference, it is left out.
+///
+/// `clock_offset` (s) is how far the reference's clock is ahead of the odometry's.
+pub fn cut(odometry: &Trajectory, reference: &Trajectory, length: LegLength, clock_offset: f64) -> Vec<Leg> {
     let mut legs = Vec::new();
-    let mut began: Option<(f64, SE2, SE2)> = None;
-    let mut last = f64::NEG_INFINITY;
-    for (time, reading) in odometry.samples() {
-        let truth = reference.pose_at(time);
-        let gap = last.is_finite() && (odometry.has_gap(last, time) || reference.has_gap(last, time));
-        last = time;
-        let Some(truth) = truth else {
-            began = None;
+    let mut began: Option<(usize, f64, SE2)> = None;
+    for (sample, (time, reading)) in odometry.samples().enumerate() {
+        let Some((first, start_time, start)) = began.filter(|_| !odometry.pauses_before(sample)) else {
+            began = Some((sample, time, reading));
             continue;
         };
-        let Some((start_time, start, start_truth)) = began.filter(|_| !gap) else {
-            began = Some((time, reading, truth));
+        if !length.ends(time, &reading, (start_time, start)) {
             continue;
-        };
-        if length.ends(time, &reading, (start_time, start)) {
-            legs.push(Leg {
-                times: [start_time, time],
-                odometry: [start, reading],
-                reference: [start_truth, truth],
-            });
-            began = Some((time, reading, truth));
         }
+        began = Some((sample, time, reading));
+        let times = [start_time, time];
+        let [from, to] = times.map(|time| time + clock_offset);
+        if reference.has_gap(from, to) {
+            continue;
+        }
+        let Some((start_truth, truth)) = reference.pose_at(from).zip(reference.pose_at(to)) else { continue };
+        legs.push(Leg {
+            times,
+            odometry: [start, reading],
+            velocities: [first, sample].map(|each| odometry.velocity(each)),
+            reference: [start_truth, truth],
+        });
     }
     legs
 }

@@ -1,17 +1,27 @@
 //! The α's of a robot, from a log: what its wheels said, and where it really went.
 //!
-//! A log is cut into [`Leg`]s, as long as those of the filter that is to use the α's; each leg gives residuals whose
-//! variances are linear in the α's ([`Component`]); and the α's are those under which the residuals are likeliest, with
-//! intervals from the profile of the likelihood ([`fit`]).
+//! [`calibrate`] does it all, [`Calibrating`] in steps. A log is two [`Trajectory`]s. It is cut into [`Leg`]s as long as those of the
+//! filter that is to use the α's; each leg gives an [`Observation`], residuals whose variances are linear in the α's; what is
+//! [`Systematic`] is found by least squares, and the α's are those under which the residuals are likeliest. `doc/calibration.md`
+//! has the formulas.
 
+mod bootstrap;
+mod calibration;
+mod clock;
+mod density;
+mod doubts;
 mod legs;
 mod likelihood;
+mod model;
 mod profile;
-mod residuals;
+mod systematic;
 mod trajectory;
 
+pub use calibration::{CalibrateError, Calibrating, Calibration, FEWEST, Options, ReferenceError, calibrate};
+pub use doubts::{Doubts, HeldOut, Inflation, Judged, KindDoubts, Verdict};
 pub use legs::{Leg, LegLength, cut};
-pub use likelihood::{Component, Residual};
+pub use likelihood::{Evidence, Robust};
+pub use model::{Kind, Model, Observation, Uncertainty};
 pub use profile::{Estimate, fit};
-pub use residuals::residuals;
+pub use systematic::{ERRORS, Error, Systematic, Which};
 pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};

@@ -1,17 +1,19 @@
 //! The likeliest α's, and how well they are known.
 
-use super::likelihood::{Alphas, Component, Slope, beginning, maximize};
+use super::likelihood::{self, Evidence, Parameters, Robust, Slope, maximize};
 
 /// What the residuals say of the α's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// The likeliest ones; NaN of an α of which no residual says anything.
+    /// The likeliest ones; NaN of an α that the log does not determine.
     pub alphas: Vec<f64>,
-    /// Of each the 95 % interval: all values that some choice of the others makes likely enough, as Wilks has it. None of an α of
-    /// which no residual says anything.
+    /// Of each the 95 % interval: all values that some choice of the others makes likely enough, as Wilks has it. None of an α that the log
+    /// does not determine.
     pub intervals: Vec<Option<[f64; 2]>>,
-    /// nats.
+    /// Of the residuals, nats.
     pub log_likelihood: f64,
+    /// The share of bad legs; None where none is taken for bad.
+    pub outliers: Option<f64>,
 }
 
 /// By how much the log-likelihood falls towards the ends of a 95 % interval, twice: the 95 % quantile of χ² with one degree
@@ -24,79 +26,120 @@ const NEAR: f64 = 1e-3;
 /// Steps to an end; each is a fit of the others. Where the likelihood is about a parabola three do.
 const STEPS: usize = 40;
 
-/// Fits α's (as many as `count`, at most six) to residuals.
-pub fn fit(components: &[Component], count: usize) -> Estimate {
-    let mut estimate =
-        Estimate { alphas: vec![f64::NAN; count], intervals: vec![None; count], log_likelihood: 0.0 };
-    for group in groups(components) {
-        let mut free: Vec<usize> = group.iter().flat_map(|component| component.alphas).collect();
-        free.sort_unstable();
-        free.dedup();
-        let start = beginning(&group);
-        free.retain(|k| start[*k] > 0.0);
-        let (best, slope) = maximize(&group, start, &free);
-        estimate.log_likelihood += slope.log_likelihood;
-        for &k in &free {
-            let profile = Profile { components: &group, free: &free, best, slope, alpha: k };
-            estimate.alphas[k] = best[k];
-            estimate.intervals[k] = Some([profile.lower(), profile.upper()]);
+/// An α of 1 is an error as large as what drives it, or of a radian a metre: who cannot say whether it is nothing or that knows
+/// nothing of it.
+const ANYTHING: f64 = 1.0;
+
+/// From where the parabola has the others two or three are usual.
+const OTHERS_STEPS: usize = 30;
+
+/// 1.5⁶ is 11.
+const WIDER: usize = 6;
+
+/// Fits the α's of a model to what its legs say.
+pub fn fit(evidence: &Evidence, count: usize, robust: Robust) -> Estimate {
+    let fitted = Fitted::new(evidence, count, robust, None);
+    fitted.estimate((0..count).map(|alpha| fitted.interval(alpha)).collect())
+}
+
+/// The maximum of a likelihood.
+#[derive(Clone, Debug)]
+pub(super) struct Fitted<'a> {
+    pub evidence: &'a Evidence,
+    pub best: Parameters,
+    pub slope: Slope,
+    /// The α's of which some residual says anything.
+    pub free: Vec<usize>,
+}
+
+impl<'a> Fitted<'a> {
+    /// The maximum, from where another one was if that is known.
+    pub fn new(evidence: &'a Evidence, count: usize, robust: Robust, near: Option<&Parameters>) -> Self {
+        let start = evidence.beginning(robust);
+        let free: Vec<usize> = (0..count).filter(|k| start.alphas[*k] > 0.0).collect();
+        let start = match near {
+            Some(near) if evidence.slope(near).log_likelihood.is_finite() => *near,
+            _ => start,
+        };
+        let (best, slope) = maximize(evidence, start, &free, robust, likelihood::STEPS);
+        Self { evidence, best, slope, free }
+    }
+
+    /// What is told of it, with the intervals of its α's.
+    pub fn estimate(&self, intervals: Vec<Option<[f64; 2]>>) -> Estimate {
+        let told = |(alpha, interval): (usize, &Option<[f64; 2]>)| {
+            interval.map_or(f64::NAN, |_| self.best.alphas[alpha])
+        };
+        Estimate {
+            alphas: intervals.iter().enumerate().map(told).collect(),
+            intervals,
+            log_likelihood: self.slope.log_likelihood,
+            outliers: self.best.bad.map(|bad| bad.share),
         }
     }
-    estimate
-}
 
-/// Components in sets that have no α in common: what is far from one does not move the other.
-fn groups(components: &[Component]) -> Vec<Vec<Component>> {
-    let mut groups: Vec<Vec<Component>> = Vec::new();
-    for component in components.iter().filter(|component| !component.residuals.is_empty()) {
-        let meets = |group: &Vec<Component>| {
-            group.iter().any(|other| other.alphas.iter().any(|alpha| component.alphas.contains(alpha)))
-        };
-        let mut joined = vec![component.clone()];
-        groups.extract_if(.., |group| meets(group)).for_each(|group| joined.extend(group));
-        groups.push(joined);
+    /// The 95 % interval of an α; none where the log does not determine it.
+    pub fn interval(&self, alpha: usize) -> Option<[f64; 2]> {
+        if !self.free.contains(&alpha) {
+            return None;
+        }
+        let profile = Profile { fitted: self, alpha };
+        let interval = [profile.lower(), profile.upper()];
+        (interval[0] > 0.0 || interval[1] <= ANYTHING).then_some(interval)
     }
-    groups
 }
 
-/// The likelihood of one α, the others being the likeliest beside it.
+/// The likelihood of one α, the others being the likeliest beside it, and as many legs bad as at the maximum.
 struct Profile<'a> {
-    components: &'a [Component],
-    free: &'a [usize],
-    best: Alphas,
-    slope: Slope,
+    fitted: &'a Fitted<'a>,
     alpha: usize,
 }
 
 impl Profile<'_> {
-    /// Twice the fall of the log-likelihood at a value, and the others there.
-    fn fall(&self, value: f64, near: &Alphas) -> (f64, Alphas) {
-        let mut start = *near;
-        start[self.alpha] = value;
-        let others: Vec<usize> = self.free.iter().copied().filter(|k| *k != self.alpha).collect();
-        // An α that has gone to 0 has to answer for something again where this one answers for less.
+    /// Twice the fall of the log-likelihood at a value.
+    fn fall(&self, value: f64) -> f64 {
+        let Fitted { evidence, best, slope, free } = self.fitted;
+        let others: Vec<usize> = free.iter().copied().filter(|k| *k != self.alpha).collect();
+        // Where the parabola has the others, which have to answer for something where this one answers for less.
+        let mut alphas = best.alphas;
+        alphas[self.alpha] = value;
+        alphas = slope.maximum(&slope.gradient, &best.alphas, alphas, &others);
         for k in &others {
-            start[*k] = start[*k].max(1e-3 * self.best[self.alpha]);
+            alphas[*k] = alphas[*k].max(1e-3 * best.alphas[self.alpha]);
         }
-        let (at, slope) = maximize(self.components, start, &others);
-        (2.0 * (self.slope.log_likelihood - slope.log_likelihood), at)
+        // Where a residual is outside of its triangle, the others have to be larger first; ten times as large is out of the question.
+        for _ in 0..WIDER {
+            if evidence.slope(&Parameters { alphas, ..*best }).log_likelihood.is_finite() {
+                break;
+            }
+            others.iter().for_each(|k| alphas[*k] *= 1.5);
+        }
+        let (_, there) =
+            maximize(evidence, Parameters { alphas, ..*best }, &others, Robust::No, OTHERS_STEPS);
+        2.0 * (slope.log_likelihood - there.log_likelihood)
     }
 
     fn lower(&self) -> f64 {
-        let best = self.best[self.alpha];
-        if best == 0.0 || self.fall(0.0, &self.best).0 <= FALL {
-            return 0.0;
+        let best = self.fitted.best.alphas[self.alpha];
+        let mut far = best - self.reach();
+        for _ in 0..STEPS {
+            if far.is_nan() || far <= 0.0 {
+                break;
+            }
+            if self.fall(far) > FALL {
+                return self.end(far);
+            }
+            far = best - 2.0 * (best - far);
         }
-        self.end(0.0)
+        if best == 0.0 || self.fall(0.0) <= FALL { 0.0 } else { self.end(0.0) }
     }
 
     fn upper(&self) -> f64 {
-        let best = self.best[self.alpha];
-        let deviation = self.slope.information_of(self.alpha, self.free).sqrt().recip();
+        let best = self.fitted.best.alphas[self.alpha];
+        let mut far = best + self.reach();
         // Twice as far, until it falls enough.
-        let mut far = best + 2.0 * if deviation.is_finite() { deviation } else { best };
         for _ in 0..STEPS {
-            if self.fall(far, &self.best).0 > FALL {
+            if self.fall(far) > FALL {
                 return self.end(far);
             }
             far = best + 2.0 * (far - best);
@@ -104,22 +147,26 @@ impl Profile<'_> {
         f64::INFINITY
     }
 
+    /// Where the end would be, were the likelihood a parabola, and a little more.
+    fn reach(&self) -> f64 {
+        let Fitted { best, slope, free, .. } = self.fitted;
+        let deviation = slope.information_of(self.alpha, free).sqrt().recip();
+        2.2 * if deviation.is_finite() { deviation } else { best.alphas[self.alpha] }
+    }
+
     /// Where it falls as far as at the end of the interval, between the best value and one that is too far. The root of the
     /// fall is nearly linear, on which a false position finds it soon.
     fn end(&self, far: f64) -> f64 {
         let height = FALL.sqrt();
-        let root = |value: f64, near: &Alphas| {
-            let (fall, at) = self.fall(value, near);
-            (fall.max(0.0).sqrt(), at)
-        };
-        let (mut inside, mut low) = (self.best[self.alpha], 0.0);
-        let (mut outside, (mut high, mut near)) = (far, root(far, &self.best));
+        let root = |value: f64| self.fall(value).max(0.0).sqrt();
+        let (mut inside, mut low) = (self.fitted.best.alphas[self.alpha], 0.0);
+        let (mut outside, mut high) = (far, root(far));
         let mut value = far;
         for step in 0..STEPS {
             // Every third step halves, so that no end stays for good.
             let share = if !high.is_finite() || step % 3 == 2 { 0.5 } else { (height - low) / (high - low) };
             value = inside + share * (outside - inside);
-            let (here, at) = root(value, &near);
+            let here = root(value);
             if ((here - height) / height).abs() < NEAR {
                 break;
             }
@@ -128,7 +175,6 @@ impl Profile<'_> {
             } else {
                 (inside, low) = (value, here);
             }
-            near = at;
         }
         value
     }

@@ -1,6 +1,7 @@
 //! Poses with times, as a log has them.
 
-use crate::geom::se2::SE2;
+use crate::geom::se2::{SE2, wrap_angle};
+use nalgebra::Vector3;
 use std::fmt;
 
 /// Poses in one fixed frame, in the order of their times.
@@ -74,15 +75,75 @@ impl Trajectory {
             poses.push(pose);
         }
         let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = steps.len() / 2;
-        let usual =
-            if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        sort(&mut steps);
+        let usual = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
         Ok(Self { times, poses, longest_gap: STEPS_OF_A_GAP * usual })
+    }
+
+    /// Where commands lead from the origin, each (a time in s, v in m/s, ω in rad/s) held until the next one.
+    ///
+    /// # Errors
+    /// [`TrajectoryError`] at the first that is not finite or not later than the one before.
+    pub fn from_commands(
+        commands: impl IntoIterator<Item = (f64, f64, f64)>,
+    ) -> Result<Self, TrajectoryError> {
+        let (mut pose, mut held) = (SE2::identity(), None::<(f64, f64, f64)>);
+        Self::new(commands.into_iter().map(|(time, v, omega)| {
+            if let Some((since, v, omega)) = held {
+                let dt = time - since;
+                pose = pose.boxplus(Vector3::new(v * dt, 0.0, omega * dt));
+            }
+            held = Some((time, v, omega));
+            // A last command that is not finite drives nowhere any more.
+            (if v.is_finite() && omega.is_finite() { time } else { f64::NAN }, pose)
+        }))
     }
 
     /// The samples: times (s) and poses.
     pub fn samples(&self) -> impl ExactSizeIterator<Item = (f64, SE2)> + '_ {
         self.times.iter().copied().zip(self.poses.iter().copied())
+    }
+
+    /// How often nothing is known of a while.
+    pub fn gaps(&self) -> usize {
+        self.times.windows(2).filter(|pair| pair[1] - pair[0] > self.longest_gap).count()
+    }
+
+    /// The times of its first and last sample, s. None of an empty one.
+    pub fn span(&self) -> Option<[f64; 2]> {
+        Some([*self.times.first()?, *self.times.last()?])
+    }
+
+    /// The usual time between two samples, s; 0 where there are none.
+    pub fn usual_step(&self) -> f64 {
+        self.longest_gap / STEPS_OF_A_GAP
+    }
+
+    /// By how much it has turned at each sample since the first, rad, not wrapped: as if no step turned by more than half a
+    /// circle.
+    pub(super) fn turned(&self) -> Vec<f64> {
+        let mut sum = 0.0;
+        let steps = self.poses.windows(2).map(|pair| {
+            sum += wrap_angle(pair[1].theta() - pair[0].theta());
+            sum
+        });
+        self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
+    }
+
+    /// Its velocity (m/s ahead and to the left, rad/s) at a sample: the mean over the steps before and after it.
+    pub(super) fn velocity(&self, sample: usize) -> Vector3<f64> {
+        let from = if sample > 0 && !self.pauses_before(sample) { sample - 1 } else { sample };
+        let next = sample + 1;
+        let to = if next < self.times.len() && !self.pauses_before(next) { next } else { sample };
+        if from == to {
+            return Vector3::zeros();
+        }
+        self.poses[to].boxminus(&self.poses[from]) / (self.times[to] - self.times[from])
+    }
+
+    /// Whether there is a gap before this sample.
+    pub(super) fn pauses_before(&self, sample: usize) -> bool {
+        self.times[sample] - self.times[sample - 1] > self.longest_gap
     }
 
     /// Whether nothing is known of some time between these two (s).
@@ -112,4 +173,10 @@ impl Trajectory {
         let way = pose.boxminus(&self.poses[before]);
         (step <= self.longest_gap).then(|| self.poses[before].boxplus(way * share))
     }
+}
+
+/// In one place: sorting is long code.
+#[inline(never)]
+pub(super) fn sort(numbers: &mut [f64]) {
+    numbers.sort_unstable_by(f64::total_cmp);
 }

@@ -14,12 +14,7 @@ pub fn wrap_angle(angle: f64) -> f64 {
 
 #[inline(never)]
 fn wrap_far_angle(angle: f64) -> f64 {
-    let turned = angle % TAU;
-    if turned > PI {
-        turned - TAU
-    } else if turned <= -PI {
-        turned + TAU
-    } else {
-        turned
-    }
+    // By itself in [−π, π].
+    let turned = libm::remainder(angle, TAU);
+    if turned == -PI { PI } else { turned }
 }

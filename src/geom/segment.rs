@@ -53,7 +53,8 @@ impl Segment {
         let side = libm::hypot(along[0], along[1]);
         // Furthest from the line it is where it runs along it, the one way or the other.
         let bearing = libm::atan2(along[1], along[0]) - arc.start.theta();
-        let first = (bearing * arc.turn.signum()).rem_euclid(PI);
+        let turned = libm::remainder(bearing * arc.turn.signum(), PI);
+        let first = if turned < 0.0 { turned + PI } else { turned };
         [first, first + PI]
             .into_iter()
             .map(|turned| turned / arc.turn.abs())

@@ -180,8 +180,7 @@ impl FloorPlan {
 
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
     pub fn apartment() -> Self {
-        let walls = apartment::WALLS.map(|[x0, y0, x1, y1]| Segment { from: [x0, y0], to: [x1, y1] });
-        Self::new(walls.to_vec(), apartment::BOUNDS)
+        Self::new(apartment::WALLS.to_vec(), apartment::BOUNDS)
             .unwrap_or_else(|_| unreachable!("a constant that the tests build"))
     }
 

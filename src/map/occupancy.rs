@@ -3,7 +3,7 @@
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 /// How pixels become cells, as `map_server` reads its YAML file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,6 +76,18 @@ pub struct Pixel {
     pub opacity: f32,
 }
 
+/// A pixel as an image has it.
+pub trait Coded: Copy + PartialEq + Into<Pixel> {
+    /// A byte that most of those which differ have not in common.
+    fn byte(self) -> u8;
+}
+
+impl Coded for Pixel {
+    fn byte(self) -> u8 {
+        (self.shade * 255.0) as u8
+    }
+}
+
 impl Interpretation {
     pub fn cell(&self, pixel: Pixel) -> Cell {
         let Pixel { shade, opacity } = pixel;
@@ -102,6 +114,16 @@ pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
 /// Cells that are compared at once.
 const MANY: usize = size_of::<u128>();
 
+/// Each of them 1.
+const ONES: u128 = u128::from_ne_bytes([1; MANY]);
+
+/// Of the codes of many cells, a byte each: 1 where they are of this kind, and 0 elsewhere.
+fn marked(codes: u128, kind: Cell) -> u128 {
+    // Two codes differ in one of their two bits.
+    let differ = codes ^ (ONES * kind as u128);
+    ONES & !(differ | differ >> 1)
+}
+
 /// Square cells. The occupied ones are in a robot's way, and the unknown ones where one decides so.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
@@ -123,7 +145,7 @@ impl OccupancyGrid {
     /// unknown is free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
-    pub fn new<P: Copy + PartialEq + Into<Pixel>, Pixels: Clone + IntoIterator<Item = P>>(
+    pub fn new<P: Coded, Pixels: Clone + IntoIterator<Item = P>>(
         image: &Image<Pixels>,
         interpretation: &Interpretation,
         resolution: f64,
@@ -132,34 +154,40 @@ impl OccupancyGrid {
         let Image { width, height, ref pixels } = *image;
         let mut cells = vec![Cell::Free as u8; width * height];
         // Into cells at once: the pixels of a large image take several times their memory.
-        let mut fill = |four_colours: bool| {
+        let mut fill = |first: P, four_colours: bool| {
             let mut transparent = false;
-            let mut last = None;
-            let mut code = Cell::Free as u8;
-            let mut cells = cells.iter_mut();
-            pixels.clone().into_iter().for_each(|pixel| {
-                // Neighbours are alike, mostly.
-                if last != Some(pixel) {
-                    last = Some(pixel);
-                    let mut pixel = pixel.into();
-                    transparent |= pixel.opacity < 1.0;
-                    if four_colours {
-                        pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
-                    }
-                    code = interpretation.cell(pixel) as u8;
+            let mut code_of = |pixel: P| {
+                let mut pixel = pixel.into();
+                transparent |= pixel.opacity < 1.0;
+                if four_colours {
+                    pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
                 }
-                cells.next().into_iter().for_each(|cell| *cell = code);
+                interpretation.cell(pixel) as u8
+            };
+            // An image has few kinds of pixels: of each byte, the latest that has it.
+            let mut known = [(first, code_of(first)); 256];
+            // The first row of an image is its highest, the first of a grid its lowest.
+            let (mut at, mut left) = (cells.len().saturating_sub(width), width);
+            pixels.clone().into_iter().for_each(|pixel| {
+                let (like, code) = &mut known[usize::from(pixel.byte())];
+                if *like != pixel {
+                    (*like, *code) = (pixel, code_of(pixel));
+                }
+                if let Some(cell) = cells.get_mut(at) {
+                    *cell = *code;
+                }
+                (at, left) = (at + 1, left.wrapping_sub(1));
+                if left == 0 {
+                    (at, left) = (at.wrapping_sub(2 * width), width);
+                }
             });
             transparent
         };
-        if fill(false) && interpretation.mode == Mode::Trinary {
-            fill(true);
-        }
-        // The first row of an image is its highest, the first of a grid its lowest.
-        let (upper, lower) = cells.split_at_mut(height / 2 * width);
-        let width_or_one = width.max(1);
-        for (high, low) in upper.chunks_mut(width_or_one).zip(lower.rchunks_mut(width_or_one)) {
-            high.swap_with_slice(low);
+        if let Some(first) = pixels.clone().into_iter().next()
+            && fill(first, false)
+            && interpretation.mode == Mode::Trinary
+        {
+            fill(first, true);
         }
         let (to_local, unknown) = (Departure::new(origin.inverse()), Unknown::default());
         Self { width, height, resolution, origin, to_local, cells, unknown }
@@ -196,18 +224,12 @@ impl OccupancyGrid {
         let mut marks = Vec::new();
         marks.try_reserve_exact(self.cells.len()).ok()?;
         marks.extend_from_slice(&self.cells);
-        // Eight at a time: two codes differ in one of their two bits.
-        const ONES: u64 = u64::from_le_bytes([1; 8]);
-        let mark = |codes: u64| {
-            let differ = codes ^ (ONES * kind as u64);
-            ONES & !(differ | differ >> 1)
-        };
-        let (eights, rest) = marks.as_chunks_mut();
-        for codes in eights {
-            *codes = mark(u64::from_le_bytes(*codes)).to_le_bytes();
+        let (many, rest) = marks.as_chunks_mut();
+        for codes in many {
+            *codes = marked(u128::from_ne_bytes(*codes), kind).to_ne_bytes();
         }
         for code in rest {
-            *code = mark(u64::from(*code)) as u8;
+            *code = marked(u128::from(*code), kind) as u8;
         }
         Some(marks)
     }
@@ -217,6 +239,22 @@ impl OccupancyGrid {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
         let cell = || self.row(row as usize).get(column as usize);
         column >= 0.0 && row >= 0.0 && cell().is_some_and(|code| self.blocks(*code))
+    }
+
+    /// The columns in a row, counted from the bottom, of the cells that are not known to be free.
+    pub(super) fn not_free(&self, row: usize, mut see: impl FnMut(Range<usize>)) {
+        for (i, many) in self.row(row).chunks(MANY).enumerate() {
+            let first = MANY * i;
+            // Most are all of one kind.
+            match many.first_chunk().map(|codes| marked(u128::from_ne_bytes(*codes), Cell::Free)) {
+                Some(ONES) => (),
+                Some(0) => see(first..first + MANY),
+                _ => {
+                    let seen = many.iter().enumerate().filter(|(_, code)| **code != Cell::Free as u8);
+                    seen.for_each(|(i, _)| see(first + i..first + i + 1));
+                }
+            }
+        }
     }
 
     /// Whether a cell is known to be free, by its column, in a row counted from the bottom; cells off the grid are not.
@@ -262,6 +300,15 @@ impl OccupancyGrid {
         code == Cell::Occupied as u8 || (code == Cell::Unknown as u8 && self.unknown == Unknown::Blocked)
     }
 
+    /// [`OccupancyGrid::blocks`] of many, 1 in their bytes where it is so.
+    fn many_blocked(&self, codes: [u8; MANY]) -> u128 {
+        let codes = u128::from_ne_bytes(codes);
+        match self.unknown {
+            Unknown::Free => marked(codes, Cell::Occupied),
+            Unknown::Blocked => ONES & !marked(codes, Cell::Free),
+        }
+    }
+
     /// The cells of a row, counted from the bottom; none of a row off the grid.
     fn row(&self, row: usize) -> &[u8] {
         let from = row.saturating_mul(self.width).min(self.cells.len());
@@ -286,7 +333,7 @@ impl OccupancyGrid {
             while column <= self.width {
                 // Many cells that are as below them begin no outline and end none, nor does the line before them: outside of an
                 // outline along the rows, the cell there is as below it too.
-                let next = |cells: &[u8]| Some(u128::from_ne_bytes(*cells.get(column..)?.first_chunk()?));
+                let next = |cells: &[u8]| Some(self.many_blocked(*cells.get(column..)?.first_chunk()?));
                 if from.is_none() && next(here).is_some_and(|codes| next(below) == Some(codes)) {
                     column += MANY;
                     left = at(here, column - 1);

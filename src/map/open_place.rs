@@ -4,6 +4,7 @@ use super::floor_plan::{FloorPlan, rounding};
 use super::occupancy::OccupancyGrid;
 use crate::geom::se2::SE2;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Headings that are looked along: one in five degrees.
 const HEADINGS: u32 = 72;
@@ -86,23 +87,41 @@ impl<'a> Squares<'a> {
         }
     }
 
-    /// The middle of the largest square of free ones, in squares from the lower left corner; None where none is free.
+    /// The columns of a row whose squares are not known to be free.
+    fn not_free(&self, row: usize, mut see: impl FnMut(Range<usize>)) {
+        match self.grid() {
+            Some(grid) => grid.not_free(row, see),
+            None => {
+                let free = self.free(row);
+                let short = (0..self.columns).filter(|column| !free(*column));
+                short.for_each(|column| see(column..column + 1));
+            }
+        }
+    }
+
+    /// The middle of the largest square of free ones, in squares from the lower left corner; None where none is free. Of
+    /// several, that of the first upper right corner, row by row.
     fn middle_of_largest(&self) -> Option<[f64; 2]> {
         let (mut largest, mut middle) = (0, None);
-        // For each column, the largest free square whose upper right corner is there: one more than the smallest of those
-        // to the left, below, and below to the left.
-        let mut sizes = vec![0u32; self.columns];
+        // For each column, the row from which on it has been free so far.
+        let mut free_from = vec![0u32; self.columns];
         for row in 0..self.rows {
-            let free = self.free(row);
-            let (mut before, mut left) = (0, 0);
-            for (column, size_here) in sizes.iter_mut().enumerate() {
-                let below = *size_here;
-                let size = if free(column) { 1 + before.min(below).min(left) } else { 0 };
-                if size > largest {
-                    let half = 0.5 * f64::from(size);
-                    (largest, middle) = (size, Some([column as f64 + 1.0 - half, row as f64 + 1.0 - half]));
+            self.not_free(row, |columns| free_from[columns].fill(row as u32 + 1));
+            // So many columns side by side, and one, that have been free for so many rows, and one, are a larger square than any before.
+            // What is `open` are those of them that are known to have been.
+            let (mut left, mut open) = (0, 0);
+            while left + largest < self.columns {
+                let right = left + largest;
+                let is_short = |column: &usize| free_from[*column] as usize + largest > row;
+                if let Some(short) = (left.max(open)..=right).rev().find(is_short) {
+                    (left, open) = (short + 1, right + 1);
+                    continue;
                 }
-                (before, left, *size_here) = (below, size, size);
+                largest += 1;
+                let half = 0.5 * largest as f64;
+                middle = Some([right as f64 + 1.0 - half, row as f64 + 1.0 - half]);
+                // For longer, each of them may not have been.
+                open = 0;
             }
         }
         middle

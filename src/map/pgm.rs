@@ -1,6 +1,6 @@
 //! Portable grey maps, as `map_server` and most mapping programs write them.
 
-use super::occupancy::{Image, Pixel};
+use super::occupancy::{Coded, Image, Pixel};
 use std::fmt;
 use std::slice::{ChunksExact, Iter};
 
@@ -83,6 +83,13 @@ impl From<Shade> for Pixel {
     }
 }
 
+impl Coded for Shade {
+    #[inline]
+    fn byte(self) -> u8 {
+        self.value as u8
+    }
+}
+
 /// The pixels of a PGM image, row by row from the top, each read when it is asked for: as numbers they would take several
 /// times the memory of the file.
 #[derive(Clone, Debug)]
@@ -101,35 +108,57 @@ enum Raster<'a> {
     Words(ChunksExact<'a, u8>),
 }
 
+impl Shades<'_> {
+    /// Reads as many values as there are, and as there is place for; how many. What kind of raster it is, is asked once.
+    #[inline(never)]
+    fn read(&mut self, place: &mut [u16]) -> usize {
+        let count = self.left.min(place.len());
+        let values = &mut place[..count];
+        match &mut self.raster {
+            Raster::Plain(reader) => values.iter_mut().for_each(|value| {
+                let number = reader.usual_number().or_else(|| number(reader.token()));
+                *value = number.unwrap_or_default() as u16;
+            }),
+            Raster::Bytes(bytes) => {
+                values.iter_mut().zip(bytes).for_each(|(value, byte)| *value = u16::from(*byte));
+            }
+            Raster::Words(words) => values.iter_mut().zip(words).for_each(|(value, bytes)| {
+                *value = bytes.iter().fold(0, |value, byte| value << 8 | u16::from(*byte));
+            }),
+        }
+        self.left -= count;
+        count
+    }
+
+    fn shade(&self, value: u16) -> Shade {
+        let greatest = self.greatest as u16;
+        Shade { value: value.min(greatest), greatest }
+    }
+}
+
 impl Iterator for Shades<'_> {
     type Item = Shade;
 
-    #[inline]
     fn next(&mut self) -> Option<Shade> {
-        self.left = self.left.checked_sub(1)?;
-        let value = match &mut self.raster {
-            Raster::Plain(reader) => reader.usual_number().or_else(|| number(reader.token()))?,
-            Raster::Bytes(bytes) => usize::from(*bytes.next()?),
-            Raster::Words(words) => {
-                words.next()?.iter().fold(0, |value, byte| value * 256 + usize::from(*byte))
-            }
-        };
-        Some(Shade { value: value.min(self.greatest) as u16, greatest: self.greatest as u16 })
+        let mut value = [0];
+        (self.read(&mut value) > 0).then(|| self.shade(value[0]))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
         (self.left, Some(self.left))
     }
 
-    /// What kind of raster it is, is asked once.
     #[inline]
     fn fold<B, F: FnMut(B, Shade) -> B>(mut self, first: B, mut f: F) -> B {
-        let greatest = self.greatest as u16;
-        match self.raster {
-            Raster::Bytes(bytes) => bytes.fold(first, |so_far, byte| {
-                f(so_far, Shade { value: u16::from(*byte).min(greatest), greatest })
-            }),
-            _ => std::iter::from_fn(|| self.next()).fold(first, f),
+        let (mut result, mut values) = (first, [0; 256]);
+        loop {
+            let count = self.read(&mut values);
+            if count == 0 {
+                return result;
+            }
+            for value in &values[..count] {
+                result = f(result, self.shade(*value));
+            }
         }
     }
 }

@@ -65,7 +65,7 @@ impl ExactGain {
         let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
         // In reverse the reading faces away first.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
-        let ahead = if half_circles % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let ahead = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let legs = Legs {
             noise: model.noise(),
             is_arc: false,
@@ -151,7 +151,7 @@ impl Legs {
             let driven = bearing + deviation * node.value;
             let half_circles = ((driven - near) / PI).round();
             let half = driven - half_circles * PI;
-            let ahead = if half_circles % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            let ahead = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let half_sinc = sinc(half);
             let stretch = ahead * if self.is_arc { sinc(driven) } else { 1.0 } / half_sinc;
             logs.add(node.weight, (stretch * half_sinc * half_sinc).abs());

@@ -1,8 +1,9 @@
 //! `AlphaCalibrator` for JavaScript.
 
-use super::calibrate::{calibration_to_js, legs_to_js, read_odometry, read_reference};
+use super::calibration::{calibration_to_js, legs_to_js};
 use super::fields::{read_opening, read_settings, whole, word, work};
 use super::held::Held;
+use super::log::{read_odometry, read_reference};
 use super::pictures::read_disc;
 use super::values::{Plain, float64_array, object, settings_to_js};
 use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, Log, Panel, Settings, Truth};

@@ -6,8 +6,8 @@ use super::fields::{
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
-    FloorPlan, FloorPlanError, Image, Interpretation, MAX_BYTES, MAX_PIXELS, Mode, OccupancyGrid, Pixel,
-    RESOLUTION, read_pgm,
+    Coded, FloorPlan, FloorPlanError, Image, Interpretation, MAX_BYTES, MAX_PIXELS, Mode, OccupancyGrid,
+    Pixel, RESOLUTION, read_pgm,
 };
 use crate::sim::settings::{QUANTITY, Words};
 use js_sys::{ArrayBuffer, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
@@ -101,6 +101,14 @@ impl From<Colours> for Pixel {
     fn from(Colours(colours): Colours) -> Self {
         let [red, green, blue, opacity] = colours.map(f32::from);
         Self { shade: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
+    }
+}
+
+impl Coded for Colours {
+    #[inline]
+    fn byte(self) -> u8 {
+        let [red, green, blue, _] = self.0;
+        red.wrapping_add(green).wrapping_add(blue)
     }
 }
 

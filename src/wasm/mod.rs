@@ -9,14 +9,18 @@ mod alpha_calibrator;
 mod arc_anatomy;
 #[cfg(any(not(widget), widget = "banana-machine"))]
 mod banana;
-#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+#[cfg(not(widget))]
 mod calibrate;
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+mod calibration;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
 mod fields;
 mod held;
 #[cfg(not(widget))]
 mod homework;
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+mod log;
 mod maps;
 #[cfg(any(not(widget), widget = "odometry-decomposer"))]
 mod odometry_decomposer;

@@ -2,7 +2,7 @@
 
 use super::fields::no_memory;
 use crate::sim::settings::{Declared, Group, Setting};
-use js_sys::{Array, Float64Array, Object, Reflect, Uint8Array, Uint32Array};
+use js_sys::{Array, Float64Array, Object, Uint8Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::convert::ReturnWasmAbi;
 use wasm_bindgen::describe::WasmDescribe;
@@ -88,31 +88,37 @@ pub fn doubles<const N: usize>(field: &str, items: Option<Vec<[f64; N]>>) -> Res
 /// A copy of these numbers, with an error where JavaScript has no memory for it.
 #[inline(never)]
 pub fn float64_array(numbers: &[f64]) -> Result<Float64Array, JsValue> {
-    let array: Float64Array = typed_array("Float64Array", numbers.len())?.into();
-    array.copy_from(numbers);
-    Ok(array)
+    Ok(Doubles::of(numbers)?.unchecked_into())
 }
 
 /// As [`float64_array`].
 pub fn whole_numbers(numbers: &[u32]) -> Result<Uint32Array, JsValue> {
-    let array: Uint32Array = typed_array("Uint32Array", numbers.len())?.into();
-    array.copy_from(numbers);
-    Ok(array)
+    Ok(WholeNumbers::of(numbers)?.unchecked_into())
 }
 
 /// As [`doubles`] for single bytes.
 pub fn bytes(field: &str, items: Option<Vec<u8>>) -> Result<Uint8Array, JsValue> {
     let items = items.ok_or_else(|| no_memory(field))?;
-    let array: Uint8Array = typed_array("Uint8Array", items.len())?.into();
-    array.copy_from(&items);
-    Ok(array)
+    Ok(Bytes::of(&items)?.unchecked_into())
 }
 
-/// By `Reflect`, so that a failed allocation comes back as a value.
-#[inline(never)]
-fn typed_array(kind: &str, length: usize) -> Result<JsValue, JsValue> {
-    let constructor = Reflect::get(&js_sys::global(), &kind.into())?;
-    Reflect::construct(&constructor.into(), &Array::of1(&(length as f64).into()))
+// Those of js-sys let what a failed allocation throws pass through Rust.
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(js_name = Float64Array)]
+    type Doubles;
+    #[wasm_bindgen(constructor, catch, js_class = "Float64Array")]
+    fn of(numbers: &[f64]) -> Result<Doubles, JsValue>;
+
+    #[wasm_bindgen(js_name = Uint32Array)]
+    type WholeNumbers;
+    #[wasm_bindgen(constructor, catch, js_class = "Uint32Array")]
+    fn of(numbers: &[u32]) -> Result<WholeNumbers, JsValue>;
+
+    #[wasm_bindgen(js_name = Uint8Array)]
+    type Bytes;
+    #[wasm_bindgen(constructor, catch, js_class = "Uint8Array")]
+    fn of(bytes: &[u8]) -> Result<Bytes, JsValue>;
 }
 
 /// A plain object. Its properties are defined, not assigned: what all objects inherit may have setters of the page's.

@@ -15,13 +15,15 @@ const UNITS: f64 = 32.0;
 proptest! {
     #![proptest_config(cases(2000))]
 
-    /// IEEE's remainder is exact, and nearest to 0.
+    /// The remainder towards 0 is exact, and so is a turn taken off it.
     #[test]
     fn wrapped_angles_are_remainders(angle in finite()) {
         let wrapped = wrap_angle(angle);
         prop_assert!(-PI < wrapped && wrapped <= PI);
-        let remainder = libm::remainder(angle, TAU);
-        prop_assert!(wrapped == remainder || (remainder == -PI && wrapped == PI), "{} {}", wrapped, remainder);
+        let remainder = angle % TAU;
+        let turns = if remainder > PI { -1.0 } else if remainder <= -PI { 1.0 } else { 0.0 };
+        let expected = if turns == 0.0 { remainder } else { remainder + turns * TAU };
+        prop_assert_eq!(wrapped.to_bits(), expected.to_bits(), "{} {}", wrapped, expected);
         prop_assert_eq!(wrap_angle(wrapped).to_bits(), wrapped.to_bits());
         let mirrored = wrap_angle(-angle);
         prop_assert!(mirrored == -wrapped || (mirrored == PI && wrapped == PI));

@@ -13,8 +13,8 @@ const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}
 const all = JSON.parse(read('tests/digest/configurations.json'));
 const motion = await (await freshModule()).load();
 
-/** What has no seed, or draws as the models in Rust do, one pose after the other: homework.test.js and tests/distributions.rs. */
-const HOMEWORK = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2']);
+/** What has no seed, or draws as the models in Rust do, one pose after the other: homework.test.js, calibrate.test.js and tests/distributions.rs. */
+const HOMEWORK = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** As core.js has them, by tags. @type {Map<string, any>} */
 const classes = new Map(

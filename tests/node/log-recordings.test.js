@@ -181,11 +181,14 @@ test('quaternions that are no rotation, numbers that are none and times that fal
 
 test('a choice that is not there, or of no use: a sentence', async () => {
   const source = file(await recordingOf(drive()));
-  const types = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped, Twist, TwistStamped or tf2_msgs/msg/TFMessage';
+  const poses = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped or tf2_msgs/msg/TFMessage';
+  const commands = 'geometry_msgs/msg/Twist or TwistStamped';
   for (const [choice, sentence] of /** @type {const} */ ([
     [{ topic: '/od' }, 'run.mcap, topic /od: there is no such topic; expected is one of /tf_static, /tf, /odom, /mocap/pose, /fused, /cmd_vel, /cmd_stamped, /chatter.'],
-    [{ topic: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${types}.`],
-    [{ topic: '/tf' }, 'run.mcap, topic /tf: transforms are between many frames; expected are a parent and a child, as in map,base_link.'],
+    [{ topic: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poses}, or ${commands}.`],
+    [{ topic: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poses}.`],
+    [{ topic: '/odom', kind: 'commands' }, `run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is ${commands}.`],
+    [{ topic: '/tf' }, 'run.mcap, topic /tf: which frames are meant is not told; expected are a parent and a child, connected by map to odom, odom to base_footprint, base_link to wheel.'],
     [{ topic: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead from map to laser; expected are frames that are connected, of base_footprint to base_link, map to odom, odom to base_footprint, base_link to wheel.'],
   ])) assert.equal(await sentenceOf(readLog(source, choice)), sentence);
 });
@@ -221,6 +224,51 @@ test('chunks that announce more than there is room for: a sentence, and no memor
   const long = Buffer.from(bytes);
   long.writeBigUInt64LE(2n ** 40n, chunk + 1);
   assert.match(await sentenceOf(readLog(file(long), { topic: '/odom' })), /there is no such topic/);
+});
+
+/**
+ * A recording with something else in its index, and no checksum of it.
+ *
+ * @param {Buffer<ArrayBuffer>} bytes
+ * @param {(record: Buffer<ArrayBuffer>, code: number) => void} change what a record holds, after its code and length
+ */
+function withIndex(bytes, change) {
+  const changed = Buffer.from(bytes);
+  const footer = changed.length - 8 - 20;
+  changed.writeUInt32LE(0, footer + 16);
+  for (let at = Number(changed.readBigUInt64LE(footer)); at < footer - 9; at += 9 + Number(changed.readBigUInt64LE(at + 1))) {
+    change(changed.subarray(at + 9, at + 9 + Number(changed.readBigUInt64LE(at + 1))), changed[at]);
+  }
+  return changed;
+}
+
+/** Codes of records in an index. */
+const [CHUNK_INDEX, STATISTICS] = [8, 11];
+
+test('an index that is not to be trusted is not gone by', async () => {
+  const bytes = await recordingOf(drive());
+  const plain = await readLog(file(bytes), { topic: '/odom' });
+  /** @type {[string, Parameters<typeof withIndex>[1]][]} */
+  const changes = [
+    ['chunks are missing', (record, code) => code === STATISTICS && record.writeUInt32LE(1, 22)],
+    ['all at one time, and of a gigabyte', (record, code) => {
+      if (code !== CHUNK_INDEX) return;
+      record.writeBigUInt64LE(0n, 0);
+      record.writeBigUInt64LE(2n ** 62n, 8);
+      record.writeBigUInt64LE(2n ** 30n, record.length - 8);
+    }],
+    ['longer than the file', (record, code) => code === CHUNK_INDEX && record.writeBigUInt64LE(BigInt(bytes.length), 24)],
+    ['that ends where it begins', (record, code) => code === CHUNK_INDEX && record.fill(255)],
+  ];
+  for (const [what, change] of changes) {
+    const changed = withIndex(bytes, change);
+    assert.ok(!changed.equals(bytes), what);
+    const log = await readLog(file(changed), { topic: '/odom' });
+    assert.deepEqual([log.data, log.found], [plain.data, plain.found], what);
+  }
+  // Where all of it holds together, and yet chunks are not where it says: a sentence.
+  const astray = withIndex(bytes, (record, code) => code === CHUNK_INDEX && record.writeBigUInt64LE(20n, 16));
+  assert.match(await sentenceOf(readLog(file(astray), { topic: '/odom' })), /^run\.mcap: the recording is damaged \(.*\); expected is a complete MCAP file\.$/);
 });
 
 /** Bytes of a file that are larger than what may be held of it. */

@@ -61,6 +61,11 @@ test('a log that a recorder exported: the stamp of the message, and poses before
   assert.deepEqual([commands.kind, [.../** @type {any} */ (commands.data).v], [.../** @type {any} */ (commands.data).omega]], ['commands', [0.5, 0.5, 0.5], [0.1, 0.1, 0.1]]);
 });
 
+test('of a message that holds another one, its own fields are read', async () => {
+  const { how } = await read('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw\n0,9,1,2,3\n1,9,1,2,3\n');
+  assert.equal(how.columns.x, 'pose.position.x');
+});
+
 test('TUM: eight numbers a row', async () => {
   const { data, how, start } = await read('# timestamp tx ty tz qx qy qz qw\n1305031098.6659 1.25 -0.5 9 0 0 0 1\n1305031098.675900001 1.5 -0.5 9 0 0 0.6 0.8\n');
   assert.deepEqual([how.format, start], ['tum', 1_305_031_098]);
@@ -141,6 +146,25 @@ test('two logs get one start', async () => {
   assert.equal(message, 'run.csv: its times (0.00 s to 1.00 s) and those of run.csv (1700000000.25 s to 1700000009.50 s) have nothing in common; expected are two logs of one drive, by one clock.');
 });
 
+test('a reference that has lost the robot is left out while the odometry moves on, and one that stands with it is not', async () => {
+  const poses = (/** @type {(i: number) => number} */ x) => read(['t,x,y,yaw', ...Array.from({ length: 400 }, (_, i) => [i / 20, x(i), 0, 0].join(','))].join('\n'));
+  const drives = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
+  const [odometry, good, lost] = await Promise.all([poses(drives), poses(drives), poses((i) => drives(i >= 200 && i < 300 ? 200 : i))]);
+  const same = together(odometry, good);
+  assert.deepEqual([same.reference.data, same.reference.found], [good.data, good.found]);
+  const { reference } = together(odometry, lost);
+  assert.deepEqual([...reference.data.t], [...lost.data.t].filter((_, i) => i <= 200 || i >= 300));
+  assert.deepEqual([...reference.breaks], [201]);
+  assert.deepEqual(reference.found.leftOut.held, { count: 99, line: 0, t: 10.05 });
+  assert.ok(tell(reference, english.found).includes('left out 99 rows: the pose stands while the odometry moves on'));
+  const { message } = await refusalOf(poses(() => 7).then((still) => together(odometry, still)));
+  assert.equal(message, 'run.csv: its pose stands while the odometry moves on; expected is one that follows the robot.');
+  assert.equal((await refusalOf(read('t,v,omega\n0,0,0\n1,0,0').then((driven) => together(odometry, driven)))).message, 'run.csv: the columns are t, v, omega; expected are x, y and yaw (or qx, qy, qz and qw) among them.');
+  // Commands tell too that the robot moves.
+  const commands = await read(['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n'));
+  assert.equal(together(commands, lost).reference.found.leftOut.held.count, 99);
+});
+
 const LONG = 'x'.repeat(100);
 
 /** What is refused, and what is said of it. @type {[string, string | Uint8Array<ArrayBuffer>, string, ('poses' | 'commands')?][]} */
@@ -156,6 +180,7 @@ const REFUSED = [
   ['no commands', 't,x,y,yaw\n', 'run.csv, line 1: the columns are t, x, y, yaw; expected are v and omega among them.', 'commands'],
   ['no poses', 't,v,omega\n', 'run.csv, line 1: the columns are t, v, omega; expected are x, y and yaw (or qx, qy, qz and qw) among them.', 'poses'],
   ['two times', 't,t,x,y,yaw\n', 'run.csv, line 1: both “t” and “t” may be the time; expected is one of them.'],
+  ['two robots', '__time,/odom/pose/pose/position/x,/odom/pose/pose/position/y,/truth/pose/pose/position/x\n', 'run.csv, line 1: both “/odom/pose/pose/position/x” and “/truth/pose/pose/position/x” may be x; expected is one of them.'],
   ['no number', `t,x,y,yaw\n0,0,0,0\n1,${LONG},0,0\n`, `run.csv, line 3: x is “${LONG.slice(0, 40)}…”; expected is a number.`],
   ['a hexadecimal one', 't,x,y,yaw\n0x10,0,0,0\n', 'run.csv, line 2: t is “0x10”; expected is a number.'],
   ['too few cells', 't,x,y,yaw\n0,0,0\n1,0,0,0\n', 'run.csv, line 2: the row has 3 cells; expected are at least 4.'],

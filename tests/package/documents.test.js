@@ -1,6 +1,7 @@
 // Whatever the package's documents name, the package has.
 
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -90,12 +91,21 @@ test("README.md's table of what is where is of things that there are, and the pa
 });
 
 test('package.json names no file that the package leaves out', () => {
-  const { exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(read('package.json'));
+  const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(read('package.json'));
   /** @type {(value: any) => string[]} */
   const paths = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(paths));
-  const all = [...paths(exports), main, types, unpkg, jsdelivr, customElements];
+  const all = [...paths(bin), ...paths(exports), main, types, unpkg, jsdelivr, customElements];
   assert.ok(all.length > 10, all.join(' '));
   assert.deepEqual(all.filter((path) => !packed(path)), []);
+});
+
+test('doc/calibration.md tells every option of the command that the package installs', () => {
+  const { status, stdout } = spawnSync(join(project.directory, 'node_modules/.bin/motion-widgets'), ['--help'], { encoding: 'utf8' });
+  assert.equal(status, 0);
+  const options = new Set(stdout.match(/--[a-z-]+/g));
+  assert.ok(options.size > 15, [...options].join(' '));
+  const document = read('doc/calibration.md');
+  assert.deepEqual([...options].filter((option) => option !== '--help' && !document.includes(`\`${option}`) && !document.includes(` ${option}`)), []);
 });
 
 test('a picture of doc/embedding.md has at most 60 kB', () => {

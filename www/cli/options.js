@@ -92,7 +92,7 @@ export function optionsOf(args) {
   if (stranger !== undefined) throw new UsageError(`--without has “${cut(stranger)}”; expected are names of ${SYSTEMATIC.join(', ')}.`);
   const share = values.robust === '' ? undefined : number('robust');
   const given = {
-    model: values.model,
+    model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
     rule: values.rule,
     noise: values.noise,
     robust: values.robust === undefined ? undefined : share === undefined ? true : { outliers: share },
@@ -125,7 +125,9 @@ function parsed(args) {
     const reason = error instanceof Error ? error.message : String(error);
     const unknown = /Unknown option '(.*?)'/.exec(reason);
     if (unknown) throw new UsageError(`${cut(unknown[1])} is no option; expected are those of --help.`);
-    throw new UsageError(`${cut(reason.replace(/[.\s]*$/, ''), 200)}; expected is what --help shows.`);
+    // What follows is advice, in lines of its own.
+    const [first] = reason.split('\n');
+    throw new UsageError(`${cut(first.replace(/\.$/, ''), 200)}; expected is what --help shows.`);
   }
 }
 

@@ -11,8 +11,8 @@
  * @property {string} date
  */
 
-/** Significant digits of what is estimated, and of the ends of its interval. */
-const [DIGITS, ENDS] = [4, 3];
+/** Significant digits of an interval's width, and of what has no interval. */
+const [OF_WIDTH, DIGITS] = [2, 3];
 
 /** What Nav2 calls its models. @type {Record<string, string>} */
 const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
@@ -46,20 +46,33 @@ const SYSTEMATIC = [
   ['turnScale', 'scale of turning', ''],
 ];
 
-const short = (/** @type {number} */ value, digits = DIGITS) => String(Number(value.toPrecision(digits)));
-const between = (/** @type {Interval | undefined} */ interval) => (interval ? interval.map((end) => short(end, ENDS)).join(' to ') : '');
+/** What stands for a figure that a log is too short for. */
+const NONE = '–';
+
+/** @param {number | null} value */
+const short = (value, digits = DIGITS) => (value !== null && Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : NONE);
+
+/** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
+function fixed(value, interval) {
+  const width = interval ? interval[1] - interval[0] : 0;
+  if (value === null || !Number.isFinite(value) || !(width > 0 && width < Infinity)) return short(value);
+  return value.toFixed(Math.max(0, Math.min(12, OF_WIDTH - 1 - Math.floor(Math.log10(width)))));
+}
+
+/** @param {Interval | undefined} interval */
+const between = (interval) => (interval ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
 
 /**
  * @param {Result} result
  * @returns {string}
  */
-export function textOf({ calibration, fit, logs, date }) {
+export function textOf({ calibration, fit, logs, start, date }) {
   const { alphas, intervals, bootstrap, systematic, legs, doubts, outliers, logLikelihood, gaps } = calibration;
   const model = fit.model ?? 'odometry';
   const rule = model === 'odometry' ? `, rule ${fit.rule ?? 'table'}` : '';
   const rows = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => [
     `alpha${i + 1}`,
-    alpha === null ? 'not determined by this log' : short(alpha),
+    alpha === null ? 'not determined by this log' : fixed(alpha, intervals[i]),
     between(intervals[i]),
     between(bootstrap[i]),
     GROW[model][i],
@@ -75,8 +88,8 @@ export function textOf({ calibration, fit, logs, date }) {
     ...aligned([['systematic', 'value', '95 %', ''], ...SYSTEMATIC.map((each) => systematicRow(each, systematic))]),
     '',
     ...aligned([['doubts', 'measured', 'if the model is true'], ...doubtRows(doubts), ['log-likelihood', `${short(logLikelihood, 6)} nats`, '']]),
-    ...(outliers === null || outliers === undefined ? [] : [`bad legs: ${short(100 * outliers, ENDS)} %`]),
-    ...worstOf(doubts, legs),
+    ...(outliers === null || outliers === undefined ? [] : [`bad legs: ${short(100 * outliers)} %`]),
+    ...worstOf(doubts, legs, start),
     '',
     VERDICTS[doubts.verdict] ?? doubts.verdict,
     '',
@@ -93,29 +106,30 @@ function lengthOf({ distance, angle, duration }) {
 /** @param {[string, string, string]} about @param {any} systematic @returns {string[]} */
 function systematicRow([key, name, unit], systematic) {
   const { value, interval, removed } = systematic[key];
-  const said = (/** @type {any} */ one, /** @type {any} */ its) => [`${short(one)}${unit && ` ${unit}`}`, between(its)];
-  if (value === null) return [name, 'not determined', '', ''];
+  const said = (/** @type {any} */ one, /** @type {any} */ its) => [`${fixed(one, its)}${unit && ` ${unit}`}`, between(its)];
+  const isThere = (/** @type {number | null} */ one) => one !== null && Number.isFinite(one);
+  if (![value].flat().every(isThere)) return [name, 'not determined', '', ''];
   const [told, ends] = Array.isArray(value) ? value.map((one, i) => said(one, interval?.[i])).reduce(([a, b], [c, d]) => [`${a}, ${c}`, `${b}, ${d}`]) : said(value, interval);
   return [name, told, ends, removed ? 'removed' : 'left in'];
 }
 
 /** @param {any} doubts @returns {string[][]} */
 function doubtRows({ kinds, heldOut, squaredError }) {
-  const percent = (/** @type {number} */ share) => `${short(100 * share, ENDS)} %`;
+  const percent = (/** @type {number | null} */ share) => (share === null || Number.isNaN(share) ? NONE : `${short(100 * share)} %`);
   return [
-    ['held-out legs inside of 95 %', percent(heldOut.coverage), heldOut.interval ? heldOut.interval.map(percent).join(' to ') : ''],
-    ['squared error by degree of freedom', short(squaredError.mean), between(squaredError.interval)],
+    ['held-out residuals inside of 95 %', percent(heldOut.coverage), heldOut.interval ? heldOut.interval.map(percent).join(' to ') : ''],
+    ['squared error by degree of freedom', fixed(squaredError.mean, squaredError.interval), between(squaredError.interval)],
     ...kinds.flatMap((/** @type {any} */ { name, kurtosis, autocorrelation, autocorrelationLimit }) => [
-      [`kurtosis, ${name}`, short(kurtosis, ENDS), ''],
-      [`autocorrelation, ${name}`, short(autocorrelation, ENDS), `within ±${short(autocorrelationLimit, ENDS)}`],
+      [`kurtosis, ${name}`, short(kurtosis), ''],
+      [`autocorrelation, ${name}`, short(autocorrelation), autocorrelationLimit ? `within ±${short(autocorrelationLimit)}` : ''],
     ]),
   ];
 }
 
-/** @param {any} doubts @param {any} legs @returns {string[]} */
-function worstOf({ worst }, legs) {
+/** By the times of the logs. @param {any} doubts @param {any} legs @param {number} start @returns {string[]} */
+function worstOf({ worst }, legs, start) {
   if (!worst.length) return [];
-  const times = worst.slice(0, 5).map((/** @type {number} */ leg) => `${legs.times[2 * leg].toFixed(2)} s`);
+  const times = worst.slice(0, 5).map((/** @type {number} */ leg) => `${(start + legs.times[2 * leg]).toFixed(2)} s`);
   return [`worst legs at ${times.join(', ')}`];
 }
 
@@ -126,7 +140,7 @@ function worstOf({ worst }, legs) {
  * @returns {string[]}
  */
 export function nav2Lines({ calibration, fit, logs, date }) {
-  const { alphas, intervals, legs } = calibration;
+  const { alphas, intervals, legs, doubts } = calibration;
   const { model = 'odometry', rule = 'table' } = fit;
   if (!Object.hasOwn(NAV2, model)) return ['nav2_params.yaml has no lines for the velocity model.'];
   const names = [...new Set(logs.map(({ name }) => name))].join(' and ');
@@ -134,10 +148,11 @@ export function nav2Lines({ calibration, fit, logs, date }) {
     // A name may have lines of its own, which would end the comment.
     `${legs.count} legs ${lengthOf(fit.legs)} of ${names}, ${date}; 95 % intervals`.replaceAll(/\s+/g, ' '),
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : ['fitted under another rule than Nav2\'s: see --rule nav2']),
+    ...(doubts.verdict === 'fits' ? [] : [VERDICTS[doubts.verdict]]),
   ];
   const lines = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => {
     if (alpha === null) return `# alpha${i + 1}: not determined by this log`;
-    return `alpha${i + 1}: ${short(alpha)}  # ${between(intervals[i])}`;
+    return `alpha${i + 1}: ${fixed(alpha, intervals[i])}  # ${between(intervals[i])}`;
   });
   const triggers = fit.legs.duration === undefined ? [`update_min_d: ${fit.legs.distance}`, `update_min_a: ${fit.legs.angle}`] : [];
   const fifth = alphas.length < 5 ? ['# alpha5 is of the omnidirectional model alone'] : [];

@@ -68,15 +68,16 @@ function calibrate(motion, { fit, deviations }, { odometry, reference }) {
  * @param {Asked} asked
  * @returns {Promise<Log>}
  */
-async function read({ path, topic, frames }, role, { fit }) {
+async function read({ path, topic, frames }, role, { fit, odometry, reference }) {
   const source = await onDisk(path);
   try {
     const kind = role === 'reference' ? 'poses' : fit.model === 'velocity' ? 'commands' : undefined;
     if (source.size === 0 || !(await isRecording(source))) {
       if (topic !== undefined) throw new UsageError(`${source.name} is no recording and has no topic ${cut(topic)}; expected is an MCAP file.`);
+      if (odometry.path === reference.path) throw new UsageError(`${source.name} is both odometry and reference; expected are two tables, or an MCAP file.`);
       return await readLog(source, { kind });
     }
-    return await readLog(source, { topic: topic ?? (await usualTopic(source, role, kind)), frames });
+    return await readLog(source, { topic: topic ?? (await usualTopic(source, role, kind)), frames, kind });
   } finally {
     await source.close();
   }

@@ -7,6 +7,7 @@
  */
 
 import { css, unsafeCSS } from 'lit';
+import { likedWidth } from './width.js';
 
 /**
  * Roles that the canvas needs as resolved colours; each is a custom property of the same name. A cloud is a
@@ -17,13 +18,6 @@ const ROLES = /** @type {const} */ (
 );
 
 /** @typedef {Record<(typeof ROLES)[number], string>} Palette resolved CSS colours */
-
-/**
- * What a figure would like where a box is as wide as its contents: the column of a book, from where on each row of buttons is
- * one line. Two dots with so much between them, where the line breaks if there is less.
- */
-export const likedWidth =
-  "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";
 
 export const theme = css`
   :host {

@@ -12,8 +12,9 @@ const NEEDED = {
   either: 'x, y und yaw (oder qx, qy, qz und qw), oder v und omega',
 };
 
-const TYPES =
-  'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped, Twist, TwistStamped oder tf2_msgs/msg/TFMessage';
+const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped oder tf2_msgs/msg/TFMessage';
+const OF_COMMANDS = 'geometry_msgs/msg/Twist oder TwistStamped';
+const TYPES = { poses: OF_POSES, commands: OF_COMMANDS, either: `${OF_POSES}, oder ${OF_COMMANDS}` };
 
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
@@ -51,15 +52,16 @@ export const log = {
     large: (what, bytes, most) => `angekündigt wird ${{ 'a chunk': 'ein Chunk', 'a record': 'ein Record' }[what] ?? what} von ${bytes} Bytes; erwartet werden höchstens ${most}.`,
     compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,
-    noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES}.`,
+    noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES.either}.`,
     choose: (role, topics) => `welches Topic ${role === 'odometry' ? 'die Odometrie' : 'die Referenz'} ist, steht nicht fest; erwartet wird eine Wahl aus ${topics}.`,
-    type: (type) => `sein Typ ist „${type}“; erwartet wird ${TYPES}.`,
+    type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr, die Kodierung von ROS 2.`,
     message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
-    frames: 'Transformationen verbinden viele Frames; erwartet werden ein äußerer und ein innerer, wie in map,base_link.',
+    frames: (known) => `welche Frames gemeint sind, ist nicht gesagt; erwartet werden ein äußerer und ein innerer, verbunden durch ${known || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, known) =>
       `keine Transformationen führen von ${frames.replace(',', ' nach ')}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
     noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',
+    held: 'ihre Pose steht, während die Odometrie weitergeht; erwartet wird eine, die dem Roboter folgt.',
     apart: (name, one, other) =>
       `seine Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam; erwartet werden zwei Logs einer Fahrt, nach einer Uhr.`,
   },
@@ -72,6 +74,7 @@ export const log = {
       short: 'abgebrochen',
       duplicate: 'die Zeit der Zeile davor',
       falling: 'eine Zeit, die zurückgeht',
+      held: 'die Pose steht, während die Odometrie weitergeht',
     },
     gaps: (count, first, longest) => `${times(count, 'Pause', 'Pausen')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,

@@ -12,8 +12,9 @@ const NEEDED = {
   either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
 };
 
-const TYPES =
-  'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped, Twist, TwistStamped or tf2_msgs/msg/TFMessage';
+const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped or tf2_msgs/msg/TFMessage';
+const OF_COMMANDS = 'geometry_msgs/msg/Twist or TwistStamped';
+const TYPES = { poses: OF_POSES, commands: OF_COMMANDS, either: `${OF_POSES}, or ${OF_COMMANDS}` };
 
 export const log = {
   place: (/** @type {string} */ file, /** @type {number} */ line, /** @type {string} */ topic) =>
@@ -56,17 +57,18 @@ export const log = {
       `${what} of ${bytes} bytes is announced; expected are at most ${most}.`,
     compression: (/** @type {string} */ value) => `its chunks are compressed by “${value}”; expected is zstd, lz4 or none.`,
     noTopic: (/** @type {string} */ topics) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
-    noTopics: (/** @type {string} */ topics) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES}.`,
+    noTopics: (/** @type {string} */ topics) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
     choose: (/** @type {string} */ role, /** @type {string} */ topics) => `which topic is the ${role} is not clear; expected is a choice of ${topics}.`,
-    type: (/** @type {string} */ type) => `its type is “${type}”; expected is ${TYPES}.`,
+    type: (/** @type {string} */ type, /** @type {keyof typeof TYPES} */ wanted) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
     encoding: (/** @type {string} */ value) => `its messages are encoded as “${value}”; expected is cdr, that of ROS 2.`,
     message: (/** @type {number} */ number, /** @type {string} */ reason) =>
       `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
-    frames: 'transforms are between many frames; expected are a parent and a child, as in map,base_link.',
+    frames: (/** @type {string} */ known) => `which frames are meant is not told; expected are a parent and a child, connected by ${known || 'transforms, of which there are none'}.`,
     noChain: (/** @type {string} */ frames, /** @type {string} */ known) =>
       `no transforms lead from ${frames.replace(',', ' to ')}; expected are frames that are connected, of ${known || 'none'}.`,
     noMessages: 'there are no messages on it; expected are at least 2.',
     /** Of two logs. */
+    held: 'its pose stands while the odometry moves on; expected is one that follows the robot.',
     apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
       `its times (${one}) and those of ${name} (${other}) have nothing in common; expected are two logs of one drive, by one clock.`,
   },
@@ -82,6 +84,7 @@ export const log = {
       short: 'cut short',
       duplicate: 'the time of the row before',
       falling: 'a time that goes back',
+      held: 'the pose stands while the odometry moves on',
     }),
     gaps: (/** @type {number} */ count, /** @type {number} */ first, /** @type {number} */ longest) =>
       `${count} ${count === 1 ? 'pause' : 'pauses'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,

@@ -53,6 +53,7 @@ export class Frames {
   #way() {
     const way = [];
     for (let at = this.#child; at !== this.#parent; ) {
+      /** @type {Link | undefined} */
       const link = this.#links.get(at);
       if (!link || way.length === LONGEST) return undefined;
       way.push(link);

@@ -106,10 +106,11 @@ function columnOf(field, names, place) {
     const matches = paths.flatMap((path, at) => (pattern.test(path) ? [at] : []));
     if (matches.length === 1) return matches[0];
     if (matches.length > 1) {
-      // The time of day in two columns, and of a message that holds another: the first path is that of the message itself.
-      const shortest = matches.toSorted((a, b) => paths[a].length - paths[b].length);
-      if (paths[shortest[0]].length < paths[shortest[1]].length) return shortest[0];
-      throw new LogError(place, (say) => say.twice(field, cut(names[shortest[0]]), cut(names[shortest[1]])));
+      // Of a message that holds another, the shorter path is its own. Those of two messages are not told apart.
+      const [own, ...others] = matches.toSorted((a, b) => paths[a].length - paths[b].length);
+      const stranger = others.find((other) => !paths[other].endsWith(`.${paths[own]}`));
+      if (stranger === undefined) return own;
+      throw new LogError(place, (say) => say.twice(field, cut(names[own].trim()), cut(names[stranger].trim())));
     }
   }
   return undefined;

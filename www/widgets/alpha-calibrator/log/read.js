@@ -1,5 +1,6 @@
 /** Logs of robots: poses or commands with times, of CSV, TUM and MCAP files. */
 
+import { withoutHeld } from './held.js';
 import { LogError, bytesOf } from './refusal.js';
 import { readTable } from './table.js';
 
@@ -15,7 +16,7 @@ import { readTable } from './table.js';
  * @property {'poses' | 'commands' | 'transforms' | null} kind what it holds; null where it is of no use here
  *
  * @typedef {object} Choice what is to be read
- * @property {'poses' | 'commands'} [kind] of a table that may have both; poses where nothing is said
+ * @property {'poses' | 'commands'} [kind] that is wanted; of a table that has both, poses where nothing is said
  * @property {string} [topic] of a recording
  * @property {{ parent: string, child: string }} [frames] of a topic of transforms
  */
@@ -50,7 +51,7 @@ export async function readLog(source, { kind, topic, frames, ...watching } = {})
   if (source.size === 0) throw new LogError({ file: source.name }, (say) => say.empty);
   if (!(await isRecording(source))) return readTable(source, kind, watching);
   const { readRecording } = await import('./recording.js');
-  return readRecording(source, { topic: topic ?? '', frames }, watching);
+  return readRecording(source, { kind, topic: topic ?? '', frames }, watching);
 }
 
 /** Names that recorders give to odometry, to commands, and to what is better. */
@@ -74,21 +75,25 @@ export function usualTopics(topics) {
 }
 
 /**
- * Two logs of one drive, by one clock: the times of both are those after the same start.
+ * Two logs of one drive, by one clock: the times of both are those after the same start, and the reference is without rows in
+ * which it had lost the robot.
  *
  * @param {Log} odometry
- * @param {Log} reference
+ * @param {Log} reference of poses
  * @returns {{ odometry: Log, reference: Log, start: number }}
  * @throws {LogError} where they have no time in common
  */
 export function together(odometry, reference) {
+  if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', Object.keys(reference.data).join(', ')));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [odometry, reference].map((log) => after(start, log));
   const [one, other] = [first.data.t, second.data.t];
   if (one[0] > other[other.length - 1] || other[0] > one[one.length - 1]) {
     throw new LogError({ file: reference.name }, (say) => say.apart(odometry.name, span(reference), span(odometry)));
   }
-  return { odometry: first, reference: second, start };
+  const reliable = withoutHeld(second, first);
+  if (reliable.data.t.length < 2) throw new LogError({ file: reference.name }, (say) => say.held);
+  return { odometry: first, reference: reliable, start };
 }
 
 /** @param {number} start @param {Log} log @returns {Log} */
@@ -123,7 +128,7 @@ function span({ start, data: { t } }) {
  * @param {Words['found']} say
  * @returns {string[]}
  */
-export function tell({ data: { t }, how, found }, say) {
+export function tell({ data: { t }, start, how, found }, say) {
   const { rows, leftOut, gaps, jumps, step } = found;
   const out = /** @type {[Reason, import('./rows.js').Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
   return [
@@ -131,8 +136,8 @@ export function tell({ data: { t }, how, found }, say) {
     ...(how.unitBy === 'size' && how.unit !== 's' ? [say.unit(how.unit)] : []),
     ...(how.heading === 'degrees' ? [say.degrees] : []),
     ...out.map(([reason, { count, line }]) => say.leftOut(say.reasons[reason], count, how.format === 'mcap' ? 0 : line)),
-    ...(gaps.count ? [say.gaps(gaps.count, gaps.t, gaps.longest)] : []),
-    ...(jumps.count ? [say.jumps(jumps.count, jumps.t)] : []),
+    ...(gaps.count ? [say.gaps(gaps.count, start + gaps.t, gaps.longest)] : []),
+    ...(jumps.count ? [say.jumps(jumps.count, start + jumps.t)] : []),
     ...(how.cutShort ? [say.cutShort] : []),
   ];
 }

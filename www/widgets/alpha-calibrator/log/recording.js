@@ -32,11 +32,14 @@ const MAX_SUMMARY = 2 ** 24;
 /** Bytes of chunks that overlap in time, which the reader of an index holds all at once. */
 const MAX_OVERLAP = 4 * MAX_CHUNK;
 
-/** Bytes that are read at once where there is no index. */
+/** Bytes that are read at once. */
 const PIECE = 2 ** 20;
 
 /** Messages between two looks at the clock. */
 const MESSAGES_A_LOOK = 64;
+
+/** Messages of transforms that are looked at to tell which frames there are. */
+const MESSAGES_OF_FRAMES = 1000;
 
 /** Channels at most. */
 const MAX_CHANNELS = 2 ** 16;
@@ -80,12 +83,13 @@ async function byIndex(source, decompressHandlers) {
   const place = { file: source.name };
   const total = BigInt(source.size);
   let most = MAX_SUMMARY;
+  const ahead = readingAhead(source);
   const readable = {
     size: async () => total,
     read: async (/** @type {bigint} */ offset, /** @type {bigint} */ length) => {
       if (length > BigInt(most)) throw new LogError(place, (say) => say.large('a record', `${length}`, most));
       if (offset < 0n || length < 0n || offset + length > total) throw new RangeError('it ends before what it refers to');
-      return bytesOf(source, Number(offset), Number(offset + length));
+      return ahead(Number(offset), Number(offset + length));
     },
   };
   /** @type {McapIndexedReader} */
@@ -119,6 +123,22 @@ async function byIndex(source, decompressHandlers) {
         throw sentenceOf(place, error);
       }
     },
+  };
+}
+
+/**
+ * Chunks lie one behind the other, and to ask for a few bytes takes a browser as long as for a million.
+ *
+ * @param {Source} source
+ * @returns {(from: number, to: number) => Promise<Uint8Array<ArrayBuffer>>}
+ */
+function readingAhead(source) {
+  let [start, bytes] = [0, new Uint8Array()];
+  return async (from, to) => {
+    if (from < start || to > start + bytes.length) {
+      [start, bytes] = [from, await bytesOf(source, from, Math.min(Math.max(to, from + PIECE), source.size))];
+    }
+    return bytes.subarray(from - start, to - start);
   };
 }
 
@@ -164,15 +184,19 @@ function fromStart(source, decompressHandlers) {
     async read(isWanted, each, watching) {
       const breathe = breathing(watching);
       let seen = 0;
+      // What comes then is the index.
+      let isComplete = false;
       const reader = new McapStreamReader({ decompressHandlers });
       /** @type {Map<number, McapTypes.TypedMcapRecords['Schema']>} */
       const schemas = new Map();
       try {
-        for (let at = 0; at < source.size && !reader.done(); at += PIECE) {
+        for (let at = 0; at < source.size && !isComplete; at += PIECE) {
           const piece = await bytesOf(source, at, Math.min(at + PIECE, source.size));
           if (piece.length === 0) break;
           reader.append(piece);
           for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
+            isComplete = record.type === 'DataEnd';
+            if (isComplete) break;
             if (record.type === 'Schema') schemas.set(record.id, record);
             if (record.type === 'Channel' && recording.channels.size < MAX_CHANNELS) recording.channels.set(record.id, channelOf(record, schemas));
             if (record.type !== 'Message') continue;
@@ -188,7 +212,7 @@ function fromStart(source, decompressHandlers) {
       } catch (error) {
         throw sentenceOf(place, error);
       }
-      recording.cutShort = !reader.done();
+      recording.cutShort = !isComplete;
     },
   };
   return recording;
@@ -231,11 +255,11 @@ export async function listTopics(source, watching) {
 
 /**
  * @param {Source} source
- * @param {{ topic: string, frames?: { parent: string, child: string } }} choice
+ * @param {{ kind?: 'poses' | 'commands', topic: string, frames?: { parent: string, child: string } }} choice
  * @param {Watching} watching
  * @returns {Promise<Log>} rejects with a LogError
  */
-export async function readRecording(source, { topic, frames }, watching) {
+export async function readRecording(source, { kind: wanted, topic, frames }, watching) {
   const place = { file: source.name, topic };
   const recording = await open(source);
   const rows = new Rows(place);
@@ -250,24 +274,28 @@ export async function readRecording(source, { topic, frames }, watching) {
   const prepare = (id) => {
     const channel = /** @type {Channel} */ (recording.channels.get(id));
     const kind = kindOf(channel.type);
-    if (!kind) throw new LogError(place, (say) => say.type(cut(channel.type)));
+    const isWanted = kind !== null && (!wanted || (kind === 'commands') === (wanted === 'commands'));
+    if (!isWanted) throw new LogError(place, (say) => say.type(cut(channel.type), wanted ?? 'either'));
     if (channel.encoding !== 'cdr') throw new LogError(place, (say) => say.encoding(cut(channel.encoding)));
     if (kind !== 'transforms') {
       const read = poseReader(channel.type);
       type = channel.type;
       return (data, add) => add(read(data));
     }
-    if (!frames) throw new LogError(place, (say) => say.frames);
     if (channel.topic === topic) type = channel.type;
-    tree ??= new Frames(frames);
+    tree ??= new Frames(frames ?? { parent: '', child: '' });
     const [links, read, isStatic] = [tree, edgeReader(), STATIC.test(channel.topic)];
     return (data, add) => {
       for (const edge of read(data)) {
         const reading = links.take(edge, isStatic);
-        if (reading) add(reading);
+        if (reading && frames) add(reading);
       }
+      // By then, those that come at all have come.
+      if (!frames && number >= MESSAGES_OF_FRAMES) throw unchosen();
     };
   };
+
+  const unchosen = () => new LogError(place, (say) => say.frames(listed(tree?.known ?? [])));
 
   const isThere = () => [...recording.channels.values()].some((each) => each.topic === topic);
   if (recording.channels.size && !isThere()) throw noTopic(place, recording);
@@ -294,8 +322,9 @@ export async function readRecording(source, { topic, frames }, watching) {
   );
   if (!isThere()) throw noTopic(place, recording);
   if (number === 0) throw new LogError(place, (say) => say.noMessages);
-  if (tree && rows.count === 0) {
-    const { parent, child } = /** @type {{ parent: string, child: string }} */ (frames);
+  if (tree && !frames) throw unchosen();
+  if (tree && frames && rows.count === 0) {
+    const { parent, child } = frames;
     throw new LogError(place, (say) => say.noChain(`${cut(parent)},${cut(child)}`, listed(tree?.known ?? [])));
   }
   const kind = kindOf(type) === 'commands' ? 'commands' : 'poses';

@@ -11,7 +11,7 @@ import { LogError } from './refusal.js';
  * @property {number} line of the file, or number of the message, from 1; 0 where there was none
  * @property {number} t seconds after the log's start; NaN where it has no time
  *
- * @typedef {'notFinite' | 'noRotation' | 'short' | 'duplicate' | 'falling'} Reason why a row is left out
+ * @typedef {'notFinite' | 'noRotation' | 'short' | 'duplicate' | 'falling' | 'held'} Reason why a row is left out
  *
  * @typedef {object} How what was made of the source
  * @property {'csv' | 'tum' | 'mcap'} format
@@ -76,7 +76,7 @@ export class Rows {
   #start = NaN;
   #columns = [0, 1, 2, 3].map(() => new Float64Array(ROOM));
   /** @type {Record<Reason, Trouble>} */
-  #leftOut = { notFinite: none(), noRotation: none(), short: none(), duplicate: none(), falling: none() };
+  #leftOut = { notFinite: none(), noRotation: none(), short: none(), duplicate: none(), falling: none(), held: none() };
   /** Whether something was left out since the last row that was kept. */
   #broken = false;
   /** @type {number[]} */

@@ -1,0 +1,306 @@
+//! From a log to parameters, one step after the other.
+
+use super::bootstrap;
+use super::clock::clock_offset;
+use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, doubts};
+use super::legs::{Leg, LegLength, cut};
+use super::likelihood::{Evidence, Parameters, Robust};
+use super::model::{Model, Observation, Uncertainty};
+use super::profile::{Estimate, Fitted};
+use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic, Which};
+use super::trajectory::Trajectory;
+use crate::noise::NoiseKind;
+use nalgebra::Matrix2;
+use std::fmt;
+
+/// The standard deviations of the reference's own error at one moment: of each coordinate (m), and of its heading (rad).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReferenceError {
+    pub position: f64,
+    pub heading: f64,
+}
+
+/// What is asked of a log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    pub model: Model,
+    pub legs: LegLength,
+    pub noise: NoiseKind,
+    pub robust: Robust,
+    /// Which systematic errors are removed before the α's are fitted; all are estimated.
+    pub remove: Which,
+    pub reference_error: ReferenceError,
+    /// Of the bootstrap.
+    pub seed: u64,
+}
+
+/// What a log says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    pub estimate: Estimate,
+    /// 95 % intervals that do not take legs for independent: [`super::bootstrap`].
+    pub bootstrap: Vec<Option<[f64; 2]>>,
+    /// The systematic errors, all estimated together.
+    pub systematic: Systematic,
+    /// The standard deviations of [`Error::ALL`]; None of one that the log does not determine.
+    pub deviations: [Option<f64>; ERRORS],
+    /// What was removed: of what was to be removed, what the log determines.
+    pub removed: Systematic,
+    pub legs: Vec<Leg>,
+    /// Of each leg.
+    pub observations: Vec<Observation>,
+    /// Of each leg.
+    pub judged: Vec<Judged>,
+    pub doubts: Doubts,
+    pub inflation: Inflation,
+}
+
+impl Calibration {
+    /// The 95 % interval of a systematic error; None where the log does not determine it.
+    pub fn interval_of(&self, error: Error) -> Option<[f64; 2]> {
+        let (value, deviation) = (self.systematic.get(error), self.deviations[error as usize]?);
+        Some([value - NORMAL_95 * deviation, value + NORMAL_95 * deviation])
+    }
+}
+
+/// Why a log says nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CalibrateError {
+    /// There are fewer legs than [`FEWEST`].
+    FewLegs { legs: usize },
+}
+
+/// Fewer than this and halves, blocks and tails would be of single legs.
+pub const FEWEST: usize = 8;
+
+impl fmt::Display for CalibrateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::FewLegs { legs } = self;
+        write!(
+            f,
+            "the log has {legs} legs for which both trajectories are known; allowed are {FEWEST} at least: shorter legs, a longer drive, or clocks that agree"
+        )
+    }
+}
+
+impl std::error::Error for CalibrateError {}
+
+/// From a log to parameters: [`Calibrating`] to its end.
+///
+/// # Errors
+/// [`CalibrateError`] where there are too few legs.
+pub fn calibrate(
+    odometry: &Trajectory,
+    reference: &Trajectory,
+    options: &Options,
+) -> Result<Calibration, CalibrateError> {
+    let mut calibrating = Calibrating::new(*options);
+    loop {
+        if let Some(calibration) = calibrating.step(odometry, reference)? {
+            return Ok(calibration);
+        }
+    }
+}
+
+/// A calibration under way: the same in pieces, so that nobody has to wait for all of it.
+///
+/// 1. Clocks are aligned by the robot's turns.
+/// 2. Legs are cut, α's fitted to them, and systematic errors found by least squares with the weights that these α's give; again with
+///    those errors removed, until they stay.
+/// 3. The α's are fitted with the errors removed that are to be.
+/// 4. Each α's interval, one a step; the bootstrap; the doubts; inflation.
+#[derive(Clone, Debug)]
+pub struct Calibrating {
+    options: Options,
+    stage: Stage,
+    systematic: Systematic,
+    deviations: [Option<f64>; ERRORS],
+    /// Of the last round.
+    known: [[f64; ERRORS]; ERRORS],
+    removed: Systematic,
+    legs: Vec<Leg>,
+    observations: Vec<Observation>,
+    evidence: Evidence,
+    best: Option<Parameters>,
+    intervals: Vec<Option<[f64; 2]>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stage {
+    Align,
+    Round(usize),
+    Fit,
+    Interval(usize),
+    Judge,
+}
+
+/// Rounds at most: systematic errors of the usual sizes stay after three or four.
+const ROUNDS: usize = 12;
+
+/// A change that is so small a part of its deviation is none.
+const STAYS: f64 = 0.01;
+
+impl Calibrating {
+    pub fn new(options: Options) -> Self {
+        Self {
+            options,
+            stage: Stage::Align,
+            systematic: Systematic::NONE,
+            deviations: [None; ERRORS],
+            known: [[0.0; ERRORS]; ERRORS],
+            removed: Systematic::NONE,
+            legs: Vec::new(),
+            observations: Vec::new(),
+            evidence: Evidence::new(options.model, options.noise, []),
+            best: None,
+            intervals: Vec::new(),
+        }
+    }
+
+    /// How much is done, 0 to 1.
+    pub fn progress(&self) -> f64 {
+        let steps = ROUNDS + 2 + self.options.model.alphas();
+        let done = match self.stage {
+            Stage::Align => 0,
+            Stage::Round(round) => 1 + round,
+            Stage::Fit => ROUNDS,
+            Stage::Interval(alpha) => ROUNDS + 1 + alpha,
+            Stage::Judge => steps - 1,
+        };
+        done as f64 / steps as f64
+    }
+
+    /// Goes on by one step; the calibration after the last one.
+    ///
+    /// # Errors
+    /// [`CalibrateError`] where there are too few legs.
+    pub fn step(
+        &mut self,
+        odometry: &Trajectory,
+        reference: &Trajectory,
+    ) -> Result<Option<Calibration>, CalibrateError> {
+        self.stage = match self.stage {
+            Stage::Align => {
+                self.systematic.clock_offset = clock_offset(odometry, reference);
+                Stage::Round(0)
+            }
+            Stage::Round(round) => {
+                self.observe(odometry, reference, self.systematic, [true; ERRORS])?;
+                let stays = self.refine();
+                if stays || round + 1 == ROUNDS { Stage::Fit } else { Stage::Round(round + 1) }
+            }
+            Stage::Fit => {
+                self.removed = Systematic::NONE;
+                for (i, error) in Error::ALL.into_iter().enumerate() {
+                    if self.options.remove[i] {
+                        self.removed.set(error, self.systematic.get(error));
+                    }
+                }
+                self.observe(odometry, reference, self.removed, self.options.remove)?;
+                self.best = Some(self.fitted(self.options.robust).best);
+                Stage::Interval(0)
+            }
+            Stage::Interval(alpha) => {
+                let fitted = self.fitted(self.options.robust);
+                self.intervals.push(fitted.interval(alpha));
+                if alpha + 1 < self.options.model.alphas() {
+                    Stage::Interval(alpha + 1)
+                } else {
+                    Stage::Judge
+                }
+            }
+            Stage::Judge => return Ok(Some(self.judge())),
+        };
+        Ok(None)
+    }
+
+    /// Legs, and what they say without some systematic errors.
+    fn observe(
+        &mut self,
+        odometry: &Trajectory,
+        reference: &Trajectory,
+        without: Systematic,
+        estimated: Which,
+    ) -> Result<(), CalibrateError> {
+        let Options { model, noise, legs, reference_error, .. } = self.options;
+        self.legs = cut(odometry, reference, legs, without.clock_offset);
+        if self.legs.len() < FEWEST {
+            return Err(CalibrateError::FewLegs { legs: self.legs.len() });
+        }
+        let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
+        let observe = |leg: &Leg| {
+            let own = Matrix2::identity() * (2.0 * reference_error.position * reference_error.position);
+            let heading = reference_error.heading * reference_error.heading;
+            let place = own + without.uncertainty(leg, &deviations);
+            model.observe(leg, &without, &Uncertainty { place, heading })
+        };
+        self.observations = self.legs.iter().map(observe).collect();
+        self.evidence = Evidence::new(model, noise, &self.observations);
+        Ok(())
+    }
+
+    fn fitted(&self, robust: Robust) -> Fitted<'_> {
+        let Options { model, .. } = self.options;
+        let near = self.best.as_ref().filter(|best| best.bad.is_some() == (robust != Robust::No));
+        Fitted::new(&self.evidence, model.alphas(), robust, near)
+    }
+
+    /// The systematic errors a step better; whether they are as they were.
+    fn refine(&mut self) -> bool {
+        // Bad legs are set aside here even if the α's are to answer for them.
+        let robust = if self.options.robust == Robust::No { Robust::Estimated } else { self.options.robust };
+        let best = self.fitted(robust).best;
+        let mut squares = LeastSquares::after(self.known);
+        let legs = self.legs.iter().zip(&self.observations).zip(self.evidence.each(&best));
+        for ((leg, observation), density) in legs {
+            let variances = density.variances.map(|variance| variance.unwrap_or(0.0));
+            let weights = self
+                .options
+                .model
+                .first_order_variances(observation, variances)
+                .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 });
+            squares.add(&self.systematic, leg, observation, weights);
+        }
+        self.best = Some(best);
+        let Step { change, deviations, inverse } = squares.step();
+        (self.deviations, self.known) = (deviations, inverse);
+        let mut stays = true;
+        for (i, error) in Error::ALL.into_iter().enumerate() {
+            let Some(deviation) = deviations[i] else { continue };
+            let most = 4.0 * error.largest_deviation();
+            let change = change[i].max(-most).min(most);
+            self.systematic.set(error, self.systematic.get(error) + change);
+            stays &= change.abs() <= STAYS * deviation;
+        }
+        stays
+    }
+
+    fn judge(&mut self) -> Calibration {
+        let Options { model, noise, robust, seed, .. } = self.options;
+        let fitted = self.fitted(self.options.robust);
+        let estimate = fitted.estimate(self.intervals.clone());
+        let mut bootstrap = bootstrap::intervals(&fitted, model.alphas(), seed);
+        bootstrap
+            .iter_mut()
+            .enumerate()
+            .for_each(|(k, interval)| *interval = interval.filter(|_| self.intervals[k].is_some()));
+        let judged = Judged::all(&self.evidence, &fitted.best, &self.observations);
+        let halves = Halves::new(model, noise, robust, &self.observations, &fitted.best);
+        let neighbours: Vec<bool> = (0..self.legs.len())
+            .map(|i| i > 0 && self.legs[i - 1].times[1] == self.legs[i].times[0])
+            .collect();
+        let doubts = doubts(model, noise, &self.observations, &judged, &neighbours, &halves);
+        Calibration {
+            estimate,
+            bootstrap,
+            systematic: self.systematic,
+            deviations: self.deviations,
+            removed: self.removed,
+            doubts,
+            inflation: halves.inflation(),
+            judged,
+            legs: std::mem::take(&mut self.legs),
+            observations: std::mem::take(&mut self.observations),
+        }
+    }
+}

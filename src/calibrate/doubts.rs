@@ -1,0 +1,324 @@
+//! Whether the model is any good: what the residuals say against it.
+
+use super::likelihood::{Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
+use super::model::{Model, Observation};
+use super::profile::Fitted;
+use super::trajectory::sort;
+use crate::noise::NoiseKind;
+
+/// What there is to doubt about a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doubts {
+    pub kinds: Vec<KindDoubts>,
+    pub held_out: HeldOut,
+    /// Places of the legs that are furthest from what was expected, the worst first.
+    pub worst: Vec<usize>,
+    pub verdict: Verdict,
+}
+
+/// The residuals of one kind, each by its standard deviation. Legs that are rather bad than not are left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KindDoubts {
+    /// As in [`super::Kind`].
+    pub name: &'static str,
+    pub count: usize,
+    /// E[z⁴]/E[z²]²; of the normal distribution 3, of the triangular 2.4.
+    pub kurtosis: f64,
+    /// Of neighbouring legs; the model says 0. NaN where there are none.
+    pub autocorrelation: f64,
+    /// Below this it is in 95 of 100 logs of which the model is true.
+    pub autocorrelation_limit: f64,
+    /// At 0.01, 0.02, … 0.99.
+    pub quantiles: Vec<f64>,
+}
+
+/// Half of the log, in alternate blocks, judged by the α's of the other half.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldOut {
+    /// Residuals.
+    pub count: usize,
+    /// The share of them inside of their 95 % interval.
+    pub coverage: f64,
+    /// Where that is in 95 of 100 logs of which the model is true.
+    pub coverage_interval: [f64; 2],
+    /// The mean of (r/σ)².
+    pub squared_error: f64,
+    /// Where that is in 95 of 100 logs of which the model is true: χ² over its degrees of freedom, with that of the α's themselves.
+    pub squared_error_interval: [f64; 2],
+    /// Of a leg, nats.
+    pub log_likelihood: f64,
+}
+
+/// The first that is true.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Too few legs to say.
+    FewLegs,
+    /// Residuals are far out more often than the noise explains.
+    HeavyTails,
+    /// Neighbouring legs have something in common.
+    Correlated,
+    /// Held-out residuals are outside of their intervals more often than they should be.
+    Overconfident,
+    /// They are inside more often.
+    Lazy,
+    /// Nothing speaks against the model.
+    Fits,
+}
+
+/// What α's that are larger or smaller by a factor would make of the held-out half.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inflation {
+    /// From a tenth to ten, evenly by their logarithms.
+    pub factors: Vec<f64>,
+    /// Shares inside of the 95 % interval.
+    pub coverage: Vec<f64>,
+    /// Of a leg, nats.
+    pub log_likelihood: Vec<f64>,
+}
+
+/// Fewer legs tell no α to a fifth.
+const FEW: usize = 100;
+
+/// Legs of a block: a minute's, so that both halves have seen all of a drive.
+const BLOCK: usize = 50;
+
+/// How many of the worst legs are told.
+const WORST: usize = 10;
+
+/// Factors between 1 and 10.
+const FACTORS: i32 = 12;
+
+/// A correlation that is too small to matter for a filter, however sure it is.
+const SLIGHT_CORRELATION: f64 = 0.1;
+
+/// So much kurtosis more than the noise has does no harm, however sure it is.
+const SLIGHT_KURTOSIS: f64 = 0.5;
+
+/// Of a kind of noise with variance 1.
+struct Shape {
+    /// 95 % are within.
+    end: f64,
+    kurtosis: f64,
+    /// By how much the share within changes with the logarithm of the variance.
+    slope: f64,
+}
+
+/// 95 % of a normal distribution are within so many deviations.
+pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+fn shape(noise: NoiseKind) -> Shape {
+    match noise {
+        // With c its end: c · φ(c).
+        NoiseKind::Normal => Shape {
+            end: NORMAL_95,
+            kurtosis: 3.0,
+            slope: NORMAL_95 * libm::exp(-0.5 * NORMAL_95 * NORMAL_95) / ROOT_TAU,
+        },
+        // √6 (1 − √0.05); with u = √0.05, the density there is 2u/√6 on both sides, half of it for the root of the variance.
+        NoiseKind::Triangular => {
+            let rest = 0.05f64.sqrt();
+            Shape { end: 6.0f64.sqrt() * (1.0 - rest), kurtosis: 2.4, slope: (1.0 - rest) * rest }
+        }
+    }
+}
+
+/// Each leg by the α's of a fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// Standard deviations of the residuals; NaN of one that is not told.
+    pub deviations: [f64; 3],
+    /// Σ (r/σ)².
+    pub squared_error: f64,
+    /// The probability that the leg is bad.
+    pub bad: f64,
+}
+
+impl Judged {
+    pub(super) fn all(evidence: &Evidence, at: &Parameters, observations: &[Observation]) -> Vec<Self> {
+        let judged = |(leg, observation): (LegDensity, &Observation)| {
+            let deviations = leg.variances.map(|variance| variance.map_or(f64::NAN, f64::sqrt));
+            let of = Self { deviations, squared_error: 0.0, bad: leg.bad };
+            let squared_error =
+                of.standardized(observation).iter().filter(|z| z.is_finite()).map(|z| z * z).sum();
+            Self { squared_error, ..of }
+        };
+        evidence.each(at).zip(observations).map(judged).collect()
+    }
+
+    /// r/σ of each residual; NaN of one that is not told, or of which nothing makes it uncertain.
+    pub fn standardized(&self, observation: &Observation) -> [f64; 3] {
+        std::array::from_fn(|k| {
+            let deviation = self.deviations[k];
+            if deviation > 0.0 { observation.residuals[k] / deviation } else { f64::NAN }
+        })
+    }
+}
+
+/// A fit to half of the log, and the other half.
+pub(super) struct Halves {
+    best: Parameters,
+    /// Residuals that the fit has seen.
+    seen: usize,
+    evidence: Evidence,
+    observations: Vec<Observation>,
+    noise: NoiseKind,
+}
+
+impl Halves {
+    /// Blocks in turn, of [`BLOCK`] 50 legs or, of a short log, an eighth of it.
+    pub fn new(
+        model: Model,
+        noise: NoiseKind,
+        robust: Robust,
+        observations: &[Observation],
+        near: &Parameters,
+    ) -> Self {
+        let block = BLOCK.min(observations.len() / 8).max(1);
+        let mut halves = [Vec::new(), Vec::new()];
+        for (i, each) in observations.chunks(block).enumerate() {
+            halves[i % 2].extend_from_slice(each);
+        }
+        let [fitted, held_out] = halves;
+        let seen = Evidence::new(model, noise, &fitted);
+        let best = Fitted::new(&seen, model.alphas(), robust, Some(near)).best;
+        let told = |all: &[Observation]| {
+            all.iter().flat_map(|each| each.residuals).filter(|r| r.is_finite()).count()
+        };
+        Self {
+            best,
+            seen: told(&fitted),
+            evidence: Evidence::new(model, noise, &held_out),
+            observations: held_out,
+            noise,
+        }
+    }
+
+    /// Standardized residuals of the held-out half, its bad legs left out, if the α's are larger by a factor.
+    fn standardized(&self, at: &Parameters) -> Vec<f64> {
+        let judged = Judged::all(&self.evidence, at, &self.observations);
+        let good = judged.iter().zip(&self.observations).filter(|(leg, _)| leg.bad <= 0.5);
+        good.flat_map(|(leg, observation)| leg.standardized(observation)).filter(|z| z.is_finite()).collect()
+    }
+
+    fn coverage(&self, standardized: &[f64]) -> f64 {
+        let end = shape(self.noise).end;
+        standardized.iter().filter(|z| z.abs() <= end).count() as f64 / standardized.len() as f64
+    }
+
+    fn log_likelihood(&self, at: &Parameters) -> f64 {
+        self.evidence.slope(at).log_likelihood / self.observations.len() as f64
+    }
+
+    fn held_out(&self) -> HeldOut {
+        let standardized = self.standardized(&self.best);
+        let (count, seen) = (standardized.len() as f64, self.seen as f64);
+        let Shape { kurtosis, slope, .. } = shape(self.noise);
+        // Of the variances that the α's make, by the fit.
+        let of_fit = (kurtosis - 1.0) / seen;
+        let about = |middle: f64, variance: f64| {
+            [-1.0, 1.0].map(|side| middle + side * NORMAL_95 * f64::sqrt(variance))
+        };
+        HeldOut {
+            count: standardized.len(),
+            coverage: self.coverage(&standardized),
+            coverage_interval: about(0.95, 0.95 * 0.05 / count + slope * slope * of_fit),
+            squared_error: standardized.iter().map(|z| z * z).sum::<f64>() / count,
+            squared_error_interval: about(1.0, (kurtosis - 1.0) / count + of_fit),
+            log_likelihood: self.log_likelihood(&self.best),
+        }
+    }
+
+    pub fn inflation(&self) -> Inflation {
+        let factors: Vec<f64> =
+            (-FACTORS..=FACTORS).map(|k| libm::exp10(f64::from(k) / f64::from(FACTORS))).collect();
+        let at =
+            |factor: &f64| Parameters { alphas: self.best.alphas.map(|alpha| factor * alpha), ..self.best };
+        Inflation {
+            coverage: factors.iter().map(|factor| self.coverage(&self.standardized(&at(factor)))).collect(),
+            log_likelihood: factors.iter().map(|factor| self.log_likelihood(&at(factor))).collect(),
+            factors,
+        }
+    }
+}
+
+/// What there is to doubt. `neighbours` says of each leg whether it began where the one before ended.
+pub(super) fn doubts(
+    model: Model,
+    noise: NoiseKind,
+    observations: &[Observation],
+    judged: &[Judged],
+    neighbours: &[bool],
+    halves: &Halves,
+) -> Doubts {
+    let standardized: Vec<[f64; 3]> = judged
+        .iter()
+        .zip(observations)
+        .map(|(leg, observation)| if leg.bad <= 0.5 { leg.standardized(observation) } else { [f64::NAN; 3] })
+        .collect();
+    let kinds: Vec<KindDoubts> = model
+        .kinds()
+        .iter()
+        .enumerate()
+        .map(|(k, kind)| {
+            let of_kind: Vec<f64> = standardized.iter().map(|leg| leg[k]).collect();
+            kind_doubts(kind.name, &of_kind, neighbours)
+        })
+        .collect();
+    let mut worst: Vec<usize> = Vec::with_capacity(WORST + 1);
+    for (place, leg) in judged.iter().enumerate() {
+        let before = worst.iter().filter(|other| judged[**other].squared_error >= leg.squared_error).count();
+        worst.insert(before, place);
+        worst.truncate(WORST);
+    }
+    let held_out = halves.held_out();
+    let verdict = verdict(observations.len(), &kinds, &held_out, noise);
+    Doubts { kinds, held_out, worst, verdict }
+}
+
+fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) -> KindDoubts {
+    let mut told: Vec<f64> = standardized.iter().copied().filter(|z| z.is_finite()).collect();
+    sort(&mut told);
+    let count = told.len();
+    let mean = |power: i32| told.iter().map(|z| z.powi(power)).sum::<f64>() / count as f64;
+    let square = mean(2);
+    let pairs = || {
+        let both = standardized.windows(2).zip(neighbours.get(1..).unwrap_or(&[]));
+        both.filter(|(pair, next)| **next && pair.iter().all(|z| z.is_finite()))
+            .map(|(pair, _)| pair[0] * pair[1])
+    };
+    let neighbouring = pairs().count() as f64;
+    let at = |share: f64| {
+        let place = share * (count as f64 - 1.0);
+        let below = place as usize;
+        let above = (below + 1).min(count - 1);
+        told[below] + (place - below as f64) * (told[above] - told[below])
+    };
+    KindDoubts {
+        name,
+        count,
+        kurtosis: mean(4) / (square * square),
+        autocorrelation: pairs().sum::<f64>() / neighbouring / square,
+        autocorrelation_limit: NORMAL_95 / neighbouring.sqrt(),
+        quantiles: if count > 0 { (1..100).map(|i| at(f64::from(i) / 100.0)).collect() } else { Vec::new() },
+    }
+}
+
+fn verdict(legs: usize, kinds: &[KindDoubts], held_out: &HeldOut, noise: NoiseKind) -> Verdict {
+    let Shape { kurtosis, .. } = shape(noise);
+    // Of three kinds one is beyond two deviations by chance in every seventh log, beyond three in every hundredth.
+    let tails = |kind: &KindDoubts| {
+        kind.kurtosis - kurtosis > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
+    };
+    let correlated = |kind: &KindDoubts| {
+        kind.autocorrelation.abs() > SLIGHT_CORRELATION.max(1.5 * kind.autocorrelation_limit)
+    };
+    match held_out {
+        _ if legs < FEW => Verdict::FewLegs,
+        _ if kinds.iter().any(tails) => Verdict::HeavyTails,
+        _ if kinds.iter().any(correlated) => Verdict::Correlated,
+        HeldOut { coverage, coverage_interval: [from, _], .. } if coverage < from => Verdict::Overconfident,
+        HeldOut { coverage, coverage_interval: [_, to], .. } if coverage > to => Verdict::Lazy,
+        _ => Verdict::Fits,
+    }
+}

@@ -1,0 +1,291 @@
+//! What a leg says of the α's: how far the robot was from where the reading (or the command) says, and which α's answer for
+//! that.
+
+use super::legs::Leg;
+use super::systematic::Systematic;
+use crate::geom::arc::invert_arc;
+use crate::geom::se2::{SE2, wrap_angle};
+use crate::geom::sinc::sinc;
+use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
+use nalgebra::{Matrix2, Matrix3, RowVector3, Vector2, Vector3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The model whose α's are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// Of odometry readings, by the bookkeeping of this rule: four α's, under [`OdometryRule::Omni`] five.
+    Odometry(OdometryRule),
+    /// Of velocity commands: six.
+    Velocity,
+}
+
+/// One of the three noises of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// Its name in the tables.
+    pub name: &'static str,
+    /// The α's in its variance, from 0.
+    pub alphas: [usize; 2],
+}
+
+const fn kind(name: &'static str, first: usize, second: usize) -> Kind {
+    Kind { name, alphas: [first, second] }
+}
+
+const HINGED: [Kind; 3] = [kind("rot1", 0, 1), kind("trans", 2, 3), kind("rot2", 0, 1)];
+const SLIDING: [Kind; 3] = [kind("rot2", 0, 1), kind("trans", 2, 3), kind("strafe", 4, 3)];
+const DRIVEN: [Kind; 3] = [kind("v", 0, 1), kind("omega", 2, 3), kind("gamma", 4, 5)];
+
+/// The three residuals of a leg, each executed less expected, and what their variances are made of. A leg that does not tell
+/// one of them has NaN there, and nothing in its variance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    pub residuals: [f64; 3],
+    /// The same with directions as they are to first order, across the drive over its length: where the robot hardly went anywhere,
+    /// the direction itself is that of the smallest systematic error.
+    pub first_order: [f64; 3],
+    /// The same by the other way to the same pose, backwards and turned about, where that might be meant.
+    pub other_way: Option<[f64; 3]>,
+    /// What the two α's of each kind are multiplied by in its variance, 0 or more.
+    pub coefficients: [[f64; 2]; 3],
+    /// The part of each variance that is the reference's own error.
+    pub floors: [f64; 3],
+    /// What the model says of the leg: rot1, trans, rot2 (rad, m, rad); or v, ω, Δt (m/s, rad/s, s).
+    pub reading: [f64; 3],
+    /// The motion that the model expects.
+    pub expected: SE2,
+    /// How the residuals change with the base's motion: rows of kinds, columns x, y, θ.
+    pub slopes: Matrix3<f64>,
+}
+
+/// How well it is known where a leg really ended, seen from its beginning.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Uncertainty {
+    /// The covariance of its end, m².
+    pub place: Matrix2<f64>,
+    /// The variance of a heading, rad², independent at either end.
+    pub heading: f64,
+}
+
+impl Uncertainty {
+    /// The variance along a direction, m².
+    fn along(&self, direction: f64) -> f64 {
+        let (sin, cos) = libm::sincos(direction);
+        let toward = Vector2::new(cos, sin);
+        (self.place * toward).dot(&toward)
+    }
+
+    /// The variance (rad²) of the direction of a motion: at most that of a direction of which nothing is known.
+    fn of_bearing(&self, bearing: f64, distance: f64) -> f64 {
+        (self.along(bearing + FRAC_PI_2) / (distance * distance)).min(PI * PI / 3.0)
+    }
+}
+
+impl Model {
+    /// How many α's it has.
+    pub fn alphas(self) -> usize {
+        match self {
+            Self::Odometry(OdometryRule::Omni) => 5,
+            Self::Odometry(_) => 4,
+            Self::Velocity => 6,
+        }
+    }
+
+    /// Its noises, in the order of [`Observation::residuals`].
+    pub fn kinds(self) -> &'static [Kind; 3] {
+        match self {
+            Self::Odometry(OdometryRule::Omni) => &SLIDING,
+            Self::Odometry(_) => &HINGED,
+            Self::Velocity => &DRIVEN,
+        }
+    }
+
+    /// What a leg says, once what is systematic about it is removed.
+    ///
+    /// The variance of each residual is that which the model gives the reading, as its sampler and
+    /// [`crate::MotionModel::pose_density`] have it. Of the two combinations of legs that lead to each pose, facing it or facing
+    /// away from it, the one with the nearer bearing is taken; under the printed table a robot that backs up is charged with two
+    /// half turns, and its noise is so large that the other one may be meant.
+    ///
+    /// Where a leg has not driven a centimetre its direction is that of its noise: it tells no first rotation, and its second is the
+    /// turn as a whole; of a command that drives so little only the speed is told.
+    pub fn observe(self, leg: &Leg, systematic: &Systematic, error: &Uncertainty) -> Observation {
+        let expected = systematic.expected(leg);
+        let motion = systematic.motion(leg);
+        match self {
+            Self::Odometry(OdometryRule::Omni) => slid(&expected, &motion, error),
+            Self::Odometry(rule) => hinged(rule, &expected, &motion, error),
+            Self::Velocity => driven(leg.duration(), &expected, &motion, error),
+        }
+    }
+}
+
+impl Model {
+    /// The variances of [`Observation::first_order`], where those of its residuals are these: what is across the drive over the length
+    /// that was read varies with the length that was driven too, E\[t̂²\] = t² + σ².
+    pub(super) fn first_order_variances(self, observation: &Observation, variances: [f64; 3]) -> [f64; 3] {
+        let (length, direction) = match self {
+            Self::Odometry(OdometryRule::Omni) => return variances,
+            Self::Odometry(_) => (1, 0),
+            Self::Velocity => (0, 1),
+        };
+        if observation.residuals[direction].is_nan() {
+            return variances;
+        }
+        let read = observation.reading[length];
+        let added = variances[direction] * variances[length] / (read * read);
+        let mut first_order = variances;
+        first_order[direction] += added;
+        first_order[2] += added;
+        first_order
+    }
+}
+
+/// What each of five α's adds to the variances by itself: they are linear in them.
+fn alone(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 5] {
+    std::array::from_fn(|alpha| {
+        let mut alphas: RuleAlphas = [0.0; 5];
+        alphas[alpha] = 1.0;
+        rule.variances(reading, &alphas)
+    })
+}
+
+fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty) -> Observation {
+    let read = OdomDelta::from_poses(&SE2::identity(), expected);
+    let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
+    let alone = alone(rule, &read);
+    let first = [0, 1].map(|alpha: usize| alone[alpha].rot1.0);
+    let along = [2, 3].map(|alpha: usize| alone[alpha].trans.0);
+    let second = [0, 1].map(|alpha: usize| alone[alpha].rot2.0);
+    let reading = [rot1, trans, rot2];
+    let (sin, cos) = libm::sincos(rot1);
+    let drive = RowVector3::new(cos, sin, 0.0);
+    let place = error.along(rot1);
+    let turned = wrap_angle(motion.theta() - rot1 - rot2);
+    if read.trans < SPIN_BELOW {
+        let residuals = [f64::NAN, cos * motion.x() + sin * motion.y() - trans, turned];
+        return Observation {
+            residuals,
+            first_order: residuals,
+            other_way: None,
+            coefficients: [[0.0; 2], along, [first[0] + second[0], first[1] + second[1]]],
+            floors: [0.0, place, 2.0 * error.heading],
+            reading,
+            expected: *expected,
+            slopes: Matrix3::from_rows(&[RowVector3::zeros(), drive, RowVector3::new(0.0, 0.0, 1.0)]),
+        };
+    }
+    let [bearing, distance] = [libm::atan2(motion.y(), motion.x()), libm::hypot(motion.x(), motion.y())];
+    let off = wrap_angle(bearing - rot1);
+    let facing = [off, distance - trans, wrap_angle(turned - off)];
+    let away = [wrap_angle(off - PI), -distance - trans, wrap_angle(turned - off + PI)];
+    let [residuals, other] = if off.abs() > FRAC_PI_2 { [away, facing] } else { [facing, away] };
+    // In a leg that leads ahead the other way would be an error of a half turn, twice.
+    let other_way = (rule == OdometryRule::Table && rot1.abs() > FRAC_PI_2).then_some(other);
+    let across = RowVector3::new(-sin, cos, 0.0) / trans;
+    let off = across.x * motion.x() + across.y * motion.y();
+    let bearing_error = error.heading + error.of_bearing(bearing, distance);
+    Observation {
+        residuals,
+        first_order: [off, residuals[1], wrap_angle(turned - off)],
+        other_way,
+        coefficients: [first, along, second],
+        floors: [bearing_error, place, bearing_error],
+        reading,
+        expected: *expected,
+        slopes: Matrix3::from_rows(&[across, drive, RowVector3::new(0.0, 0.0, 1.0) - across]),
+    }
+}
+
+/// A robot that slides has no hinge: its bearing is what was read.
+fn slid(expected: &SE2, motion: &SE2, error: &Uncertainty) -> Observation {
+    let read = OdomDelta::from_poses(&SE2::identity(), expected);
+    let OdomDelta { rot1, trans, rot2 } = read;
+    let alone = alone(OdometryRule::Omni, &read);
+    let (sin, cos) = libm::sincos(rot1);
+    let residuals = [
+        wrap_angle(motion.theta() - rot1 - rot2),
+        cos * motion.x() + sin * motion.y() - trans,
+        cos * motion.y() - sin * motion.x(),
+    ];
+    Observation {
+        residuals,
+        first_order: residuals,
+        other_way: None,
+        coefficients: [
+            [alone[0].rot2.0, alone[1].rot2.0],
+            [alone[2].trans.0, alone[3].trans.0],
+            [alone[4].strafe.0, alone[3].strafe.0],
+        ],
+        floors: [
+            2.0 * error.heading,
+            error.along(rot1),
+            error.along(rot1 + FRAC_PI_2) + trans * trans * error.heading,
+        ],
+        reading: [rot1, trans, rot2],
+        expected: *expected,
+        slopes: Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0),
+    }
+}
+
+/// The command, constant all through the leg, that leads where the odometry (or what was commanded in it) says, and the arc that was
+/// driven instead. Sideways a command leads nowhere.
+fn driven(dt: f64, read: &SE2, motion: &SE2, error: &Uncertainty) -> Observation {
+    let twist = read.log();
+    let expected = SE2::exp(&Vector3::new(twist.x, 0.0, twist.z));
+    let [length, turn] = [twist.x, twist.z];
+    let [v, omega] = [length / dt, turn / dt];
+    let half = 0.5 * turn;
+    // By whichever way the chord leads.
+    let distance = length * sinc(half);
+    let (sin, cos) = libm::sincos(half);
+    let along = RowVector3::new(cos, sin, 0.0) / sinc(half);
+    let place = error.along(half);
+    let per_time = 1.0 / (dt * dt);
+    let [v2, omega2] = [v * v, omega * omega];
+    if length.abs() < SPIN_BELOW {
+        let v_hat = (cos * motion.x() + sin * motion.y()) / sinc(half) / dt;
+        let residuals = [v_hat - v, f64::NAN, f64::NAN];
+        return Observation {
+            residuals,
+            first_order: residuals,
+            other_way: None,
+            coefficients: [[v2, omega2], [0.0; 2], [0.0; 2]],
+            floors: [place * per_time, 0.0, 0.0],
+            reading: [v, omega, dt],
+            expected,
+            slopes: Matrix3::from_rows(&[along / dt, RowVector3::zeros(), RowVector3::zeros()]),
+        };
+    }
+    let executed = invert_arc(&SE2::identity(), motion, dt);
+    let bearing = RowVector3::new(-sin, cos, 0.0) / distance;
+    // v̂Δt = d/sinc β, and d(ln sinc)/dβ = cot β − 1/β.
+    let log_slope = if half.abs() < 1e-4 { -half / 3.0 } else { cos / sin - 1.0 / half };
+    let bearing_error =
+        error.of_bearing(libm::atan2(motion.y(), motion.x()), libm::hypot(motion.x(), motion.y()));
+    let off = 2.0 * (bearing.x * motion.x() + bearing.y * motion.y());
+    let v_off = executed.v_hat - v;
+    Observation {
+        first_order: [v_off, off / dt, wrap_angle(motion.theta() - turn - off) / dt],
+        residuals: [v_off, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat],
+        other_way: None,
+        coefficients: [[v2, omega2]; 3],
+        floors: [place, 4.0 * (bearing_error + error.heading), 4.0 * bearing_error + 2.0 * error.heading]
+            .map(|floor| floor * per_time),
+        reading: [v, omega, dt],
+        expected,
+        slopes: Matrix3::from_rows(&[
+            along - bearing * (length * log_slope),
+            bearing * 2.0,
+            RowVector3::new(0.0, 0.0, 1.0) - bearing * 2.0,
+        ]) / dt,
+    }
+}
+
+/// How the motion that a twist leads to changes with the rate of turning, at constant length.
+pub(super) fn turn_slope(twist: &Vector3<f64>, end: &SE2) -> Vector3<f64> {
+    let half = 0.5 * twist.z;
+    let shrink =
+        0.5 * if half.abs() < 1e-4 { -half / 3.0 } else { libm::cos(half) / libm::sin(half) - 1.0 / half };
+    Vector3::new(shrink * end.x() - 0.5 * end.y(), shrink * end.y() + 0.5 * end.x(), 1.0)
+}

@@ -1,0 +1,243 @@
+//! What a log says of a robot's α's, as plain JavaScript values.
+
+use super::values::{float64_array, list, number_or_null, object};
+use crate::calibrate::{Calibration, Doubts, Error, Inflation, KindDoubts, Verdict, Which};
+use crate::geom::se2::SE2;
+use js_sys::Array;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** An interval that holds the true value in 95 of 100 logs. */
+export type Interval = [number, number];
+
+/** A systematic error: what the reference says of the odometry. Null where the log does not determine it. */
+export interface SystematicValue {
+  value: number | null;
+  interval: Interval | null;
+  /** Whether it was removed before the α's were fitted. */
+  removed: boolean;
+}
+
+/** The residuals of one kind, each by its standard deviation; bad legs left out. */
+export interface KindDoubts {
+  name: 'rot1' | 'trans' | 'rot2' | 'strafe' | 'v' | 'omega' | 'gamma';
+  count: number;
+  /** Of the normal distribution 3, of the triangular 2.4. */
+  kurtosis: number;
+  /** Of neighbouring legs; the model says 0. */
+  autocorrelation: number;
+  /** Below this it is in 95 of 100 logs of which the model is true. */
+  autocorrelationLimit: number;
+  /** At 0.01, 0.02, … 0.99. */
+  quantiles: Float64Array;
+}
+
+/** What a log says of a robot's α's. */
+export interface Calibration {
+  /** Null where this log does not determine one. */
+  alphas: (number | null)[];
+  /** By the profile of the likelihood. */
+  intervals: (Interval | null)[];
+  /** By a bootstrap of blocks of legs, which does not take them for independent. */
+  bootstrap: (Interval | null)[];
+  /**
+   * Reference's time = odometry's time + clockOffset (s); reference's heading = base's heading + mountYaw (rad); the point that
+   * the reference follows is at leverArm (m, ahead and to the left) of the base; true distance = distanceScale × odometry's;
+   * true turn = turnScale × odometry's.
+   */
+  systematic: {
+    clockOffset: SystematicValue;
+    mountYaw: SystematicValue;
+    leverArm: { value: [number | null, number | null]; interval: [Interval | null, Interval | null]; removed: boolean };
+    distanceScale: SystematicValue;
+    turnScale: SystematicValue;
+  };
+  legs: CalibrationLegs;
+  /** Of the residuals, nats. */
+  logLikelihood: number;
+  /** The share of bad legs; null where none is taken for bad. */
+  outliers: number | null;
+  doubts: {
+    kinds: KindDoubts[];
+    /** Half of the log by the α's of the other half; intervals say where a figure is in 95 of 100 logs of which the model is true. */
+    heldOut: { count: number; coverage: number; expected: number; interval: Interval; logLikelihood: number };
+    /** The mean of (r/σ)² over the held-out residuals. */
+    squaredError: { mean: number; interval: Interval };
+    /** Places of the legs that are furthest from what was expected, the worst first. */
+    worst: number[];
+    verdict: 'few-legs' | 'heavy-tails' | 'correlated' | 'overconfident' | 'lazy' | 'fits';
+  };
+  /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
+  inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
+  /** How often each trajectory pauses: no leg leads across. */
+  gaps: { odometry: number; reference: number };
+}
+
+/** Legs, one after the other in each array. */
+export interface CalibrationLegs {
+  count: number;
+  /** Beginning and end, s. */
+  times: Float64Array;
+  /** Both ends in the odometry frame, x, y, θ. */
+  odometry: Float64Array;
+  /** Both ends of the robot's base by the reference, x, y, θ, without the lever arm and the mount's yaw. */
+  reference: Float64Array;
+  /** rot1, trans, rot2; or v, ω, Δt. */
+  readings: Float64Array;
+  /** Executed less expected, of the three kinds in their order; NaN of one that a leg does not tell. */
+  residuals: Float64Array;
+  /** Their standard deviations under the α's. */
+  deviations: Float64Array;
+  /** Σ (r/σ)². */
+  squaredError: Float64Array;
+  /** The probability that the leg is bad. */
+  bad: Float64Array;
+}
+"#;
+
+/// What each systematic error is called, and which of [`Error::ALL`] it is.
+pub const SYSTEMATIC: [(&str, &[Error]); 5] = [
+    ("clockOffset", &[Error::ClockOffset]),
+    ("mountYaw", &[Error::MountYaw]),
+    ("leverArm", &[Error::LeverArmAhead, Error::LeverArmLeft]),
+    ("distanceScale", &[Error::DistanceScale]),
+    ("turnScale", &[Error::TurnScale]),
+];
+
+/// All that is told of a calibration; its legs where they are given.
+pub fn calibration_to_js(
+    calibration: &Calibration,
+    remove: Which,
+    gaps: [usize; 2],
+    legs: Option<JsValue>,
+) -> Result<JsValue, JsValue> {
+    let Calibration { estimate, bootstrap, doubts, inflation, .. } = calibration;
+    let alphas: Array = estimate.alphas.iter().map(|alpha| known(*alpha)).collect();
+    let [odometry_gaps, reference_gaps] = gaps.map(|gaps| JsValue::from(gaps as f64));
+    let told = [
+        ("alphas", alphas.into()),
+        ("intervals", intervals(&estimate.intervals)?),
+        ("bootstrap", intervals(bootstrap)?),
+        ("systematic", systematic_to_js(calibration, remove)?),
+        ("logLikelihood", estimate.log_likelihood.into()),
+        ("outliers", number_or_null(estimate.outliers)),
+        ("doubts", doubts_to_js(doubts)?),
+        ("inflation", inflation_to_js(inflation)?),
+        ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])?),
+    ];
+    object(&told.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>())
+}
+
+fn known(number: f64) -> JsValue {
+    number_or_null(Some(number).filter(|number| !number.is_nan()))
+}
+
+fn interval(interval: Option<[f64; 2]>) -> Result<JsValue, JsValue> {
+    interval.map_or(Ok(JsValue::NULL), |interval| list(&interval))
+}
+
+fn intervals(intervals: &[Option<[f64; 2]>]) -> Result<JsValue, JsValue> {
+    Ok(intervals.iter().map(|each| interval(*each)).collect::<Result<Array, JsValue>>()?.into())
+}
+
+fn systematic_to_js(calibration: &Calibration, remove: Which) -> Result<JsValue, JsValue> {
+    let value = |error: Error| {
+        let determined = calibration.deviations[error as usize].is_some();
+        number_or_null(determined.then(|| calibration.systematic.get(error)))
+    };
+    let of = |error: Error| interval(calibration.interval_of(error));
+    let entries = SYSTEMATIC.iter().map(|(key, errors)| {
+        let [value, interval] = match errors {
+            [error] => [value(*error), of(*error)?],
+            errors => [
+                errors.iter().map(|error| value(*error)).collect::<Array>().into(),
+                errors.iter().map(|error| of(*error)).collect::<Result<Array, JsValue>>()?.into(),
+            ],
+        };
+        let removed = remove[errors[0] as usize].into();
+        Ok((*key, object(&[("value", value), ("interval", interval), ("removed", removed)])?))
+    });
+    object(&entries.collect::<Result<Vec<_>, JsValue>>()?)
+}
+
+fn doubts_to_js(doubts: &Doubts) -> Result<JsValue, JsValue> {
+    let Doubts { kinds, held_out, worst, verdict } = doubts;
+    let kinds = kinds.iter().map(kind_to_js).collect::<Result<Array, JsValue>>()?;
+    let worst: Vec<f64> = worst.iter().map(|place| *place as f64).collect();
+    object(&[
+        ("kinds", kinds.into()),
+        (
+            "heldOut",
+            object(&[
+                ("count", (held_out.count as f64).into()),
+                ("coverage", held_out.coverage.into()),
+                ("expected", 0.95.into()),
+                ("interval", list(&held_out.coverage_interval)?),
+                ("logLikelihood", held_out.log_likelihood.into()),
+            ])?,
+        ),
+        (
+            "squaredError",
+            object(&[
+                ("mean", held_out.squared_error.into()),
+                ("interval", list(&held_out.squared_error_interval)?),
+            ])?,
+        ),
+        ("worst", list(&worst)?),
+        ("verdict", verdict_word(*verdict).into()),
+    ])
+}
+
+fn kind_to_js(kind: &KindDoubts) -> Result<JsValue, JsValue> {
+    object(&[
+        ("name", kind.name.into()),
+        ("count", (kind.count as f64).into()),
+        ("kurtosis", kind.kurtosis.into()),
+        ("autocorrelation", kind.autocorrelation.into()),
+        ("autocorrelationLimit", kind.autocorrelation_limit.into()),
+        ("quantiles", float64_array(&kind.quantiles)?.into()),
+    ])
+}
+
+fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::FewLegs => "few-legs",
+        Verdict::HeavyTails => "heavy-tails",
+        Verdict::Correlated => "correlated",
+        Verdict::Overconfident => "overconfident",
+        Verdict::Lazy => "lazy",
+        Verdict::Fits => "fits",
+    }
+}
+
+fn inflation_to_js(inflation: &Inflation) -> Result<JsValue, JsValue> {
+    object(&[
+        ("factors", float64_array(&inflation.factors)?.into()),
+        ("coverage", float64_array(&inflation.coverage)?.into()),
+        ("logLikelihood", float64_array(&inflation.log_likelihood)?.into()),
+    ])
+}
+
+/// The legs of a calibration.
+pub fn legs_to_js(calibration: &Calibration) -> Result<JsValue, JsValue> {
+    let Calibration { legs, observations, judged, removed, .. } = calibration;
+    let array = |numbers: Vec<f64>| float64_array(&numbers).map(JsValue::from);
+    let pose = |pose: SE2| [pose.x(), pose.y(), pose.theta()];
+    object(&[
+        ("count", (legs.len() as f64).into()),
+        ("times", array(legs.iter().flat_map(|leg| leg.times).collect())?),
+        ("odometry", array(legs.iter().flat_map(|leg| leg.odometry).flat_map(pose).collect())?),
+        (
+            "reference",
+            array(
+                legs.iter().flat_map(|leg| leg.reference).flat_map(|end| pose(removed.base(&end))).collect(),
+            )?,
+        ),
+        ("readings", array(observations.iter().flat_map(|each| each.reading).collect())?),
+        ("residuals", array(observations.iter().flat_map(|each| each.residuals).collect())?),
+        ("deviations", array(judged.iter().flat_map(|leg| leg.deviations).collect())?),
+        ("squaredError", array(judged.iter().map(|leg| leg.squared_error).collect())?),
+        ("bad", array(judged.iter().map(|leg| leg.bad).collect())?),
+    ])
+}

@@ -1,0 +1,112 @@
+//! Trajectories, and the legs that they are cut into.
+
+use motion::calibrate::{LegLength, Trajectory, cut};
+use motion::geom::se2::SE2;
+
+fn straight(count: usize, step: f64) -> Trajectory {
+    let samples = (0..count).map(|i| (0.1 * i as f64, SE2::new(step * i as f64, 0.0, 0.0)));
+    Trajectory::new(samples).expect("times rise")
+}
+
+#[test]
+fn legs_end_as_amcl_ends_them() {
+    let odometry = straight(41, 0.0625);
+    let length = LegLength::Moved { distance: 0.25, angle: 0.2 };
+    let legs = cut(&odometry, &odometry, length, 0.0);
+    // At exactly a quarter of a metre not yet: five steps each.
+    assert_eq!(legs.len(), 8);
+    for (i, leg) in legs.iter().enumerate() {
+        assert_eq!(leg.odometry[1].x() - leg.odometry[0].x(), 0.3125);
+        assert_eq!(leg.times[0], odometry.samples().nth(5 * i).expect("there").0);
+    }
+    // Each axis by itself: 0.24 m along both is no leg, though it is 0.34 m away.
+    let diagonal = [(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0)));
+    let diagonal = Trajectory::new(diagonal).expect("times rise");
+    assert_eq!(cut(&diagonal, &diagonal, length, 0.0)[0].times, [0.0, 0.2]);
+    // Across the half turn the angle is small.
+    let turning = [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
+    let turning = Trajectory::new(turning).expect("times rise");
+    assert_eq!(cut(&turning, &turning, length, 0.0)[0].times, [0.0, 0.2]);
+    let timed = cut(&odometry, &odometry, LegLength::Lasted { duration: 0.5 }, 0.0);
+    assert_eq!(timed.len(), 8);
+}
+
+#[test]
+fn no_leg_leads_across_a_gap() {
+    let whole = straight(101, 0.1);
+    let length = LegLength::Moved { distance: 0.25, angle: 0.2 };
+    // A second is missing, ten steps.
+    let missing = |t: f64| (4.0 < t) && (t < 5.0);
+    let holed = Trajectory::new(whole.samples().filter(|(t, _)| !missing(*t))).expect("times rise");
+    for (odometry, reference) in [(&holed, &whole), (&whole, &holed), (&holed, &holed)] {
+        let legs = cut(odometry, reference, length, 0.0);
+        assert!(legs.len() > 25);
+        assert!(legs.iter().all(|leg| leg.times[1] <= 4.0 + 1e-9 || leg.times[0] >= 5.0 - 1e-9));
+    }
+    // Nor beyond the ends of the reference.
+    let shorter = Trajectory::new(whole.samples().skip(20).take(30)).expect("times rise");
+    assert!(
+        cut(&whole, &shorter, length, 0.0)
+            .iter()
+            .all(|leg| leg.times[0] >= 2.0 - 1e-9 && leg.times[1] <= 4.9 + 1e-9)
+    );
+}
+
+#[test]
+fn between_two_samples_the_robot_drives_an_arc() {
+    let twist = motion_twist();
+    let ends = [(1.0, SE2::new(2.0, 1.0, 3.0)), (2.0, SE2::new(2.0, 1.0, 3.0).boxplus(twist))];
+    let trajectory = Trajectory::new(ends).expect("times rise");
+    let there = trajectory.pose_at(1.25).expect("inside");
+    let expected = ends[0].1.boxplus(twist * 0.25);
+    assert!(there.boxminus(&expected).norm() < 1e-12);
+    assert_eq!([0.99, 2.01].map(|time| trajectory.pose_at(time)), [None; 2]);
+}
+
+fn motion_twist() -> nalgebra::Vector3<f64> {
+    nalgebra::Vector3::new(0.5, 0.1, 0.8)
+}
+
+#[test]
+fn times_rise_and_numbers_are_numbers() {
+    let of = |samples: &[(f64, f64)]| {
+        Trajectory::new(samples.iter().map(|(t, x)| (*t, SE2::new(*x, 0.0, 0.0))))
+            .map_err(|error| error.to_string())
+    };
+    assert!(of(&[]).is_ok() && of(&[(1.0, 2.0)]).is_ok());
+    assert_eq!(
+        of(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]),
+        Err("sample 2 is not later than the one before, at 1 s; allowed are times that rise".to_owned())
+    );
+    let not_finite = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
+    assert_eq!(of(&[(0.0, 0.0), (f64::NAN, 0.0)]), Err(not_finite.to_owned()));
+    assert_eq!(of(&[(0.0, 0.0), (1.0, f64::INFINITY)]), Err(not_finite.to_owned()));
+}
+
+#[test]
+fn legs_are_of_one_moment_by_both_clocks() {
+    let odometry = straight(101, 0.1);
+    let ahead = Trajectory::new(odometry.samples().map(|(t, pose)| (t + 3.0, pose))).expect("times rise");
+    let legs = cut(&odometry, &ahead, LegLength::AMCL, 3.0);
+    assert!(legs.len() > 25);
+    for leg in legs {
+        for (read, seen) in leg.odometry.iter().zip(leg.reference) {
+            assert!(read.boxminus(&seen).norm() < 1e-9);
+        }
+        assert!(leg.velocities.iter().all(|velocity| (velocity - nalgebra::Vector3::x()).norm() < 1e-9));
+    }
+}
+
+#[test]
+fn commands_lead_along_their_arcs() {
+    let commands = [(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)];
+    let driven = Trajectory::from_commands(commands).expect("times rise");
+    let poses: Vec<SE2> = driven.samples().map(|(_, pose)| pose).collect();
+    // A metre ahead; an arc of a metre that turns by 2 rad, of the radius ½; a turn on the spot, back to the first heading.
+    let arc = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
+    let expected = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
+    for (pose, expected) in poses.iter().zip(expected) {
+        assert!(pose.boxminus(&expected).norm() < 1e-12, "{pose:?} is not {expected:?}");
+    }
+    assert!(Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, f64::NAN, 0.0)]).is_err());
+}

@@ -1,0 +1,141 @@
+//! Logs of robots whose α's and errors are known.
+
+use motion::calibrate::{Error, LegLength, Model, Systematic, Trajectory};
+use motion::geom::se2::SE2;
+use motion::models::OdometryRule;
+use motion::{NoiseKind, OdomDelta, Variance, VelocityAlphas, VelocityCmd, VelocityModel};
+use nalgebra::Vector3;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+pub const ALPHAS: [f64; 6] = [0.03, 0.01, 0.02, 0.005, 0.015, 0.008];
+
+/// Every model and rule.
+pub const MODELS: [Model; 5] = [
+    Model::Odometry(OdometryRule::Table),
+    Model::Odometry(OdometryRule::Nav2),
+    Model::Odometry(OdometryRule::Beluga),
+    Model::Odometry(OdometryRule::Omni),
+    Model::Velocity,
+];
+
+/// What a log is made with.
+#[derive(Clone, Copy, Debug)]
+pub struct Simulation {
+    pub model: Model,
+    pub noise: NoiseKind,
+    pub legs: LegLength,
+    pub count: usize,
+    pub errors: Systematic,
+    /// Of legs in which the reference jumps by half a metre and stays there.
+    pub jumps: f64,
+    /// Whether the robot backs up now and then.
+    pub reverses: bool,
+    pub seed: u64,
+}
+
+impl Simulation {
+    pub fn of(model: Model, noise: NoiseKind, count: usize, seed: u64) -> Self {
+        let reverses = model != Model::Odometry(OdometryRule::Table);
+        Self {
+            model,
+            noise,
+            legs: LegLength::AMCL,
+            count,
+            errors: Systematic::NONE,
+            jumps: 0.0,
+            reverses,
+            seed,
+        }
+    }
+
+    /// What the odometry says, and what the reference does.
+    pub fn log(&self) -> [Trajectory; 2] {
+        const STEP: f64 = 0.05;
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        let [distance_scale, turn_scale] =
+            [Error::DistanceScale, Error::TurnScale].map(|e| self.errors.get(e));
+        let mut odometry = vec![(0.0, SE2::identity())];
+        let mut base = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
+        let (mut speeds, mut left, mut began) = ([0.3, 0.0], 40, 0);
+        // What was driven since the leg began, by what the odometry would say without its errors.
+        let (mut driven, mut inside) = (SE2::identity(), Vec::new());
+        let mut legs = 0;
+        while legs < self.count {
+            if left == 0 {
+                speeds = self.speeds(&mut rng);
+                left = rng.random_range(15..60);
+            }
+            left -= 1;
+            let time = odometry.len() as f64 * STEP;
+            let twist = Vector3::new(speeds[0], 0.0, speeds[1]) * STEP;
+            driven = driven.boxplus(twist);
+            let read = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
+            odometry.push((time, odometry.last().expect("some").1.boxplus(read)));
+            inside.push((time, driven));
+            let [(start_time, start), (_, reading)] = [odometry[began], odometry[odometry.len() - 1]];
+            if !ends(self.legs, time - start_time, &start, &reading) {
+                continue;
+            }
+            let from = base.last().expect("some").1;
+            let to = self.executed(&from, &driven, time - start_time, &mut rng);
+            // Where it ends beyond what was read comes evenly on the way.
+            let off = (driven.inverse() * from.inverse() * to).log();
+            let ahead = |time: f64| (time - start_time) / (inside.len() as f64 * STEP);
+            base.extend(inside.iter().map(|(t, pose)| (*t, from * pose.boxplus(off * ahead(*t)))));
+            if rng.random_bool(self.jumps) {
+                let toward = rng.random_range(-3.0..3.0);
+                let jump = SE2::new(0.5 * libm::cos(toward), 0.5 * libm::sin(toward), 0.0);
+                let (_, last) = base.last_mut().expect("some");
+                *last = jump * *last;
+            }
+            (driven, began, legs) = (SE2::identity(), odometry.len() - 1, legs + 1);
+            inside.clear();
+        }
+        let [ahead, to_left] = self.errors.lever_arm;
+        let mount = SE2::new(ahead, to_left, self.errors.mount_yaw);
+        let reference = base.iter().map(|(t, pose)| (t + self.errors.clock_offset, *pose * mount));
+        [Trajectory::new(odometry).expect("times rise"), Trajectory::new(reference).expect("times rise")]
+    }
+
+    /// Straight on, a bend, a turn on the spot or, where it may, back.
+    fn speeds(&self, rng: &mut impl Rng) -> [f64; 2] {
+        let [v, bend] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
+        match rng.random_range(0..6) {
+            0 if self.model != Model::Velocity => [0.0, if bend > 0.0 { 0.6 } else { -0.6 }],
+            0 => [0.06, 2.0 * bend],
+            1 if self.reverses => [-v, bend],
+            2 => [v, 0.0],
+            _ => [v, 2.0 * bend],
+        }
+    }
+
+    fn executed(&self, from: &SE2, driven: &SE2, dt: f64, rng: &mut impl Rng) -> SE2 {
+        let unit_noise = [0; 3].map(|_| self.noise.sample(Variance(1.0), rng));
+        let of_five: [f64; 5] = std::array::from_fn(|k| ALPHAS[k]);
+        match self.model {
+            Model::Odometry(rule) => {
+                let read = OdomDelta::from_poses(&SE2::identity(), driven);
+                rule.variances(&read, &of_five).executed(&rule.legs(&read), unit_noise).poses(from)[3]
+            }
+            Model::Velocity => {
+                let twist = driven.log();
+                let u = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
+                let model = VelocityModel { alphas: VelocityAlphas(ALPHAS), noise: self.noise };
+                model.apply_noise(&u, from, unit_noise)
+            }
+        }
+    }
+}
+
+/// As `LegLength` says it, in words of its own.
+fn ends(legs: LegLength, lasted: f64, start: &SE2, reading: &SE2) -> bool {
+    match legs {
+        LegLength::Moved { distance, angle } => {
+            let turned = motion::geom::se2::wrap_angle(reading.theta() - start.theta());
+            let moved = [reading.x() - start.x(), reading.y() - start.y()];
+            moved.iter().any(|along| along.abs() > distance) || turned.abs() > angle
+        }
+        LegLength::Lasted { duration } => lasted > duration - 1e-6,
+    }
+}

@@ -1,0 +1,122 @@
+// `motion.calibrate`: the same as in Rust, and what it refuses.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { load } from '../../dist/core.js';
+import { ROOT } from '../../scripts/process.mjs';
+
+const motion = await load();
+
+/** @param {string} name of a file of the example */
+function columns(name) {
+  const [, ...rows] = readFileSync(join(ROOT, 'examples/calibration', `${name}.csv`), 'utf8').trim().split('\n');
+  const numbers = rows.map((row) => row.split(',').map(Number));
+  const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(numbers, (row) => row[i]));
+  return { t, x, y, theta };
+}
+
+const [odometry, reference] = ['odometry', 'reference'].map(columns);
+
+/** The bits of all that is told, in the order of tests/calibrate/same.rs. @param {import('../../www/types.d.ts').Calibration} told */
+function bits({ alphas, intervals, bootstrap, logLikelihood, doubts, inflation, legs }) {
+  const numbers = [
+    ...alphas, ...intervals.flat(), ...bootstrap.flat(), logLikelihood, doubts.heldOut.coverage, doubts.squaredError.mean,
+    ...doubts.kinds.flatMap(({ kurtosis, autocorrelation }) => [kurtosis, autocorrelation]),
+    ...inflation.logLikelihood, ...legs.squaredError,
+  ].filter((number) => number !== null && !Number.isNaN(number));
+  const view = new DataView(new ArrayBuffer(8));
+  return numbers.map((number) => {
+    view.setFloat64(0, Number(number));
+    return ` ${view.getBigUint64(0).toString(16).padStart(16, '0')}`;
+  }).join('');
+}
+
+test('the example says the same as in Rust, to the last bit', () => {
+  const shaken = { ...reference, positionDeviation: 1e-4, headingDeviation: 1e-4 };
+  const lines = ['table', 'nav2', 'beluga', 'omni', 'velocity'].flatMap((name) =>
+    /** @type {const} */ (['normal', 'triangular']).map((noise) => {
+      const which = /** @type {any} */ (name === 'velocity' ? { model: name } : { rule: name });
+      return `${name} ${noise}${bits(motion.calibrate({ odometry, reference: shaken, ...which, noise, robust: true, seed: 3 }))}\n`;
+    }));
+  assert.ok(lines.join('') === readFileSync(join(ROOT, 'tests/calibrate/golden.txt'), 'utf8'));
+});
+
+test('what is left out is as it opens, and arrays may be of any kind', () => {
+  const plain = (/** @type {Record<string, Float64Array>} */ log) => Object.fromEntries(Object.entries(log).map(([key, column]) => [key, [...column]]));
+  const all = {
+    model: 'odometry', rule: 'table', legs: { distance: 0.25, angle: 0.2 }, noise: 'normal', robust: false, systematic: true, seed: 0,
+  };
+  const opening = motion.calibrate({ odometry, reference });
+  assert.deepEqual(motion.calibrate(/** @type {any} */ ({ odometry: plain(odometry), reference: plain(reference), ...all })), opening);
+  assert.deepEqual(motion.calibrate({ odometry, reference, model: 'omnidirectional' }), motion.calibrate({ odometry, reference, rule: 'omni' }));
+});
+
+test('what was injected into the example is in its intervals', () => {
+  const { alphas, intervals, systematic, legs, doubts } = motion.calibrate({ odometry, reference });
+  const within = (/** @type {number} */ real, /** @type {[number, number] | null} */ interval) => {
+    assert.ok(interval && interval[0] < real && real < interval[1], `${real}: ${interval}`);
+  };
+  [0.03, 0.008, 0.002, 0.002].forEach((real, k) => within(real, intervals[k]));
+  within(0.12, systematic.clockOffset.interval);
+  within(0.03, systematic.mountYaw.interval);
+  within(1.01, systematic.distanceScale.interval);
+  within(1, systematic.turnScale.interval);
+  assert.equal(alphas.length, 4);
+  assert.equal(legs.count, legs.squaredError.length);
+  assert.equal(legs.times.length, 2 * legs.count);
+  assert.equal(doubts.verdict, 'fits');
+});
+
+test('commands are fitted by the velocity model', () => {
+  const t = Float64Array.from({ length: 4000 }, (_, i) => 0.1 * i);
+  const v = t.map((time) => 0.3 + 0.2 * Math.sin(0.3 * time));
+  const omega = t.map((time) => 0.6 * Math.sin(0.17 * time));
+  // Further by a hundredth, and a little aside at each step, by turns.
+  let pose = { x: 0, y: 0, theta: 0 };
+  const seen = Array.from(t, (_, i) => {
+    const before = pose;
+    const turn = 0.02 * Math.sin(i * i);
+    pose = motion.se2.boxplus(pose, [0.101 * v[i], 0, 0.1 * (omega[i] + turn)]);
+    return before;
+  });
+  const [x, y, theta] = /** @type {const} */ (['x', 'y', 'theta']).map((key) => seen.map((each) => each[key]));
+  const { alphas, systematic } = motion.calibrate({ odometry: { t, v, omega }, reference: { t, x, y, theta }, model: 'velocity', legs: { duration: 0.5 } });
+  assert.equal(alphas.length, 6);
+  assert.ok(Math.abs(Number(systematic.distanceScale.value) - 1.01) < 0.001);
+});
+
+test('an α that the log does not determine is null', () => {
+  const straight = (/** @type {number} */ shake) => {
+    const t = Float64Array.from({ length: 1000 }, (_, i) => 0.1 * i);
+    return { t, x: t.map((time, i) => 0.5 * time + shake * (i % 7)), y: t.map(() => 0), theta: t.map(() => 0) };
+  };
+  const { alphas, intervals, systematic } = motion.calibrate({ odometry: straight(0), reference: straight(1e-3) });
+  assert.deepEqual([alphas[0], alphas[3], intervals[0], intervals[3]], [null, null, null, null]);
+  assert.equal(systematic.turnScale.value, null);
+  assert.ok(Number(alphas[2]) > 0);
+});
+
+test('refusals name what is wrong and what is allowed', () => {
+  const few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
+  /** @type {[any, RegExp][]} */
+  const refused = [
+    [{ reference }, /^odometry is undefined; allowed is an object$/],
+    [{ odometry, reference: { ...reference, x: [1] } }, /^reference\.x has length 1; allowed is \d+, as of reference\.t$/],
+    [{ odometry: { ...odometry, t: [] }, reference }, /^odometry\.t has length 0; allowed is 2 to 10000000$/],
+    [{ odometry: { ...few, x: [0, 'a'] }, reference }, /^odometry\.x\[1\] is "a"; allowed is a number$/],
+    [{ odometry: { ...few, theta: [0, NaN] }, reference }, /^odometry\.theta\[1\] is NaN; allowed /],
+    [{ odometry: { ...few, t: [1, 1] }, reference }, /^odometry: sample 1 is not later than the one before, at 1 s; allowed are times that rise$/],
+    [{ odometry: few, reference: few }, /^the log has \d legs for which both trajectories are known; allowed are 8 at least/],
+    [{ odometry, reference, model: 'banana' }, /^model is "banana"; allowed is "odometry" or /],
+    [{ odometry, reference, model: 'velocity', rule: 'nav2' }, /^rule is given beside a model that has its own; allowed is /],
+    [{ odometry, reference, legs: { duration: 1, angle: 1 } }, /^legs\.duration is given beside .*; allowed is one of the two$/],
+    [{ odometry, reference, legs: { distance: 0 } }, /^legs\.distance is 0; allowed /],
+    [{ odometry, reference, robust: { outliers: 1 } }, /^robust\.outliers is 1; allowed /],
+    [{ odometry, reference, robust: 'yes' }, /^robust is "yes"; allowed is true, false or an object/],
+    [{ odometry, reference, systematic: { yaw: true } }, /^systematic\.yaw is an unknown key; allowed are clockOffset, /],
+    [{ odometry, reference, seed: -1 }, /^seed is -1; allowed /],
+  ];
+  for (const [options, sentence] of refused) assert.throws(() => motion.calibrate(options), { message: sentence });
+});

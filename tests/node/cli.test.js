@@ -1,0 +1,202 @@
+// `npx motion-widgets calibrate`, as a shell has it.
+
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { load } from '../../dist/core.js';
+import { TRUTH } from '../../scripts/example-log.mjs';
+import { HELP } from '../../www/cli/options.js';
+import { run } from '../../www/cli/run.js';
+import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
+
+const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
+const example = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
+const FILES = ['--odometry', example('odometry'), '--reference', example('reference')];
+
+/** @type {string} */
+let folder;
+before(() => (folder = mkdtempSync(join(tmpdir(), 'motion-cli-'))));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+/** @param {string} name @param {string | Uint8Array} contents */
+function file(name, contents) {
+  const path = join(folder, name);
+  writeFileSync(path, contents);
+  return path;
+}
+
+/** What the command says, in this process. @param {string[]} args @param {() => Promise<any>} [core] */
+async function said(args, core = load) {
+  let [out, err] = ['', ''];
+  const code = await run(args, { load: core, print: (text) => (out += text), complain: (text) => (err += text), now: new Date('2026-01-02T03:04:05Z') });
+  return { code, out, err };
+}
+
+/** What the core is asked for. @param {string[]} args @returns {Promise<any>} */
+async function askedOf(args) {
+  /** @type {any} */
+  let asked;
+  class Asked extends RangeError {}
+  const calibrate = (/** @type {any} */ options) => {
+    asked = options;
+    throw new Asked('enough');
+  };
+  const { err } = await said(['calibrate', ...args], async () => ({ calibrate }));
+  assert.ok(asked, err);
+  return asked;
+}
+
+test('the options reach the core', async () => {
+  const { odometry: own, reference, ...fit } = await askedOf(FILES);
+  assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
+  assert.deepEqual([Object.keys(own), Object.keys(reference)], [['t', 'x', 'y', 'theta'], ['t', 'x', 'y', 'theta']]);
+  const all = '--model omnidirectional --rule nav2 --distance 0.5 --angle 0.3 --noise triangular --robust --without mountYaw,leverArm --seed 7 --position-deviation 0.001 --heading-deviation 2e-3';
+  const { reference: told, ...rest } = await askedOf([...FILES, ...all.split(' ')]);
+  delete rest.odometry;
+  const systematic = { clockOffset: true, mountYaw: false, leverArm: false, distanceScale: true, turnScale: true };
+  assert.deepEqual(rest, { model: 'omnidirectional', rule: 'nav2', legs: { distance: 0.5, angle: 0.3 }, noise: 'triangular', robust: true, systematic, seed: 7 });
+  assert.deepEqual([told.positionDeviation, told.headingDeviation], [0.001, 0.002]);
+  assert.deepEqual((await askedOf([...FILES, '--robust', '0.02', '--duration', '0.5'])).robust, { outliers: 0.02 });
+  assert.deepEqual((await askedOf([...FILES, '--robust=0.03', '--duration=0.5'])).legs, { duration: 0.5 });
+});
+
+test('a recording gives both, by the topics that can be meant or are named', async () => {
+  const messages = Array.from({ length: 40 }, (_, i) => {
+    const t = 100 + i / 20;
+    const pose = { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(i, 2, 0) };
+    return [
+      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, i, 1, 0) },
+      { topic: '/mocap', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
+      { topic: '/other', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
+      { topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(1, 2) },
+    ];
+  }).flat();
+  const path = file('run.mcap', await recordingOf(messages, { compression: 'zstd' }));
+  const both = await askedOf(['--recording', path]);
+  assert.deepEqual([both.odometry.y[3], both.reference.y[3]], [1, 2]);
+  const named = await askedOf(['--recording', path, '--odom-topic', '/mocap', '--reference-topic', '/odom']);
+  assert.deepEqual([named.odometry.y[3], named.reference.y[3]], [2, 1]);
+  const driven = await askedOf(['--recording', path, '--model', 'velocity']);
+  assert.deepEqual([driven.odometry.v[3], driven.odometry.omega[3]], [1, 2]);
+  const unclear = file('unclear.mcap', await recordingOf(messages.filter(({ topic }) => topic !== '/mocap').map((each) => (each.topic === '/cmd_vel' ? { ...each, topic: '/third', type: 'nav_msgs/msg/Odometry', message: odometry(each.t, 0, 0, 0) } : each))));
+  const { code, err } = await said(['calibrate', '--recording', unclear]);
+  assert.deepEqual([code, err], [2, 'unclear.mcap: which topic is the reference is not clear; expected is a choice of /odom (Odometry), /other (PoseStamped), /third (Odometry).\n']);
+});
+
+for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
+  [['calibrat'], /^the command is “calibrat”; expected is calibrate\.$/],
+  [['calibrate', 'odom.csv'], /^“odom\.csv” belongs to no option; expected are options such as --odometry\.$/],
+  [['calibrate', '--odometri', 'a'], /^--odometri is no option; expected are those of --help\.$/],
+  [['calibrate', '--odometry'], /^Option '--odometry <value>' argument missing; expected is what --help shows\.$/],
+  [['calibrate', ...FILES, '--distance', '-1'], /^Option '--distance' argument is ambiguous; expected is what --help shows\.$/],
+  [['calibrate', '--reference', 'a.csv'], /^--odometry is missing; expected is a file, or --recording with both\.$/],
+  [['calibrate', ...FILES, '--angle', 'wide'], /^--angle is “wide”; expected is a number\.$/],
+  [['calibrate', ...FILES, '--robust=some'], /^--robust is “some”; expected is a number\.$/],
+  [['calibrate', ...FILES, '--duration', '1', '--angle', '1'], /^--duration is 1 beside --distance or --angle; expected is either the one or the others\.$/],
+  [['calibrate', ...FILES, '--without', 'yaw'], /^--without has “yaw”; expected are names of clockOffset, mountYaw, leverArm, distanceScale, turnScale\.$/],
+  [['calibrate', ...FILES, '--frames', 'map'], /^--frames is “map”; expected are a parent and a child, as in map,base_link\.$/],
+  [['calibrate', ...FILES, '--odom-topic', '/odom'], /^odometry\.csv is no recording and has no topic \/odom; expected is an MCAP file\.$/],
+  [['calibrate', ...FILES, '--reference', 'none.csv'], /^none\.csv: the file cannot be read \(ENOENT\); expected is one that is still there\.$/],
+  [['calibrate', ...FILES, '--reference', tmpdir()], /^.*: the file cannot be read \(no file\); expected is one that is still there\.$/],
+])) {
+  test(`bad input has the exit code 2 and a sentence: ${args.filter((arg) => !arg.includes('/')).join(' ')}`, async () => {
+    const { code, out, err } = await said(args);
+    assert.deepEqual([code, out], [2, '']);
+    assert.match(err.trimEnd(), sentence);
+  });
+}
+
+test('what the core refuses, it refuses by the name of the logs', async () => {
+  const { code, err } = await said(['calibrate', ...FILES, '--distance=-1']);
+  assert.equal(code, 2);
+  assert.match(err, /^odometry\.csv and reference\.csv: .*distance.* -1; allowed (is|are) .*\n$/);
+});
+
+test('from a shell: help, a sentence, and a pipe that is closed', () => {
+  const shell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI, ...args], { encoding: 'utf8' });
+  for (const help of [shell(), shell('--help'), shell('calibrate', '--help')]) assert.deepEqual([help.status, help.stdout, help.stderr], [0, HELP, '']);
+  const refused = shell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
+  assert.deepEqual([refused.status, refused.stdout, refused.stderr], [2, '', 'no.csv: the file cannot be read (ENOENT); expected is one that is still there.\n']);
+  const closed = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...FILES, '--json'], { encoding: 'utf8' });
+  assert.deepEqual([closed.stdout, closed.stderr], ['{', '']);
+});
+
+test('the example log: the truth lies in the intervals, and the command says what the function does', async () => {
+  const { status, stdout } = spawnSync(process.execPath, [CLI, 'calibrate', ...FILES, '--json'], { encoding: 'utf8' });
+  assert.equal(status, 0);
+  const told = JSON.parse(stdout);
+  const within = (/** @type {number} */ value, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= value && value <= high, `${value}: ${low} to ${high}`);
+  for (const [i, alpha] of TRUTH.alphas.entries()) within(alpha, told.intervals[i]);
+  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) within(TRUTH[name], told.systematic[name].interval);
+  within(1, told.systematic.turnScale.interval);
+  assert.equal(told.doubts.verdict, 'fits');
+
+  const motion = /** @type {any} */ (await load());
+  const logs = await Promise.all(['odometry', 'reference'].map((name) => readLog(new File([readFileSync(example(name))], `${name}.csv`))));
+  const { odometry: own, reference } = together(logs[0], logs[1]);
+  const calibration = motion.calibrate({ odometry: own.data, reference: reference.data });
+  for (const key of ['alphas', 'intervals', 'bootstrap', 'systematic', 'logLikelihood', 'outliers', 'gaps']) assert.deepEqual(told[key], calibration[key], key);
+  // JSON knows no NaN.
+  assert.deepEqual(told.legs.residuals, Array.from(calibration.legs.residuals, (each) => (Number.isNaN(each) ? null : each)));
+});
+
+test('a recording says the same as tables of the same drive', async () => {
+  /** @type {import('../mcap.js').Message[]} */
+  const messages = [];
+  for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
+    for (const row of readFileSync(example(name), 'utf8').trim().split('\n').slice(1)) {
+      const [t, x, y, theta] = row.split(',').map(Number);
+      const message = topic === '/odom' ? odometry(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
+      messages.push({ topic, type, t, message });
+    }
+  }
+  messages.sort((a, b) => a.t - b.t);
+  const tables = JSON.parse((await said(['calibrate', ...FILES, '--json'])).out);
+  for (const compression of /** @type {const} */ (['zstd', 'lz4'])) {
+    const path = file(`${compression}.mcap`, await recordingOf(messages, { compression, chunkSize: 100_000 }));
+    const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', path, '--json'], { encoding: 'utf8' });
+    assert.equal(status, 0, stderr);
+    for (const [i, alpha] of JSON.parse(stdout).alphas.entries()) assert.ok(Math.abs(alpha / tables.alphas[i] - 1) < 1e-6, `${alpha} ${tables.alphas[i]}`);
+  }
+});
+
+test('as text: a table of the α’s, what is systematic, the doubts, a verdict, and lines for Nav2', async () => {
+  const { code, out } = await said(['calibrate', ...FILES, '--rule', 'nav2']);
+  assert.equal(code, 0);
+  const { alphas } = JSON.parse((await said(['calibrate', ...FILES, '--rule', 'nav2', '--json'])).out);
+  for (const [i, alpha] of alphas.entries()) {
+    const [, value] = out.match(new RegExp(`^    alpha${i + 1}: (\\S+)  # \\S+ to \\S+$`, 'm')) ?? [];
+    assert.ok(Math.abs(Number(value) / alpha - 1) < 0.01, `${value} ${alpha}`);
+    assert.match(out, new RegExp(`^alpha${i + 1}  +${value}  `, 'm'));
+  }
+  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# The tails are heavier [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
+  for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out residuals inside of 95 % +\S+ % /m]) assert.match(out, line);
+  const { out: byTable } = await said(['calibrate', ...FILES]);
+  assert.match(byTable, /^The model fits this log\.$/m);
+  assert.match(byTable, /^ {4}# fitted under another rule than Nav2's: see --rule nav2$/m);
+});
+
+test('by the omnidirectional rule five α’s, and one table is no two logs', async () => {
+  const { code, out } = await said(['calibrate', ...FILES, '--rule', 'omni']);
+  assert.equal(code, 0);
+  assert.match(out, /^alpha5  +0\.\d+ .*sideways, with the way$/m);
+  const twice = await said(['calibrate', '--odometry', FILES[1], '--reference', FILES[1]]);
+  assert.equal(twice.code, 2);
+  assert.match(twice.err, /^odometry\.csv is both odometry and reference; expected are two tables, or an MCAP file\.$/m);
+});
+
+test('where a log does not determine an α, no line says one', async () => {
+  // Straight on, and never turning.
+  const rows = Array.from({ length: 2000 }, (_, i) => [i / 20, i / 40, 0.002 * Math.sin(i * i), 0.003 * Math.sin(3 * i * i)].join(','));
+  const straight = file('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${i / 20},${i / 40},0,0`)].join('\n'));
+  const truth = file('truth.csv', ['t,x,y,yaw', ...rows].join('\n'));
+  const { code, out, err } = await said(['calibrate', '--odometry', straight, '--reference', truth]);
+  assert.equal(code, 0, err);
+  assert.match(out, /^alpha1 +not determined by this log/m);
+  assert.match(out, /^ {4}# alpha1: not determined by this log$/m);
+});

@@ -1,6 +1,6 @@
 //! `AlphaCalibrator` for JavaScript.
 
-use super::calibration::{calibration_to_js, legs_to_js};
+use super::calibration::{calibration_to_js, columns, columns_to_js};
 use super::fields::{read_opening, read_settings, whole, word, work};
 use super::held::Held;
 use super::log::{read_odometry, read_reference};
@@ -204,7 +204,7 @@ impl JsAlphaCalibrator {
     /// The legs, as `calibrate` tells them; copies.
     #[wasm_bindgen(getter, unchecked_return_type = "CalibrationLegs")]
     pub fn legs(&self) -> Result<JsValue, JsValue> {
-        legs_to_js(&self.0.with(|machine| machine.calibration().clone()))
+        columns_to_js(&self.0.with(|machine| columns(machine.calibration())))
     }
 
     /// How many legs there are.

@@ -1,6 +1,6 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
-use super::calibration::{SYSTEMATIC, calibration_to_js, legs_to_js};
+use super::calibration::{SYSTEMATIC, calibration_to_js, columns, columns_to_js};
 use super::fields::{Fields, boolean, in_range, type_error, whole, word};
 use super::log::{read_odometry, read_reference};
 use crate::calibrate::{ERRORS, LegLength, Model, Options, ReferenceError, Robust, Which, calibrate};
@@ -66,7 +66,7 @@ pub fn calibrated(
     let calibration =
         calibrate(&odometry, &reference, &options).map_err(|error| RangeError::new(&error.to_string()))?;
     let gaps = [odometry.gaps(), reference.gaps()];
-    calibration_to_js(&calibration, options.remove, gaps, Some(legs_to_js(&calibration)?))
+    calibration_to_js(&calibration, options.remove, gaps, Some(columns_to_js(&columns(&calibration))?))
 }
 
 fn model(fields: &Fields) -> Result<Model, JsValue> {

@@ -2,7 +2,6 @@
 
 use super::values::{float64_array, list, number_or_null, object};
 use crate::calibrate::{Calibration, Doubts, Error, Inflation, KindDoubts, Verdict, Which};
-use crate::geom::se2::SE2;
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
 
@@ -219,25 +218,44 @@ fn inflation_to_js(inflation: &Inflation) -> Result<JsValue, JsValue> {
     ])
 }
 
+/// What is told of the legs, one after the other in each array.
+pub type Columns = [(&'static str, Vec<f64>); 8];
+
 /// The legs of a calibration.
-pub fn legs_to_js(calibration: &Calibration) -> Result<JsValue, JsValue> {
+pub fn columns(calibration: &Calibration) -> Columns {
     let Calibration { legs, observations, judged, removed, .. } = calibration;
-    let array = |numbers: Vec<f64>| float64_array(&numbers).map(JsValue::from);
-    let pose = |pose: SE2| [pose.x(), pose.y(), pose.theta()];
-    object(&[
-        ("count", (legs.len() as f64).into()),
-        ("times", array(legs.iter().flat_map(|leg| leg.times).collect())?),
-        ("odometry", array(legs.iter().flat_map(|leg| leg.odometry).flat_map(pose).collect())?),
-        (
-            "reference",
-            array(
-                legs.iter().flat_map(|leg| leg.reference).flat_map(|end| pose(removed.base(&end))).collect(),
-            )?,
-        ),
-        ("readings", array(observations.iter().flat_map(|each| each.reading).collect())?),
-        ("residuals", array(observations.iter().flat_map(|each| each.residuals).collect())?),
-        ("deviations", array(judged.iter().flat_map(|leg| leg.deviations).collect())?),
-        ("squaredError", array(judged.iter().map(|leg| leg.squared_error).collect())?),
-        ("bad", array(judged.iter().map(|leg| leg.bad).collect())?),
-    ])
+    let [mut times, mut odometry, mut reference, mut readings, mut residuals] = [const { Vec::new() }; 5];
+    let [mut deviations, mut squared_error, mut bad] = [const { Vec::new() }; 3];
+    for ((leg, observation), judged) in legs.iter().zip(observations).zip(judged) {
+        times.extend_from_slice(&leg.times);
+        for [told, pose] in [0, 1].map(|end| [leg.odometry[end], removed.base(&leg.reference[end])]) {
+            odometry.extend_from_slice(&[told.x(), told.y(), told.theta()]);
+            reference.extend_from_slice(&[pose.x(), pose.y(), pose.theta()]);
+        }
+        readings.extend_from_slice(&observation.reading);
+        residuals.extend_from_slice(&observation.residuals);
+        deviations.extend_from_slice(&judged.deviations);
+        squared_error.push(judged.squared_error);
+        bad.push(judged.bad);
+    }
+    [
+        ("times", times),
+        ("odometry", odometry),
+        ("reference", reference),
+        ("readings", readings),
+        ("residuals", residuals),
+        ("deviations", deviations),
+        ("squaredError", squared_error),
+        ("bad", bad),
+    ]
+}
+
+/// With how many they are.
+pub fn columns_to_js(columns: &Columns) -> Result<JsValue, JsValue> {
+    let [.., (_, bad)] = columns;
+    let mut told = vec![("count", (bad.len() as f64).into())];
+    for (key, numbers) in columns {
+        told.push((key, float64_array(numbers)?.into()));
+    }
+    object(&told)
 }

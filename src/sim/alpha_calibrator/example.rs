@@ -118,7 +118,11 @@ pub fn example(seed: u64) -> Log {
     }
     // What is left has no noise.
     truth.extend(open.rows.iter().skip(1).map(|(time, driven)| (*time, open.truth * *driven)));
-    let trajectory = |samples| Trajectory::new(samples).expect("times that rise");
+    let trajectory = |samples| {
+        // Times rise.
+        let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
+        trajectory
+    };
     Log {
         odometry: trajectory(odometry),
         reference: trajectory(seen(&truth, &mut rng)),

@@ -1,6 +1,6 @@
 //! Squared residuals against what drives them: the line through them is an α.
 
-use crate::calibrate::{Calibration, Model};
+use crate::calibrate::{Calibration, Model, sort};
 use crate::models::OdometryRule;
 use crate::sim::settings::Words;
 
@@ -17,7 +17,7 @@ impl Words for Driver {
     const WORDS: &'static [(&'static str, Self)] = &[("way", Self::Way), ("turn", Self::Turn)];
 }
 
-/// Bins of a panel, with about as many legs each.
+/// Bins of a panel, with about as many legs each; those that are driven alike are in one.
 pub const BINS: usize = 8;
 
 /// Legs of a bin at least: the error of a mean of fewer says nothing.
@@ -59,7 +59,7 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
     let pair = model.kinds()[kind].alphas;
     let known = |alpha: usize| Some(estimate.alphas[alpha]).filter(|alpha| !alpha.is_nan());
     let other = known(pair[1 - own]).unwrap_or(0.0);
-    let mut points: Vec<[f64; 3]> = observations
+    let points: Vec<[f64; 3]> = observations
         .iter()
         .zip(judged)
         .filter(|(observation, _)| !observation.residuals[kind].is_nan())
@@ -70,7 +70,6 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
             [coefficients[own], square - answered, 1.0 - judged.bad]
         })
         .collect();
-    points.sort_unstable_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));
     let alpha = pair[own];
     let mut panel = Panel {
         alpha,
@@ -80,15 +79,21 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
         slope: known(alpha),
         interval: estimate.intervals[alpha],
     };
+    let mut along: Vec<f64> = points.iter().map(|point| point[0]).collect();
+    sort(&mut along);
     let size = points.len().div_ceil(BINS).max(LEAST);
-    for bin in points.chunks(size).filter(|bin| bin.len() >= LEAST) {
-        let total: f64 = bin.iter().map(|point| point[2]).sum();
-        let mean = |value: fn(&[f64; 3]) -> f64| {
-            bin.iter().map(|point| point[2] * value(point)).sum::<f64>() / total
-        };
-        let [x, y] = [mean(|point| point[0]), mean(|point| point[1])];
-        let spread = bin.iter().map(|point| point[2] * (point[1] - y) * (point[1] - y)).sum::<f64>() / total;
-        if total > 1.0 {
+    let mut after = f64::NEG_INFINITY;
+    for bin in along.chunks(size) {
+        let up_to = bin[bin.len() - 1];
+        let bin: Vec<&[f64; 3]> =
+            points.iter().filter(|point| point[0] > after && point[0] <= up_to).collect();
+        after = up_to;
+        let sum =
+            |value: &dyn Fn(&[f64; 3]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
+        let total = sum(&|_| 1.0);
+        let [x, y] = [sum(&|point| point[0]) / total, sum(&|point| point[1]) / total];
+        let spread = sum(&|point| (point[1] - y) * (point[1] - y)) / total;
+        if bin.len() >= LEAST && total > 1.0 {
             panel.x.push(x);
             panel.y.push(y);
             panel.error.push((spread / (total - 1.0)).sqrt());

@@ -83,15 +83,19 @@ fn panels_are_means_of_squared_residuals() {
             let square =
                 observation.residuals[1].powi(2) - estimate.alphas[2] * way * way - observation.floors[1];
             let turns = first * first + second * second;
-            // Of many legs as long as the others to rounding, which decides on their bins.
+            // Of many legs as much turned as others to rounding, which decides on their bins.
             let exactly = observation.coefficients[1][1];
             assert!((turns - exactly).abs() < 1e-12);
             [exactly, square, 1.0 - judged.bad]
         })
         .collect();
-    points.sort_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));
+    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
     let size = points.len().div_ceil(8);
-    for (i, bin) in points.chunks(size).enumerate() {
+    // Those that turned as much as the last of a bin are in it.
+    let end =
+        |i: usize| points.partition_point(|point| point[0] <= points[((i * size).min(points.len())) - 1][0]);
+    for i in 0..8 {
+        let bin = &points[if i == 0 { 0 } else { end(i) }..end(i + 1)];
         let total: f64 = bin.iter().map(|point| point[2]).sum();
         let mean = |of: usize| bin.iter().map(|point| point[2] * point[of]).sum::<f64>() / total;
         assert!((trans.x[i] - mean(0)).abs() < 1e-12 && (trans.y[i] - mean(1)).abs() < 1e-12, "bin {i}");

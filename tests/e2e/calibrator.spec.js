@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { odometry, poseOf, recordingOf, stampOf } from '../mcap.js';
+import { odometry, poseOf, recordingOf, stampOf, transform } from '../mcap.js';
 import { expectAccessible } from './axe.js';
 import { heard, ready, show, stateOf } from './element-support.js';
 import { STILL, frames, pixelsOf, test, unfold } from './support.js';
@@ -212,6 +212,24 @@ test('a recording has both, and where it is not clear which topic is which, the 
     // Quaternions round the headings.
     alphas.forEach((alpha, i) => expect(Number(read.alphas[i]) / Number(alpha)).toBeCloseTo(1, 3));
   }
+});
+
+test('of transforms the reader says which frames are meant', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
+    rows(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
+  const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link')];
+  const buffer = await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  await fold(widget, 'Your log').locator('summary').click();
+  await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
+  await widget.getByLabel('Odometry', { exact: true }).selectOption('/tf');
+  await widget.getByLabel('Reference', { exact: true }).selectOption('/tf');
+  await expect(widget.getByRole('alert')).toHaveText(/no transforms lead from odom to base_link; expected are frames that are connected, of .*base_footprint/);
+  const frames = widget.getByLabel('Odometry: Frames');
+  await frames.fill('odom, base_footprint');
+  await frames.press('Enter');
+  await expect(caption(widget)).toHaveText(/of tf\.mcap\./);
 });
 
 test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {

@@ -129,6 +129,7 @@ export const de = {
     files: 'Dateien',
     odometry: 'Odometrie',
     reference: 'Referenz',
+    frames: 'Frames (äußerer, innerer)',
     swap: 'Umgekehrt',
     leave: 'Zurück zur simulierten',
     simulated: 'Diese Aufzeichnung ist simuliert: Ein Roboter folgt einer Kurve durch eine Halle und sieht sich ab und zu um. Die wahren Werte stehen neben den Schätzungen.',

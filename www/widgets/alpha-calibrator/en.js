@@ -128,6 +128,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     files: 'Files',
     odometry: 'Odometry',
     reference: 'Reference',
+    frames: 'Frames (parent, child)',
     swap: 'The other way round',
     leave: 'Back to the simulated log',
     simulated: 'The log at present is simulated: a robot follows a curve through a hall and looks around now and then. Its true values stand beside the estimates.',

@@ -18,7 +18,14 @@ const EXTENSIONS = ['.csv', '.txt', '.tum', '.mcap'];
 /** The fold that says which log is there and why another was refused. */
 export const FOLD = 'log-fold';
 
-/** A recording whose topics are to be chosen, or two tables. @typedef {{ files: File[], topics: Topic[], odometry: string, reference: string }} Chosen */
+/** Which frames of a topic of transforms are usually meant: a parent and a child. */
+const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
+
+/**
+ * A recording whose topics are to be chosen, with the frames of those that hold transforms; or two tables.
+ *
+ * @typedef {{ files: File[], topics: Topic[], odometry: string, reference: string, frames: typeof FRAMES }} Chosen
+ */
 
 /** @extends {Part<Figure>} */
 export class LogOpener extends Part {
@@ -68,7 +75,7 @@ export class LogOpener extends Part {
       const usual = reader.usualTopics(topics);
       // Of two files, the one that is called so is the odometry.
       const [first, second] = /odom|wheel|cmd/i.test(files.at(-1)?.name ?? '') ? [...files].reverse() : files;
-      this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '' };
+      this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '', frames: FRAMES };
       if (recording && !(usual.odometry && usual.reference)) return;
       await this.#read(reader, watching);
     });
@@ -89,12 +96,16 @@ export class LogOpener extends Part {
    * @param {{ onProgress: (share: number) => void, signal: AbortSignal }} watching
    */
   async #read(reader, watching) {
-    const { files, topics, odometry, reference } = /** @type {Chosen} */ (this.chosen);
+    const { files, topics, odometry, reference, frames } = /** @type {Chosen} */ (this.chosen);
     const half = (/** @type {number} */ from) => ({ ...watching, onProgress: (/** @type {number} */ share) => watching.onProgress(from + share / 2) });
-    const topic = (/** @type {string} */ name) => (topics.length ? { topic: name } : {});
+    const topic = (/** @type {string} */ name, /** @type {string} */ its) => {
+      if (topics.length === 0) return {};
+      const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
+      return { topic: name, ...(holdsTransforms(topics, name) && { frames: { parent, child } }) };
+    };
     const logs = reader.together(
-      await reader.readLog(files[0], { ...topic(odometry), ...half(0) }),
-      await reader.readLog(files.at(-1) ?? files[0], { ...topic(reference), ...(topics.length ? {} : { kind: 'poses' }), ...half(0.5) }),
+      await reader.readLog(files[0], { ...topic(odometry, frames.odometry), ...half(0) }),
+      await reader.readLog(files.at(-1) ?? files[0], { ...topic(reference, frames.reference), ...(topics.length ? {} : { kind: 'poses' }), ...half(0.5) }),
     );
     watching.signal.throwIfAborted();
     const name = [...new Set(files.map((file) => file.name))].join(', ');
@@ -157,6 +168,9 @@ export class LogOpener extends Part {
   };
 }
 
+/** @param {Topic[]} topics @param {string} topic */
+const holdsTransforms = (topics, topic) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');
+
 /** The words of logs, which come with the first log. @returns {Promise<() => typeof import('./log/en.js').log>} those of the time when they are said */
 async function wordsOf() {
   const [{ log: english }, { log: german }] = await Promise.all([import('./log/en.js'), import('./log/de.js')]);
@@ -197,7 +211,7 @@ export function ownLog(figure, opener) {
  * @param {LogOpener} opener
  * @param {Chosen} chosen
  */
-function whichIsWhich(opener, { files, topics, odometry, reference }) {
+function whichIsWhich(opener, { files, topics, frames, ...chosen }) {
   const say = words.calibrator.own;
   if (topics.length === 0) {
     return html`<p>
@@ -205,15 +219,23 @@ function whichIsWhich(opener, { files, topics, odometry, reference }) {
       ${button(say.swap, () => opener.change({ files: [files[1], files[0]] }))}
     </p>`;
   }
-  const select = (/** @type {string} */ label, /** @type {string} */ current, /** @type {(name: string) => void} */ choose) => html`<label>
-    ${label}
-    <select aria-label=${label} @change=${(/** @type {Event} */ event) => choose(/** @type {HTMLSelectElement} */ (event.target).value)}>
-      <option value="" ?selected=${current === ''}></option>
-      ${topics.filter(({ kind }) => kind === 'poses' || kind === 'commands').map(({ name, count }) => html`<option value=${name} ?selected=${name === current}>${name} (${count})</option>`)}
-    </select>
-  </label>`;
-  return html`<p class="topics">
-    ${select(say.odometry, odometry, (name) => opener.change({ odometry: name }))}
-    ${select(say.reference, reference, (name) => opener.change({ reference: name }))}
-  </p>`;
+  const select = (/** @type {'odometry' | 'reference'} */ role) => html`<label>
+      ${say[role]}
+      <select aria-label=${say[role]} @change=${(/** @type {Event} */ event) => opener.change({ [role]: /** @type {HTMLSelectElement} */ (event.target).value })}>
+        <option value="" ?selected=${chosen[role] === ''}></option>
+        ${topics.filter(({ kind }) => kind !== null).map(({ name, count }) => html`<option value=${name} ?selected=${name === chosen[role]}>${name} (${count})</option>`)}
+      </select>
+    </label>
+    ${holdsTransforms(topics, chosen[role])
+      ? html`<label>
+          ${say.frames}
+          <input
+            type="text"
+            aria-label="${say[role]}: ${say.frames}"
+            .value=${frames[role]}
+            @change=${(/** @type {Event} */ event) => opener.change({ frames: { ...frames, [role]: inputOf(event).value } })}
+          />
+        </label>`
+      : nothing}`;
+  return html`<p class="topics">${select('odometry')} ${select('reference')}</p>`;
 }

@@ -120,6 +120,10 @@ const own = css`
     --beside: 0.4em;
   }
 
+  :host([presentation]) .surface:not(.with-controls) .looked > :is(fieldset, button) {
+    display: none;
+  }
+
   .models {
     display: flex;
     flex-wrap: wrap;

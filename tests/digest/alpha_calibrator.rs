@@ -2,12 +2,15 @@
 
 use super::configuration::Configuration;
 use super::told::{Part, Told};
-use motion::calibrate::{Calibration, Doubts, Error, HeldOut, Inflation, KindDoubts};
+use motion::calibrate::{
+    Calibration, Doubts, Error, Estimate, HeldOut, Inflation, KindDoubts, Leg, ReferenceError, Trajectory,
+};
 use motion::geom::se2::SE2;
-use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, LegView, Panel, Settings, Truth};
+use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, LegView, Log, Panel, Settings, Truth};
 
 pub fn parts(configuration: &Configuration) -> Vec<Part> {
-    let machine = AlphaCalibrator::new(configuration.settings(Settings::default())).expect("a valid setting");
+    let mut machine =
+        AlphaCalibrator::new(configuration.settings(Settings::default())).expect("a valid setting");
     let calibration = machine.calibration();
     let Calibration { estimate, bootstrap, doubts, inflation, .. } = calibration;
     let Doubts { kinds, held_out, worst, .. } = doubts;
@@ -22,7 +25,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         Values::of(&[&outcomes.as_flattened().to_vec(), &outline.as_flattened().to_vec(), &read, &ended])
     });
     let nearest = machine.nearest([0.5, 1.0], 3.0).map_or(-1.0, |index| index as f64);
-    vec![
+    let mut parts = vec![
         Part::new(
             "alphas",
             &[&estimate.alphas, &estimate.intervals, bootstrap, &estimate.log_likelihood, &estimate.outliers],
@@ -35,7 +38,25 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         Part::new("panels", &[&panels]),
         Part::new("leg", &[&leg]),
         Part::new("nearest", &[&nearest]),
-    ]
+    ];
+    // Where legs begin is a log too.
+    let log = (calibration.legs.len() > 1).then(|| begins(calibration));
+    log.into_iter().for_each(|log| machine.set_log(log));
+    let Estimate { alphas, intervals, .. } = &machine.calibration().estimate;
+    parts.push(Part::new("log", &[&Values::of(&[&3usize, &machine.fits(), alphas, intervals])]));
+    parts
+}
+
+fn begins(calibration: &Calibration) -> Log {
+    let Calibration { legs, removed, .. } = calibration;
+    let trajectory = |pose: &dyn Fn(&Leg) -> SE2| {
+        Trajectory::new(legs.iter().map(|leg| (leg.times[0], pose(leg)))).expect("times that rise")
+    };
+    Log {
+        odometry: trajectory(&|leg| leg.odometry[0]),
+        reference: trajectory(&|leg| removed.base(&leg.reference[0])),
+        error: ReferenceError::default(),
+    }
 }
 
 /// What was told already: the values of an object, which has no length.

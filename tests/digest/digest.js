@@ -139,8 +139,15 @@ export const widgets = {
       leg: machine.leg(5),
       nearest: machine.nearest(0.5, 1, 3),
     };
+    // Where legs begin is a log too.
+    const { count, times, odometry, reference } = legs;
+    const column = (/** @type {Float64Array} */ values, /** @type {number} */ size, /** @type {number} */ place) =>
+      Float64Array.from({ length: count }, (_, leg) => values[size * leg + place]);
+    const poses = (/** @type {Float64Array} */ ends) => ({ t: column(times, 2, 0), x: column(ends, 6, 0), y: column(ends, 6, 1), theta: column(ends, 6, 2) });
+    if (count > 1) machine.setLog(poses(odometry), poses(reference));
+    const log = [machine.fits, machine.stats.alphas, machine.stats.intervals];
     machine.free();
-    return told;
+    return { ...told, log };
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {

@@ -29,9 +29,7 @@ export const own = {
 
 /** @type {import('../../figure/attributes.js').Documentation} */
 export const documentation = {
-  properties: {
-    log: { type: 'CalibrationLog | null', sentence: 'A log of the page’s own; null for the simulated one.' },
-  },
+  properties: {},
   state: {
     leg: { type: 'number | null', sentence: 'The leg that is looked at, from 0; null, or one that is not there, for the worst of those that are not bad.' },
     driver: { type: "'turn' | 'way'", sentence: 'What squared residuals are drawn against.' },

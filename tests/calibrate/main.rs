@@ -2,6 +2,8 @@
 
 mod errors;
 mod fits;
+mod leg_lengths;
 mod logs;
 mod same;
 mod simulated;
+mod undetermined;

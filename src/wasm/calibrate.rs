@@ -62,6 +62,11 @@ export interface CalibrationOptions {
   systematic?: boolean | { [name in SystematicError]?: boolean };
   /** Of the bootstrap, a whole number; opens with 0. */
   seed?: number;
+  /**
+   * Whether the α's of other lengths of legs are told too. Opens with false: legs a quarter as long are four times as many, and
+   * all of them take several times as long as the legs that are asked for.
+   */
+  byLength?: boolean;
 }
 
 /** An interval that holds the true value in 95 of 100 logs. */
@@ -93,6 +98,11 @@ export interface KindDoubts {
 export interface Calibration {
   /** Null where this log does not determine one. */
   alphas: (number | null)[];
+  /**
+   * Why not, null where it does: the robot turned too little (under the velocity model while it drove); it hardly went anywhere;
+   * or turn and way had one ratio in all legs, so that one α may answer for what is another's.
+   */
+  undetermined: ('turns-too-little' | 'drives-too-little' | 'one-ratio' | null)[];
   /** By the profile of the likelihood. */
   intervals: (Interval | null)[];
   /** By a bootstrap of blocks of legs, which does not take them for independent. */
@@ -126,8 +136,23 @@ export interface Calibration {
   };
   /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
   inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
+  /** By the lengths of legs, from the shortest on; empty unless asked for. */
+  byLength: AlphasAtLength[];
   /** How often each trajectory pauses: no leg leads across. */
   gaps: { odometry: number; reference: number };
+}
+
+/** The α's of legs of another length, without the systematic errors that those asked for have told. */
+export interface AlphasAtLength {
+  /** Their distance and angle, or their duration, are those asked for times ¼, ½, 1, 2 or 4. */
+  factor: number;
+  legs: number;
+  /**
+   * Null where they do not determine one: none where legs are fewer than eight, mostly shorter than four rows of the log, or such that
+   * turns of more than half a circle would be lost.
+   */
+  alphas: (number | null)[];
+  intervals: (Interval | null)[];
 }
 
 /** Legs, one after the other in each array. */
@@ -187,8 +212,18 @@ impl Words for Asked {
 pub fn calibrated(
     #[wasm_bindgen(unchecked_param_type = "CalibrationOptions")] options: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    const KEYS: [&str; 9] =
-        ["odometry", "reference", "model", "rule", "legs", "noise", "robust", "systematic", "seed"];
+    const KEYS: [&str; 10] = [
+        "odometry",
+        "reference",
+        "model",
+        "rule",
+        "legs",
+        "noise",
+        "robust",
+        "systematic",
+        "seed",
+        "byLength",
+    ];
     let fields = Fields::new("options", "", options, &KEYS)?;
     let options = Options {
         model: model(&fields)?,
@@ -198,6 +233,7 @@ pub fn calibrated(
         remove: fields.optional("systematic", removed)?.unwrap_or([true; ERRORS]),
         reference_error: ReferenceError::default(),
         seed: fields.optional("seed", |field, value| whole(field, value, 0..=MAX_SEED))?.unwrap_or(0),
+        by_length: fields.optional("byLength", boolean)?.unwrap_or(false),
     };
     let odometry = read_odometry("odometry", &fields.value("odometry")?)?;
     let (reference, reference_error) = read_reference("reference", &fields.value("reference")?)?;

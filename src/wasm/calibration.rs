@@ -2,7 +2,9 @@
 
 use super::calibrate::SYSTEMATIC;
 use super::values::{float64_array, list, number_or_null, object};
-use crate::calibrate::{Calibration, Doubts, Error, Inflation, KindDoubts, Verdict, Which};
+use crate::calibrate::{
+    AtLength, Calibration, Doubts, Error, Inflation, KindDoubts, Undetermined, Verdict, Which,
+};
 use crate::geom::se2::SE2;
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
@@ -14,11 +16,16 @@ pub fn calibration_to_js(
     gaps: [usize; 2],
     legs: JsValue,
 ) -> Result<JsValue, JsValue> {
-    let Calibration { estimate, bootstrap, doubts, inflation, .. } = calibration;
-    let alphas: Array = estimate.alphas.iter().map(|alpha| known(*alpha)).collect();
+    let Calibration { estimate, undetermined, bootstrap, doubts, inflation, by_length, .. } = calibration;
+    let undetermined: Array = undetermined.iter().map(|reason| undetermined_word(*reason)).collect();
+    let by_length = by_length
+        .iter()
+        .map(|at| at_length_to_js(at, estimate.alphas.len()))
+        .collect::<Result<Array, JsValue>>()?;
     let [odometry_gaps, reference_gaps] = gaps.map(|gaps| JsValue::from(gaps as f64));
     object(&[
-        ("alphas", alphas.into()),
+        ("alphas", alphas(&estimate.alphas)),
+        ("undetermined", undetermined.into()),
         ("intervals", intervals(&estimate.intervals)?),
         ("bootstrap", intervals(bootstrap)?),
         ("systematic", systematic_to_js(calibration, remove)?),
@@ -26,6 +33,7 @@ pub fn calibration_to_js(
         ("outliers", number_or_null(estimate.outliers)),
         ("doubts", doubts_to_js(doubts)?),
         ("inflation", inflation_to_js(inflation)?),
+        ("byLength", by_length.into()),
         ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])?),
         ("legs", legs),
     ])
@@ -33,6 +41,34 @@ pub fn calibration_to_js(
 
 fn known(number: f64) -> JsValue {
     number_or_null(Some(number).filter(|number| !number.is_nan()))
+}
+
+fn alphas(alphas: &[f64]) -> JsValue {
+    alphas.iter().map(|alpha| known(*alpha)).collect::<Array>().into()
+}
+
+fn undetermined_word(reason: Option<Undetermined>) -> JsValue {
+    reason.map_or(JsValue::NULL, |reason| {
+        let word = match reason {
+            Undetermined::TurnsTooLittle => "turns-too-little",
+            Undetermined::DrivesTooLittle => "drives-too-little",
+            Undetermined::OneRatio => "one-ratio",
+        };
+        word.into()
+    })
+}
+
+/// Without an estimate none of the α's is told.
+fn at_length_to_js(at: &AtLength, count: usize) -> Result<JsValue, JsValue> {
+    let (none, unknown) = (vec![f64::NAN; count], vec![None; count]);
+    let (told, their) =
+        at.estimate.as_ref().map_or((&none, &unknown), |told| (&told.alphas, &told.intervals));
+    object(&[
+        ("factor", at.factor.into()),
+        ("legs", (at.legs as f64).into()),
+        ("alphas", alphas(told)),
+        ("intervals", intervals(their)?),
+    ])
 }
 
 fn interval(interval: Option<[f64; 2]>) -> Result<JsValue, JsValue> {

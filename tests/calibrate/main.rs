@@ -6,4 +6,5 @@ mod leg_lengths;
 mod logs;
 mod same;
 mod simulated;
+mod sparse;
 mod undetermined;

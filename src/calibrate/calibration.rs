@@ -3,7 +3,7 @@
 use super::bootstrap;
 use super::clock::clock_offset;
 use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, doubts};
-use super::leg_lengths::{ASKED, AtLength, FACTORS, have_rows};
+use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Leg, LegLength, cut};
 use super::likelihood::{Evidence, Parameters, Robust};
 use super::model::{Model, Observation, Uncertainty};
@@ -34,8 +34,8 @@ pub struct Options {
     pub reference_error: ReferenceError,
     /// Of the bootstrap.
     pub seed: u64,
-    /// Whether legs of other lengths are fitted too. A quarter as long they are four times as many: all of them take several times
-    /// as long as the legs that are asked for.
+    /// Whether legs of other lengths are fitted too. A quarter as long they are four times as many: of a log of some thousand legs,
+    /// all of them take several times as long as those that are asked for.
     pub by_length: bool,
 }
 
@@ -306,7 +306,9 @@ impl Calibrating {
         }
         let length = self.options.legs.times(factor);
         let cut = |length| cut(odometry, reference, length, self.removed.clock_offset);
-        self.legs = length.map_or_else(Vec::new, cut);
+        let legs = length.map_or_else(Vec::new, cut);
+        let every = legs.len().div_ceil(MOST).max(1);
+        self.legs = legs.into_iter().step_by(every).collect();
         let enough = self.legs.len() >= FEWEST && have_rows(&self.legs, odometry, reference);
         if enough {
             self.hear(self.removed, self.options.remove);
@@ -395,7 +397,11 @@ impl Calibrating {
 
     /// The α's that are determined, and why the others are not.
     fn estimate(&self, fitted: &Fitted) -> (Estimate, Vec<Option<Undetermined>>) {
-        let reasons = undetermined(fitted, self.options.model, &self.observations, &self.intervals);
+        let Options { model, noise, .. } = self.options;
+        let other =
+            (noise != NoiseKind::Normal).then(|| Evidence::new(model, NoiseKind::Normal, &self.observations));
+        let normal = other.as_ref().unwrap_or(&self.evidence);
+        let reasons = undetermined(fitted, normal, model, &self.observations, &self.intervals);
         let told = |(interval, reason): (&Option<[f64; 2]>, &Option<Undetermined>)| {
             interval.filter(|_| reason.is_none())
         };

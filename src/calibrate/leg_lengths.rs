@@ -21,12 +21,15 @@ pub(super) const ASKED: f64 = 1.0;
 pub struct AtLength {
     /// One of [`FACTORS`].
     pub factor: f64,
-    /// How many legs there are.
+    /// How many legs were fitted: of more than [`MOST`] as many are taken evenly.
     pub legs: usize,
     /// None where they are fewer than [`super::FEWEST`], most of them shorter than four rows of the log, or such that turns of more
     /// than half a circle are lost.
     pub estimate: Option<Estimate>,
 }
+
+/// So many legs tell an α to a hundredth, and do not take longer than those that were asked for.
+pub(super) const MOST: usize = 20_000;
 
 /// A leg ends at the first row that is beyond its trigger, half a row too late in the mean: of four rows that is an eighth of its
 /// length. And between two rows of the reference there is an arc, no robot.

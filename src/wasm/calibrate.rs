@@ -64,7 +64,7 @@ export interface CalibrationOptions {
   seed?: number;
   /**
    * Whether the α's of other lengths of legs are told too. Opens with false: legs a quarter as long are four times as many, and
-   * all of them take several times as long as the legs that are asked for.
+   * of a log of some thousand all of them take several times as long as the legs that are asked for.
    */
   byLength?: boolean;
 }
@@ -146,6 +146,7 @@ export interface Calibration {
 export interface AlphasAtLength {
   /** Their distance and angle, or their duration, are those asked for times ¼, ½, 1, 2 or 4. */
   factor: number;
+  /** How many were fitted: of more than 20 000 as many are taken evenly. */
   legs: number;
   /**
    * Null where they do not determine one: none where legs are fewer than eight, mostly shorter than four rows of the log, or such that

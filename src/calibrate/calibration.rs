@@ -3,12 +3,14 @@
 use super::bootstrap;
 use super::clock::clock_offset;
 use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, doubts};
+use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Leg, LegLength, cut};
 use super::likelihood::{Evidence, Parameters, Robust};
 use super::model::{Model, Observation, Uncertainty};
 use super::profile::{Estimate, Fitted};
 use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic, Which};
 use super::trajectory::Trajectory;
+use super::undetermined::{Undetermined, undetermined};
 use crate::noise::NoiseKind;
 use nalgebra::Matrix2;
 use std::fmt;
@@ -32,12 +34,17 @@ pub struct Options {
     pub reference_error: ReferenceError,
     /// Of the bootstrap.
     pub seed: u64,
+    /// Whether legs of other lengths are fitted too. A quarter as long they are four times as many: of a log of some thousand legs,
+    /// all of them take several times as long as those that are asked for.
+    pub by_length: bool,
 }
 
 /// What a log says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     pub estimate: Estimate,
+    /// Of each α why the log does not determine it; None where it does.
+    pub undetermined: Vec<Option<Undetermined>>,
     /// 95 % intervals that do not take legs for independent: [`super::bootstrap`].
     pub bootstrap: Vec<Option<[f64; 2]>>,
     /// The systematic errors, all estimated together.
@@ -53,6 +60,8 @@ pub struct Calibration {
     pub judged: Vec<Judged>,
     pub doubts: Doubts,
     pub inflation: Inflation,
+    /// The α's of legs of other lengths, one for each of [`FACTORS`]; empty unless asked for.
+    pub by_length: Vec<AtLength>,
 }
 
 impl Calibration {
@@ -109,6 +118,7 @@ pub fn calibrate(
 ///    those errors removed, until they stay.
 /// 3. The α's are fitted with the errors removed that are to be.
 /// 4. Each α's interval, one a step; the bootstrap; the doubts; inflation.
+/// 5. If asked for, legs of each other length, and the intervals of their α's, one a step.
 #[derive(Clone, Debug)]
 pub struct Calibrating {
     options: Options,
@@ -123,6 +133,8 @@ pub struct Calibrating {
     evidence: Evidence,
     best: Option<Parameters>,
     intervals: Vec<Option<[f64; 2]>>,
+    /// Of the legs that were asked for, while those of other lengths are fitted.
+    asked: Option<Calibration>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,6 +144,11 @@ enum Stage {
     Fit,
     Interval(usize),
     Judge,
+    /// Cuts legs of this place among [`FACTORS`].
+    Length(usize),
+    LengthFit(usize),
+    /// Of the α's of this place.
+    LengthInterval(usize, usize),
 }
 
 /// Rounds at most: systematic errors of the usual sizes stay after three or four.
@@ -154,18 +171,24 @@ impl Calibrating {
             evidence: Evidence::new(options.model, options.noise, []),
             best: None,
             intervals: Vec::new(),
+            asked: None,
         }
     }
 
     /// How much is done, 0 to 1.
     pub fn progress(&self) -> f64 {
-        let steps = ROUNDS + 2 + self.options.model.alphas();
+        let alphas = self.options.model.alphas();
+        let asked = ROUNDS + 2 + alphas;
+        let steps = asked + if self.options.by_length { FACTORS.len() * (2 + alphas) + 1 } else { 0 };
         let done = match self.stage {
             Stage::Align => 0,
             Stage::Round(round) => 1 + round,
             Stage::Fit => ROUNDS,
             Stage::Interval(alpha) => ROUNDS + 1 + alpha,
-            Stage::Judge => steps - 1,
+            Stage::Judge => asked - 1,
+            Stage::Length(place) => asked + place * (2 + alphas),
+            Stage::LengthFit(place) => asked + place * (2 + alphas) + 1,
+            Stage::LengthInterval(place, alpha) => asked + place * (2 + alphas) + 2 + alpha,
         };
         done as f64 / steps as f64
     }
@@ -209,7 +232,37 @@ impl Calibrating {
                     Stage::Judge
                 }
             }
-            Stage::Judge => return Ok(Some(self.judge())),
+            Stage::Judge => {
+                let calibration = self.judge();
+                if !self.options.by_length {
+                    return Ok(Some(calibration));
+                }
+                self.asked = Some(calibration);
+                Stage::Length(0)
+            }
+            Stage::Length(place) => {
+                let Some(factor) = FACTORS.get(place).copied() else { return Ok(self.asked.take()) };
+                if self.cut_again(odometry, reference, factor) {
+                    Stage::LengthFit(place)
+                } else {
+                    Stage::Length(place + 1)
+                }
+            }
+            Stage::LengthFit(place) => {
+                self.best = Some(self.fitted(self.options.robust).best);
+                Stage::LengthInterval(place, 0)
+            }
+            Stage::LengthInterval(place, alpha) => {
+                let interval = self.fitted(self.options.robust).interval(alpha);
+                self.intervals.push(interval);
+                if alpha + 1 < self.options.model.alphas() {
+                    Stage::LengthInterval(place, alpha + 1)
+                } else {
+                    let (estimate, _) = self.estimate(&self.fitted(self.options.robust));
+                    self.tell(FACTORS[place], Some(estimate));
+                    Stage::Length(place + 1)
+                }
+            }
         };
         Ok(None)
     }
@@ -222,11 +275,17 @@ impl Calibrating {
         without: Systematic,
         estimated: Which,
     ) -> Result<(), CalibrateError> {
-        let Options { model, noise, legs, reference_error, .. } = self.options;
-        self.legs = cut(odometry, reference, legs, without.clock_offset);
+        self.legs = cut(odometry, reference, self.options.legs, without.clock_offset);
         if self.legs.len() < FEWEST {
             return Err(CalibrateError::FewLegs { legs: self.legs.len() });
         }
+        self.hear(without, estimated);
+        Ok(())
+    }
+
+    /// What the legs say without some systematic errors.
+    fn hear(&mut self, without: Systematic, estimated: Which) {
+        let Options { model, noise, reference_error, .. } = self.options;
         let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
         let observe = |leg: &Leg| {
             let own = Matrix2::identity() * (2.0 * reference_error.position * reference_error.position);
@@ -236,7 +295,37 @@ impl Calibrating {
         };
         self.observations = self.legs.iter().map(observe).collect();
         self.evidence = Evidence::new(model, noise, &self.observations);
-        Ok(())
+    }
+
+    /// Legs of another length, without what was removed of those that were asked for; whether α's are to be fitted to them.
+    fn cut_again(&mut self, odometry: &Trajectory, reference: &Trajectory, factor: f64) -> bool {
+        if let Some(asked) = self.asked.as_mut().filter(|_| factor == ASKED) {
+            let estimate = Some(asked.estimate.clone());
+            asked.by_length.push(AtLength { factor, legs: asked.legs.len(), estimate });
+            return false;
+        }
+        let length = self.options.legs.times(factor);
+        let cut = |length| cut(odometry, reference, length, self.removed.clock_offset);
+        let legs = length.map_or_else(Vec::new, cut);
+        let every = legs.len().div_ceil(MOST).max(1);
+        self.legs = legs.into_iter().step_by(every).collect();
+        let enough = self.legs.len() >= FEWEST && have_rows(&self.legs, odometry, reference);
+        if enough {
+            self.hear(self.removed, self.options.remove);
+            self.best = None;
+            self.intervals.clear();
+        } else {
+            self.tell(factor, None);
+        }
+        enough
+    }
+
+    /// What the legs of another length say.
+    fn tell(&mut self, factor: f64, estimate: Option<Estimate>) {
+        let legs = self.legs.len();
+        if let Some(asked) = &mut self.asked {
+            asked.by_length.push(AtLength { factor, legs, estimate });
+        }
     }
 
     fn fitted(&self, robust: Robust) -> Fitted<'_> {
@@ -278,12 +367,12 @@ impl Calibrating {
     fn judge(&mut self) -> Calibration {
         let Options { model, noise, robust, seed, .. } = self.options;
         let fitted = self.fitted(self.options.robust);
-        let estimate = fitted.estimate(self.intervals.clone());
+        let (estimate, undetermined) = self.estimate(&fitted);
         let mut bootstrap = bootstrap::intervals(&fitted, model.alphas(), seed);
         bootstrap
             .iter_mut()
             .enumerate()
-            .for_each(|(k, interval)| *interval = interval.filter(|_| self.intervals[k].is_some()));
+            .for_each(|(k, interval)| *interval = interval.filter(|_| undetermined[k].is_none()));
         let judged = Judged::all(&self.evidence, &fitted.best, &self.observations);
         let halves = Halves::new(model, noise, robust, &self.observations, &fitted.best);
         let neighbours: Vec<bool> = (0..self.legs.len())
@@ -292,6 +381,7 @@ impl Calibrating {
         let doubts = doubts(model, noise, &self.observations, &judged, &neighbours, &halves);
         Calibration {
             estimate,
+            undetermined,
             bootstrap,
             systematic: self.systematic,
             deviations: self.deviations,
@@ -301,6 +391,20 @@ impl Calibrating {
             judged,
             legs: std::mem::take(&mut self.legs),
             observations: std::mem::take(&mut self.observations),
+            by_length: Vec::new(),
         }
+    }
+
+    /// The α's that are determined, and why the others are not.
+    fn estimate(&self, fitted: &Fitted) -> (Estimate, Vec<Option<Undetermined>>) {
+        let Options { model, noise, .. } = self.options;
+        let other =
+            (noise != NoiseKind::Normal).then(|| Evidence::new(model, NoiseKind::Normal, &self.observations));
+        let normal = other.as_ref().unwrap_or(&self.evidence);
+        let reasons = undetermined(fitted, normal, model, &self.observations, &self.intervals);
+        let told = |(interval, reason): (&Option<[f64; 2]>, &Option<Undetermined>)| {
+            interval.filter(|_| reason.is_none())
+        };
+        (fitted.estimate(self.intervals.iter().zip(&reasons).map(told).collect()), reasons)
     }
 }

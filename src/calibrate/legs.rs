@@ -60,33 +60,81 @@ impl Leg {
     }
 }
 
+/// One end of a leg.
+#[derive(Clone, Copy)]
+struct End {
+    /// By the clock of the odometry, s.
+    time: f64,
+    reading: SE2,
+    velocity: Vector3<f64>,
+    truth: SE2,
+}
+
+/// A reference with steps that are longer than the odometry's by more than this is the sparser one.
+const SPARSER: f64 = 1.5;
+
+/// Both trajectories, and how far (s) the reference's clock is ahead of the odometry's.
+struct Log<'a> {
+    odometry: &'a Trajectory,
+    reference: &'a Trajectory,
+    clock_offset: f64,
+    /// Whether the reference has fewer samples.
+    sparse: bool,
+}
+
+impl Log<'_> {
+    /// The end of a leg at or next to a reading; none where that is beyond an end of either trajectory or in a gap.
+    fn end_at(&self, sample: usize, time: f64, reading: SE2) -> Option<End> {
+        let Self { odometry, reference, clock_offset, sparse } = *self;
+        if !sparse {
+            let truth = reference.pose_at(time + clock_offset)?;
+            return Some(End { time, reading, velocity: odometry.velocity(sample), truth });
+        }
+        let (seen, truth) = reference.sample(reference.nearest(time + clock_offset)?);
+        let time = seen - clock_offset;
+        let velocity = odometry.velocity(odometry.nearest(time)?);
+        Some(End { time, reading: odometry.pose_at(time)?, velocity, truth })
+    }
+}
+
 /// The legs of a log: one begins where the one before ended. Where a leg of the odometry led across a gap of either trajectory,
 /// or beyond an end of the reference, it is left out.
 ///
+/// A leg ends at a sample of the trajectory that has fewer of them, for between these nobody knows where the robot was: on the arc from
+/// one to the next it would cut corners, and have half of the noise of a leg and half of its neighbour's. Of a reference with
+/// fewer samples than the odometry it is the one that is next to the reading.
+///
 /// `clock_offset` (s) is how far the reference's clock is ahead of the odometry's.
 pub fn cut(odometry: &Trajectory, reference: &Trajectory, length: LegLength, clock_offset: f64) -> Vec<Leg> {
+    let sparse = reference.usual_step() > SPARSER * odometry.usual_step();
+    let log = Log { odometry, reference, clock_offset, sparse };
     let mut legs = Vec::new();
-    let mut began: Option<(usize, f64, SE2)> = None;
+    // The reading with which a leg began, and its end there.
+    let mut began: Option<(f64, SE2, Option<End>)> = None;
     for (sample, (time, reading)) in odometry.samples().enumerate() {
-        let Some((first, start_time, start)) = began.filter(|_| !odometry.pauses_before(sample)) else {
-            began = Some((sample, time, reading));
+        let Some((start_time, start_reading, start)) = began.filter(|_| !odometry.pauses_before(sample))
+        else {
+            began = Some((time, reading, log.end_at(sample, time, reading)));
             continue;
         };
-        if !length.ends(time, &reading, (start_time, start)) {
+        if !length.ends(time, &reading, (start_time, start_reading)) {
             continue;
         }
-        began = Some((sample, time, reading));
-        let times = [start_time, time];
-        let [from, to] = times.map(|time| time + clock_offset);
-        if reference.has_gap(from, to) {
+        let end = log.end_at(sample, time, reading);
+        // A reference that has fewer samples than there are legs ends one as soon as it has another.
+        if start.zip(end).is_some_and(|(start, end)| end.time <= start.time) {
             continue;
         }
-        let Some((start_truth, truth)) = reference.pose_at(from).zip(reference.pose_at(to)) else { continue };
+        began = Some((time, reading, end));
+        let Some((start, end)) = start.zip(end) else { continue };
+        if reference.has_gap(start.time + clock_offset, end.time + clock_offset) {
+            continue;
+        }
         legs.push(Leg {
-            times,
-            odometry: [start, reading],
-            velocities: [first, sample].map(|each| odometry.velocity(each)),
-            reference: [start_truth, truth],
+            times: [start.time, end.time],
+            odometry: [start.reading, end.reading],
+            velocities: [start.velocity, end.velocity],
+            reference: [start.truth, end.truth],
         });
     }
     legs

@@ -100,6 +100,14 @@ impl Model {
         }
     }
 
+    /// Whether an α, from 0, is multiplied by a turn (or ω) in its variance; otherwise it is by a way (or v).
+    pub fn grows_with_turn(self, alpha: usize) -> bool {
+        match self {
+            Self::Odometry(_) => [0, 3].contains(&alpha),
+            Self::Velocity => alpha % 2 == 1,
+        }
+    }
+
     /// What a leg says, once what is systematic about it is removed.
     ///
     /// The variance of each residual is that which the model gives the reading, as its sampler and

@@ -141,6 +141,20 @@ impl Trajectory {
         self.poses[to].boxminus(&self.poses[from]) / (self.times[to] - self.times[from])
     }
 
+    /// A sample: its time (s) and its pose.
+    pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {
+        (self.times[sample], self.poses[sample])
+    }
+
+    /// The sample that is next to a time (s); none where there is none within half of a gap.
+    pub(super) fn nearest(&self, time: f64) -> Option<usize> {
+        let after = self.times.partition_point(|each| *each < time);
+        let off = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
+        let before = after.saturating_sub(1);
+        let nearest = if off(before) < off(after) { before } else { after };
+        (off(nearest) <= 0.5 * self.longest_gap).then_some(nearest)
+    }
+
     /// Whether there is a gap before this sample.
     pub(super) fn pauses_before(&self, sample: usize) -> bool {
         self.times[sample] - self.times[sample - 1] > self.longest_gap

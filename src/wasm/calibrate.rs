@@ -35,6 +35,11 @@ export interface CalibrationOptions {
   systematic?: boolean | { [name in SystematicError]?: boolean };
   /** Of the bootstrap, a whole number; opens with 0. */
   seed?: number;
+  /**
+   * Whether the α's of other lengths of legs are told too. Opens with false: legs a quarter as long are four times as many, and
+   * of a log of some thousand all of them take several times as long as the legs that are asked for.
+   */
+  byLength?: boolean;
 }
 "#;
 
@@ -48,8 +53,18 @@ const LEG: RangeInclusive<f64> = 1e-6..=1e6;
 pub fn calibrated(
     #[wasm_bindgen(unchecked_param_type = "CalibrationOptions")] options: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    const KEYS: [&str; 9] =
-        ["odometry", "reference", "model", "rule", "legs", "noise", "robust", "systematic", "seed"];
+    const KEYS: [&str; 10] = [
+        "odometry",
+        "reference",
+        "model",
+        "rule",
+        "legs",
+        "noise",
+        "robust",
+        "systematic",
+        "seed",
+        "byLength",
+    ];
     let fields = Fields::new("options", "", options, &KEYS)?;
     let options = Options {
         model: model(&fields)?,
@@ -59,6 +74,7 @@ pub fn calibrated(
         remove: fields.optional("systematic", removed)?.unwrap_or([true; ERRORS]),
         reference_error: ReferenceError::default(),
         seed: fields.optional("seed", |field, value| whole(field, value, 0..=MAX_SEED))?.unwrap_or(0),
+        by_length: fields.optional("byLength", boolean)?.unwrap_or(false),
     };
     let odometry = read_odometry("odometry", &fields.value("odometry")?)?;
     let (reference, reference_error) = read_reference("reference", &fields.value("reference")?)?;

@@ -1,7 +1,9 @@
 //! What a log says of a robot's α's, as plain JavaScript values.
 
 use super::values::{float64_array, list, number_or_null, object};
-use crate::calibrate::{Calibration, Doubts, Error, Inflation, KindDoubts, Verdict, Which};
+use crate::calibrate::{
+    AtLength, Calibration, Doubts, Error, Inflation, KindDoubts, Undetermined, Verdict, Which,
+};
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
 
@@ -36,6 +38,11 @@ export interface KindDoubts {
 export interface Calibration {
   /** Null where this log does not determine one. */
   alphas: (number | null)[];
+  /**
+   * Why not, null where it does: the robot turned too little (under the velocity model while it drove); it hardly went anywhere;
+   * or turn and way had one ratio in all legs, so that one α may answer for what is another's.
+   */
+  undetermined: ('turns-too-little' | 'drives-too-little' | 'one-ratio' | null)[];
   /** By the profile of the likelihood. */
   intervals: (Interval | null)[];
   /** By a bootstrap of blocks of legs, which does not take them for independent. */
@@ -69,8 +76,24 @@ export interface Calibration {
   };
   /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
   inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
+  /** By the lengths of legs, from the shortest on; empty unless asked for. */
+  byLength: AlphasAtLength[];
   /** How often each trajectory pauses: no leg leads across. */
   gaps: { odometry: number; reference: number };
+}
+
+/** The α's of legs of another length, without the systematic errors that those asked for have told. */
+export interface AlphasAtLength {
+  /** Their distance and angle, or their duration, are those asked for times ¼, ½, 1, 2 or 4. */
+  factor: number;
+  /** How many were fitted: of more than 20 000 as many are taken evenly. */
+  legs: number;
+  /**
+   * Null where they do not determine one: none where legs are fewer than eight, mostly shorter than four rows of the log, or such that
+   * turns of more than half a circle would be lost.
+   */
+  alphas: (number | null)[];
+  intervals: (Interval | null)[];
 }
 
 /** Legs, one after the other in each array. */
@@ -111,11 +134,16 @@ pub fn calibration_to_js(
     gaps: [usize; 2],
     legs: Option<JsValue>,
 ) -> Result<JsValue, JsValue> {
-    let Calibration { estimate, bootstrap, doubts, inflation, .. } = calibration;
-    let alphas: Array = estimate.alphas.iter().map(|alpha| known(*alpha)).collect();
+    let Calibration { estimate, undetermined, bootstrap, doubts, inflation, by_length, .. } = calibration;
+    let undetermined: Array = undetermined.iter().map(|reason| undetermined_word(*reason)).collect();
+    let by_length = by_length
+        .iter()
+        .map(|at| at_length_to_js(at, estimate.alphas.len()))
+        .collect::<Result<Array, JsValue>>()?;
     let [odometry_gaps, reference_gaps] = gaps.map(|gaps| JsValue::from(gaps as f64));
     let told = [
-        ("alphas", alphas.into()),
+        ("alphas", alphas(&estimate.alphas)),
+        ("undetermined", undetermined.into()),
         ("intervals", intervals(&estimate.intervals)?),
         ("bootstrap", intervals(bootstrap)?),
         ("systematic", systematic_to_js(calibration, remove)?),
@@ -123,6 +151,7 @@ pub fn calibration_to_js(
         ("outliers", number_or_null(estimate.outliers)),
         ("doubts", doubts_to_js(doubts)?),
         ("inflation", inflation_to_js(inflation)?),
+        ("byLength", by_length.into()),
         ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])?),
     ];
     object(&told.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>())
@@ -130,6 +159,34 @@ pub fn calibration_to_js(
 
 fn known(number: f64) -> JsValue {
     number_or_null(Some(number).filter(|number| !number.is_nan()))
+}
+
+fn alphas(alphas: &[f64]) -> JsValue {
+    alphas.iter().map(|alpha| known(*alpha)).collect::<Array>().into()
+}
+
+fn undetermined_word(reason: Option<Undetermined>) -> JsValue {
+    reason.map_or(JsValue::NULL, |reason| {
+        let word = match reason {
+            Undetermined::TurnsTooLittle => "turns-too-little",
+            Undetermined::DrivesTooLittle => "drives-too-little",
+            Undetermined::OneRatio => "one-ratio",
+        };
+        word.into()
+    })
+}
+
+/// Without an estimate none of the α's is told.
+fn at_length_to_js(at: &AtLength, count: usize) -> Result<JsValue, JsValue> {
+    let (none, unknown) = (vec![f64::NAN; count], vec![None; count]);
+    let (told, their) =
+        at.estimate.as_ref().map_or((&none, &unknown), |told| (&told.alphas, &told.intervals));
+    object(&[
+        ("factor", at.factor.into()),
+        ("legs", (at.legs as f64).into()),
+        ("alphas", alphas(told)),
+        ("intervals", intervals(their)?),
+    ])
 }
 
 fn interval(interval: Option<[f64; 2]>) -> Result<JsValue, JsValue> {

@@ -28,6 +28,7 @@ fn options(simulation: &Simulation, robust: Robust) -> Options {
         remove: [true; 6],
         reference_error: ReferenceError::default(),
         seed: 0,
+        by_length: false,
     }
 }
 

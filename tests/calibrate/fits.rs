@@ -180,6 +180,7 @@ fn options(simulation: &Simulation) -> Options {
         remove: [true; 6],
         reference_error: ReferenceError::default(),
         seed: 0,
+        by_length: false,
     }
 }
 

@@ -2,6 +2,9 @@
 
 mod errors;
 mod fits;
+mod leg_lengths;
 mod logs;
 mod same;
 mod simulated;
+mod sparse;
+mod undetermined;

@@ -61,6 +61,7 @@ fn the_example_says_the_same_everywhere() {
                 remove: [true; 6],
                 reference_error: ReferenceError { position: 1e-4, heading: 1e-4 },
                 seed: 3,
+                by_length: false,
             };
             let told = calibrate(&odometry, &reference, &options).expect("legs enough");
             writeln!(lines, "{name} {word}{}", bits(&told)).expect("a string takes all");

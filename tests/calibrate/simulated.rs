@@ -31,6 +31,8 @@ pub struct Simulation {
     pub jumps: f64,
     /// Whether the robot backs up now and then.
     pub reverses: bool,
+    /// v and ω in a leg, by its number; at random unless said.
+    pub drive: Option<fn(usize) -> [f64; 2]>,
     pub seed: u64,
 }
 
@@ -45,6 +47,7 @@ impl Simulation {
             errors: Systematic::NONE,
             jumps: 0.0,
             reverses,
+            drive: None,
             seed,
         }
     }
@@ -67,6 +70,7 @@ impl Simulation {
                 left = rng.random_range(15..60);
             }
             left -= 1;
+            let speeds = self.drive.map_or(speeds, |drive| drive(legs));
             let time = odometry.len() as f64 * STEP;
             let twist = Vector3::new(speeds[0], 0.0, speeds[1]) * STEP;
             driven = driven.boxplus(twist);

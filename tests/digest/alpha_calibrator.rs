@@ -3,7 +3,8 @@
 use super::configuration::Configuration;
 use super::told::{Part, Told};
 use motion::calibrate::{
-    Calibration, Doubts, Error, Estimate, HeldOut, Inflation, KindDoubts, Leg, ReferenceError, Trajectory,
+    AtLength, Calibration, Doubts, Error, Estimate, HeldOut, Inflation, KindDoubts, Leg, ReferenceError,
+    Trajectory,
 };
 use motion::geom::se2::SE2;
 use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, LegView, Log, Panel, Settings, Truth};
@@ -12,7 +13,8 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     let mut machine =
         AlphaCalibrator::new(configuration.settings(Settings::default())).expect("a valid setting");
     let calibration = machine.calibration();
-    let Calibration { estimate, bootstrap, doubts, inflation, .. } = calibration;
+    let Calibration { estimate, bootstrap, doubts, inflation, by_length, .. } = calibration;
+    let by_length: Vec<Values> = by_length.iter().map(|at| at_length(at, estimate.alphas.len())).collect();
     let Doubts { kinds, held_out, worst, .. } = doubts;
     let kinds: Vec<Values> = kinds.iter().map(kind).collect();
     let HeldOut { count, coverage, coverage_interval, squared_error, squared_error_interval, log_likelihood } =
@@ -33,6 +35,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         Part::new("systematic", &[&systematic(calibration)]),
         Part::new("doubts", &[&kinds, &held_out, &squared_error, &squared_error_interval, worst]),
         Part::new("inflation", &[factors, covered, nats]),
+        Part::new("byLength", &[&by_length]),
         Part::new("legs", &[&legs(calibration)]),
         Part::new("truth", &[&machine.truth().map(|known| truth(&known))]),
         Part::new("panels", &[&panels]),
@@ -121,6 +124,13 @@ fn legs(calibration: &Calibration) -> Values {
         &squared_error,
         &bad,
     ])
+}
+
+/// A list of four.
+fn at_length(AtLength { factor, legs, estimate }: &AtLength, count: usize) -> Values {
+    let alphas = estimate.as_ref().map_or_else(|| vec![f64::NAN; count], |told| told.alphas.clone());
+    let intervals = estimate.as_ref().map_or_else(|| vec![None; count], |told| told.intervals.clone());
+    Values::of(&[&4usize, factor, legs, &alphas, &intervals])
 }
 
 fn truth(truth: &Truth) -> Values {

@@ -121,7 +121,7 @@ export const widgets = {
 
   'alpha-calibrator'({ AlphaCalibrator }, _, { settings }) {
     const machine = new AlphaCalibrator(settings);
-    const { stats: { alphas, intervals, bootstrap, systematic, logLikelihood, outliers, doubts, inflation }, legs, truth } = machine;
+    const { stats: { alphas, intervals, bootstrap, systematic, logLikelihood, outliers, doubts, inflation, byLength }, legs, truth } = machine;
     const { kinds, heldOut, squaredError, worst } = doubts;
     const told = {
       alphas: { alphas, intervals, bootstrap, logLikelihood, outliers },
@@ -133,6 +133,7 @@ export const widgets = {
         worst,
       },
       inflation,
+      byLength: byLength.map(({ factor, legs: count, ...told }) => [factor, count, told.alphas, told.intervals]),
       legs,
       truth,
       panels: ['turn', 'way'].map((driver) => machine.panels(/** @type {'turn' | 'way'} */ (driver))),

@@ -133,6 +133,7 @@ export function anyOf(seed) {
       distanceScale: one([true, false]),
       turnScale: one([true, false]),
       clockOffset: one([true, false]),
+      byLength: one([true, false]),
       inflation: real(0.1, 5),
       seed: whole(0, 2 ** 53 - 1),
       leg: one([null, whole(0, 20)]),

@@ -278,7 +278,7 @@ test('a log without legs says so, and trouble with it is no failure', async ({ p
   await settled(widget);
   await unfold(widget);
   await expect(caption(widget)).toHaveText(/^No legs:/);
-  await expect(rows(widget).first()).toContainText('not determined: turn on the spot');
+  await expect(rows(widget).first()).toHaveText(/—/);
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
   expect(await heard(page, ['error'])).toEqual([]);
@@ -291,3 +291,38 @@ for (const theme of ['light', 'dark']) {
     await expectAccessible(page);
   });
 }
+
+test('α’s of other lengths of legs are fitted where they are asked for, and drawn against the length', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const { alphas, byLength } = await stats(widget);
+  expect(byLength).toEqual([]);
+  const lengths = fold(widget, 'Other lengths');
+  await lengths.locator('summary').click();
+  await lengths.getByRole('checkbox').check();
+  await settled(widget);
+  const told = await stats(widget);
+  expect(told.alphas).toEqual(alphas);
+  expect(told.byLength.map(({ factor }) => factor)).toEqual([0.25, 0.5, 1, 2, 4]);
+  const plots = lengths.locator('svg.plot');
+  await expect(plots).toHaveCount(4);
+  // The α's of the table, at the legs that are asked for.
+  for (const [i, length] of [['0', '0.200'], ['2', '0.250']]) {
+    const shown = await rows(widget).nth(Number(i)).locator('td').nth(1).textContent();
+    await expect(plots.nth(Number(i))).toHaveAttribute('aria-label', new RegExp(`${shown?.trim()} at ${length}`));
+  }
+  await expect(widget).toHaveAttribute('bylength');
+});
+
+test('of an α that a log does not determine it says why, and what to drive', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.evaluate((element) => {
+    const count = 2000;
+    const t = Float64Array.from({ length: count }, (_, i) => i / 20);
+    const none = new Float64Array(count);
+    const straight = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: straight(0), y: none, theta: none }, reference: { t, x: straight(0.002), y: none, theta: none } } });
+  });
+  await settled(widget);
+  await expect(rows(widget).nth(0)).toHaveText(/not determined: this log turns too little; turn on the spot, some fifty times/);
+  await expect(rows(widget).nth(2)).not.toHaveText(/not determined/);
+});

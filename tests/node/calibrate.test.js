@@ -92,10 +92,26 @@ test('an α that the log does not determine is null', () => {
     const t = Float64Array.from({ length: 1000 }, (_, i) => 0.1 * i);
     return { t, x: t.map((time, i) => 0.5 * time + shake * (i % 7)), y: t.map(() => 0), theta: t.map(() => 0) };
   };
-  const { alphas, intervals, systematic } = motion.calibrate({ odometry: straight(0), reference: straight(1e-3) });
+  const { alphas, intervals, undetermined, systematic } = motion.calibrate({ odometry: straight(0), reference: straight(1e-3) });
+  assert.deepEqual(undetermined, ['turns-too-little', null, null, 'turns-too-little']);
   assert.deepEqual([alphas[0], alphas[3], intervals[0], intervals[3]], [null, null, null, null]);
   assert.equal(systematic.turnScale.value, null);
   assert.ok(Number(alphas[2]) > 0);
+});
+
+test('by the length of legs: the α’s of all others beside those of the legs asked for', () => {
+  const { alphas, intervals, legs, byLength, ...rest } = motion.calibrate({ odometry, reference, byLength: true });
+  assert.deepEqual(byLength.map(({ factor }) => factor), [0.25, 0.5, 1, 2, 4]);
+  assert.deepEqual(byLength[2], { factor: 1, legs: legs.count, alphas, intervals });
+  // Longer legs are fewer, and tell less.
+  for (const [i, at] of byLength.slice(2).entries()) {
+    if (i > 0) assert.ok(at.legs < byLength[i + 1].legs && at.alphas.every((alpha, k) => alpha === null || at.intervals[k]));
+  }
+  assert.deepEqual({ ...motion.calibrate({ odometry, reference }), byLength: [] }, { alphas, intervals, legs, byLength: [], ...rest });
+  assert.deepEqual(motion.calibrate({ odometry, reference, byLength: false }).byLength, []);
+  // The log has 0.05 m from row to row at most: of legs a quarter as long most are shorter than four.
+  const [shortest] = motion.calibrate({ odometry, reference, legs: { distance: 0.1, angle: 0.1 }, byLength: true }).byLength;
+  assert.deepEqual([shortest.alphas, shortest.intervals], [[null, null, null, null], [null, null, null, null]]);
 });
 
 test('refusals name what is wrong and what is allowed', () => {
@@ -116,6 +132,7 @@ test('refusals name what is wrong and what is allowed', () => {
     [{ odometry, reference, robust: { outliers: 1 } }, /^robust\.outliers is 1; allowed /],
     [{ odometry, reference, robust: 'yes' }, /^robust is "yes"; allowed is true, false or an object/],
     [{ odometry, reference, systematic: { yaw: true } }, /^systematic\.yaw is an unknown key; allowed are clockOffset, /],
+    [{ odometry, reference, byLength: 2 }, /^byLength is 2; allowed is true or false$/],
     [{ odometry, reference, seed: -1 }, /^seed is -1; allowed /],
   ];
   for (const [options, sentence] of refused) assert.throws(() => motion.calibrate(options), { message: sentence });

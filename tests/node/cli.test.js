@@ -53,13 +53,13 @@ async function askedOf(args) {
 
 test('the options reach the core', async () => {
   const { odometry: own, reference, ...fit } = await askedOf(FILES);
-  assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
+  assert.deepEqual(fit, { byLength: true, legs: { distance: 0.25, angle: 0.2 } });
   assert.deepEqual([Object.keys(own), Object.keys(reference)], [['t', 'x', 'y', 'theta'], ['t', 'x', 'y', 'theta']]);
   const all = '--model omnidirectional --rule nav2 --distance 0.5 --angle 0.3 --noise triangular --robust --without mountYaw,leverArm --seed 7 --position-deviation 0.001 --heading-deviation 2e-3';
   const { reference: told, ...rest } = await askedOf([...FILES, ...all.split(' ')]);
   delete rest.odometry;
   const systematic = { clockOffset: true, mountYaw: false, leverArm: false, distanceScale: true, turnScale: true };
-  assert.deepEqual(rest, { model: 'omnidirectional', rule: 'nav2', legs: { distance: 0.5, angle: 0.3 }, noise: 'triangular', robust: true, systematic, seed: 7 });
+  assert.deepEqual(rest, { model: 'omnidirectional', rule: 'nav2', legs: { distance: 0.5, angle: 0.3 }, noise: 'triangular', robust: true, systematic, seed: 7, byLength: true });
   assert.deepEqual([told.positionDeviation, told.headingDeviation], [0.001, 0.002]);
   assert.deepEqual((await askedOf([...FILES, '--robust', '0.02', '--duration', '0.5'])).robust, { outliers: 0.02 });
   assert.deepEqual((await askedOf([...FILES, '--robust=0.03', '--duration=0.5'])).legs, { duration: 0.5 });
@@ -181,6 +181,47 @@ test('as text: a table of the α’s, what is systematic, the doubts, a verdict,
   assert.match(byTable, /^ {4}# fitted under another rule than Nav2's: see --rule nav2$/m);
 });
 
+test('each reason why an α is not determined has a sentence, and advice that fits the model', async () => {
+  const motion = /** @type {any} */ (await load());
+  const [t, rows] = [Array.from({ length: 100 }, (_, i) => i / 10), (/** @type {(time: number) => number} */ f) => (/** @type {number} */ time) => `${time},${f(time)},${f(2 * time)},0`];
+  const commands = file('commands.csv', ['t,v,omega,other', ...t.map(rows(Math.cos))].join('\n'));
+  const told = motion.calibrate(await askedOf(FILES));
+  /** What is said of α's that are not determined. @param {(string | null)[]} undetermined @param {string[]} args */
+  const lacking = async (undetermined, ...args) => {
+    const { out, err } = await said(['calibrate', ...FILES, ...args], async () => ({ calibrate: () => ({ ...told, undetermined }) }));
+    assert.equal(err, '');
+    return out.split('\n').filter((line) => /^This log .* determined\./.test(line));
+  };
+  assert.deepEqual(await lacking([null, null, null, null]), []);
+  assert.deepEqual(await lacking(['one-ratio', 'one-ratio', 'drives-too-little', 'one-ratio']), [
+    'This log hardly goes anywhere: alpha3 is not determined. Drive straight on, some fifty legs.',
+    'This log turns and drives in one ratio: alpha1, alpha2, and alpha4 are not determined. Drive straight on and turn on the spot, some fifty legs of each.',
+  ]);
+  assert.deepEqual(await lacking([null, 'turns-too-little', null, 'turns-too-little'], '--odometry', commands, '--model', 'velocity', '--reference', file('moving.csv', ['t,x,y,yaw', ...t.map(rows((time) => time))].join('\n'))), [
+    'This log turns too little: alpha2 and alpha4 are not determined. Drive tight bends, some fifty legs.',
+  ]);
+});
+
+test('the α’s by the length of legs are a table', async () => {
+  const { byLength } = JSON.parse((await said(['calibrate', ...FILES, '--json'])).out);
+  const { out } = await said(['calibrate', ...FILES]);
+  assert.match(out, /^by length +0\.0625 m, 0\.05 rad +0\.125 m, 0\.1 rad +0\.25 m, 0\.2 rad +0\.5 m, 0\.4 rad +1 m, 0\.8 rad\n/m);
+  const table = out.slice(out.indexOf('by length')).split('\n').map((line) => line.trim().split(/ {2,}/));
+  assert.deepEqual(table[1], byLength.map((/** @type {any} */ { legs }) => `${legs} legs`));
+  for (const [k, row] of [2, 4, 6, 8].entries()) {
+    assert.equal(table[row][0], `alpha${k + 1}`);
+    for (const [i, { alphas, intervals }] of byLength.entries()) {
+      if (alphas[k] === null) {
+        assert.equal(table[row][1 + i], '–');
+        continue;
+      }
+      assert.ok(Math.abs(Number(table[row][1 + i]) - alphas[k]) <= 0.05 * (intervals[k][1] - intervals[k][0]), `${table[row][1 + i]} ${alphas[k]}`);
+    }
+  }
+  const lasting = await said(['calibrate', ...FILES, '--duration', '1']);
+  assert.match(lasting.out, /^by length +0\.25 s +0\.5 s +1 s +2 s +4 s\n/m);
+});
+
 test('by the omnidirectional rule five α’s, and one table is no two logs', async () => {
   const { code, out } = await said(['calibrate', ...FILES, '--rule', 'omni']);
   assert.equal(code, 0);
@@ -199,4 +240,5 @@ test('where a log does not determine an α, no line says one', async () => {
   assert.equal(code, 0, err);
   assert.match(out, /^alpha1 +not determined by this log/m);
   assert.match(out, /^ {4}# alpha1: not determined by this log$/m);
+  assert.match(out, /^This log turns too little: alpha1 and alpha4 are not determined\. Turn on the spot, some fifty times\.$/m);
 });

@@ -2,6 +2,7 @@
 
 /**
  * @typedef {[number, number] | null} Interval
+ * @typedef {{ distance?: number, angle?: number, duration?: number }} Legs
  *
  * @typedef {object} Result
  * @property {any} calibration of the core
@@ -35,6 +36,30 @@ const VERDICTS = {
   'heavy-tails': 'The tails are heavier than the noise\'s: a few legs are far out. Try --robust, and look at the worst legs.',
   correlated: 'The error of one leg tells that of the next: something systematic is left that the model does not know.',
   'few-legs': 'Too few legs to tell. Drive on, or take shorter legs.',
+};
+
+/**
+ * Of each reason why an α is not determined: what the log lacks, and what to drive. Fifty legs tell an α of
+ * its own to a fifth. Under the velocity model turns on the spot tell no executed turn.
+ *
+ * @type {Record<string, { lack: string, drive: string, byCommands: string }>}
+ */
+const LACKING = {
+  'turns-too-little': {
+    lack: 'This log turns too little',
+    drive: 'Turn on the spot, some fifty times.',
+    byCommands: 'Drive tight bends, some fifty legs.',
+  },
+  'drives-too-little': {
+    lack: 'This log hardly goes anywhere',
+    drive: 'Drive straight on, some fifty legs.',
+    byCommands: 'Drive straight on and in bends, some fifty legs of each.',
+  },
+  'one-ratio': {
+    lack: 'This log turns and drives in one ratio',
+    drive: 'Drive straight on and turn on the spot, some fifty legs of each.',
+    byCommands: 'Drive straight on and in tighter bends, some fifty legs of each.',
+  },
 };
 
 /** What is systematic: its name, its unit, and how many numbers it has. @type {[string, string, string][]} */
@@ -84,7 +109,9 @@ export function textOf({ calibration, fit, logs, start, date }) {
     ...(gaps.odometry + gaps.reference > 0 ? [`no leg leads across ${gaps.odometry} pauses of the odometry and ${gaps.reference} of the reference`] : []),
     '',
     ...aligned([['', 'value', '95 %', '95 % by bootstrap', 'noise of'], ...rows]),
+    ...undeterminedOf(calibration, model),
     '',
+    ...byLengthOf(calibration, fit.legs),
     ...aligned([['systematic', 'value', '95 %', ''], ...SYSTEMATIC.map((each) => systematicRow(each, systematic))]),
     '',
     ...aligned([['doubts', 'measured', 'if the model is true'], ...doubtRows(doubts), ['log-likelihood', `${short(logLikelihood, 6)} nats`, '']]),
@@ -98,9 +125,46 @@ export function textOf({ calibration, fit, logs, start, date }) {
   ].join('\n');
 }
 
-/** @param {{ distance?: number, angle?: number, duration?: number }} legs */
+/** @param {Legs} legs */
 function lengthOf({ distance, angle, duration }) {
   return duration === undefined ? `of ${distance} m or ${angle} rad` : `of ${duration} s`;
+}
+
+/**
+ * What the log lacks, and what to drive.
+ *
+ * @param {any} calibration
+ * @param {string} model
+ * @returns {string[]}
+ */
+function undeterminedOf({ undetermined }, model) {
+  return Object.entries(LACKING).flatMap(([reason, { lack, drive, byCommands }]) => {
+    const names = undetermined.flatMap((/** @type {string | null} */ its, /** @type {number} */ i) => (its === reason ? [`alpha${i + 1}`] : []));
+    if (!names.length) return [];
+    const are = names.length > 1 ? 'are' : 'is';
+    return [`${lack}: ${new Intl.ListFormat('en').format(names)} ${are} not determined. ${model === 'velocity' ? byCommands : drive}`];
+  });
+}
+
+/**
+ * A table of the α's by the length of legs, of each its value and its interval.
+ *
+ * @param {any} calibration
+ * @param {Legs} legs
+ * @returns {string[]}
+ */
+function byLengthOf({ alphas, byLength }, legs) {
+  if (!byLength.length) return [];
+  const lengths = byLength.map((/** @type {any} */ { factor }) => {
+    const [distance, angle, duration] = [legs.distance, legs.angle, legs.duration].map((of) => short((of ?? 0) * factor));
+    return legs.duration === undefined ? `${distance} m, ${angle} rad` : `${duration} s`;
+  });
+  const counts = byLength.map((/** @type {any} */ at) => `${at.legs} legs`);
+  const rows = alphas.flatMap((/** @type {unknown} */ _, /** @type {number} */ i) => [
+    [`alpha${i + 1}`, ...byLength.map((/** @type {any} */ at) => fixed(at.alphas[i], at.intervals[i]))],
+    ['', ...byLength.map((/** @type {any} */ at) => between(at.intervals[i]))],
+  ]);
+  return [...aligned([['by length', ...lengths], ['', ...counts], ...rows]), ''];
 }
 
 /** @param {[string, string, string]} about @param {any} systematic @returns {string[]} */

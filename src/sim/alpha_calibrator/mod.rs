@@ -209,10 +209,21 @@ impl AlphaCalibrator {
 
     /// What is fitted but for its legs, of which there may be many.
     pub fn summary(&self) -> Calibration {
-        let Calibration { estimate, bootstrap, systematic, deviations, removed, doubts, inflation, .. } =
-            self.calibration();
+        let Calibration {
+            estimate,
+            undetermined,
+            bootstrap,
+            systematic,
+            deviations,
+            removed,
+            doubts,
+            inflation,
+            by_length,
+            ..
+        } = self.calibration();
         Calibration {
             estimate: estimate.clone(),
+            undetermined: undetermined.clone(),
             bootstrap: bootstrap.clone(),
             systematic: *systematic,
             deviations: *deviations,
@@ -222,6 +233,7 @@ impl AlphaCalibrator {
             judged: vec![],
             doubts: doubts.clone(),
             inflation: inflation.clone(),
+            by_length: by_length.clone(),
         }
     }
 
@@ -328,6 +340,7 @@ fn options(settings: &Settings, log: &Log) -> Options {
         remove: settings.removed(),
         reference_error: log.error,
         seed: settings.seed,
+        by_length: settings.by_length,
     }
 }
 
@@ -357,6 +370,7 @@ fn nothing(settings: &Settings) -> Calibration {
             log_likelihood: f64::NAN,
             outliers: None,
         },
+        undetermined: vec![None; model.alphas()],
         bootstrap: vec![None; model.alphas()],
         systematic: Systematic::NONE,
         deviations: [None; ERRORS],
@@ -371,6 +385,7 @@ fn nothing(settings: &Settings) -> Calibration {
             verdict: Verdict::FewLegs,
         },
         inflation: Inflation { factors: vec![], coverage: vec![], log_likelihood: vec![] },
+        by_length: vec![],
     }
 }
 

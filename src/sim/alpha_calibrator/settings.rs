@@ -49,6 +49,8 @@ settings! {
         turnScale, by turn_scale_mut;
         /// Whether the offset between the two clocks is removed.
         clockOffset, by clock_offset_mut;
+        /// Whether the α’s of legs of other lengths are fitted too, which takes several times as long.
+        byLength, by by_length_mut;
         /// What the α’s are multiplied by in what is predicted.
         inflation: f64 = 1.0, in 0.01..=100.0;
         // One whose intervals hold all of the true values: what everybody sees first should not be bad luck.
@@ -65,6 +67,8 @@ settings! {
             turn_scale: bool = true;
             /// The setting `clockOffset`.
             clock_offset: bool = true;
+            /// The setting `byLength`.
+            by_length: bool = false;
         }
     }
 }
@@ -88,6 +92,10 @@ impl Settings {
 
     fn clock_offset_mut(&mut self) -> &mut bool {
         &mut self.clock_offset
+    }
+
+    fn by_length_mut(&mut self) -> &mut bool {
+        &mut self.by_length
     }
 
     /// Whether what is fitted under these settings is what is fitted under others: the factor is for the picture alone.

@@ -13,6 +13,7 @@ import { pointOn } from '../../scene/canvas.js';
 import { fold } from '../../ui/fold.js';
 import { legControls, legLengths, modelControls } from './controls.js';
 import { doubts, inflation, panels } from './doubts.js';
+import { lengths } from './lengths.js';
 import { Copied, nav2 } from './nav2.js';
 import { FOLD, LogOpener, ownLog } from './open.js';
 import { LegPicture, WayPicture } from './pictures.js';
@@ -228,6 +229,7 @@ export class AlphaCalibratorElement extends FigureElement {
         <div part="controls">${modelControls(this)}<div class="controls">${legLengths(this)}</div></div>
         <div class="folds">
           ${fold(say.panels.title, () => panels(this))}
+          ${fold(say.lengths.title, () => lengths(this))}
           ${fold(say.doubts.title, () => doubts(this))}
           ${fold(say.inflation.title, () => inflation(this))}
           ${fold(say.own.title, () => ownLog(this, this.#opener), FOLD)}

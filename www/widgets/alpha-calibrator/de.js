@@ -46,8 +46,12 @@ export const de = {
     value: 'Wert',
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
-    unknown: (advice) => `nicht bestimmt: ${advice}`,
-    advice: { turn: 'auf der Stelle drehen', way: 'geradeaus fahren' },
+    unknown: (lack, drive) => `nicht bestimmt: ${lack}; ${drive}`,
+    lacking: {
+      'turns-too-little': { lack: 'zu wenig gedreht', drive: 'etwa fünfzig Mal auf der Stelle drehen', byCommands: 'enge Kurven fahren, etwa fünfzig Etappen' },
+      'drives-too-little': { lack: 'kaum gefahren', drive: 'geradeaus fahren, etwa fünfzig Etappen', byCommands: 'geradeaus und in Kurven fahren, je etwa fünfzig Etappen' },
+      'one-ratio': { lack: 'Drehung und Weg immer im selben Verhältnis', drive: 'geradeaus fahren und auf der Stelle drehen, je etwa fünfzig Etappen', byCommands: 'geradeaus und in engeren Kurven fahren, je etwa fünfzig Etappen' },
+    },
   },
   systematic: {
     caption: 'Feste Fehler; entfernt wird, was angekreuzt ist',
@@ -88,6 +92,18 @@ export const de = {
     noSlope: (alpha) => `*α*${alpha} ist nicht bestimmt`,
     label: (kind, alpha, value) => `Quadrierte Residuen, ${kind}, in Klassen, und eine Gerade mit der Steigung Alpha ${alpha}, ${value}.`,
     axis: 'r²',
+  },
+  lengths: {
+    title: 'Andere Längen',
+    fit: 'Auch Etappen von ¼ bis 4 mal der Länge anpassen',
+    caption: 'Wo die Punkte auf einer Höhe liegen, wächst das Rauschen mit dem Quadrat von Weg und Drehung wie in den Tabellen. Wo sie den Strichen folgen, wächst es mit Weg und Drehung selbst, wie bei den meisten Rädern: Dann gilt ein α nur für Etappen, an die es angepasst ist.',
+    turn: 'Drehung einer Etappe (rad)',
+    way: 'Weg einer Etappe (m)',
+    square: 'wie in den Tabellen',
+    linear: 'Rauschen der Länge selbst',
+    at: (value, length) => `${value} bei ${length}`,
+    simulated: 'Die simulierte Aufzeichnung besteht aus Etappen von 0,25 m oder 0,2 rad: Für längere und kürzere gibt es keine wahren α.',
+    label: (alpha, points) => `Alpha ${alpha} über der Länge der Etappen: ${points}.`,
   },
   doubts: {
     title: 'Zweifel',

@@ -4,10 +4,10 @@ import { html } from 'lit';
 import { slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, radioGroup, rich } from '../../ui/controls.js';
-import { NOTHING, counted, fixed, percent, powerOfTen } from '../../ui/format.js';
+import { NOTHING, counted, fixed, percent } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
-import { alphaName, significantly } from './words.js';
+import { alphaName, significantly, thousandths } from './words.js';
 
 /**
  * @import { CalibrationPanel } from '../../types.d.ts'
@@ -43,9 +43,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const say = words.calibrator.panels;
   const last = 1.06 * Math.max(...x, 1e-9);
   const highest = 1.1 * Math.max(1e-12, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
-  // Small numbers have no room beside an axis: in thousandths, or thousandths of these.
-  const exponent = 3 * Math.floor(Math.log10(highest) / 3);
-  const scaled = (/** @type {number} */ value) => value * 10 ** -exponent;
+  const { scaled, unit } = thousandths(highest);
   const name = alphaName(alpha);
   // The band has the width of the interval, on either side of its middle.
   const [low, high] = interval ?? [NaN, NaN];
@@ -58,7 +56,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   return html`${plot({
     label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : significantly(slope)),
     x: { name: axis, from: 0, to: last },
-    y: { name: exponent < 0 ? `${say.axis} (${powerOfTen(exponent)})` : say.axis, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
+    y: { name: unit === '' ? say.axis : `${say.axis} (${unit})`, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
     curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
     points: x.map((at, i) => ({ role: /** @type {const} */ ('ink'), x: at, y: scaled(y[i]), error: scaled(error[i]) })),
   })}

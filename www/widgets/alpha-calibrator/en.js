@@ -45,8 +45,12 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     value: 'value',
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
-    unknown: (advice) => `not determined: ${advice}`,
-    advice: { turn: 'turn on the spot', way: 'drive straight on' },
+    unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
+    lacking: {
+      'turns-too-little': { lack: 'this log turns too little', drive: 'turn on the spot, some fifty times', byCommands: 'drive tight bends, some fifty legs' },
+      'drives-too-little': { lack: 'this log hardly goes anywhere', drive: 'drive straight on, some fifty legs', byCommands: 'drive straight on and in bends, some fifty legs of each' },
+      'one-ratio': { lack: 'this log turns and drives in one ratio', drive: 'drive straight on and turn on the spot, some fifty legs of each', byCommands: 'drive straight on and in tighter bends, some fifty legs of each' },
+    },
   },
   systematic: {
     caption: 'What is systematic, and is removed where it is ticked',
@@ -87,6 +91,18 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     noSlope: (alpha) => `*α*${alpha} is not determined`,
     label: (kind, alpha, value) => `Squared residuals of the ${kind}, in bins, and a line whose slope is alpha ${alpha}, ${value}.`,
     axis: 'r²',
+  },
+  lengths: {
+    title: 'Other lengths of legs',
+    fit: 'Fit legs of ¼ to 4 times the length too',
+    caption: 'Where the dots are level, noise grows with the square of way and turn, as in the tables. Where they fall along the dashes, it grows with way and turn themselves, as of most wheels: then an α is right for the legs that it was fitted to, and for no others.',
+    turn: 'turn of a leg (rad)',
+    way: 'way of a leg (m)',
+    square: 'as the tables have it',
+    linear: 'noise of the length itself',
+    at: (value, length) => `${value} at ${length}`,
+    simulated: 'The simulated log was made of legs of 0.25 m or 0.2 rad: of longer and shorter ones no α’s are true.',
+    label: (alpha, points) => `Alpha ${alpha} by the length of legs: ${points}.`,
   },
   doubts: {
     title: 'Doubts',

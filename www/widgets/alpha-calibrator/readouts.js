@@ -6,7 +6,7 @@ import { rich, toggle } from '../../ui/controls.js';
 import { NOTHING, fixed, tick } from '../../ui/format.js';
 import { truthHolds } from './reading.js';
 import { SYSTEMATIC } from './settings.js';
-import { alphaName, driverOf, significantly } from './words.js';
+import { alphaName, significantly } from './words.js';
 
 /**
  * @import { Interval } from '../../types.d.ts'
@@ -32,7 +32,7 @@ export function alphaTable(reading) {
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
         ${alpha === null
-          ? html`<td class="unknown" colspan="3">${say.unknown(say.advice[driverOf(reading.config, i)])}</td>`
+          ? html`<td class="unknown" colspan="3">${lackOf(reading, i)}</td>`
           : html`<td class="chart">${whisker(place, alpha, intervals[i], truth?.[i])}</td>
             <td class="roomy" data-room="0.0000">${significantly(alpha)}</td>
             <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${intervals[i] ? say.between(significantly(intervals[i][0]), significantly(intervals[i][1])) : NOTHING}</td>`}
@@ -46,6 +46,15 @@ export function alphaTable(reading) {
       </tr>
     </tbody>
   </table>`;
+}
+
+/** Why an α is not determined, and what to drive. @param {Reading} reading @param {number} index */
+function lackOf({ stats: { undetermined }, config: { model } }, index) {
+  const say = words.calibrator.alphas;
+  const reason = undetermined[index];
+  if (!reason) return NOTHING;
+  const { lack, drive, byCommands } = say.lacking[reason];
+  return say.unknown(lack, model === 'velocity' ? byCommands : drive);
 }
 
 /** With the mark of the true value where it is named. */

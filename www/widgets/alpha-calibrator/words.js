@@ -2,7 +2,7 @@
 
 import { addEnglish, words } from '../../messages/registry.js';
 import { longest } from '../../ui/controls.js';
-import { counted, fixed, percent, rounded } from '../../ui/format.js';
+import { counted, fixed, percent, powerOfTen, rounded } from '../../ui/format.js';
 import { en } from './en.js';
 
 /**
@@ -18,6 +18,17 @@ export const alphaName = (index) => String.fromCharCode(0x2081 + index);
 
 /** An α as it is printed: three digits, as its interval has no more to say. @param {number} alpha */
 export const significantly = (alpha) => (alpha === 0 ? '0' : alpha >= 1e-4 ? rounded(alpha, 3) : fixed(alpha, 5));
+
+/**
+ * Small numbers have no room beside an axis: in thousandths, or thousandths of these.
+ *
+ * @param {number} highest
+ * @returns {{ scaled: (value: number) => number, unit: string }} the unit is empty where it is 1
+ */
+export function thousandths(highest) {
+  const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
+  return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
+}
 
 /**
  * What the variance that an α belongs to is driven by.

@@ -34,8 +34,8 @@ pub struct Options {
     pub reference_error: ReferenceError,
     /// Of the bootstrap.
     pub seed: u64,
-    /// Whether legs of other lengths are fitted too. A quarter as long they are four times as many: of a log of some thousand legs,
-    /// all of them take several times as long as those that are asked for.
+    /// Whether legs of other lengths are fitted too: a quarter as long they are four times as many, and with all of them it takes up to
+    /// three times as long.
     pub by_length: bool,
 }
 

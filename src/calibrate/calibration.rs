@@ -279,12 +279,12 @@ impl Calibrating {
         if self.legs.len() < FEWEST {
             return Err(CalibrateError::FewLegs { legs: self.legs.len() });
         }
-        self.hear(without, estimated);
+        self.observe_legs(without, estimated);
         Ok(())
     }
 
     /// What the legs say without some systematic errors.
-    fn hear(&mut self, without: Systematic, estimated: Which) {
+    fn observe_legs(&mut self, without: Systematic, estimated: Which) {
         let Options { model, noise, reference_error, .. } = self.options;
         let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
         let observe = |leg: &Leg| {
@@ -311,7 +311,7 @@ impl Calibrating {
         self.legs = legs.into_iter().step_by(every).collect();
         let enough = self.legs.len() >= FEWEST && have_rows(&self.legs, odometry, reference);
         if enough {
-            self.hear(self.removed, self.options.remove);
+            self.observe_legs(self.removed, self.options.remove);
             self.best = None;
             self.intervals.clear();
         } else {

@@ -34,8 +34,8 @@ pub struct Options {
     pub reference_error: ReferenceError,
     /// Of the bootstrap.
     pub seed: u64,
-    /// Whether legs of other lengths are fitted too. A quarter as long they are four times as many: of a log of some thousand legs,
-    /// all of them take several times as long as those that are asked for.
+    /// Whether legs of other lengths are fitted too: a quarter as long they are four times as many, and with all of them it takes up to
+    /// three times as long.
     pub by_length: bool,
 }
 
@@ -279,12 +279,12 @@ impl Calibrating {
         if self.legs.len() < FEWEST {
             return Err(CalibrateError::FewLegs { legs: self.legs.len() });
         }
-        self.hear(without, estimated);
+        self.observe_legs(without, estimated);
         Ok(())
     }
 
     /// What the legs say without some systematic errors.
-    fn hear(&mut self, without: Systematic, estimated: Which) {
+    fn observe_legs(&mut self, without: Systematic, estimated: Which) {
         let Options { model, noise, reference_error, .. } = self.options;
         let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
         let observe = |leg: &Leg| {
@@ -311,7 +311,7 @@ impl Calibrating {
         self.legs = legs.into_iter().step_by(every).collect();
         let enough = self.legs.len() >= FEWEST && have_rows(&self.legs, odometry, reference);
         if enough {
-            self.hear(self.removed, self.options.remove);
+            self.observe_legs(self.removed, self.options.remove);
             self.best = None;
             self.intervals.clear();
         } else {

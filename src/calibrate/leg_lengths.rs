@@ -21,7 +21,7 @@ pub(super) const ASKED: f64 = 1.0;
 pub struct AtLength {
     /// One of [`FACTORS`].
     pub factor: f64,
-    /// How many legs were fitted: of more than [`MOST`] as many are taken evenly.
+    /// How many legs were fitted: of more than 20 000 as many are taken evenly.
     pub legs: usize,
     /// None where they are fewer than [`super::FEWEST`], most of them shorter than four rows of the log, or such that turns of more
     /// than half a circle are lost.

@@ -36,8 +36,8 @@ export interface CalibrationOptions {
   /** Of the bootstrap, a whole number; opens with 0. */
   seed?: number;
   /**
-   * Whether the α's of other lengths of legs are told too. Opens with false: legs a quarter as long are four times as many, and
-   * of a log of some thousand all of them take several times as long as the legs that are asked for.
+   * Whether the α's of other lengths of legs are told too. Opens with false: legs a quarter as long are four times as many,
+   * and with all of them it takes up to three times as long.
    */
   byLength?: boolean;
 }

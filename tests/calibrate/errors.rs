@@ -176,8 +176,11 @@ fn no_log_is_too_strange() {
                 let simulation = Simulation::of(model, noise, 0, 0);
                 for odometry in &trajectories {
                     for reference in &trajectories {
-                        if let Ok(told) = calibrate(odometry, reference, &options(&simulation, robust)) {
+                        let all = Options { by_length: true, ..options(&simulation, robust) };
+                        if let Ok(told) = calibrate(odometry, reference, &all) {
                             assert!(told.estimate.alphas.iter().all(|alpha| alpha.is_nan() || *alpha >= 0.0));
+                            let untold = told.estimate.alphas.iter().map(|alpha| alpha.is_nan());
+                            assert!(untold.eq(told.undetermined.iter().map(Option::is_some)));
                         }
                     }
                 }

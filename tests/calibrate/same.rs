@@ -34,6 +34,10 @@ fn bits(told: &Calibration) -> String {
     numbers.extend(told.doubts.kinds.iter().flat_map(|kind| [kind.kurtosis, kind.autocorrelation]));
     numbers.extend(&told.inflation.log_likelihood);
     numbers.extend(told.judged.iter().map(|leg| leg.squared_error));
+    for at in told.by_length.iter().filter_map(|at| at.estimate.as_ref()) {
+        numbers.extend(&at.alphas);
+        numbers.extend(at.intervals.iter().flatten().flatten());
+    }
     numbers.retain(|number| !number.is_nan());
     numbers.iter().fold(String::new(), |mut text, number| {
         write!(text, " {:016x}", number.to_bits()).expect("a string takes all");
@@ -61,7 +65,7 @@ fn the_example_says_the_same_everywhere() {
                 remove: [true; 6],
                 reference_error: ReferenceError { position: 1e-4, heading: 1e-4 },
                 seed: 3,
-                by_length: false,
+                by_length: true,
             };
             let told = calibrate(&odometry, &reference, &options).expect("legs enough");
             writeln!(lines, "{name} {word}{}", bits(&told)).expect("a string takes all");

@@ -68,7 +68,7 @@ pub fn cut(odometry: &Trajectory, reference: &Trajectory, length: LegLength, clo
     let mut legs = Vec::new();
     let mut began: Option<(usize, f64, SE2)> = None;
     for (sample, (time, reading)) in odometry.samples().enumerate() {
-        let Some((first, start_time, start)) = began.filter(|_| !odometry.pauses_before(sample)) else {
+        let Some((first, start_time, start)) = began.filter(|_| !odometry.has_gap_before(sample)) else {
             began = Some((sample, time, reading));
             continue;
         };

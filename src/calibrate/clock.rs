@@ -24,23 +24,26 @@ const SURELY: f64 = 0.9;
 /// By how much more alike they have to be far away.
 const CLEARLY: f64 = 0.05;
 
-/// By how much (s) the reference's clock is ahead of the odometry's: where the correlation of their turn rates is largest. 0 where
-/// they are not alike anywhere, as of a robot that does not turn.
+/// By how much (s) the reference's clock is ahead of the odometry's: where the correlation of their turn rates is largest. Where
+/// they are not alike anywhere, as of a robot that does not turn, 0 if the recordings overlap at all, and none if they do not.
 ///
 /// Where the recordings overlap for half of the shorter one at least, and are surely alike at an offset of [`NEARLY`] 10 s at most, that
 /// is taken; otherwise any that makes them overlap so is looked at.
-pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> f64 {
+pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Option<f64> {
     let [Some([from, to]), Some([start, end])] = [odometry, reference].map(Trajectory::span) else {
-        return 0.0;
+        return None;
     };
     let [read, seen] = [odometry, reference].map(Turns::new);
     let half = 0.5 * (to - from).min(end - start);
     let finest = STEP.max(0.5 * odometry.usual_step()).max((to - from) / MOST);
-    let overlap = to.min(end) - from.max(start) >= half;
-    let near =
-        if overlap { best(&read, &seen, [-NEARLY, NEARLY], finest.max(NEARLY / COARSE)) } else { None };
+    let common = to.min(end) - from.max(start);
+    let near = if common >= half {
+        best(&read, &seen, [-NEARLY, NEARLY], finest.max(NEARLY / COARSE))
+    } else {
+        None
+    };
     if let Some((lag, _)) = near.filter(|(_, alike)| *alike >= SURELY) {
-        return lag;
+        return Some(lag);
     }
     let range = [start - to + half, end - from - half];
     let mut step = finest.max((range[1] - range[0]) / COARSE);
@@ -52,10 +55,9 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> f64
     }
     // Of two that are as alike the nearer one.
     match [near, far] {
-        [Some((lag, alike)), Some((_, farther))] if farther - alike < CLEARLY => lag,
-        [_, Some((lag, _))] | [Some((lag, _)), None] => lag,
-        [None, None] if overlap => 0.0,
-        [None, None] => 0.5 * (range[0] + range[1]),
+        [Some((lag, alike)), Some((_, farther))] if farther - alike < CLEARLY => Some(lag),
+        [_, Some((lag, _))] | [Some((lag, _)), None] => Some(lag),
+        [None, None] => (common > 0.0).then_some(0.0),
     }
 }
 

@@ -212,6 +212,32 @@ fn too_few_legs_are_refused() {
 }
 
 #[test]
+fn two_drives_without_a_common_time_are_refused() {
+    let model = Model::Odometry(OdometryRule::Nav2);
+    let one = Simulation::of(model, NoiseKind::Normal, 500, 6);
+    let [odometry, reference] = one.log();
+    let [_, of_another] = Simulation { seed: 7, ..one }.log();
+    let later = |trajectory: &Trajectory, by: f64| {
+        Trajectory::new(trajectory.samples().map(|(t, pose)| (t + by, pose)).collect::<Vec<_>>())
+    };
+    let refused =
+        calibrate(&odometry, &later(&of_another, 1e6).expect("times rise"), &options(&one, Robust::No));
+    assert_eq!(refused, Err(CalibrateError::Apart));
+    // Straight on and without turns, they are taken as they are, if they overlap at all.
+    let straight = |from: f64| {
+        let ahead = |i| (from + 0.1 * f64::from(i), SE2::new(0.05 * f64::from(i), 0.0, 0.0));
+        Trajectory::new((0..1000).map(ahead)).expect("times rise")
+    };
+    let told = calibrate(&straight(0.0), &straight(70.0), &options(&one, Robust::No)).expect("legs enough");
+    assert_eq!(told.systematic.clock_offset, 0.0);
+    let refused = calibrate(&straight(0.0), &straight(100.0), &options(&one, Robust::No));
+    assert_eq!(refused, Err(CalibrateError::Apart));
+    // By their turns the same drive is found as far away as it may be.
+    let told = calibrate(&odometry, &later(&reference, 1e6).expect("times rise"), &options(&one, Robust::No));
+    assert!((told.expect("legs enough").systematic.clock_offset - 1e6).abs() < 0.05);
+}
+
+#[test]
 fn no_log_is_too_strange() {
     // Standing still; one place again and again; numbers at the ends of what is taken: an answer or a sentence.
     let trajectories = [

@@ -54,7 +54,7 @@ async function askedOf(args) {
 test('the options reach the core', async () => {
   const { odometry: own, reference, ...fit } = await askedOf(FILES);
   assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
-  assert.deepEqual([Object.keys(own), Object.keys(reference)], [['t', 'x', 'y', 'theta'], ['t', 'x', 'y', 'theta']]);
+  assert.deepEqual([Object.keys(own), Object.keys(reference)], [['t', 'x', 'y', 'theta', 'breaks'], ['t', 'x', 'y', 'theta', 'breaks']]);
   const all = '--model omnidirectional --rule nav2 --distance 0.5 --angle 0.3 --noise triangular --robust --without mountYaw,leverArm --seed 7 --position-deviation 0.001 --heading-deviation 2e-3';
   const { reference: told, ...rest } = await askedOf([...FILES, ...all.split(' ')]);
   delete rest.odometry;

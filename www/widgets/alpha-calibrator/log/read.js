@@ -84,7 +84,7 @@ export function usualTopics(topics) {
  * @throws {LogError} where they have no time in common
  */
 export function together(odometry, reference) {
-  if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', Object.keys(reference.data).join(', ')));
+  if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', 't, v, omega'));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [odometry, reference].map((log) => after(start, log));
   const [one, other] = [first.data.t, second.data.t];

@@ -20,6 +20,8 @@ import { LogError } from './refusal.js';
  * @property {'radians' | 'degrees' | 'quaternion' | 'none'} heading
  * @property {Record<string, string>} columns what was found in which column, or in which topic
  * @property {boolean} cutShort whether the file ends in the middle of a row or record
+ * @property {[string, string, string]} [apart] of a reference that has no time in common with the odometry: the name of that, and the
+ *   times of both
  *
  * @typedef {object} Found
  * @property {number} rows

@@ -210,6 +210,23 @@ impl Evidence {
         })
     }
 
+    /// By how much the logarithms of the residuals' variances change with each α: in the mean, and Σ of the squares and products.
+    pub(super) fn log_variances_by(&self, at: &Parameters) -> (Alphas, [Alphas; 6]) {
+        let (mut count, mut mean, mut squares) = (0.0, [0.0; 6], [[0.0; 6]; 6]);
+        for row in &self.rows {
+            let variances = self.variances(row, &at.alphas);
+            for kind in (0..3).filter(|kind| row.told[*kind] && variances[*kind] > 0.0) {
+                let (pair, slopes) = (self.pairs[kind], row.coefficients[kind].map(|f| f / variances[kind]));
+                count += 1.0;
+                for (k, slope) in pair.into_iter().zip(slopes) {
+                    mean[k] += slope;
+                    pair.into_iter().zip(slopes).for_each(|(l, other)| squares[k][l] += slope * other);
+                }
+            }
+        }
+        (mean.map(|sum| sum / count), squares)
+    }
+
     /// Bad legs as they are likeliest under the α's, by a step of expectation and maximization.
     fn bad_again(&self, at: &Parameters, robust: Robust) -> Option<Bad> {
         let bad = at.bad.as_ref()?;
@@ -333,6 +350,26 @@ impl Slope {
             })
             .sum()
     }
+}
+
+/// The variance of a sum of α's with these factors, of which so much is known: factorsᵀ · information⁻¹ · factors. Infinite where it
+/// hangs on an α of which nothing is known.
+pub(super) fn variance_of(mut factors: Alphas, information: &[Alphas; 6]) -> f64 {
+    let (mut left, mut variance) = (*information, 0.0);
+    for out in 0..6 {
+        let (row, factor) = (left[out], factors[out]);
+        if row[out] > 1e-9 * information[out][out] {
+            variance += factor * factor / row[out];
+            for k in out + 1..6 {
+                let share = left[k][out] / row[out];
+                left[k].iter_mut().zip(row).for_each(|(entry, of_row)| *entry -= share * of_row);
+                factors[k] -= share * factor;
+            }
+        } else if information[out][out] * variance < factor * factor {
+            return f64::INFINITY;
+        }
+    }
+    variance
 }
 
 /// Of the maximum of a parabola, through all α's in turn: two of them nearly alike settle within a few hundred.

@@ -57,7 +57,7 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     match [near, far] {
         [Some((lag, alike)), Some((_, farther))] if farther - alike < CLEARLY => Some(lag),
         [_, Some((lag, _))] | [Some((lag, _)), None] => Some(lag),
-        [None, None] => (common > 0.0).then_some(0.0),
+        [None, None] => (common >= 0.0).then_some(0.0),
     }
 }
 

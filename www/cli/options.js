@@ -24,7 +24,7 @@ What goes in (times in s or ns, m, rad):
 
 What is fitted:
   --model NAME             odometry (unless said), omnidirectional, velocity
-  --rule NAME              of the odometry model: table (unless said), nav2, beluga
+  --rule NAME              of the odometry model: table (unless said), nav2 (for Nav2's AMCL), beluga
   --distance M --angle RAD a leg ends after so much, as AMCL's update_min_d and update_min_a; 0.25 and 0.2 unless said
   --duration S             or after so long
   --noise NAME             normal (unless said), triangular

@@ -1,8 +1,9 @@
 //! Whether the model is any good: what the residuals say against it.
 
-use super::likelihood::{Evidence, LegDensity, Parameters, ROOT_TAU, Robust, variance_of};
+use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
 use super::model::{Model, Observation};
 use super::profile::Fitted;
+use super::systematic::{Square, sweep};
 use super::trajectory::sort;
 use crate::noise::NoiseKind;
 
@@ -128,6 +129,27 @@ fn shape(noise: NoiseKind) -> Shape {
     }
 }
 
+/// The variance of a sum of α's with these factors, of which so much is known: factorsᵀ · information⁻¹ · factors. Infinite where it
+/// hangs on an α of which nothing is known.
+fn variance_of(factors: &Alphas, information: &Square) -> f64 {
+    let (mut swept, mut known) = (*information, [false; 6]);
+    for alpha in 0..6 {
+        // Less than that is what rounding leaves of nothing.
+        known[alpha] = swept[alpha][alpha] > 1e-9 * information[alpha][alpha];
+        if known[alpha] {
+            sweep(&mut swept, alpha);
+        }
+    }
+    let weight =
+        |alpha: usize| -> f64 { (0..6).filter(|k| known[*k]).map(|k| swept[alpha][k] * factors[k]).sum() };
+    let variance = (0..6).filter(|k| known[*k]).map(|k| factors[k] * weight(k)).sum();
+    let hangs = |alpha: usize| {
+        let left = factors[alpha] + weight(alpha);
+        !known[alpha] && information[alpha][alpha] * variance < left * left
+    };
+    if (0..6).any(hangs) { f64::INFINITY } else { variance }
+}
+
 /// Where the second half of a log begins.
 fn half<T>(legs: &[T]) -> usize {
     legs.len() / 2
@@ -189,7 +211,7 @@ impl Halves {
         let evidence = Evidence::new(model, noise, held_out);
         let ((mean, _), (_, squares)) =
             (evidence.log_variances_by(&fit.best), seen.log_variances_by(&fit.best));
-        let of_fit = ((shape(noise).kurtosis - 1.0) * variance_of(mean, &squares)).min(UNKNOWN);
+        let of_fit = ((shape(noise).kurtosis - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
         Self { best: fit.best, of_fit, evidence, observations: held_out.to_vec(), noise }
     }
 

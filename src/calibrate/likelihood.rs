@@ -352,26 +352,6 @@ impl Slope {
     }
 }
 
-/// The variance of a sum of α's with these factors, of which so much is known: factorsᵀ · information⁻¹ · factors. Infinite where it
-/// hangs on an α of which nothing is known.
-pub(super) fn variance_of(mut factors: Alphas, information: &[Alphas; 6]) -> f64 {
-    let (mut left, mut variance) = (*information, 0.0);
-    for out in 0..6 {
-        let (row, factor) = (left[out], factors[out]);
-        if row[out] > 1e-9 * information[out][out] {
-            variance += factor * factor / row[out];
-            for k in out + 1..6 {
-                let share = left[k][out] / row[out];
-                left[k].iter_mut().zip(row).for_each(|(entry, of_row)| *entry -= share * of_row);
-                factors[k] -= share * factor;
-            }
-        } else if information[out][out] * variance < factor * factor {
-            return f64::INFINITY;
-        }
-    }
-    variance
-}
-
 /// Of the maximum of a parabola, through all α's in turn: two of them nearly alike settle within a few hundred.
 const SWEEPS: usize = 300;
 

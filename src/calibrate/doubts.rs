@@ -140,14 +140,21 @@ fn variance_of(factors: &Alphas, information: &Square) -> f64 {
             sweep(&mut swept, alpha);
         }
     }
-    let weight =
-        |alpha: usize| -> f64 { (0..6).filter(|k| known[*k]).map(|k| swept[alpha][k] * factors[k]).sum() };
-    let variance = (0..6).filter(|k| known[*k]).map(|k| factors[k] * weight(k)).sum();
-    let hangs = |alpha: usize| {
-        let left = factors[alpha] + weight(alpha);
-        !known[alpha] && information[alpha][alpha] * variance < left * left
-    };
-    if (0..6).any(hangs) { f64::INFINITY } else { variance }
+    let (mut variance, mut unknown) = (0.0, 0.0f64);
+    for alpha in 0..6 {
+        let mut weight = 0.0;
+        for k in (0..6).filter(|k| known[*k]) {
+            weight += swept[alpha][k] * factors[k];
+        }
+        if known[alpha] {
+            variance += factors[alpha] * weight;
+        } else {
+            // How much it would be, were this one alone.
+            let left = factors[alpha] + weight;
+            unknown = unknown.max(left * left / information[alpha][alpha]);
+        }
+    }
+    if unknown > variance { f64::INFINITY } else { variance }
 }
 
 /// Where the second half of a log begins.

@@ -261,7 +261,8 @@ impl LeastSquares {
     }
 }
 
-/// Inverts a symmetric matrix in one of its variables.
+/// Inverts a symmetric matrix in one of its variables. In one place: it is long code.
+#[inline(never)]
 pub(super) fn sweep(matrix: &mut Square, pivot: usize) {
     let size = matrix[pivot][pivot];
     let row = matrix[pivot].map(|entry| entry / size);

@@ -223,6 +223,15 @@ test('the example log: the truth lies in the intervals, and the command says wha
   assert.deepEqual(told.legs.residuals, Array.from(calibration.legs.residuals, (each) => (Number.isNaN(each) ? null : each)));
 });
 
+test('doc/calibration.md names what is in the JSON', async () => {
+  const told = JSON.parse((await said(['calibrate', ...FILES, '--json'])).out);
+  const [, section] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
+  const missing = Object.keys(told).filter((key) => !section.includes(`\`${key}\``));
+  assert.deepEqual(missing, []);
+  assert.deepEqual([told.start, told.legs.times[0] >= 0, told.fit], [9, true, { legs: { distance: 0.25, angle: 0.2 } }]);
+  assert.deepEqual(told.logs.map((/** @type {any} */ { name }) => name), ['odometry.csv', 'reference.csv']);
+});
+
 test('a recording says the same as tables of the same drive', async () => {
   /** @type {import('../mcap.js').Message[]} */
   const messages = [];

@@ -63,12 +63,12 @@ export function loadedByAll() {
   return [...new Set([...loadedWith('dist/external.js'), ...Object.keys(settings).flatMap(element), ...glue('motion'), 'dist/motion.wasm'])];
 }
 
-/** @returns {Record<string, number>} minified bytes of each library in external.js, its chunks and the command line */
+/** @returns {Record<string, number>} minified bytes of each library in external.js and its chunks; the command line has no others */
 export function libraries() {
   /** @type {Record<string, number>} */
   const bytes = {};
   for (const [product, { inputs }] of Object.entries(outputs())) {
-    if (!/^dist\/(cli|external|chunks\/.+)\.js$/.test(product)) continue;
+    if (!/^dist\/(external|chunks\/.+)\.js$/.test(product)) continue;
     for (const [path, { bytesInOutput }] of Object.entries(inputs)) {
       const name = path.match(/node_modules\/((?:@[^/]+\/)?[^/]+)/)?.[1];
       // Lit comes in four packages.

@@ -5,7 +5,7 @@ use motion::sim::picture::RAMP;
 use motion::sim::settings::{Declaration, Declared, Field, Group, Setting};
 use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL, PATH_FREE};
 use motion::sim::views::MAX_CELLS;
-use motion::sim::{arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
+use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use std::fmt::Write;
 use std::ops::{ControlFlow, RangeInclusive};
 
@@ -44,6 +44,8 @@ export const settings = {{
 {}  ],
   'dead-reckoning': [
 {}  ],
+  'alpha-calibrator': [
+{}  ],
 }};
 
 /** What the widgets may open with, by their tags. */
@@ -58,6 +60,7 @@ export const presets = {{
 {}  ],
   'dead-reckoning': [
 {}  ],
+  'alpha-calibrator': [],
 }};
 
 /** The noise parameters that each model opens with. */
@@ -80,6 +83,7 @@ export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: 
             &odometry_decomposer::ALPHA_SENTENCES
         ),
         declarations(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
+        declarations(alpha_calibrator::Settings::default(), &[]),
         lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
             let alphas = alphas.map_or("null".to_owned(), |alphas| format!("{alphas:?}"));
             format!("name: '{name}', {}, alphas: {alphas}", group(command))

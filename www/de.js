@@ -7,5 +7,6 @@ import { de as squeeze } from './widgets/map-squeeze/de.js';
 import { de as anatomy } from './widgets/arc-anatomy/de.js';
 import { de as decomposer } from './widgets/odometry-decomposer/de.js';
 import { de as reckoning } from './widgets/dead-reckoning/de.js';
+import { de as calibrator } from './widgets/alpha-calibrator/de.js';
 
-setMessages('de', { ...de, banana, squeeze, anatomy, decomposer, reckoning });
+setMessages('de', { ...de, banana, squeeze, anatomy, decomposer, reckoning, calibrator });

@@ -127,6 +127,21 @@ export const settings = {
     { key: 'samples', type: 'whole', min: 1, max: 1000000, default: 50000, sentence: 'Rollouts of the whole path.' },
     { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 29, sentence: 'The same seed is the same luck at every step, whatever else is set.' },
   ],
+  'alpha-calibrator': [
+    { key: 'model', type: 'word', words: ['odometry', 'omnidirectional', 'velocity'], default: 'odometry', sentence: 'Whose α’s are sought: four of odometry, five of a robot that can drive sideways, six of commands.' },
+    { key: 'rule', type: 'word', words: ['table', 'nav2', 'beluga', 'omni'], default: 'table', sentence: 'Whose bookkeeping of the odometry’s noise it is; omni goes with the omnidirectional model, and with no other.' },
+    { key: 'noise', type: 'word', words: ['normal', 'triangular'], default: 'normal', sentence: 'Distribution of the noise; the variances are the same.' },
+    { key: 'robust', type: 'boolean', default: true, sentence: 'Whether a share of the legs may be bad, as where the reference jumps: it is estimated then.' },
+    { key: 'distance', type: 'number', unit: 'm', min: 0.01, max: 100, default: 0.25, sentence: 'A leg ends where the odometry is further away in x or in y: `update_min_d` of AMCL.' },
+    { key: 'angle', type: 'number', unit: 'rad', min: 0.01, max: 3, default: 0.2, sentence: 'A leg ends where the odometry has turned by more: `update_min_a` of AMCL.' },
+    { key: 'mountYaw', type: 'boolean', default: true, sentence: 'Whether the yaw at which the reference is mounted is removed.' },
+    { key: 'leverArm', type: 'boolean', default: true, sentence: 'Whether the reference’s lever arm is removed.' },
+    { key: 'distanceScale', type: 'boolean', default: true, sentence: 'Whether the odometry’s scale of distances is removed.' },
+    { key: 'turnScale', type: 'boolean', default: true, sentence: 'Whether the odometry’s scale of turns is removed.' },
+    { key: 'clockOffset', type: 'boolean', default: true, sentence: 'Whether the offset between the two clocks is removed.' },
+    { key: 'inflation', type: 'number', min: 0.01, max: 100, default: 1, sentence: 'What the α’s are multiplied by in what is predicted.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 7, sentence: 'The same seed is the same luck of the simulated log, and of the bootstrap.' },
+  ],
 };
 
 /** What the widgets may open with, by their tags. */
@@ -164,6 +179,7 @@ export const presets = {
     { name: 'fine', command: { v: 1, omega: 0.5, dt: 0.02 }, steps: 200, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
     { name: 'straight', command: { v: 1, omega: 0, dt: 0.2 }, steps: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
   ],
+  'alpha-calibrator': [],
 };
 
 /** The noise parameters that each model opens with. */

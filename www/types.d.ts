@@ -1,6 +1,6 @@
 /** All types. Those of settings, machines and elements follow from what is declared: scripts/types.mjs writes them. */
 
-import type { BananaMachinePreset, BananaMachineSettings, MapSqueezeSettings, Start } from '../build/machines.d.ts';
+import type { BananaMachinePreset, BananaMachineSettings, LoggedCommands, LoggedPoses, LoggedReference, MapSqueezeSettings, Start } from '../build/machines.d.ts';
 import type { BananaMachineElement, BananaMachineState, FigureElement, MapSqueezeState } from '../build/elements.d.ts';
 
 export type * from '../build/machines.d.ts';
@@ -29,6 +29,13 @@ export interface FigureState {
 export type MapData =
   | { name?: string; bounds: number[]; walls: number[][] }
   | { name?: string; columns: number; rows: number; resolution: number; origin: number[]; occupied: string; unknown?: string };
+
+/** What a robot's wheels said, and where it really was. */
+export interface CalibrationLog {
+  name?: string;
+  odometry: LoggedPoses | LoggedCommands;
+  reference: LoggedReference;
+}
 
 // Shorter names.
 export type BananaMachineClass = Motion['BananaMachine'];

@@ -24,4 +24,5 @@ pub use likelihood::{Evidence, Robust};
 pub use model::{Kind, Model, Observation, Uncertainty};
 pub use profile::{Estimate, fit};
 pub use systematic::{ERRORS, Error, Systematic, Which};
+pub(crate) use trajectory::sort;
 pub use trajectory::{Trajectory, TrajectoryError, TrajectoryFault};

@@ -194,6 +194,6 @@ impl Trajectory {
 
 /// In one place: sorting is long code.
 #[inline(never)]
-pub(super) fn sort(numbers: &mut [f64]) {
+pub(crate) fn sort(numbers: &mut [f64]) {
     numbers.sort_unstable_by(f64::total_cmp);
 }

@@ -1,5 +1,6 @@
 //! The widgets' simulations: parameters in, buffers and figures out, no browser anywhere.
 
+pub mod alpha_calibrator;
 pub mod arc_anatomy;
 pub mod banana;
 mod cloud;

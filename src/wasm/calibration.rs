@@ -1,23 +1,120 @@
 //! What a log says of a robot's α's, as plain JavaScript values.
 
-use super::calibrate::SYSTEMATIC;
 use super::values::{float64_array, list, number_or_null, object};
 use crate::calibrate::{Calibration, Doubts, Error, Inflation, KindDoubts, Verdict, Which};
-use crate::geom::se2::SE2;
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
 
-/// All that is told of a calibration, with its legs.
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** An interval that holds the true value in 95 of 100 logs. */
+export type Interval = [number, number];
+
+/** A systematic error: what the reference says of the odometry. Null where the log does not determine it. */
+export interface SystematicValue {
+  value: number | null;
+  interval: Interval | null;
+  /** Whether it was removed before the α's were fitted. */
+  removed: boolean;
+}
+
+/** The residuals of one kind, each by its standard deviation; bad legs left out. */
+export interface KindDoubts {
+  name: 'rot1' | 'trans' | 'rot2' | 'strafe' | 'v' | 'omega' | 'gamma';
+  count: number;
+  /** Of each half of the log by itself, in the mean: of the normal distribution 3, of the triangular 2.4. */
+  kurtosis: number;
+  /** Of neighbouring legs; the model says 0. */
+  autocorrelation: number;
+  /** Below this it is in 95 of 100 logs of which the model is true. */
+  autocorrelationLimit: number;
+  /** At 0.01, 0.02, … 0.99. */
+  quantiles: Float64Array;
+}
+
+/** What a log says of a robot's α's. */
+export interface Calibration {
+  /** Null where this log does not determine one. */
+  alphas: (number | null)[];
+  /** By the profile of the likelihood. */
+  intervals: (Interval | null)[];
+  /** By a bootstrap of blocks of legs, which does not take them for independent. */
+  bootstrap: (Interval | null)[];
+  /**
+   * Reference's time = odometry's time + clockOffset (s); reference's heading = base's heading + mountYaw (rad); the point that
+   * the reference follows is at leverArm (m, ahead and to the left) of the base; true distance = distanceScale × odometry's;
+   * true turn = turnScale × odometry's.
+   */
+  systematic: {
+    clockOffset: SystematicValue;
+    mountYaw: SystematicValue;
+    leverArm: { value: [number | null, number | null]; interval: [Interval | null, Interval | null]; removed: boolean };
+    distanceScale: SystematicValue;
+    turnScale: SystematicValue;
+  };
+  legs: CalibrationLegs;
+  /** Of the residuals, nats. */
+  logLikelihood: number;
+  /** The share of bad legs; null where none is taken for bad. */
+  outliers: number | null;
+  doubts: {
+    kinds: KindDoubts[];
+    /** The second half of the log by the α's of the first; intervals say where a figure is in 95 of 100 logs of which the model is true. */
+    heldOut: { count: number; coverage: number; expected: number; interval: Interval; logLikelihood: number };
+    /** The mean of (r/σ)² over the held-out residuals. */
+    squaredError: { mean: number; interval: Interval };
+    /** Places of the legs that are furthest from what was expected, the worst first. */
+    worst: number[];
+    verdict: 'few-legs' | 'heavy-tails' | 'correlated' | 'overconfident' | 'lazy' | 'fits';
+  };
+  /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
+  inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
+  /** How often nothing is known of the way, because a trajectory pauses or is said to break: no leg leads across. */
+  gaps: { odometry: number; reference: number };
+}
+
+/** Legs, one after the other in each array. */
+export interface CalibrationLegs {
+  count: number;
+  /** Beginning and end, s. */
+  times: Float64Array;
+  /** Both ends in the odometry frame, x, y, θ. */
+  odometry: Float64Array;
+  /** Both ends of the robot's base by the reference, x, y, θ, without the lever arm and the mount's yaw. */
+  reference: Float64Array;
+  /** rot1, trans, rot2; or v, ω, Δt. */
+  readings: Float64Array;
+  /** Executed less expected, of the three kinds in their order; NaN of one that a leg does not tell. */
+  residuals: Float64Array;
+  /** Their standard deviations under the α's. */
+  deviations: Float64Array;
+  /** Σ (r/σ)². */
+  squaredError: Float64Array;
+  /** The probability that the leg is bad. */
+  bad: Float64Array;
+}
+"#;
+
+/// What each systematic error is called, and which of [`Error::ALL`] it is.
+pub const SYSTEMATIC: [(&str, &[Error]); 5] = [
+    ("clockOffset", &[Error::ClockOffset]),
+    ("mountYaw", &[Error::MountYaw]),
+    ("leverArm", &[Error::LeverArmAhead, Error::LeverArmLeft]),
+    ("distanceScale", &[Error::DistanceScale]),
+    ("turnScale", &[Error::TurnScale]),
+];
+
+/// All that is told of a calibration; its legs where they are given.
 pub fn calibration_to_js(
     calibration: &Calibration,
     remove: Which,
     gaps: [usize; 2],
-    legs: JsValue,
+    legs: Option<JsValue>,
 ) -> Result<JsValue, JsValue> {
     let Calibration { estimate, bootstrap, doubts, inflation, .. } = calibration;
     let alphas: Array = estimate.alphas.iter().map(|alpha| known(*alpha)).collect();
     let [odometry_gaps, reference_gaps] = gaps.map(|gaps| JsValue::from(gaps as f64));
-    object(&[
+    let told = [
         ("alphas", alphas.into()),
         ("intervals", intervals(&estimate.intervals)?),
         ("bootstrap", intervals(bootstrap)?),
@@ -27,8 +124,8 @@ pub fn calibration_to_js(
         ("doubts", doubts_to_js(doubts)?),
         ("inflation", inflation_to_js(inflation)?),
         ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])?),
-        ("legs", legs),
-    ])
+    ];
+    object(&told.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>())
 }
 
 fn known(number: f64) -> JsValue {
@@ -121,25 +218,44 @@ fn inflation_to_js(inflation: &Inflation) -> Result<JsValue, JsValue> {
     ])
 }
 
+/// What is told of the legs, one after the other in each array.
+pub type Columns = [(&'static str, Vec<f64>); 8];
+
 /// The legs of a calibration.
-pub fn legs_to_js(calibration: &Calibration) -> Result<JsValue, JsValue> {
+pub fn columns(calibration: &Calibration) -> Columns {
     let Calibration { legs, observations, judged, removed, .. } = calibration;
-    let array = |numbers: Vec<f64>| float64_array(&numbers).map(JsValue::from);
-    let pose = |pose: SE2| [pose.x(), pose.y(), pose.theta()];
-    object(&[
-        ("count", (legs.len() as f64).into()),
-        ("times", array(legs.iter().flat_map(|leg| leg.times).collect())?),
-        ("odometry", array(legs.iter().flat_map(|leg| leg.odometry).flat_map(pose).collect())?),
-        (
-            "reference",
-            array(
-                legs.iter().flat_map(|leg| leg.reference).flat_map(|end| pose(removed.base(&end))).collect(),
-            )?,
-        ),
-        ("readings", array(observations.iter().flat_map(|each| each.reading).collect())?),
-        ("residuals", array(observations.iter().flat_map(|each| each.residuals).collect())?),
-        ("deviations", array(judged.iter().flat_map(|leg| leg.deviations).collect())?),
-        ("squaredError", array(judged.iter().map(|leg| leg.squared_error).collect())?),
-        ("bad", array(judged.iter().map(|leg| leg.bad).collect())?),
-    ])
+    let [mut times, mut odometry, mut reference, mut readings, mut residuals] = [const { Vec::new() }; 5];
+    let [mut deviations, mut squared_error, mut bad] = [const { Vec::new() }; 3];
+    for ((leg, observation), judged) in legs.iter().zip(observations).zip(judged) {
+        times.extend_from_slice(&leg.times);
+        for [told, pose] in [0, 1].map(|end| [leg.odometry[end], removed.base(&leg.reference[end])]) {
+            odometry.extend_from_slice(&[told.x(), told.y(), told.theta()]);
+            reference.extend_from_slice(&[pose.x(), pose.y(), pose.theta()]);
+        }
+        readings.extend_from_slice(&observation.reading);
+        residuals.extend_from_slice(&observation.residuals);
+        deviations.extend_from_slice(&judged.deviations);
+        squared_error.push(judged.squared_error);
+        bad.push(judged.bad);
+    }
+    [
+        ("times", times),
+        ("odometry", odometry),
+        ("reference", reference),
+        ("readings", readings),
+        ("residuals", residuals),
+        ("deviations", deviations),
+        ("squaredError", squared_error),
+        ("bad", bad),
+    ]
+}
+
+/// With how many they are.
+pub fn columns_to_js(columns: &Columns) -> Result<JsValue, JsValue> {
+    let [.., (_, bad)] = columns;
+    let mut told = vec![("count", (bad.len() as f64).into())];
+    for (key, numbers) in columns {
+        told.push((key, float64_array(numbers)?.into()));
+    }
+    object(&told)
 }

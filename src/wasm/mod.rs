@@ -3,13 +3,15 @@
 // A page with one widget loads a module without the others: that is compiled with the widget's tag as its cfg `widget`.
 #![cfg_attr(widget, allow(dead_code, reason = "what the other widgets read and make"))]
 
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+mod alpha_calibrator;
 #[cfg(any(not(widget), widget = "arc-anatomy"))]
 mod arc_anatomy;
 #[cfg(any(not(widget), widget = "banana-machine"))]
 mod banana;
 #[cfg(not(widget))]
 mod calibrate;
-#[cfg(not(widget))]
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
 mod calibration;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
@@ -17,6 +19,8 @@ mod fields;
 mod held;
 #[cfg(not(widget))]
 mod homework;
+#[cfg(any(not(widget), widget = "alpha-calibrator"))]
+mod log;
 mod maps;
 #[cfg(any(not(widget), widget = "odometry-decomposer"))]
 mod odometry_decomposer;

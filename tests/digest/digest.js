@@ -119,6 +119,37 @@ export const widgets = {
     return told;
   },
 
+  'alpha-calibrator'({ AlphaCalibrator }, _, { settings }) {
+    const machine = new AlphaCalibrator(settings);
+    const { stats: { alphas, intervals, bootstrap, systematic, logLikelihood, outliers, doubts, inflation }, legs, truth } = machine;
+    const { kinds, heldOut, squaredError, worst } = doubts;
+    const told = {
+      alphas: { alphas, intervals, bootstrap, logLikelihood, outliers },
+      systematic: Object.values(systematic).map(({ value, interval }) => ({ value, interval })),
+      doubts: {
+        kinds: kinds.map(({ name: _, ...figures }) => figures),
+        heldOut: [heldOut.count, heldOut.coverage, heldOut.interval, heldOut.logLikelihood],
+        squaredError,
+        worst,
+      },
+      inflation,
+      legs,
+      truth,
+      panels: ['turn', 'way'].map((driver) => machine.panels(/** @type {'turn' | 'way'} */ (driver))),
+      leg: machine.leg(5),
+      nearest: machine.nearest(0.5, 1, 3),
+    };
+    // Where legs begin is a log too.
+    const { count, times, odometry, reference } = legs;
+    const column = (/** @type {Float64Array} */ values, /** @type {number} */ size, /** @type {number} */ place) =>
+      Float64Array.from({ length: count }, (_, leg) => values[size * leg + place]);
+    const poses = (/** @type {Float64Array} */ ends) => ({ t: column(times, 2, 0), x: column(ends, 6, 0), y: column(ends, 6, 1), theta: column(ends, 6, 2) });
+    if (count > 1) machine.setLog(poses(odometry), poses(reference));
+    const log = [machine.fits, machine.stats.alphas, machine.stats.intervals];
+    machine.free();
+    return { ...told, log };
+  },
+
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
     const { from, to } = OdometryDecomposer.presets.find(({ name }) => name === preset) ?? {};
     const machine = new OdometryDecomposer({ from, to, ...settings });

@@ -1,6 +1,7 @@
 //! Same seed, same bits: everything that machines of many configurations tell, to the last bit, against golden.txt. The same
 //! is asked of the JavaScript face in Node and in browsers, by digest.js.
 
+mod alpha_calibrator;
 mod arc_anatomy;
 mod banana;
 mod configuration;
@@ -23,6 +24,7 @@ fn the_same_seed_gives_the_same_bits() {
             let parts = match configuration.widget {
                 "banana-machine" => banana::parts(&configuration),
                 "map-squeeze" => squeeze::parts(&configuration),
+                "alpha-calibrator" => alpha_calibrator::parts(&configuration),
                 "arc-anatomy" => arc_anatomy::parts(&configuration),
                 "dead-reckoning" => dead_reckoning::parts(&configuration),
                 "odometry-decomposer" => odometry_decomposer::parts(&configuration),

@@ -116,5 +116,27 @@ export function anyOf(seed) {
       per: one(['step', 'path']),
       compounding: one(['chapter', 'first-order', 'fourth-order']),
     },
+    'alpha-calibrator': {
+      version: 1,
+      widget: 'alpha-calibrator',
+      .../** @type {object} */ (one([
+        { model: 'odometry', rule: one(['table', 'nav2', 'beluga']) },
+        { model: 'omnidirectional', rule: 'omni' },
+        { model: 'velocity', rule: one(['table', 'nav2']) },
+      ])),
+      noise: one(['normal', 'triangular']),
+      robust: one([true, false]),
+      distance: real(0.1, 1),
+      angle: real(0.1, 1),
+      mountYaw: one([true, false]),
+      leverArm: one([true, false]),
+      distanceScale: one([true, false]),
+      turnScale: one([true, false]),
+      clockOffset: one([true, false]),
+      inflation: real(0.1, 5),
+      seed: whole(0, 2 ** 53 - 1),
+      leg: one([null, whole(0, 20)]),
+      driver: one(['turn', 'way']),
+    },
   };
 }

@@ -313,9 +313,9 @@ test.describe('properties', () => {
         const state = anyOf(seed)[name];
         const [opened, set] = await page.evaluate(async (given) => {
           const { widget, alphas, map, ...rest } = /** @type {any} */ (given);
-          const own = ['version', 'marked', 'shown', 'playing', 'isolateChoice', 'line', 'underway'];
+          const own = ['version', 'marked', 'shown', 'playing', 'isolateChoice', 'line', 'underway', 'leg', 'driver'];
           const others = Object.entries(rest).filter(([key]) => !own.includes(key));
-          const settings = { ...Object.fromEntries(others), alphas: alphas[rest.model] ?? alphas, ...(typeof map === 'string' && { map }) };
+          const settings = { ...Object.fromEntries(others), ...(alphas && { alphas: alphas[rest.model] ?? alphas }), ...(typeof map === 'string' && { map }) };
           const [early, other] = [Object.entries(settings), Object.entries(settings).reverse()].map((entries) =>
             Object.assign(document.createElement(widget), Object.fromEntries(entries)));
           await import(/** @type {any} */ ('/motion-widgets.js'));

@@ -111,6 +111,16 @@ const ACTS = {
     ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
     ['batch', (widget) => widget.getByRole('button', { name: 'Step', exact: true }).click()],
   ],
+  'alpha-calibrator': [
+    ['model', (widget) => widget.locator('input[name=kind]').nth(1).check()],
+    ['noise', (widget) => widget.locator('input[name=noise]').nth(1).check()],
+    ['bad legs', (widget) => widget.getByRole('checkbox', { name: 'Some legs may be bad' }).uncheck()],
+    ['systematic error', (widget) => widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck()],
+    ['slider by key', (widget) => widget.locator('#distance').press('ArrowRight')],
+    ['leg by key', (widget) => widget.locator('#leg').press('ArrowRight')],
+    ['worst leg', (widget) => widget.getByRole('button', { name: 'Next worst leg' }).click()],
+    ['inflation by key', (widget) => widget.locator('#inflation').press('ArrowRight')],
+  ],
 };
 
 for (const name of ALL) {
@@ -290,6 +300,7 @@ for (const [name, parts] of /** @type {[string, string[]][]} */ ([
   ['arc-anatomy', ['.handle.body.start', '.handle.turn.next', '#omega', '#underway', 'input[type=radio] >> nth=0']],
   ['odometry-decomposer', ['.handle.body.from', '.handle.turn.to', '#phase', '#correlation', 'input[type=radio] >> nth=0']],
   ['dead-reckoning', ['#step', '#headingNoise', 'input[type=radio] >> nth=0']],
+  ['alpha-calibrator', ['#leg', '#distance', '#inflation', 'input[type=radio] >> nth=0']],
 ])) {
   test(`an arrow that ${name} used goes no further; any other key does`, async ({ page }) => {
     await show(page, `<${name}></${name}>`);

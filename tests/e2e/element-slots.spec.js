@@ -21,7 +21,7 @@ for (const name of ALL) {
     await widget.evaluate((element) => element.removeAttribute('heading-level'));
     await expect(widget.getByRole('heading')).toHaveCount(0);
     await widget.evaluate((element) => element.replaceChildren());
-    await expect(widget.getByRole('region', { name: /^(The Banana Machine|Map Squeeze|Arc Anatomy|The Odometry Decomposer|Dead Reckoning)$/ })).toBeVisible();
+    await expect(widget.getByRole('region', { name: /^(The Banana Machine|Map Squeeze|Arc Anatomy|The Odometry Decomposer|Dead Reckoning|The Alpha Calibrator)$/ })).toBeVisible();
     // A heading without words is none.
     await widget.evaluate((element) => element.setAttribute('heading-level', '3'));
     await expect(widget.getByRole('heading')).toHaveCount(0);

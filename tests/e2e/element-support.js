@@ -23,7 +23,7 @@ import { frames } from './support.js';
  * @property {string} slider in sight
  * @property {string[]} at where the slider's setting is in a state
  * @property {[number, number]} values that the slider can be put to
- * @property {string[]} group where a number of a group is in a state
+ * @property {string[]} group where a number of a group is in a state, or a number of no group
  * @property {[string, number]} other a setting that the first picture shows, and another value than it opens with
  * @property {string} button in sight, which changes the state
  * @property {number} canvases how many there are: the first of them is called `plane`
@@ -37,7 +37,7 @@ import { frames } from './support.js';
 const COMMAND = { slider: 'v', at: ['command', 'v'], values: /** @type {[number, number]} */ ([0.7, 0.4]), other: /** @type {[string, number]} */ (['omega', 1.25]) };
 const MARKED = { at: 0, field: 'input[type=number]', value: '7' };
 
-/** @typedef {'banana-machine' | 'map-squeeze' | 'arc-anatomy' | 'odometry-decomposer' | 'dead-reckoning'} Name */
+/** @typedef {'banana-machine' | 'map-squeeze' | 'arc-anatomy' | 'odometry-decomposer' | 'dead-reckoning' | 'alpha-calibrator'} Name */
 
 /** @type {Record<Name, Known>} */
 export const KNOWN = {
@@ -61,6 +61,10 @@ export const KNOWN = {
   'dead-reckoning': {
     cloud: true, slider: 'step', at: ['step'], values: [7, 4], group: ['command', 'dt'], other: ['omega', 1.25], button: 'New seed', canvases: 2,
     folded: ['reckoning', 'misses', 'endOf'], fold: MARKED, paper: { at: 0, part: 'table' }, fewer: 'samples="10000"',
+  },
+  'alpha-calibrator': {
+    slider: 'distance', at: ['distance'], values: [0.4, 0.3], group: ['distance'], other: ['angle', 0.35], button: 'Next worst leg', canvases: 2,
+    folded: ['calibrator', 'inflation', 'coverageLabel'], fold: { at: 2, field: '.slider:has(#inflation) .typed', value: '2.50' }, paper: { at: 1, part: 'table' },
   },
 };
 

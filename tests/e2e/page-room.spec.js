@@ -6,7 +6,7 @@ import { FRESH, STILL, boxOf, frames, test } from './support.js';
 test.use(STILL);
 
 /** Those that keep as much room as they take, and no more. */
-const RESERVED = ['banana-machine', 'map-squeeze', 'odometry-decomposer', 'dead-reckoning'];
+const RESERVED = ['banana-machine', 'map-squeeze', 'odometry-decomposer', 'dead-reckoning', 'alpha-calibrator'];
 
 /** Columns of books, phones and screens. */
 const WIDTHS = [320, 360, 375, 414, 480, 560, 600, 640, 700, 760, 820, 900, 1024, 1150, 1280, 1600, 1920];
@@ -132,6 +132,9 @@ const STATES = {
   ),
   'odometry-decomposer': ['all', 'reverse', 'spin', 'rest'].flatMap((preset) =>
     ['table', 'nav2', 'omni'].map((rule) => ({ preset, rule })),
+  ),
+  'alpha-calibrator': ['table', 'omni', 'velocity'].flatMap((kind) =>
+    [true, false].map((robust) => ({ ...(kind === 'velocity' ? { model: kind } : { rule: kind }), robust })),
   ),
 };
 

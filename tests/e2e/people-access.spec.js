@@ -271,6 +271,7 @@ test.describe('a finger', () => {
     'arc-anatomy': ['canvas.plane', '#omega', '#underway', '#alpha3'],
     'odometry-decomposer': ['canvas.plane', 'canvas.world', '#phase', '#drift', '#correlation', '.rules'],
     'dead-reckoning': ['canvas.plane', 'canvas.twist', '#step', '#headingNoise', '#samples', '.ratios'],
+    'alpha-calibrator': ['canvas.plane', 'canvas.leg', '#leg', '#distance', '.tables', '#inflation'],
   };
 
   /**

@@ -45,6 +45,7 @@ export const figures = {
     ],
   },
   'dead-reckoning': { handles: [] },
+  'alpha-calibrator': { handles: [] },
 };
 
 /**

@@ -37,6 +37,7 @@ const machines = [
   { attributes: attributesOf(settings['arc-anatomy']), machine: new motion.ArcAnatomy() },
   { attributes: attributesOf(settings['odometry-decomposer']), machine: new motion.OdometryDecomposer({ samples: 1 }) },
   { attributes: attributesOf(settings['dead-reckoning']), machine: new motion.DeadReckoning({ samples: 1 }) },
+  { attributes: attributesOf(settings['alpha-calibrator']), machine: new motion.AlphaCalibrator() },
 ].map((each) => ({ ...each, opening: each.machine.config }));
 
 /** Characters of a sentence: what it quotes is cut. */

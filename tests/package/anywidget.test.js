@@ -235,7 +235,7 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
 test('a model of no widget says what is allowed in the place of the figure', async () => {
   for (const [widget, said] of [[undefined, 'missing'], ['banana', '"banana"']]) {
     const { page } = await shown({ widget }, 'book');
-    await page.getByText(`This cell shows no figure: widget is ${said}; allowed is banana-machine or map-squeeze or arc-anatomy or odometry-decomposer or dead-reckoning.`).waitFor();
+    await page.getByText(`This cell shows no figure: widget is ${said}; allowed is banana-machine or map-squeeze or arc-anatomy or odometry-decomposer or dead-reckoning or alpha-calibrator.`).waitFor();
     await page.close();
   }
 });

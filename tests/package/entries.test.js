@@ -180,7 +180,7 @@ test('custom-elements.json says what the elements have', async () => {
   const { modules } = JSON.parse(readFileSync(path, 'utf8'));
   /** @type {any[]} */
   const declared = modules[0].declarations;
-  assert.deepEqual(declared.map(({ tagName }) => tagName).sort(), ['arc-anatomy', 'banana-machine', 'dead-reckoning', 'map-squeeze', 'odometry-decomposer']);
+  assert.deepEqual(declared.map(({ tagName }) => tagName).sort(), ['alpha-calibrator', 'arc-anatomy', 'banana-machine', 'dead-reckoning', 'map-squeeze', 'odometry-decomposer']);
   const page = await browser.newPage();
   await page.goto(`${server.address}plain/`);
   for (const { tagName, attributes, members, events, cssParts, cssProperties } of declared) {
@@ -219,7 +219,7 @@ test('custom-elements.json says what the elements have', async () => {
 test('the types say of every property, and of every field of a state, what it is', () => {
   const lines = readFileSync(join(project.directory, 'node_modules/motion-widgets/dist/elements.d.ts'), 'utf8').split('\n');
   const unsaid = lines.filter((line, i) => /^ {2}(readonly )?\w+: /.test(line) && !lines[i - 1].endsWith('*/'));
-  const tags = ['banana-machine', 'map-squeeze', 'arc-anatomy', 'odometry-decomposer', 'dead-reckoning'];
+  const tags = ['banana-machine', 'map-squeeze', 'arc-anatomy', 'odometry-decomposer', 'dead-reckoning', 'alpha-calibrator'];
   assert.deepEqual(unsaid, tags.map((tag) => `  widget: '${tag}';`));
 });
 

@@ -23,13 +23,21 @@ function within(name, paths, limit) {
  * Kilobytes: the budget of a page with one widget, and what else is loaded, held where it is and rounded up. See "The size of
  * the module" in doc/implementation-notes.md.
  */
-const LIMITS = { page: 110, moduleOfWidget: 56, module: 148, bundle: 255, classicScript: 258, notebook: 264 };
+const LIMITS = {
+  page: 110, moduleOfWidget: 56, pageOfCalibrator: 124, moduleOfCalibrator: 69, module: 160, bundle: 330, classicScript: 333, notebook: 340,
+};
+
+/** What it carries that the others do not is all of motion::calibrate. */
+const CALIBRATOR = 'alpha-calibrator';
 
 test('what a page loads does not grow', () => {
   const loaded = loadedByWidgets();
-  for (const [tag, paths] of Object.entries(loaded)) within(tag, paths, 1000 * LIMITS.page);
-  within('scripts of all widgets', loadedByAll().filter((path) => path.endsWith('.js')), 96_000);
-  for (const path of Object.values(loaded).flat().filter((path) => path.endsWith('.wasm'))) within('module of a widget', [path], 1000 * LIMITS.moduleOfWidget);
+  for (const [tag, paths] of Object.entries(loaded)) {
+    const [page, module] = tag === CALIBRATOR ? [LIMITS.pageOfCalibrator, LIMITS.moduleOfCalibrator] : [LIMITS.page, LIMITS.moduleOfWidget];
+    within(tag, paths, 1000 * page);
+    within(`module of ${tag}`, paths.filter((path) => path.endsWith('.wasm')), 1000 * module);
+  }
+  within('scripts of all widgets', loadedByAll().filter((path) => path.endsWith('.js')), 110_000);
   within('module', ['dist/motion.wasm'], 1000 * LIMITS.module);
   within('bundle', ['dist/motion-widgets.js'], 1000 * LIMITS.bundle);
   within('module for notebooks', ['dist/anywidget.js'], 1000 * LIMITS.notebook);

@@ -72,9 +72,9 @@ export class Settings extends Part {
     return this.stale ? machine?.config : reading.config;
   }
 
-  /** Those in effect with the changes that are on their way. @returns {Values} */
+  /** Those in effect with the changes that are on their way; a machine in the making was made with all before it. @returns {Values} */
   get wanted() {
-    return { ...this.present, ...this.#begun, ...this.#former, ...this.#pending };
+    return { ...this.present, ...this.#begun, ...this.#former, ...this.next?.config, ...this.#pending };
   }
 
   /** What controls show: what was read of the machine, with the changes that are on their way. @returns {Values} */

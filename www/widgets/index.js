@@ -5,3 +5,4 @@ import './map-squeeze/map-squeeze.js';
 import './arc-anatomy/arc-anatomy.js';
 import './odometry-decomposer/odometry-decomposer.js';
 import './dead-reckoning/dead-reckoning.js';
+import './alpha-calibrator/alpha-calibrator.js';

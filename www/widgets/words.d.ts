@@ -5,4 +5,5 @@ interface WidgetWords {
   anatomy: typeof import('./arc-anatomy/en.js').en;
   decomposer: typeof import('./odometry-decomposer/en.js').en;
   reckoning: typeof import('./dead-reckoning/en.js').en;
+  calibrator: typeof import('./alpha-calibrator/en.js').en;
 }

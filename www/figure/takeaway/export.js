@@ -102,7 +102,7 @@ export function csvOf({ takeaway: { settings, columns, row, count } }) {
  * @param {string} name
  * @param {Blob} blob
  */
-function save(name, blob) {
+export function save(name, blob) {
   const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
   link.click();
   // The browser has taken it by then.

@@ -1,0 +1,172 @@
+//! The log that the widget opens with: simulated, so that the true α's are known.
+//!
+//! A robot follows a curve through a hall and looks around now and then. Between the updates of a localizer its truth
+//! differs from what its wheels say by the noise of Table 5.6, as its sampler has it. The reference
+//! sees it from a lever arm, at a yaw, by a clock of its own, and jumps now and then; and the wheels are not quite of the
+//! size that they are taken for.
+
+use super::Log;
+use crate::calibrate::{ReferenceError, Trajectory};
+use crate::geom::se2::{SE2, wrap_angle};
+use crate::models::{OdomDelta, OdometryRule};
+use crate::noise::{NoiseKind, Variance};
+use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use std::f64::consts::TAU;
+
+/// The α's that it is simulated with, under the table's rule.
+pub const ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
+
+/// The legs that they belong to: AMCL's triggers as it comes, m and rad.
+pub const DISTANCE: f64 = 0.25;
+pub const ANGLE: f64 = 0.2;
+
+/// What the reference says of the odometry, beside the noise.
+pub const CLOCK_OFFSET: f64 = 0.15;
+pub const MOUNT_YAW: f64 = 0.07;
+pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
+pub const DISTANCE_SCALE: f64 = 1.02;
+pub const TURN_SCALE: f64 = 0.97;
+
+/// How far the reference jumps (m), for how many rows, and how often: it spoils a hundredth of the legs or so.
+pub const JUMP: f64 = 0.5;
+const JUMP_ROWS: usize = 10;
+const JUMPS_A_ROW: f64 = 1e-3;
+
+/// s between two rows, and how many.
+const STEP: f64 = 0.05;
+const ROWS: usize = 3600;
+
+/// m/s and rad/s.
+const SPEED: f64 = 0.6;
+const TURN_RATE: f64 = 0.8;
+
+/// s between two looks around.
+const DRIVES: f64 = 20.0;
+
+/// Where the robot heads for at a phase (rad), m: a rosette, which crosses the hall in all directions.
+fn aim(phase: f64) -> [f64; 2] {
+    let radius = 2.1 + 1.1 * libm::cos(2.4 * phase);
+    [1.35 * radius * libm::cos(phase), radius * libm::sin(phase)]
+}
+
+/// A robot on its way.
+struct Robot {
+    phase: f64,
+    /// How much is still to be turned while it looks around, rad.
+    turning: f64,
+    next_look: f64,
+}
+
+impl Robot {
+    /// The speeds (m/s, rad/s) at a time and where it takes itself to be.
+    fn drive(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
+        if time >= self.next_look {
+            self.next_look += DRIVES;
+            self.turning = rng.random_range(1.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
+        }
+        if self.turning != 0.0 {
+            let turn = self.turning.clamp(-TURN_RATE * STEP, TURN_RATE * STEP);
+            self.turning -= turn;
+            return [0.0, turn / STEP];
+        }
+        // The carrot stays ahead.
+        let mut ahead = aim(self.phase);
+        while libm::hypot(ahead[0] - pose.x(), ahead[1] - pose.y()) < 0.7 {
+            self.phase += 0.002;
+            ahead = aim(self.phase);
+        }
+        let bearing = libm::atan2(ahead[1] - pose.y(), ahead[0] - pose.x());
+        let off = wrap_angle(bearing - pose.theta());
+        let v = SPEED * libm::cos(off).max(0.0);
+        [v, (2.0 * off).clamp(-TURN_RATE, TURN_RATE)]
+    }
+}
+
+/// Rows of a leg that has not ended: times, and the motion since it began without noise.
+struct Open {
+    odometry: SE2,
+    truth: SE2,
+    rows: Vec<(f64, SE2)>,
+}
+
+/// The log of a seed.
+pub fn example(seed: u64) -> Log {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let [x, y] = aim(0.0);
+    let start = SE2::new(x, y, 1.6);
+    let mut robot = Robot { phase: 0.0, turning: 0.0, next_look: 6.0 };
+    let mut odometry = vec![(0.0, SE2::identity())];
+    let mut truth = vec![(0.0, start)];
+    let mut open = Open { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
+    for row in 1..ROWS {
+        let time = STEP * row as f64;
+        let (_, driven) = open.rows[open.rows.len() - 1];
+        let [v, omega] = robot.drive(time, &(open.truth * driven), &mut rng);
+        let driven = driven * SE2::exp(&Vector3::new(v * STEP, 0.0, omega * STEP));
+        let read = Vector3::new(v * STEP / DISTANCE_SCALE, 0.0, omega * STEP / TURN_SCALE);
+        let pose = odometry[row - 1].1 * SE2::exp(&read);
+        odometry.push((time, pose));
+        open.rows.push((time, driven));
+        let moved = |from: f64, to: f64| (to - from).abs() > DISTANCE;
+        let turned = wrap_angle(pose.theta() - open.odometry.theta()).abs() > ANGLE;
+        if moved(open.odometry.x(), pose.x()) || moved(open.odometry.y(), pose.y()) || turned {
+            let end = close(&open, &mut truth, &mut rng);
+            open = Open { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
+        }
+    }
+    // What is left has no noise.
+    truth.extend(open.rows.iter().skip(1).map(|(time, driven)| (*time, open.truth * *driven)));
+    let trajectory = |samples| {
+        // Times rise.
+        let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
+        trajectory
+    };
+    Log {
+        odometry: trajectory(odometry),
+        reference: trajectory(seen(&truth, &mut rng)),
+        error: ReferenceError::default(),
+    }
+}
+
+/// The leg has ended: its truth. The noise comes bit by bit, each with its share of the variance and independent of the others:
+/// were it spread evenly, legs that begin elsewhere would have less of it. Returns where it ends.
+fn close(open: &Open, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
+    let [a1, a2, a3, a4] = ALPHAS;
+    let rows = &open.rows[1..];
+    let (_, driven) = open.rows[rows.len()];
+    let reading = OdomDelta::from_poses(&SE2::identity(), &driven);
+    let variances = OdometryRule::Table.variances(&reading, &[a1, a2, a3, a4, 0.0]);
+    let share = Variance(1.0 / rows.len() as f64);
+    let mut unit_noise = [0.0; 3];
+    let mut end = driven;
+    for (time, pose) in rows {
+        unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(share, rng));
+        [.., end] = variances.executed(&reading, unit_noise).poses(&SE2::identity());
+        truth.push((*time, open.truth * pose.boxplus(end.boxminus(&driven))));
+    }
+    open.truth * end
+}
+
+/// The truth as the reference tells it.
+fn seen(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
+    let mut jump = SE2::identity();
+    let mut left = 0;
+    truth
+        .iter()
+        .map(|(time, pose)| {
+            if left > 0 {
+                left -= 1;
+            } else if rng.random_bool(JUMPS_A_ROW) {
+                let bearing = TAU * rng.random::<f64>();
+                jump = SE2::new(JUMP * libm::cos(bearing), JUMP * libm::sin(bearing), 0.0);
+                left = JUMP_ROWS;
+            }
+            let off = if left > 0 { jump } else { SE2::identity() };
+            let mounted = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
+            let shown = SE2::new(mounted.x() + off.x(), mounted.y() + off.y(), mounted.theta());
+            (time + CLOCK_OFFSET, shown)
+        })
+        .collect()
+}

@@ -1,0 +1,379 @@
+//! The Alpha Calibrator: the α's of a log, how well they are known, and whether the model is any good.
+
+pub mod example;
+mod panels;
+mod settings;
+
+pub use panels::{BINS, Driver, Panel};
+pub use settings::*;
+
+use super::cloud::draws::Draws;
+use super::settings::{Rules, SettingsError};
+use crate::calibrate::{
+    Calibrating, Calibration, Doubts, ERRORS, Estimate, HeldOut, Inflation, KindDoubts, Leg, LegLength,
+    Options, ReferenceError, Robust, Systematic, Trajectory, Verdict,
+};
+use crate::geom::se2::SE2;
+use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
+use crate::stats::{CartesianMoments, Ellipse};
+use panels::panels;
+use std::sync::Arc;
+
+/// Outcomes that are drawn of a leg.
+pub const OUTCOMES: usize = 400;
+
+/// Chords of the outline of a leg's cloud.
+const OUTLINE_SEGMENTS: usize = 64;
+
+/// What a robot's wheels said, and where it really was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    pub odometry: Trajectory,
+    pub reference: Trajectory,
+    /// How well the reference is known.
+    pub error: ReferenceError,
+}
+
+/// What is known of the log that the widget opens with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
+pub struct Truth {
+    pub alphas: [f64; 4],
+    pub clock_offset: f64,
+    pub mount_yaw: f64,
+    pub lever_arm: [f64; 2],
+    pub distance_scale: f64,
+    pub turn_scale: f64,
+}
+
+/// One leg in the frame of the robot at its beginning, m and rad.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LegView {
+    /// Where it may have ended under the fitted α's.
+    pub outcomes: Vec<[f64; 3]>,
+    /// The 2σ ellipse of these; empty where there is no noise.
+    pub outline: Vec<[f64; 2]>,
+    /// Where the odometry says that it ended.
+    pub read: [f64; 3],
+    /// Where it ended.
+    pub ended: [f64; 3],
+}
+
+/// The simulation behind the widget: settings, a log, and what is fitted to it.
+#[derive(Clone, Debug)]
+pub struct AlphaCalibrator {
+    settings: Settings,
+    shown: Shown,
+    /// What is to take its place, until it is complete.
+    next: Option<Fitting>,
+    /// How often that has happened.
+    fits: u32,
+}
+
+/// What a log is, and whether it is the simulated one.
+#[derive(Clone, Debug)]
+struct Source {
+    log: Arc<Log>,
+    simulated: bool,
+}
+
+/// What is fitted to which log, and under which settings.
+#[derive(Clone, Debug)]
+struct Shown {
+    settings: Settings,
+    source: Source,
+    calibration: Calibration,
+}
+
+/// A calibration under way.
+#[derive(Clone, Debug)]
+struct Fitting {
+    source: Source,
+    calibrating: Calibrating,
+}
+
+impl AlphaCalibrator {
+    /// The widget as it opens, with the simulated log.
+    ///
+    /// # Errors
+    /// [`SettingsError`] for the first setting out of range.
+    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        let mut machine = Self::empty(settings)?;
+        machine.finish();
+        Ok(machine)
+    }
+
+    /// A machine that has begun with the simulated log, and shows nothing of it yet.
+    ///
+    /// # Errors
+    /// As [`AlphaCalibrator::new`].
+    pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
+        settings.check()?;
+        let source = Source { log: Arc::new(example::example(settings.seed)), simulated: true };
+        let shown = Shown { settings, source: source.clone(), calibration: nothing(&settings) };
+        let next = Some(Fitting::new(source, &settings));
+        Ok(Self { settings, shown, next, fits: 0 })
+    }
+
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Changes the settings.
+    ///
+    /// # Errors
+    /// As [`AlphaCalibrator::new`]; nothing has changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        self.begin(settings)?;
+        self.finish();
+        Ok(())
+    }
+
+    /// As [`AlphaCalibrator::configure`], in slices: [`AlphaCalibrator::advance`] is to be called until it says true. Until then
+    /// the figures are the former ones.
+    ///
+    /// # Errors
+    /// As [`AlphaCalibrator::configure`].
+    pub fn begin(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check()?;
+        let before = std::mem::replace(&mut self.settings, settings);
+        if !before.fits_as(&settings) {
+            let mut source = self.latest().clone();
+            if source.simulated && settings.seed != before.seed {
+                source.log = Arc::new(example::example(settings.seed));
+            }
+            self.fit(source);
+        }
+        if self.next.is_none() {
+            self.shown.settings = settings;
+        }
+        Ok(())
+    }
+
+    /// Begins with another log, as [`AlphaCalibrator::begin`] with other settings.
+    pub fn begin_log(&mut self, log: Log) {
+        self.fit(Source { log: Arc::new(log), simulated: false });
+    }
+
+    /// Puts another log in the place of the present one.
+    pub fn set_log(&mut self, log: Log) {
+        self.begin_log(log);
+        self.finish();
+    }
+
+    fn fit(&mut self, source: Source) {
+        self.next = Some(Fitting::new(source, &self.settings));
+    }
+
+    /// The log of what was begun last, whether that is complete or not.
+    fn latest(&self) -> &Source {
+        self.next.as_ref().map_or(&self.shown.source, |next| &next.source)
+    }
+
+    /// Goes on with what was begun by one step; whether all is done. A log of too few legs has a calibration without any.
+    pub fn advance(&mut self) -> bool {
+        let Some(Fitting { source, calibrating }) = &mut self.next else { return true };
+        let step = calibrating.step(&source.log.odometry, &source.log.reference);
+        let Some(calibration) = step.unwrap_or_else(|_| Some(nothing(&self.settings))) else { return false };
+        let source = source.clone();
+        self.shown = Shown { settings: self.settings, source, calibration };
+        self.next = None;
+        self.fits += 1;
+        true
+    }
+
+    fn finish(&mut self) {
+        while !self.advance() {}
+    }
+
+    /// How often the figures have become others.
+    pub fn fits(&self) -> u32 {
+        self.fits
+    }
+
+    /// How much is done of what was begun, from 0 to 1.
+    pub fn progress(&self) -> f64 {
+        self.next.as_ref().map_or(1.0, |next| next.calibrating.progress())
+    }
+
+    /// Gives up what was begun: settings and figures are the former ones.
+    pub fn stop(&mut self) {
+        self.next = None;
+        self.settings = self.shown.settings;
+    }
+
+    /// What is fitted.
+    pub fn calibration(&self) -> &Calibration {
+        &self.shown.calibration
+    }
+
+    /// What is fitted but for its legs, of which there may be many.
+    pub fn summary(&self) -> Calibration {
+        let Calibration { estimate, bootstrap, systematic, deviations, removed, doubts, inflation, .. } =
+            self.calibration();
+        Calibration {
+            estimate: estimate.clone(),
+            bootstrap: bootstrap.clone(),
+            systematic: *systematic,
+            deviations: *deviations,
+            removed: *removed,
+            legs: vec![],
+            observations: vec![],
+            judged: vec![],
+            doubts: doubts.clone(),
+            inflation: inflation.clone(),
+        }
+    }
+
+    /// The settings under which it is fitted: during a change the former ones.
+    pub fn shown_settings(&self) -> &Settings {
+        &self.shown.settings
+    }
+
+    /// The log that it is fitted to.
+    pub fn log(&self) -> &Log {
+        &self.shown.source.log
+    }
+
+    /// The true values, where the log is simulated; the α's belong to the legs and to the rule that it was simulated with.
+    pub fn truth(&self) -> Option<Truth> {
+        self.shown.source.simulated.then_some(Truth {
+            alphas: example::ALPHAS,
+            clock_offset: example::CLOCK_OFFSET,
+            mount_yaw: example::MOUNT_YAW,
+            lever_arm: example::LEVER_ARM,
+            distance_scale: example::DISTANCE_SCALE,
+            turn_scale: example::TURN_SCALE,
+        })
+    }
+
+    pub fn legs(&self) -> &[Leg] {
+        &self.calibration().legs
+    }
+
+    /// Squared residuals against what drives them.
+    pub fn panels(&self, driver: Driver) -> [Panel; 3] {
+        panels(self.shown.settings.model(), self.calibration(), driver)
+    }
+
+    /// One leg from its beginning; None where there is no such leg.
+    pub fn leg(&self, index: usize) -> Option<LegView> {
+        let leg = self.legs().get(index)?;
+        let reading = self.calibration().observations[index].reading;
+        let mut draws = Draws::new(self.shown.settings.seed, self.shown.settings.noise);
+        draws.extend_to(OUTCOMES);
+        let outcomes: Vec<[f64; 3]> =
+            (0..OUTCOMES).map(|outcome| self.outcome(&reading, draws.of(outcome))).map(numbers).collect();
+        let poses: Vec<SE2> = outcomes.iter().map(|[x, y, theta]| SE2::new(*x, *y, *theta)).collect();
+        let cloud = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
+        let outline = if cloud.has_area() { cloud.boundary(OUTLINE_SEGMENTS) } else { vec![] };
+        let read = self.outcome(&reading, [0.0; 3]);
+        let [from, to] = leg.reference.map(|pose| self.calibration().removed.base(&pose));
+        let ended = from.inverse() * to;
+        Some(LegView { outcomes, outline, read: numbers(read), ended: numbers(ended) })
+    }
+
+    /// Where a leg ends with such noise.
+    fn outcome(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
+        let Shown { settings, calibration, .. } = &self.shown;
+        let known = |k: usize| calibration.estimate.alphas.get(k).copied().filter(|alpha| !alpha.is_nan());
+        // One that the log does not determine adds nothing.
+        let alpha = |k: usize| settings.inflation * known(k).unwrap_or(0.0);
+        let [first, second, third] = *reading;
+        if settings.model == Model::Velocity {
+            let model =
+                VelocityModel { alphas: VelocityAlphas(std::array::from_fn(alpha)), noise: settings.noise };
+            let command = VelocityCmd { v: first, omega: second, dt: third };
+            return model.apply_noise(&command, &SE2::identity(), unit_noise);
+        }
+        let legs = OdomDelta { rot1: first, trans: second, rot2: third };
+        let alphas: RuleAlphas = std::array::from_fn(alpha);
+        let [.., end] =
+            settings.rule.variances(&legs, &alphas).executed(&legs, unit_noise).poses(&SE2::identity());
+        end
+    }
+
+    /// The leg whose way is nearest to a point (m) and within `radius` of it.
+    pub fn nearest(&self, [x, y]: [f64; 2], radius: f64) -> Option<usize> {
+        let removed = &self.calibration().removed;
+        let distance = |leg: &Leg| {
+            let [from, to] = leg.reference.map(|pose| removed.base(&pose));
+            let [dx, dy] = [to.x() - from.x(), to.y() - from.y()];
+            let [px, py] = [x - from.x(), y - from.y()];
+            let square = dx * dx + dy * dy;
+            let share = if square > 0.0 { ((px * dx + py * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
+            libm::hypot(px - share * dx, py - share * dy)
+        };
+        let near = self.legs().iter().map(distance).enumerate();
+        near.filter(|(_, distance)| *distance < radius)
+            .min_by(|(_, one), (_, other)| one.total_cmp(other))
+            .map(|(index, _)| index)
+    }
+}
+
+impl Fitting {
+    fn new(source: Source, settings: &Settings) -> Self {
+        let calibrating = Calibrating::new(options(settings, &source.log));
+        Self { source, calibrating }
+    }
+}
+
+/// What is asked of the log.
+fn options(settings: &Settings, log: &Log) -> Options {
+    Options {
+        model: settings.model(),
+        legs: LegLength::Moved { distance: settings.distance, angle: settings.angle },
+        noise: settings.noise,
+        robust: if settings.robust { Robust::Estimated } else { Robust::No },
+        remove: settings.removed(),
+        reference_error: log.error,
+        seed: settings.seed,
+    }
+}
+
+/// What is said of a log of too few legs.
+fn nothing(settings: &Settings) -> Calibration {
+    let model = settings.model();
+    let none = |name| KindDoubts {
+        name,
+        count: 0,
+        kurtosis: f64::NAN,
+        autocorrelation: f64::NAN,
+        autocorrelation_limit: f64::NAN,
+        quantiles: vec![f64::NAN; 99],
+    };
+    let held_out = HeldOut {
+        count: 0,
+        coverage: f64::NAN,
+        coverage_interval: [f64::NAN; 2],
+        squared_error: f64::NAN,
+        squared_error_interval: [f64::NAN; 2],
+        log_likelihood: f64::NAN,
+    };
+    Calibration {
+        estimate: Estimate {
+            alphas: vec![f64::NAN; model.alphas()],
+            intervals: vec![None; model.alphas()],
+            log_likelihood: f64::NAN,
+            outliers: None,
+        },
+        bootstrap: vec![None; model.alphas()],
+        systematic: Systematic::NONE,
+        deviations: [None; ERRORS],
+        removed: Systematic::NONE,
+        legs: vec![],
+        observations: vec![],
+        judged: vec![],
+        doubts: Doubts {
+            kinds: model.kinds().iter().map(|kind| none(kind.name)).collect(),
+            held_out,
+            worst: vec![],
+            verdict: Verdict::FewLegs,
+        },
+        inflation: Inflation { factors: vec![], coverage: vec![], log_likelihood: vec![] },
+    }
+}
+
+fn numbers(pose: SE2) -> [f64; 3] {
+    [pose.x(), pose.y(), pose.theta()]
+}

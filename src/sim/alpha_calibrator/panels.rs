@@ -1,0 +1,103 @@
+//! Squared residuals against what drives them: the line through them is an α.
+
+use crate::calibrate::{Calibration, Model, sort};
+use crate::models::OdometryRule;
+use crate::sim::settings::Words;
+
+/// What a variance is made of: in each, one α is for the turn and one for the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Driver {
+    /// The square of the way driven, or of the speed.
+    Way,
+    /// That of the turn, or of its rate; of both turns, where noise is charged for both.
+    Turn,
+}
+
+impl Words for Driver {
+    const WORDS: &'static [(&'static str, Self)] = &[("way", Self::Way), ("turn", Self::Turn)];
+}
+
+/// Bins of a panel, with about as many legs each; those that are driven alike are in one.
+pub const BINS: usize = 8;
+
+/// Legs of a bin at least: the error of a mean of fewer says nothing.
+const LEAST: usize = 5;
+
+/// One noise against what drives it. By what the other α answers for, the squares are smaller than they were: their
+/// expectation is α·x.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
+pub struct Panel {
+    /// The α that is the slope, from 0.
+    pub alpha: usize,
+    /// Means of the bins: of what drives it, of the squares, and the standard errors of these.
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    pub error: Vec<f64>,
+    /// The slope and its interval; None where the log does not determine it.
+    pub slope: Option<f64>,
+    pub interval: Option<[f64; 2]>,
+}
+
+/// Whether the first of a noise's two α's is the way's: that of the drive, of the strafe, and of all velocities.
+fn way_first(model: Model, kind: usize) -> bool {
+    match model {
+        Model::Odometry(OdometryRule::Omni) => kind > 0,
+        Model::Odometry(_) => kind == 1,
+        Model::Velocity => true,
+    }
+}
+
+/// A panel for each of the three noises.
+pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel; 3] {
+    [0, 1, 2].map(|kind| panel(model, calibration, kind, driver))
+}
+
+fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
+    let Calibration { estimate, observations, judged, .. } = calibration;
+    let own = usize::from(way_first(model, kind) != (driver == Driver::Way));
+    let pair = model.kinds()[kind].alphas;
+    let known = |alpha: usize| Some(estimate.alphas[alpha]).filter(|alpha| !alpha.is_nan());
+    let other = known(pair[1 - own]).unwrap_or(0.0);
+    let points: Vec<[f64; 3]> = observations
+        .iter()
+        .zip(judged)
+        .filter(|(observation, _)| !observation.residuals[kind].is_nan())
+        .map(|(observation, judged)| {
+            let coefficients = observation.coefficients[kind];
+            let answered = other * coefficients[1 - own] + observation.floors[kind];
+            let square = observation.residuals[kind] * observation.residuals[kind];
+            [coefficients[own], square - answered, 1.0 - judged.bad]
+        })
+        .collect();
+    let alpha = pair[own];
+    let mut panel = Panel {
+        alpha,
+        x: Vec::new(),
+        y: Vec::new(),
+        error: Vec::new(),
+        slope: known(alpha),
+        interval: estimate.intervals[alpha],
+    };
+    let mut along: Vec<f64> = points.iter().map(|point| point[0]).collect();
+    sort(&mut along);
+    let size = points.len().div_ceil(BINS).max(LEAST);
+    let mut after = f64::NEG_INFINITY;
+    for bin in along.chunks(size) {
+        let up_to = bin[bin.len() - 1];
+        let bin: Vec<&[f64; 3]> =
+            points.iter().filter(|point| point[0] > after && point[0] <= up_to).collect();
+        after = up_to;
+        let sum =
+            |value: &dyn Fn(&[f64; 3]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
+        let total = sum(&|_| 1.0);
+        let [x, y] = [sum(&|point| point[0]) / total, sum(&|point| point[1]) / total];
+        let spread = sum(&|point| (point[1] - y) * (point[1] - y)) / total;
+        if bin.len() >= LEAST && total > 1.0 {
+            panel.x.push(x);
+            panel.y.push(y);
+            panel.error.push((spread / (total - 1.0)).sqrt());
+        }
+    }
+    panel
+}

@@ -1,0 +1,169 @@
+//! Logs of JavaScript: odometry and reference.
+
+use super::fields::{Fields, doubles, in_range, item, length, no_memory, number, printed, type_error, whole};
+use crate::calibrate::{ReferenceError, Trajectory, TrajectoryError, TrajectoryFault};
+use crate::geom::se2::SE2;
+use crate::sim::settings::check_real;
+use js_sys::{Float64Array, RangeError};
+use std::ops::RangeInclusive;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** Poses with times, each array of the same length: s, rising; m; m; rad. */
+export interface LoggedPoses {
+  t: ArrayLike<number>;
+  x: ArrayLike<number>;
+  y: ArrayLike<number>;
+  theta: ArrayLike<number>;
+  /** The places, rising, of poses before which nothing is known of the way, besides those after a pause: where rows are missing, or it jumps. */
+  breaks?: ArrayLike<number>;
+}
+
+/** Commands with times, each held until the next: s, rising; m/s; rad/s. */
+export interface LoggedCommands {
+  t: ArrayLike<number>;
+  v: ArrayLike<number>;
+  omega: ArrayLike<number>;
+  /** As of poses. */
+  breaks?: ArrayLike<number>;
+}
+
+/** Where the robot really was, in any fixed frame, and how well that is known at one moment. */
+export interface LoggedReference extends LoggedPoses {
+  /** Standard deviation of each coordinate, m; opens with 0. */
+  positionDeviation?: number;
+  /** Of the heading, rad; opens with 0. */
+  headingDeviation?: number;
+}
+"#;
+
+/// Samples of a trajectory at most: a day at 100 Hz.
+const MAX_ROWS: usize = 10_000_000;
+
+/// Times, s: those of any clock.
+const TIME: RangeInclusive<f64> = -1e12..=1e12;
+
+/// Coordinates, m, and what else a log has: those of any map of a country.
+const COORDINATE: RangeInclusive<f64> = -1e9..=1e9;
+
+/// Poses or commands.
+pub fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
+    let prefix = format!("{field}.");
+    if !value.is_object() {
+        let allowed = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
+        return Err(type_error(field, value, allowed));
+    }
+    let fields = Fields::open(field, &prefix, value)?;
+    if fields.value("v")?.is_undefined() && fields.value("omega")?.is_undefined() {
+        return poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?);
+    }
+    let fields = Fields::new(field, &prefix, value, &["t", "v", "omega", "breaks"])?;
+    let columns = columns(&fields, ["t", "v", "omega"])?;
+    let [t, v, omega] = &columns;
+    let commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
+    trajectory(&fields, Trajectory::from_commands(commands))
+}
+
+/// Poses, and how well they are known.
+pub fn read_reference(field: &str, value: &JsValue) -> Result<(Trajectory, ReferenceError), JsValue> {
+    let prefix = format!("{field}.");
+    let keys = ["t", "x", "y", "theta", "breaks", "positionDeviation", "headingDeviation"];
+    let fields = Fields::new(field, &prefix, value, &keys)?;
+    let deviation = |key: &str| fields.optional(key, |path, value| in_range(path, value, &(0.0..=1e3)));
+    let error = ReferenceError {
+        position: deviation("positionDeviation")?.unwrap_or(0.0),
+        heading: deviation("headingDeviation")?.unwrap_or(0.0),
+    };
+    Ok((poses(&fields)?, error))
+}
+
+fn poses(fields: &Fields) -> Result<Trajectory, JsValue> {
+    let columns = columns(fields, ["t", "x", "y", "theta"])?;
+    let [t, x, y, theta] = &columns;
+    let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
+    trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
+}
+
+/// With its breaks. Errors are in the words of [`TrajectoryError`], whose numbers Rust would print: that is a twentieth of a module.
+fn trajectory(fields: &Fields, read: Result<Trajectory, TrajectoryError>) -> Result<Trajectory, JsValue> {
+    let read = read.map_err(|TrajectoryError { sample, fault }| {
+        let what = match fault {
+            TrajectoryFault::NotFinite => {
+                "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned()
+            }
+            TrajectoryFault::NotLater { before } => {
+                let before = printed(before);
+                format!("is not later than the one before, at {before} s; allowed are times that rise")
+            }
+        };
+        let field = fields.path("");
+        JsValue::from(RangeError::new(&format!("{}: sample {sample} {what}", field.trim_end_matches('.'))))
+    })?;
+    broken(fields, read)
+}
+
+/// With gaps where the caller says that there are some.
+fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
+    let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
+    if breaks.is_undefined() {
+        return Ok(trajectory);
+    }
+    let (last, mut before) = (trajectory.samples().len() - 1, 0);
+    for i in 0..length(&field, &breaks, "an array of numbers")? {
+        let item = item(&field, &breaks, i)?;
+        let sample = item.as_f64().map_or(0, |number| number as usize);
+        if sample <= before || sample > last || item.as_f64() != Some(sample as f64) {
+            let path = format!("{field}[{i}]");
+            whole(&path, &item, 1..=last as u64)?;
+            let message = format!("{path} is {sample}; allowed is more than {before}, the one before it");
+            return Err(RangeError::new(&message).into());
+        }
+        trajectory = trajectory.broken_before([sample]);
+        before = sample;
+    }
+    Ok(trajectory)
+}
+
+/// Arrays of numbers, as long as the first of them, which has times.
+fn columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
+    let mut columns = [const { Vec::new() }; N];
+    for (i, key) in keys.into_iter().enumerate() {
+        let (path, value) = (fields.path(key), fields.value(key)?);
+        let expected = "an array of numbers";
+        let rows = length(&path, &value, expected)?;
+        let allowed = if i == 0 { 2..=MAX_ROWS } else { columns[0].len()..=columns[0].len() };
+        if !allowed.contains(&rows) {
+            let allowed = if i == 0 {
+                format!("2 to {MAX_ROWS}")
+            } else {
+                format!("{}, as of {}", columns[0].len(), fields.path(keys[0]))
+            };
+            return Err(RangeError::new(&format!("{path} has length {rows}; allowed is {allowed}")).into());
+        }
+        columns[i] = column(&path, &value, rows)?;
+        for (row, number) in columns[i].iter().enumerate() {
+            let range = if i == 0 { &TIME } else { &COORDINATE };
+            if !range.contains(number) {
+                check_real(&format!("{path}[{row}]"), *number, range)?;
+            }
+        }
+    }
+    Ok(columns)
+}
+
+fn column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue> {
+    if value.is_instance_of::<Float64Array>() {
+        return doubles(path, value, rows);
+    }
+    let mut column = Vec::new();
+    column.try_reserve_exact(rows).map_err(|_| no_memory(&format!("{path}.length")))?;
+    for row in 0..rows {
+        let item = item(path, value, row)?;
+        column.push(match item.as_f64() {
+            Some(number) => number,
+            None => number(&format!("{path}[{row}]"), &item)?,
+        });
+    }
+    Ok(column)
+}

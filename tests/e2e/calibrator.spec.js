@@ -1,0 +1,293 @@
+import { readFileSync } from 'node:fs';
+import { expect } from '@playwright/test';
+import { odometry, poseOf, recordingOf, stampOf, transform } from '../mcap.js';
+import { expectAccessible } from './axe.js';
+import { heard, ready, show, stateOf } from './element-support.js';
+import { STILL, frames, pixelsOf, test, unfold } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('../../www/types.d.ts').AlphaCalibrator} Machine
+ * @typedef {HTMLElement & { machine: Machine, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any }} AlphaCalibratorElement
+ */
+
+test.use(STILL);
+
+/**
+ * The element on a page of its own, with its log fitted.
+ *
+ * @param {Page} page
+ * @param {string} [attributes]
+ */
+async function openCalibrator(page, attributes = '') {
+  await show(page, `<main><h1>Bare</h1><alpha-calibrator heading-level="2" ${attributes}></alpha-calibrator></main>`);
+  const widget = page.locator('alpha-calibrator');
+  await ready(widget);
+  await expect(widget.locator('.folds')).toBeVisible();
+  await settled(widget);
+  return widget;
+}
+
+/** Waits until all is fitted and shown. @param {Locator} widget */
+async function settled(widget) {
+  await expect.poll(() => widget.evaluate((element) => {
+    const { machine, settings } = /** @type {AlphaCalibratorElement} */ (element);
+    return machine !== undefined && !settings.stale && !settings.next && machine.progress === 1;
+  })).toBe(true);
+  await frames(widget.page());
+}
+
+const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption] > span');
+const rows = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
+const fold = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('details[part=fold]', { has: widget.page().locator('summary', { hasText: name }) });
+const stats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
+
+/** Rows of two tables of the simulated drive, as a reader's files have them. @param {Locator} widget @param {(row: number) => boolean} [keep] */
+const tablesOf = (widget, keep = () => true) =>
+  widget.evaluate((element, kept) => {
+    const { legs } = /** @type {AlphaCalibratorElement} */ (element).machine;
+    const rows = Array.from({ length: legs.count }, (_, leg) => leg).filter((leg) => kept[leg]);
+    const table = (/** @type {Float64Array} */ poses) =>
+      ['t,x,y,yaw', ...rows.map((leg) => [legs.times[2 * leg], ...poses.subarray(6 * leg, 6 * leg + 3)].join(','))].join('\n');
+    return { odometry: table(legs.odometry), reference: table(legs.reference) };
+  }, Array.from({ length: 2000 }, (_, row) => keep(row)));
+
+/** @param {Locator} widget @param {Record<string, string>} files */
+async function choose(widget, files) {
+  await fold(widget, 'Your log').evaluate((details) => void (/** @type {HTMLDetailsElement} */ (details).open = true));
+  await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
+}
+
+test('opens with the simulated log, said to be one, whose true α’s are inside of the intervals', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await expect(caption(widget)).toHaveText(/^\d+ legs of the simulated log\. The model fits: of legs that it has not seen, 9\d\.\d.% end inside its 95 %\.$/);
+  const { alphas, intervals } = await stats(widget);
+  const truth = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth);
+  expect(alphas.length).toBe(4);
+  truth?.alphas.forEach((alpha, i) => {
+    const [low, high] = intervals[i] ?? [NaN, NaN];
+    expect(low <= alpha && alpha <= high, `α${i + 1}`).toBe(true);
+  });
+  await expect(rows(widget)).toHaveCount(4);
+  await expect(widget.locator('table.alphas .true')).toHaveCount(5);
+  for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
+    expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(20);
+  }
+  expect(await pixelsOf(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
+});
+
+test('the true α’s are shown where the fit is of their rule and legs, and nowhere else', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
+  await settled(widget);
+  await expect(widget.locator('table.alphas .true')).toHaveCount(0);
+  await widget.getByRole('radio', { name: 'velocity' }).check();
+  await settled(widget);
+  await expect(rows(widget)).toHaveCount(6);
+  expect(await stateOf(widget)).toMatchObject({ model: 'velocity', rule: 'table' });
+  await widget.getByRole('radio', { name: 'omnidirectional' }).check();
+  await settled(widget);
+  await expect(rows(widget)).toHaveCount(5);
+  expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
+});
+
+test('a few bad legs decide where none may be bad', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stats(widget);
+  await widget.getByRole('checkbox', { name: 'Some legs may be bad' }).uncheck();
+  await settled(widget);
+  const after = await stats(widget);
+  expect(after.outliers).toBeNull();
+  expect(Number(after.alphas[2])).toBeGreaterThan(5 * Number(before.alphas[2]));
+  await expect(caption(widget)).toHaveText(/Heavy tails/);
+});
+
+test('a systematic error that is left makes the α’s larger, and is told all the same', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stats(widget);
+  await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
+  await settled(widget);
+  const after = await stats(widget);
+  expect(after.systematic.mountYaw.removed).toBe(false);
+  expect(after.systematic.mountYaw.value).toBeCloseTo(0.07, 2);
+  expect(Number(after.alphas[1])).toBeGreaterThan(2 * Number(before.alphas[1]));
+});
+
+test('a leg is chosen in the picture, by its slider, and from worst to worst', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const { worst } = (await stats(widget)).doubts;
+  const button = widget.getByRole('button', { name: 'Next worst leg' });
+  await button.click();
+  expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
+  await button.click();
+  expect(await stateOf(widget)).toMatchObject({ leg: worst[1] });
+  await widget.locator('#leg').press('ArrowRight');
+  expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
+  const canvas = widget.locator('canvas.plane');
+  const at = await widget.evaluate((element) => {
+    const { pictures: [{ view }], machine } = /** @type {any} */ (element);
+    const { reference } = machine.legs;
+    const middle = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
+    return { x: view.toPixelX(middle[0]), y: view.toPixelY(middle[1]), leg: machine.nearest(middle[0], middle[1], 1) };
+  });
+  await canvas.click({ position: { x: at.x, y: at.y } });
+  expect(await stateOf(widget)).toMatchObject({ leg: at.leg });
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${at.leg + 1} `));
+});
+
+test('inflation multiplies what is predicted and what is taken along, and fits nothing anew', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await unfold(widget);
+  const fits = () => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.fits);
+  const before = await fits();
+  const { alphas } = await stats(widget);
+  const slider = widget.locator('#inflation');
+  await slider.fill('2');
+  await settled(widget);
+  expect(await fits()).toBe(before);
+  await expect(widget.locator('textarea.yaml')).toHaveValue(new RegExp(`alpha3: ${Number((2 * Number(alphas[2])).toPrecision(4))}  #`));
+  await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too large: lazy/);
+  await slider.fill('0.3');
+  await settled(widget);
+  await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too small: overconfident/);
+});
+
+test('the lines for Nav2 say what they are of', async ({ page }) => {
+  const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
+  await fold(widget, 'For Nav2').locator('summary').click();
+  const { alphas } = await stats(widget);
+  const yaml = await widget.locator('textarea.yaml').inputValue();
+  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals\n/);
+  expect(yaml).toContain('    robot_model_type: "nav2_amcl::DifferentialMotionModel"\n');
+  alphas.forEach((alpha, i) => expect(yaml).toMatch(new RegExp(`^ {4}alpha${i + 1}: ${Number(Number(alpha).toPrecision(4))}  # [\\d.e-]+ – [\\d.e-]+$`, 'm')));
+  expect(yaml).toContain('    update_min_d: 0.3\n    update_min_a: 0.2\n');
+  await widget.getByRole('radio', { name: 'omnidirectional' }).check();
+  await settled(widget);
+  await expect(widget.locator('textarea.yaml')).toHaveValue(/OmniMotionModel"[^]*alpha5: /);
+  await widget.getByRole('radio', { name: 'velocity' }).check();
+  await settled(widget);
+  await expect(widget.locator('textarea.yaml')).toHaveCount(0);
+});
+
+test('two tables of the reader’s own take the place of the simulated log, and leave it again', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const tables = await tablesOf(widget);
+  await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
+  await expect(caption(widget)).toHaveText(/^\d+ legs of odom\.csv, truth\.csv\./);
+  await settled(widget);
+  expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
+  await expect(fold(widget, 'Your log').locator('.present')).toHaveText('The log at present: odom.csv, truth.csv.');
+  await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+/** A table of the example's. @param {'odometry' | 'reference'} name */
+const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
+
+/** The example as a recording, in which a third topic may be the reference too. @param {string[]} topics */
+async function recordingWith(topics) {
+  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const reference = topics.flatMap((topic) => rows('reference').map(([t, x, y, yaw]) => ({
+    topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
+  })));
+  const wheels = rows('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
+  return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+}
+
+test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv\./);
+  await settled(widget);
+  const { alphas } = await stats(widget);
+  for (const topics of [['/mocap/pose'], ['/mocap/pose', '/slam/pose']]) {
+    const name = `run-${topics.length}.mcap`;
+    const buffer = await recordingWith(topics);
+    await widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
+    if (topics.length > 1) await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
+    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}\\.`));
+    await settled(widget);
+    const read = await stats(widget);
+    // Quaternions round the headings.
+    alphas.forEach((alpha, i) => expect(Number(read.alphas[i]) / Number(alpha)).toBeCloseTo(1, 3));
+  }
+});
+
+test('of transforms the reader says which frames are meant', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
+    rows(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
+  const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link')];
+  const buffer = await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  await fold(widget, 'Your log').locator('summary').click();
+  await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
+  await widget.getByLabel('Odometry', { exact: true }).selectOption('/tf');
+  await widget.getByLabel('Reference', { exact: true }).selectOption('/tf');
+  await expect(widget.getByRole('alert')).toHaveText(/no transforms lead from odom to base_link; expected are frames that are connected, of .*base_footprint/);
+  const frames = widget.getByLabel('Odometry: Frames');
+  await frames.fill('odom, base_footprint');
+  await frames.press('Enter');
+  await expect(caption(widget)).toHaveText(/of tf\.mcap\./);
+});
+
+test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  const alert = widget.getByRole('alert');
+  await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
+  await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
+  await choose(widget, { 'a.csv': '1', 'b.csv': '1', 'c.csv': '1' });
+  await expect(alert).toHaveText(/3 were given; expected are two tables/);
+  await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
+  await expect(alert).toHaveText(/1 was given; expected are two tables/);
+  expect(await stateOf(widget)).toEqual(before);
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('a page gives a log, which is in no state; one that is refused leaves the present one', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  const [name, count, refused] = await widget.evaluate(async (element) => {
+    const figure = /** @type {AlphaCalibratorElement} */ (element);
+    const { legs } = figure.machine;
+    const t = Array.from({ length: legs.count }, (_, leg) => leg);
+    const column = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => t.map((leg) => poses[6 * leg + at]);
+    const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0), y: column(all, 1), theta: column(all, 2) });
+    const given = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
+    figure.log = given;
+    await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
+    let refused = '';
+    figure.addEventListener('error', (event) => { refused = /** @type {ErrorEvent} */ (event).message; event.preventDefault(); }, { once: true });
+    figure.log = { ...given, odometry: { ...given.odometry, t: t.with(3, 1) } };
+    return [figure.log?.name, figure.machine.count, refused];
+  });
+  expect(name).toBe('of the page');
+  expect(Number(count)).toBeGreaterThan(100);
+  expect(refused).toMatch(/^odometry: sample 3 is not later than the one before/);
+  expect(await stateOf(widget)).toEqual(before);
+});
+
+test('a log without legs says so, and trouble with it is no failure', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.evaluate((element) => {
+    const still = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
+    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: still, reference: still };
+  });
+  await settled(widget);
+  await unfold(widget);
+  await expect(caption(widget)).toHaveText(/^No legs:/);
+  await expect(rows(widget).first()).toContainText('not determined: turn on the spot');
+  await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
+  await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
+  expect(await heard(page, ['error'])).toEqual([]);
+});
+
+for (const theme of ['light', 'dark']) {
+  test(`has no barriers, with all folds open, ${theme}`, async ({ page }) => {
+    const widget = await openCalibrator(page, `theme="${theme}"`);
+    await unfold(widget);
+    await expectAccessible(page);
+  });
+}

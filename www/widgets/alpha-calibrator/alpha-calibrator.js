@@ -1,0 +1,242 @@
+/** <alpha-calibrator>: the α's of a log, how well they are known, and whether the model is any good. */
+
+import { html } from 'lit';
+import { canvas } from '../../figure/controls.js';
+import { FigureElement } from '../../figure/figure.js';
+import { reserve } from '../../figure/page/reserve.js';
+import { define } from '../../figure/reflection.js';
+import { orFree } from '../../figure/runtime.js';
+import { LONGEST_WORK, advancing } from '../../figure/settings.js';
+import { exportMenu } from '../../figure/takeaway/export.js';
+import { words } from '../../messages/registry.js';
+import { pointOn } from '../../scene/canvas.js';
+import { fold } from '../../ui/fold.js';
+import { legControls, legLengths, modelControls } from './controls.js';
+import { doubts, inflation, panels } from './doubts.js';
+import { Copied, nav2 } from './nav2.js';
+import { FOLD, LogOpener, ownLog } from './open.js';
+import { LegPicture, WayPicture } from './pictures.js';
+import { legOf, readingOf } from './reading.js';
+import { alphaTable, systematicTable } from './readouts.js';
+import { attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { calibratorStyles } from './styles.js';
+import { captionOf, legText, longestCaption, wayText } from './words.js';
+
+/**
+ * @import { AlphaCalibrator as Machine, CalibrationLog } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ */
+
+/**
+ * The α's of a log, how well they are known, and whether the model is any good.
+ *
+ * @csspart chart - A plot of residuals, quantiles, coverage or likelihood.
+ *
+ * @extends {FigureElement<Machine, Reading>}
+ */
+export class AlphaCalibratorElement extends FigureElement {
+  static styles = [...FigureElement.styles, reserve(room), ...calibratorStyles];
+
+  static declared = declared;
+  static attributes = attributes;
+  static own = own;
+  static looks = looks;
+  static vocabulary = vocabulary;
+
+  #way = new WayPicture();
+  #one = new LegPicture();
+  pictures = [this.#way, this.#one];
+  #opener = new LogOpener(this);
+  #copied = new Copied(this);
+  /** A log of the reader's or of the page's; null for the simulated one. @type {CalibrationLog | null} */
+  #log = null;
+
+  /** @type {FigureElement<Machine, Reading>['createMachine']} */
+  createMachine = (motion, state) => {
+    if (!state) return new motion.AlphaCalibrator();
+    // It has begun, and is fitted in slices.
+    const machine = motion.AlphaCalibrator.empty(this.settings.declared(state));
+    return orFree(machine, () => this.#log && machine.beginLog(this.#log.odometry, this.#log.reference));
+  };
+
+  /** @param {Machine} machine */
+  read(machine) {
+    const reading = readingOf(machine, this.#readOf === machine ? this.reading : undefined);
+    this.#readOf = machine;
+    return reading;
+  }
+
+  /** Whose copies the reading has. @type {Machine | undefined} */
+  #readOf;
+
+  machineChanged() {
+    this.#readOf = undefined;
+  }
+
+  /** The leg that is looked at, from 0; −1 where there is none. */
+  get chosen() {
+    return legOf(this.reading, this.state.own.leg);
+  }
+
+  get scene() {
+    const reading = this.fresh;
+    const { chosen } = this;
+    return { ...reading, chosen, leg: chosen < 0 ? null : (this.machine?.leg(chosen) ?? null) };
+  }
+
+  /** The reader looks at a leg, and may go on to others. @param {number} leg from 0 */
+  look(leg) {
+    this.state.own.leg = leg;
+    this.gesture.step();
+    this.stage.wake();
+  }
+
+  /** The reader has chosen a leg. @param {number} leg from 0 */
+  choose(leg) {
+    this.look(leg);
+    this.gesture.commit();
+  }
+
+  /** The reader has pressed on the way. @param {MouseEvent} event */
+  #press = (event) => {
+    this.runtime.attempt(() => {
+      const { machine } = this;
+      if (!machine || !(event.target instanceof HTMLCanvasElement)) return;
+      const [x, y] = pointOn(event.target, this.#way.view, event);
+      const leg = this.#way.nearest(machine, x, y);
+      if (leg >= 0) this.choose(leg);
+    });
+  };
+
+  /**
+   * A log of the page’s own; null for the simulated one. It is in no state and in no link.
+   *
+   * @public
+   * @returns {CalibrationLog | null}
+   */
+  get log() {
+    return this.#log;
+  }
+
+  set log(log) {
+    this.reflection.give('log', log, (given) => {
+      this.#enter(given);
+      this.reflection.tell();
+      this.settings.show();
+    });
+  }
+
+  /** The reader opens a log. @param {CalibrationLog | null} log */
+  open(log) {
+    this.runtime.attempt(() => this.#enter(log, () => {
+      this.gesture.step();
+      this.gesture.commit();
+    }));
+    this.stage.wake();
+  }
+
+  /**
+   * Puts another log in the place of the present one. A machine of its own tries it: all stays as it is where the log is
+   * refused, or the reader does not want to wait.
+   *
+   * @param {CalibrationLog | null} log
+   * @param {() => void} [arrived] is called when it is there
+   * @throws {TypeError | RangeError} and nothing is changed
+   */
+  #enter(log, arrived = () => this.reflection.tell()) {
+    const { motion, settings } = this;
+    if (!motion) return;
+    const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
+    orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
+    settings.work(this.#entering(machine, log, arrived), machine);
+    settings.settle(LONGEST_WORK);
+  }
+
+  /**
+   * @param {Machine} machine with the log
+   * @param {CalibrationLog | null} log
+   * @param {() => void} arrived
+   * @returns {import('../../figure/settings.js').Job}
+   */
+  *#entering(machine, log, arrived) {
+    yield* advancing(machine);
+    this.#log = log;
+    this.state.own.leg = null;
+    this.runtime.replace(machine);
+    this.settings.arrive();
+    this.machineChanged();
+    this.settings.stale = true;
+    arrived();
+  }
+
+  /** What the log is called. */
+  get logName() {
+    return this.#log ? this.#log.name || words.calibrator.own.odometry : words.calibrator.simulated;
+  }
+
+  get takeaway() {
+    const { config, legs } = this.fresh;
+    const of = (/** @type {Float64Array} */ numbers, /** @type {number} */ i, /** @type {number} */ size) => numbers.subarray(size * i, size * (i + 1));
+    const poses = (/** @type {string} */ whose) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((name) => `${whose}_${end}_${name}`));
+    const kinds = this.reading.stats.doubts.kinds.map(({ name }) => name);
+    return {
+      title: this.lettering.name,
+      description: wayText(this.reading, this.chosen),
+      settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
+      columns: [
+        'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
+        ...kinds.map((name) => `residual_${name}`), ...kinds.map((name) => `deviation_${name}`), 'squared_error', 'bad',
+      ],
+      row: (/** @type {number} */ i) => [
+        ...of(legs.times, i, 2), ...of(legs.odometry, i, 6), ...of(legs.reference, i, 6), ...of(legs.readings, i, 3),
+        ...of(legs.residuals, i, 3), ...of(legs.deviations, i, 3), legs.squaredError[i], legs.bad[i],
+      ],
+      count: legs.count,
+      notInCode: this.#log ? words.calibrator.logNotInCode : '',
+    };
+  }
+
+  /** @param {Reading} reading */
+  announcement(reading) {
+    return captionOf(reading, this.logName);
+  }
+
+  /** @param {Reading} reading */
+  content(reading) {
+    const say = words.calibrator;
+    const { chosen } = this;
+    const { verdict } = reading.stats.doubts;
+    return html`
+      <section
+        class="machine"
+        aria-label=${this.lettering.name}
+        @dragover=${this.#opener.over}
+        @dragleave=${this.#opener.away}
+        @drop=${this.#opener.drop}
+      >
+        <div class="views">
+          <div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>
+          <div class="stage one">${canvas(this, this.#one, legText(this.scene.leg, chosen))}</div>
+          ${this.stage.later(() => html`
+          <div class="looked">${legControls(this)}</div>
+          <p part="caption" class="caption roomy ${verdict !== 'fits' && 'note'}" data-room=${longestCaption(this.logName)}>
+            <span>${captionOf(reading, this.logName)}</span>
+          </p>
+          <div class="tables">${alphaTable(reading)} ${systematicTable(this)}</div>`)}
+        </div>
+        ${this.stage.later(() => html`
+        <div part="controls">${modelControls(this)}<div class="controls">${legLengths(this)}</div></div>
+        <div class="folds">
+          ${fold(say.panels.title, () => panels(this))}
+          ${fold(say.doubts.title, () => doubts(this))}
+          ${fold(say.inflation.title, () => inflation(this))}
+          ${fold(say.own.title, () => ownLog(this, this.#opener), FOLD)}
+          ${fold(say.nav2.title, () => nav2(this, this.#copied))}
+          ${exportMenu(this, reading.config.seed, say.csvTitle)} ${this.copies.render()} ${this.presenting.button()}
+        </div>`)}
+      </section>
+    `;
+  }
+}
+
+define('alpha-calibrator', AlphaCalibratorElement);

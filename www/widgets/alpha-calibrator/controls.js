@@ -1,0 +1,85 @@
+/** The Alpha Calibrator's controls: the leg that is looked at, the model, and what a leg is. */
+
+import { html } from 'lit';
+import { check, choices, slider } from '../../figure/controls.js';
+import { words } from '../../messages/registry.js';
+import { button, radioGroup } from '../../ui/controls.js';
+import { counted, fixed, numberIn, percent } from '../../ui/format.js';
+import { readoutList } from '../../ui/readouts.js';
+import { sliderRow } from '../../ui/slider.js';
+import { kindOf, settingsFor } from './settings.js';
+
+/** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
+
+/** Which leg is looked at, and how far it is off. @param {Figure} figure */
+export function legControls(figure) {
+  const { reading: { legs, stats }, chosen } = figure;
+  const say = words.calibrator.leg;
+  const { worst } = stats.doubts;
+  // From each of them to the next; that at which it opens may be among them.
+  const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
+  const take = (/** @type {number} */ number) => figure.look(number - 1);
+  return html`<fieldset class="leg">
+      <legend class="visually-hidden">${say.name}</legend>
+      ${sliderRow({
+        id: 'leg',
+        symbol: say.symbol,
+        name: say.name,
+        value: chosen + 1,
+        min: 1,
+        max: Math.max(2, legs.count),
+        step: 1,
+        show: counted,
+        effect: undefined,
+        role: 'truth',
+        off: legs.count < 2,
+        keys: 'numeric',
+        input: take,
+        commit: () => figure.gesture.commit(),
+        type: (text) => {
+          const number = numberIn(text);
+          if (Number.isInteger(number) && number >= 1 && number <= legs.count) {
+            take(number);
+            figure.gesture.commit();
+            return counted(number);
+          }
+          figure.typing.refuse('leg', words.refused(say.name, Number.isNaN(number) ? `"${text}"` : text.trim(), '1', counted(legs.count), true));
+        },
+        refusal: figure.typing.refusalOf('leg'),
+        forget: () => figure.typing.forget(),
+      })}
+    </fieldset>
+    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })} ${readoutList(saidOf(figure))}`;
+}
+
+/** How far the leg is off. @param {Figure} figure @returns {Parameters<typeof readoutList>[0]} */
+function saidOf({ reading: { legs }, chosen, scene: { leg } }) {
+  const say = words.calibrator.leg;
+  const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
+  const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;
+  const [squared, bad] = leg ? [legs.squaredError[chosen], legs.bad[chosen]] : [NaN, NaN];
+  return [
+    [say.off, `${fixed(off, 3)} m`, '0.000 m'],
+    [say.squared(String(told)), fixed(squared, 1), '0000.0'],
+    [say.bad, percent(bad), percent(0.999)],
+  ];
+}
+
+/** The model with its rule, and whether legs may be bad. @param {Figure} figure */
+export function modelControls(figure) {
+  const { settings: { model }, kinds, robust, noises } = words.calibrator;
+  const choose = (/** @type {import('./settings.js').Kind} */ kind) => figure.gesture.decide(settingsFor(kind));
+  return html`<div class="models">
+    ${radioGroup(model.name, 'kind', kinds, kindOf(/** @type {any} */ (figure.settings.told)), choose)}
+    ${choices(figure, 'noise', noises)} ${check(figure, 'robust', robust)}
+  </div>`;
+}
+
+/** Where a leg ends. @param {Figure} figure */
+export function legLengths(figure) {
+  const { name } = words.calibrator.leg;
+  return ['distance', 'angle'].map((key) => html`<fieldset>
+    <legend class="visually-hidden">${name}</legend>
+    ${slider(figure, key)}
+  </fieldset>`);
+}

@@ -1,0 +1,186 @@
+/** The Alpha Calibrator's doubts: what drives the residuals, how they are distributed, and what inflation does to them. */
+
+import { html } from 'lit';
+import { slider } from '../../figure/controls.js';
+import { words } from '../../messages/registry.js';
+import { button, radioGroup, rich } from '../../ui/controls.js';
+import { NOTHING, counted, fixed, percent, powerOfTen } from '../../ui/format.js';
+import { plot } from '../../ui/plot.js';
+import { figureTable } from '../../ui/readouts.js';
+import { alphaName, significantly } from './words.js';
+
+/**
+ * @import { CalibrationPanel } from '../../types.d.ts'
+ * @import { Curve, Role } from '../../ui/plot.js'
+ * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
+ */
+
+/** Squared residuals of the three noises against what drives them. @param {Figure} figure */
+export function panels(figure) {
+  const { machine, reading, state: { own: { driver } }, gesture } = figure;
+  const say = words.calibrator.panels;
+  const isVelocity = reading.config.model === 'velocity';
+  const axes = isVelocity ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
+  const { kinds } = reading.stats.doubts;
+  if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
+  const choose = (/** @type {import('./settings.js').Driver} */ name) => gesture.choose('driver', name);
+  return html`${radioGroup(say.against, 'driver', say.drivers, driver, choose)}
+    <div class="panels">
+      ${machine?.panels(driver).map((panel, i) => html`<figure>
+        <p class="panel">${say.kinds[/** @type {keyof typeof say.kinds} */ (kinds[i].name)]}</p>
+        ${panelPlot(panel, say.kinds[/** @type {keyof typeof say.kinds} */ (kinds[i].name)], axes[/** @type {'turn' | 'way'} */ (driver)])}
+      </figure>`)}
+    </div>
+    <p class="figcaption">${rich(say.caption)}</p>`;
+}
+
+/**
+ * @param {CalibrationPanel} panel
+ * @param {string} kind
+ * @param {string} axis
+ */
+function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
+  const say = words.calibrator.panels;
+  const last = 1.06 * Math.max(...x, 1e-9);
+  const highest = 1.1 * Math.max(1e-12, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
+  // Small numbers have no room beside an axis: in thousandths, or thousandths of these.
+  const exponent = 3 * Math.floor(Math.log10(highest) / 3);
+  const scaled = (/** @type {number} */ value) => value * 10 ** -exponent;
+  const name = alphaName(alpha);
+  // The band has the width of the interval, on either side of its middle.
+  const [low, high] = interval ?? [NaN, NaN];
+  const middle = (low + high) / 2;
+  /** @type {Curve[]} */
+  const lines = slope === null ? [] : [
+    { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, scaled(slope * last)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', dash: '1 4', x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
+  ];
+  return html`${plot({
+    label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : significantly(slope)),
+    x: { name: axis, from: 0, to: last },
+    y: { name: exponent < 0 ? `${say.axis} (${powerOfTen(exponent)})` : say.axis, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
+    curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
+    points: x.map((at, i) => ({ role: /** @type {const} */ ('ink'), x: at, y: scaled(y[i]), error: scaled(error[i]) })),
+  })}
+  ${slope === null ? html`<p class="note">${rich(say.noSlope(name))}</p>` : ''}`;
+}
+
+/** How the curve of each noise looks. @type {{ role: Role, dash?: string }[]} */
+const LOOKS = [{ role: 'prediction' }, { role: 'prior', dash: '7 4' }, { role: 'posterior', dash: '2 4' }];
+
+/** What the quantiles reach to, standard deviations. */
+const REACH = 4;
+
+/**
+ * The quantile of the standard normal distribution at each hundredth from 0.01 to 0.99: by bisection of a series of its
+ * distribution function, to a thousandth and better.
+ */
+const NORMAL = Float64Array.from({ length: 99 }, (_, i) => normalQuantile((i + 1) / 100));
+
+/** @param {number} share */
+function normalQuantile(share) {
+  let [low, high] = [-REACH, REACH];
+  while (high - low > 1e-4) {
+    const middle = (low + high) / 2;
+    // Φ(x) = ½ + φ(x)·(x + x³/3 + x⁵/15 + …).
+    let [term, sum] = [middle, middle];
+    for (let n = 3; Math.abs(term) > 1e-7; n += 2) sum += term *= (middle * middle) / n;
+    const below = 0.5 + (Math.exp((-middle * middle) / 2) / Math.sqrt(2 * Math.PI)) * sum;
+    if (below < share) low = middle;
+    else high = middle;
+  }
+  return (low + high) / 2;
+}
+
+/** @param {Figure} figure */
+export function doubts(figure) {
+  if (figure.reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
+  const { stats: { doubts: { kinds, heldOut, squaredError, worst }, outliers, gaps } } = figure.reading;
+  const say = words.calibrator.doubts;
+  const nameOf = (/** @type {string} */ name) => /** @type {Record<string, string>} */ (words.calibrator.panels.kinds)[name];
+  const range = (/** @type {readonly number[]} */ [low, high], /** @type {(value: number) => string} */ print) => `${print(low)} – ${print(high)}`;
+  const two = (/** @type {number} */ value) => fixed(value, 2);
+  return html`<div class="figures">
+      <figure>
+        ${plot({
+          label: say.qqLabel(kinds.map(({ name }) => nameOf(name)).join(', ')),
+          x: { name: say.qqX, from: -3, to: 3 },
+          y: { name: say.qqY, from: -REACH, to: REACH },
+          curves: [
+            { name: say.qqExpected, role: 'truth', x: [-REACH, REACH], y: [-REACH, REACH] },
+            ...kinds.map(({ name, quantiles }, i) => ({ name: nameOf(name), ...LOOKS[i], x: NORMAL, y: quantiles })),
+          ],
+        })}
+        <figcaption>${say.qq}</figcaption>
+      </figure>
+      <div>
+        ${figureTable({
+          caption: say.caption,
+          columns: [say.what, say.measured, say.ifTrue],
+          rows: [
+            [say.heldOut, percent(heldOut.coverage), range(heldOut.interval, percent)],
+            [say.squared, two(squaredError.mean), range(squaredError.interval, two)],
+            ...kinds.map(({ name, kurtosis }) => [say.kurtosis(nameOf(name)), two(kurtosis), figure.reading.config.noise === 'normal' ? fixed(3, 2) : two(2.4)]),
+            ...kinds.map(({ name, autocorrelation, autocorrelationLimit: most }) => [say.autocorrelation(nameOf(name)), two(autocorrelation), `${two(-most)} – ${two(most)}`]),
+            [say.outliers, outliers === null ? NOTHING : percent(outliers), NOTHING],
+            [say.gaps, `${counted(gaps.odometry)}, ${counted(gaps.reference)}`, NOTHING],
+          ],
+          longest: '99.9 – 99.9 %',
+        })}
+        <div class="buttons" role="group" aria-label=${say.worst}>
+          ${worst.slice(0, 5).map((leg) => button(say.worstLeg(String(leg + 1)), () => figure.choose(leg), { pressed: leg === figure.chosen }))}
+        </div>
+      </div>
+    </div>`;
+}
+
+/** What inflation does to legs that were not fitted. @param {Figure} figure */
+export function inflation(figure) {
+  const { config: { inflation: factor }, stats: { inflation: { factors, coverage, logLikelihood }, doubts: { heldOut } } } = figure.reading;
+  const say = words.calibrator.inflation;
+  if (factors.length === 0) return html`<p>${words.calibrator.none}</p>`;
+  const x = { name: say.factor, from: factors[0], to: factors[factors.length - 1], logarithmic: true };
+  const marks = [{ x: factor, text: `f = ${fixed(factor, 2)}` }];
+  const [covered, nats] = [between(factors, coverage, factor), between(factors, logLikelihood, factor)];
+  const [low, high] = heldOut.interval;
+  const signature = covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
+  const finite = logLikelihood.filter(Number.isFinite);
+  const best = Math.max(...finite);
+  return html`<fieldset>${slider(figure, 'inflation')}</fieldset>
+    <div class="figures">
+      <figure>${plot({
+        label: say.coverageLabel(fixed(factor, 2), percent(covered)),
+        x,
+        y: { name: say.coverage, from: 0, to: 1 },
+        curves: [
+          { name: say.expected, role: 'truth', dash: '1 3', x: [x.from, x.to], y: [heldOut.expected, heldOut.expected] },
+          { name: say.coverage, role: 'prediction', x: factors, y: coverage },
+        ],
+        points: [{ role: 'prediction', x: factor, y: covered, error: 0 }],
+        marks,
+      })}</figure>
+      <figure>${plot({
+        label: say.likelihoodLabel(fixed(factor, 2), fixed(nats, 2)),
+        x,
+        y: { name: say.likelihood, from: Math.max(Math.min(...finite), best - 6), to: best + 0.5 },
+        curves: [{ name: say.likelihood, role: 'prediction', x: factors, y: logLikelihood }],
+        points: [{ role: 'prediction', x: factor, y: nats, error: 0 }],
+        marks,
+      })}</figure>
+    </div>
+    <p class="caption">${signature}</p>`;
+}
+
+/**
+ * The value of a curve between its points, by the logarithm of where.
+ *
+ * @param {Float64Array} factors
+ * @param {Float64Array} values
+ * @param {number} factor
+ */
+function between(factors, values, factor) {
+  const after = factors.findIndex((each) => each >= factor);
+  if (after <= 0) return values[after < 0 ? values.length - 1 : 0];
+  const share = Math.log(factor / factors[after - 1]) / Math.log(factors[after] / factors[after - 1]);
+  return values[after - 1] + share * (values[after] - values[after - 1]);
+}

@@ -1,0 +1,241 @@
+/** How a log of the reader's own gets in: chosen or dropped; and why the latest was refused. */
+
+import { html, nothing } from 'lit';
+import { Part } from '../../figure/part.js';
+import { language, words } from '../../messages/registry.js';
+import { button, inputOf } from '../../ui/controls.js';
+
+/**
+ * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
+ * @typedef {import('./log/rows.js').Poses} Poses
+ * @typedef {import('./log/read.js').Topic} Topic
+ * @typedef {typeof import('./log/read.js')} Reader
+ */
+
+/** What the names of files may end in. */
+const EXTENSIONS = ['.csv', '.txt', '.tum', '.mcap'];
+
+/** The fold that says which log is there and why another was refused. */
+export const FOLD = 'log-fold';
+
+/** Which frames of a topic of transforms are usually meant: a parent and a child. */
+const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
+
+/**
+ * A recording whose topics are to be chosen, with the frames of those that hold transforms; or two tables.
+ *
+ * @typedef {{ files: File[], topics: Topic[], odometry: string, reference: string, frames: typeof FRAMES }} Chosen
+ */
+
+/** @extends {Part<Figure>} */
+export class LogOpener extends Part {
+  /** Why the latest log was refused. @type {(() => string) | undefined} */
+  #complaint;
+  /** What was found in the present log. @type {(() => string[]) | undefined} */
+  #found;
+  /** What is read, and which of it is which. @type {Chosen | undefined} */
+  chosen;
+  /** How much of it has been read; undefined where nothing is. @type {number | undefined} */
+  share;
+  /** Stops what is being read. */
+  #stopping = new AbortController();
+
+  /** Empty where there is nothing to complain of. */
+  get complaint() {
+    return this.#complaint?.() ?? '';
+  }
+
+  /** What was left out of the present log, and what was decided about it. */
+  get found() {
+    return this.#found?.() ?? [];
+  }
+
+  /** Back to the simulated log. */
+  leave() {
+    this.stop();
+    this.chosen = this.#complaint = this.#found = undefined;
+    this.host.open(null);
+  }
+
+  stop() {
+    this.#stopping.abort();
+    this.share = undefined;
+    this.host.requestUpdate();
+  }
+
+  /** @param {File[]} files */
+  choose(files) {
+    if (files.length === 0) return;
+    this.chosen = undefined;
+    this.#attempt(async (reader, watching) => {
+      if (files.length > 2) throw new Error(words.calibrator.own.two(files.length));
+      const recording = files.length === 1;
+      if (recording && !(await reader.isRecording(files[0]))) throw new Error(words.calibrator.own.two(1));
+      const topics = recording ? await reader.topicsOf(files[0], watching) : [];
+      const usual = reader.usualTopics(topics);
+      // Of two files, the one that is called so is the odometry.
+      const [first, second] = /odom|wheel|cmd/i.test(files.at(-1)?.name ?? '') ? [...files].reverse() : files;
+      this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '', frames: FRAMES };
+      if (recording && !(usual.odometry && usual.reference)) return;
+      await this.#read(reader, watching);
+    });
+  }
+
+  /** The reader says which is which. @param {Partial<Chosen>} change */
+  change(change) {
+    const { chosen } = this;
+    if (!chosen) return;
+    this.chosen = { ...chosen, ...change };
+    const { topics, odometry, reference } = this.chosen;
+    this.host.requestUpdate();
+    if (topics.length === 0 || (odometry && reference)) this.#attempt((reader, watching) => this.#read(reader, watching));
+  }
+
+  /**
+   * @param {Reader} reader
+   * @param {{ onProgress: (share: number) => void, signal: AbortSignal }} watching
+   */
+  async #read(reader, watching) {
+    const { files, topics, odometry, reference, frames } = /** @type {Chosen} */ (this.chosen);
+    const half = (/** @type {number} */ from) => ({ ...watching, onProgress: (/** @type {number} */ share) => watching.onProgress(from + share / 2) });
+    const topic = (/** @type {string} */ name, /** @type {string} */ its) => {
+      if (topics.length === 0) return {};
+      const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
+      return { topic: name, ...(holdsTransforms(topics, name) && { frames: { parent, child } }) };
+    };
+    const logs = reader.together(
+      await reader.readLog(files[0], { ...topic(odometry, frames.odometry), ...half(0) }),
+      await reader.readLog(files.at(-1) ?? files[0], { ...topic(reference, frames.reference), ...(topics.length ? {} : { kind: 'poses' }), ...half(0.5) }),
+    );
+    watching.signal.throwIfAborted();
+    const name = [...new Set(files.map((file) => file.name))].join(', ');
+    this.host.open({ name, odometry: logs.odometry.data, reference: /** @type {Poses} */ (logs.reference.data) });
+    const say = await wordsOf();
+    this.#found = () => [logs.odometry, logs.reference].flatMap((log) => [`${log.name}: ${reader.tell(log, say().found).join(' ')}`]);
+  }
+
+  /** @param {(reader: Reader, watching: { onProgress: (share: number) => void, signal: AbortSignal }) => Promise<void>} work */
+  async #attempt(work) {
+    this.#stopping.abort();
+    const stopping = (this.#stopping = new AbortController());
+    this.#complaint = undefined;
+    const onProgress = (/** @type {number} */ share) => {
+      if (stopping.signal.aborted) return;
+      this.share = share;
+      this.host.requestUpdate();
+    };
+    try {
+      onProgress(0);
+      await work(await import('./log/read.js'), { onProgress, signal: stopping.signal });
+    } catch (error) {
+      if (stopping.signal.aborted) return;
+      const { message, sentence } = /** @type {Error & Partial<import('./log/refusal.js').LogError>} */ (error);
+      const say = sentence && (await wordsOf());
+      this.#complaint = () => (say ? sentence(say()) : words.calibrator.own.refused(message));
+    } finally {
+      if (!stopping.signal.aborted) this.share = undefined;
+      this.host.requestUpdate();
+    }
+    await this.host.updateComplete;
+    if (this.complaint) this.#fold?.querySelector('[role=alert]')?.scrollIntoView({ block: 'nearest' });
+  }
+
+  /** Not there until the figure has been drawn. @returns {HTMLDetailsElement | null} */
+  get #fold() {
+    return this.host.renderRoot.querySelector(`#${FOLD}`);
+  }
+
+  over = (/** @type {DragEvent} */ event) => {
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    event.preventDefault();
+    /** @type {HTMLElement} */ (event.currentTarget).classList.add('dropping');
+  };
+
+  away = (/** @type {DragEvent} */ event) => {
+    const section = /** @type {HTMLElement} */ (event.currentTarget);
+    const to = /** @type {Node | null} */ (event.relatedTarget);
+    if (!section.contains(to)) section.classList.remove('dropping');
+  };
+
+  drop = (/** @type {DragEvent} */ event) => {
+    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    // The browser would leave the page for the file.
+    event.preventDefault();
+    // What becomes of the file is said in there.
+    if (this.#fold) this.#fold.open = true;
+    this.choose([...event.dataTransfer.files]);
+  };
+}
+
+/** @param {Topic[]} topics @param {string} topic */
+const holdsTransforms = (topics, topic) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');
+
+/** The words of logs, which come with the first log. @returns {Promise<() => typeof import('./log/en.js').log>} those of the time when they are said */
+async function wordsOf() {
+  const [{ log: english }, { log: german }] = await Promise.all([import('./log/en.js'), import('./log/de.js')]);
+  return () => (language === 'de' ? german : english);
+}
+
+/**
+ * @param {Figure} figure
+ * @param {LogOpener} opener
+ */
+export function ownLog(figure, opener) {
+  const say = words.calibrator.own;
+  const { chosen, complaint, share, found } = opener;
+  return html`<div class="own-log">
+    <p>${say.text}</p>
+    <label for="log-files">${say.files}</label>
+    <input
+      id="log-files"
+      type="file"
+      multiple
+      accept=${EXTENSIONS.join(',')}
+      @change=${(/** @type {Event} */ event) => {
+        const input = inputOf(event);
+        opener.choose([...(input.files ?? [])]);
+        // So that choosing the same file again, mended, is a change too.
+        input.value = '';
+      }}
+    />
+    ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
+    ${chosen ? whichIsWhich(opener, chosen) : nothing}
+    <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
+    <p class="present">${figure.log ? say.present(figure.logName) : say.simulated}</p>
+    ${figure.log ? html`${found.map((sentence) => html`<p class="muted">${sentence}</p>`)} ${button(say.leave, () => opener.leave())}` : nothing}
+  </div>`;
+}
+
+/**
+ * @param {LogOpener} opener
+ * @param {Chosen} chosen
+ */
+function whichIsWhich(opener, { files, topics, frames, ...chosen }) {
+  const say = words.calibrator.own;
+  if (topics.length === 0) {
+    return html`<p>
+      ${say.odometry}: ${files[0].name}; ${say.reference}: ${files[1].name}
+      ${button(say.swap, () => opener.change({ files: [files[1], files[0]] }))}
+    </p>`;
+  }
+  const select = (/** @type {'odometry' | 'reference'} */ role) => html`<label>
+      ${say[role]}
+      <select aria-label=${say[role]} @change=${(/** @type {Event} */ event) => opener.change({ [role]: /** @type {HTMLSelectElement} */ (event.target).value })}>
+        <option value="" ?selected=${chosen[role] === ''}></option>
+        ${topics.filter(({ kind }) => kind !== null).map(({ name, count }) => html`<option value=${name} ?selected=${name === chosen[role]}>${name} (${count})</option>`)}
+      </select>
+    </label>
+    ${holdsTransforms(topics, chosen[role])
+      ? html`<label>
+          ${say.frames}
+          <input
+            type="text"
+            aria-label="${say[role]}: ${say.frames}"
+            .value=${frames[role]}
+            @change=${(/** @type {Event} */ event) => opener.change({ frames: { ...frames, [role]: inputOf(event).value } })}
+          />
+        </label>`
+      : nothing}`;
+  return html`<p class="topics">${select('odometry')} ${select('reference')}</p>`;
+}

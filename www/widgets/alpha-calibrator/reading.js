@@ -1,0 +1,76 @@
+/** What the Alpha Calibrator shows of its machine. */
+
+/** @import { AlphaCalibrator as Machine, CalibrationLegs } from '../../types.d.ts' */
+
+/**
+ * @typedef {object} Reading
+ * @property {Machine['config']} config
+ * @property {number} fits how often the figures had become others
+ * @property {Machine['stats']} stats
+ * @property {CalibrationLegs} legs
+ * @property {Machine['truth']} truth
+ * @property {Uint8Array} classes how unusual each leg is
+ * @property {number} opening the leg that is looked at where none was chosen
+ */
+
+/**
+ * Shares of the legs that are below the squared error of each class, were the model true: the last class has one leg in a
+ * thousand.
+ */
+export const SHARES = [0.5, 0.95, 0.999];
+
+/** Quantiles of χ² at these shares, by how many residuals a leg tells. */
+const QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
+
+/**
+ * Everything that the pictures and readouts need of the machine, asked once a change.
+ *
+ * @param {Machine} machine
+ * @param {Reading | undefined} before what was read of the same machine: its copies serve as long as they are true
+ * @returns {Reading}
+ */
+export function readingOf(machine, before) {
+  const { config, fits } = machine;
+  if (before?.fits === fits) return { ...before, config };
+  const { stats, legs, truth } = machine;
+  return { config, fits, stats, legs, truth, classes: classesOf(legs), opening: openingOf(legs, config.distance) };
+}
+
+/**
+ * How unusual each leg is: the place among `SHARES` of the first that it is below.
+ *
+ * @param {CalibrationLegs} legs
+ */
+function classesOf({ count, squaredError, residuals }) {
+  return Uint8Array.from({ length: count }, (_, leg) => {
+    const told = residuals.subarray(3 * leg, 3 * leg + 3).reduce((sum, residual) => sum + Number(!Number.isNaN(residual)), 0);
+    const place = QUANTILES[told].findIndex((quantile) => squaredError[leg] <= quantile);
+    return place < 0 ? SHARES.length : place;
+  });
+}
+
+/**
+ * The worst of the legs that are not bad and tell all: what is bad is no word against the model, and a turn on the spot has no
+ * cloud to see.
+ *
+ * @param {CalibrationLegs} legs
+ * @param {number} distance that a leg may be long
+ * @returns {number} −1 where there is none
+ */
+function openingOf({ squaredError, bad, odometry }, distance) {
+  const isDriven = (/** @type {number} */ leg) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
+  const worst = squaredError.reduce((found, error, leg) => (bad[leg] < 0.5 && isDriven(leg) && error > (squaredError[found] ?? -1) ? leg : found), -1);
+  return worst < 0 && squaredError.length > 0 ? 0 : worst;
+}
+
+/**
+ * The leg that is looked at: where none was chosen, the worst of those that are not bad; −1 where there is none.
+ *
+ * @param {Reading} reading
+ * @param {number | null} chosen
+ */
+export const legOf = ({ opening, legs }, chosen) => (chosen !== null && chosen < legs.count ? chosen : opening);
+
+/** Whether the true α's are those of the present fit: of its rule, and of its legs. @param {Reading} reading */
+export const truthHolds = ({ truth, config: { rule, model, distance, angle } }) =>
+  truth !== null && model === 'odometry' && rule === 'table' && distance === 0.25 && angle === 0.2;

@@ -1,0 +1,137 @@
+/** The Alpha Calibrator's figures: the α's and what is systematic, each with its interval. */
+
+import { html, nothing, svg } from 'lit';
+import { words } from '../../messages/registry.js';
+import { rich, toggle } from '../../ui/controls.js';
+import { NOTHING, fixed, tick } from '../../ui/format.js';
+import { truthHolds } from './reading.js';
+import { SYSTEMATIC } from './settings.js';
+import { alphaName, driverOf, significantly } from './words.js';
+
+/**
+ * @import { Interval } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
+ */
+
+/** Of a whisker's row. */
+const CHART = { width: 200, height: 24, inset: 12 };
+
+/** The likeliest α's, each with its interval on an axis that all of them share. @param {Reading} reading */
+export function alphaTable(reading) {
+  const { alphas, intervals } = reading.stats;
+  const say = words.calibrator.alphas;
+  const truth = truthHolds(reading) ? reading.truth?.alphas : undefined;
+  const place = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
+  return html`<table class="alphas" part="table">
+    <caption>${truth ? trueCaption() : say.caption}</caption>
+    <thead class="visually-hidden">
+      <tr><th scope="col">${rich(say.alpha)}</th><td></td><th scope="col">${say.value}</th><th scope="col">${say.interval}</th></tr>
+    </thead>
+    <tbody>
+      ${alphas.map((alpha, i) => html`<tr>
+        <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
+        ${alpha === null
+          ? html`<td class="unknown" colspan="3">${say.unknown(say.advice[driverOf(reading.config, i)])}</td>`
+          : html`<td class="chart">${whisker(place, alpha, intervals[i], truth?.[i])}</td>
+            <td class="roomy" data-room="0.0000">${significantly(alpha)}</td>
+            <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${intervals[i] ? say.between(significantly(intervals[i][0]), significantly(intervals[i][1])) : NOTHING}</td>`}
+      </tr>`)}
+      <tr aria-hidden="true">
+        <td></td>
+        <td class="chart">
+          <div class="scale">${place.decades.map((decade) => html`<span style="left: ${(100 * place.at(decade)) / CHART.width}%">${tick(decade, decade)}</span>`)}</div>
+        </td>
+        <td colspan="2"></td>
+      </tr>
+    </tbody>
+  </table>`;
+}
+
+/** With the mark of the true value where it is named. */
+function trueCaption() {
+  const [before, after] = words.calibrator.alphas.captionTrue.split('|');
+  return html`${before}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${after}`;
+}
+
+/**
+ * Turns values into pixels, by their logarithms: from a decade below the least to one above the greatest, as far as these are
+ * whole.
+ *
+ * @param {(number | null)[]} values
+ */
+function axisOf(values) {
+  const logs = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(/** @type {number} */ (value)));
+  const from = Math.floor(Math.min(0, ...(logs.length ? [Math.max(Math.min(...logs), Math.max(...logs) - 4)] : [-3])));
+  const to = Math.max(from + 1, Math.ceil(logs.length ? Math.max(...logs) : 0));
+  const { width, inset } = CHART;
+  const at = (/** @type {number} */ value) => {
+    const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
+    return Math.max(0, Math.min(width, inset + share * (width - 2 * inset)));
+  };
+  return { at, decades: Array.from({ length: to - from + 1 }, (_, i) => 10 ** (from + i)) };
+}
+
+/**
+ * @param {ReturnType<typeof axisOf>} axis
+ * @param {number} value
+ * @param {[number, number] | null} interval
+ * @param {number | undefined} truth
+ */
+function whisker({ at, decades }, value, interval, truth) {
+  const { width, height } = CHART;
+  const middle = height / 2;
+  const [low, high] = (interval ?? [value, value]).map(at);
+  return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
+    ${decades.map((decade) => svg`<path class="grid" d="M${at(decade)} 0V${height}" />`)}
+    ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} 2V${height - 2}" />`}
+    <path class="whisker" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
+    <path class="dot" d="M${at(value)} ${middle}h0" />
+  </svg>`;
+}
+
+/** What is systematic, each with a box that says whether it is removed. @param {Figure} figure */
+export function systematicTable(figure) {
+  const { stats: { systematic }, truth } = figure.reading;
+  const say = words.calibrator.systematic;
+  const told = figure.settings.told;
+  const digits = (/** @type {number} */ value) => fixed(value, 3);
+  return html`<table class="systematic" part="table">
+    <caption>${say.caption}</caption>
+    <thead class="visually-hidden">
+      <tr>
+        <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th>
+        ${truth ? html`<th scope="col">${say.truth}</th>` : nothing}
+      </tr>
+    </thead>
+    <tbody>
+      ${SYSTEMATIC.map((key) => {
+        const { value, interval } = systematic[key];
+        const values = [value].flat().filter((each) => each !== null);
+        const box = toggle({ label: say.names[key], checked: told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+        if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="3">${say.unknown}</td></tr>`;
+        const halves = intervalsOf(interval).map(([low, high]) => digits((high - low) / 2));
+        return html`<tr>
+          <th scope="row">${box}</th>
+          <td>${lines(values.map(digits))}</td>
+          <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
+          ${truth ? html`<td class="muted">${lines([truth[key]].flat().map(digits))}</td>` : nothing}
+        </tr>`;
+      })}
+    </tbody>
+  </table>`;
+}
+
+/** One below the other. @param {string[]} texts */
+const lines = (texts) => texts.map((text) => html`<div>${text}</div>`);
+
+/**
+ * Intervals in a list: there is one of most errors, and two of a lever arm.
+ *
+ * @param {Interval | (Interval | null)[] | null} interval
+ * @returns {Interval[]}
+ */
+function intervalsOf(interval) {
+  if (typeof interval?.[0] === 'number') return [/** @type {Interval} */ (interval)];
+  return /** @type {Interval[]} */ ((interval ?? []).filter((each) => each !== null));
+}

@@ -1,0 +1,67 @@
+/** The Alpha Calibrator's settings as attributes, in its state, and as the eye sees them. */
+
+import { attributesOf } from '../../figure/attributes.js';
+import { wholeNumber, word } from '../../figure/checks.js';
+import { settings } from '../../settings.js';
+
+/** @import { AlphaCalibratorSettings } from '../../types.d.ts' */
+
+export const declared = settings['alpha-calibrator'];
+
+/** The key of its words in the catalogues. */
+export const vocabulary = 'calibrator';
+
+export const attributes = attributesOf(declared);
+
+/** What a variance is made of: the squares of the turn and of the way. */
+export const DRIVERS = /** @type {const} */ (['turn', 'way']);
+
+/** @typedef {(typeof DRIVERS)[number]} Driver */
+
+/** Of a leg's number: how many there are is not known before all is fitted. */
+const MOST_LEGS = 9_999_999;
+
+/** @type {Record<string, import('../../figure/state.js').Owned>} */
+export const own = {
+  leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
+  driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
+};
+
+/** @type {import('../../figure/attributes.js').Documentation} */
+export const documentation = {
+  properties: {},
+  state: {
+    leg: { type: 'number | null', sentence: 'The leg that is looked at, from 0; null, or one that is not there, for the worst of those that are not bad.' },
+    driver: { type: "'turn' | 'way'", sentence: 'What squared residuals are drawn against.' },
+  },
+};
+
+/** What the models are called together with their rules: two settings, and one choice. */
+export const KINDS = /** @type {const} */ (['table', 'nav2', 'beluga', 'omni', 'velocity']);
+
+/** @typedef {(typeof KINDS)[number]} Kind */
+
+/** @param {AlphaCalibratorSettings} config @returns {Kind} */
+export const kindOf = ({ model, rule }) => (model === 'velocity' ? 'velocity' : rule);
+
+/** The settings to make for one of them. @param {Kind} kind */
+export function settingsFor(kind) {
+  if (kind === 'velocity') return { model: 'velocity', rule: 'table' };
+  return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
+}
+
+/** What is systematic, in the order in which it is told. */
+export const SYSTEMATIC = /** @type {const} */ (['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale']);
+
+/** @type {Record<string, import('../../figure/controls.js').Look>} */
+export const looks = {
+  distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+  angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+  inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
+};
+
+/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
+export const room = [
+  [0, 56.6, 160], [21, 50.2, 160], [30, 46.8, 160], [34, 46, 160], [38, 26.6, 45], [41, 27.4, 45], [41.5, 25.2, 45], [45, 26.8, 37.5],
+  [50, 26.6, 37.5], [56, 13.6, 35], [60, 13.2, 35], [70, 10.8, 35], [90, 9.2, 35],
+];

@@ -1,0 +1,72 @@
+/** What the Alpha Calibrator says when, in the words of the present language. */
+
+import { addEnglish, words } from '../../messages/registry.js';
+import { longest } from '../../ui/controls.js';
+import { counted, fixed, percent, rounded } from '../../ui/format.js';
+import { en } from './en.js';
+
+/**
+ * @import { AlphaCalibratorSettings, LegView } from '../../types.d.ts'
+ * @import { Reading } from './reading.js'
+ * @import { Driver } from './settings.js'
+ */
+
+addEnglish({ calibrator: en });
+
+/** The subscript of an α. @param {number} index from 0 */
+export const alphaName = (index) => String.fromCharCode(0x2081 + index);
+
+/** An α as it is printed: three digits, as its interval has no more to say. @param {number} alpha */
+export const significantly = (alpha) => (alpha === 0 ? '0' : alpha >= 1e-4 ? rounded(alpha, 3) : fixed(alpha, 5));
+
+/**
+ * What the variance that an α belongs to is driven by.
+ *
+ * @param {AlphaCalibratorSettings} config
+ * @param {number} index of the α, from 0
+ * @returns {Driver}
+ */
+export function driverOf({ model }, index) {
+  if (model === 'velocity') return index % 2 ? 'turn' : 'way';
+  return index === 0 || index === 3 ? 'turn' : 'way';
+}
+
+/**
+ * What stands under the pictures: how much was fitted, and whether the model is any good.
+ *
+ * @param {Reading} reading
+ * @param {string} log its name
+ */
+export function captionOf({ stats: { doubts: { verdict, heldOut } }, legs }, log) {
+  const say = words.calibrator;
+  if (legs.count === 0) return say.none;
+  return `${say.present(log, counted(legs.count))} ${say.verdicts[verdict](percent(heldOut.coverage))}`;
+}
+
+/** The longest of these, to keep room for. @param {string} log */
+export function longestCaption(log) {
+  const { verdicts, present } = words.calibrator;
+  return `${present(log, counted(10_000))} ${longest(Object.values(verdicts).map((verdict) => verdict(percent(0.999))))}`;
+}
+
+/**
+ * The text equivalent of the way.
+ *
+ * @param {Reading} reading
+ * @param {number} chosen
+ */
+export function wayText({ legs, classes }, chosen) {
+  const far = classes.reduce((sum, place) => sum + Number(place > 1), 0);
+  return words.calibrator.way(counted(legs.count), counted(far), counted(chosen + 1));
+}
+
+/**
+ * The text equivalent of a leg.
+ *
+ * @param {LegView | null} leg
+ * @param {number} chosen
+ */
+export function legText(leg, chosen) {
+  const [readX, readY, endX, endY] = leg ? [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]] : [NaN, NaN, NaN, NaN];
+  return words.calibrator.legText(counted(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
+}

@@ -31,6 +31,7 @@ macro_rules! tests {
 tests! {
     anatomy: 5_000,
     banana: 15_000,
+    calibrate: 100,
     decomposer: 50_000,
     grid: 15_000,
     pgm: 200_000,

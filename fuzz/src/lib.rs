@@ -2,6 +2,7 @@
 
 pub mod anatomy;
 pub mod banana;
+pub mod calibrate;
 pub mod decomposer;
 pub mod grid;
 pub mod input;

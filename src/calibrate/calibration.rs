@@ -75,6 +75,8 @@ impl Calibration {
 /// Why a log says nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CalibrateError {
+    /// They have no time in common, and turn alike at no offset of their clocks.
+    Apart,
     /// There are fewer legs than [`FEWEST`].
     FewLegs { legs: usize },
 }
@@ -84,11 +86,15 @@ pub const FEWEST: usize = 8;
 
 impl fmt::Display for CalibrateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self::FewLegs { legs } = self;
-        write!(
-            f,
-            "the log has {legs} legs for which both trajectories are known; allowed are {FEWEST} at least: shorter legs, a longer drive, or clocks that agree"
-        )
+        match self {
+            Self::Apart => f.write_str(
+                "odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive",
+            ),
+            Self::FewLegs { legs } => write!(
+                f,
+                "the log has {legs} legs for which both trajectories are known; allowed are {FEWEST} at least: shorter legs, a longer drive, or clocks that agree"
+            ),
+        }
     }
 }
 
@@ -97,7 +103,7 @@ impl std::error::Error for CalibrateError {}
 /// From a log to parameters: [`Calibrating`] to its end.
 ///
 /// # Errors
-/// [`CalibrateError`] where there are too few legs.
+/// [`CalibrateError`] where there are too few legs, or the two are not of one drive.
 pub fn calibrate(
     odometry: &Trajectory,
     reference: &Trajectory,
@@ -196,7 +202,7 @@ impl Calibrating {
     /// Goes on by one step; the calibration after the last one.
     ///
     /// # Errors
-    /// [`CalibrateError`] where there are too few legs.
+    /// [`CalibrateError`] where there are too few legs, or the two are not of one drive.
     pub fn step(
         &mut self,
         odometry: &Trajectory,
@@ -204,7 +210,8 @@ impl Calibrating {
     ) -> Result<Option<Calibration>, CalibrateError> {
         self.stage = match self.stage {
             Stage::Align => {
-                self.systematic.clock_offset = clock_offset(odometry, reference);
+                self.systematic.clock_offset =
+                    clock_offset(odometry, reference).ok_or(CalibrateError::Apart)?;
                 Stage::Round(0)
             }
             Stage::Round(round) => {

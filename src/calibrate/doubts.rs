@@ -1,8 +1,9 @@
 //! Whether the model is any good: what the residuals say against it.
 
-use super::likelihood::{Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
+use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
 use super::model::{Model, Observation};
 use super::profile::Fitted;
+use super::systematic::{Square, sweep};
 use super::trajectory::sort;
 use crate::noise::NoiseKind;
 
@@ -22,7 +23,8 @@ pub struct KindDoubts {
     /// As in [`super::Kind`].
     pub name: &'static str,
     pub count: usize,
-    /// E[z⁴]/E[z²]²; of the normal distribution 3, of the triangular 2.4.
+    /// E[z⁴]/E[z²]², of each half of the log by itself, in the mean: of the normal distribution 3, of the triangular 2.4. What changes
+    /// from half to half is no tail.
     pub kurtosis: f64,
     /// Of neighbouring legs; the model says 0. NaN where there are none.
     pub autocorrelation: f64,
@@ -32,7 +34,10 @@ pub struct KindDoubts {
     pub quantiles: Vec<f64>,
 }
 
-/// Half of the log, in alternate blocks, judged by the α's of the other half.
+/// The second half of the log, judged by the α's of the first: as a filter that is tuned by one drive is used on the next.
+///
+/// Halves in alternate blocks would see the same drive. What their α's are wrong by is that of the α's of the whole, for the mean of r²/v is
+/// 1 under those, whatever the model: nothing would be overconfident, and what changes in the course of a drive would not be seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldOut {
     /// Residuals.
@@ -43,7 +48,8 @@ pub struct HeldOut {
     pub coverage_interval: [f64; 2],
     /// The mean of (r/σ)².
     pub squared_error: f64,
-    /// Where that is in 95 of 100 logs of which the model is true: χ² over its degrees of freedom, with that of the α's themselves.
+    /// Where that is in 95 of 100 logs of which the model is true: χ² over its degrees of freedom, with what is uncertain of the α's of
+    /// the first half, as far as the second hangs on them.
     pub squared_error_interval: [f64; 2],
     /// Of a leg, nats.
     pub log_likelihood: f64,
@@ -80,8 +86,8 @@ pub struct Inflation {
 /// Fewer legs tell no α to a fifth.
 const FEW: usize = 100;
 
-/// Legs of a block: a minute's, so that both halves have seen all of a drive.
-const BLOCK: usize = 50;
+/// The variance of the logarithm of a variance of which nothing is known.
+const UNKNOWN: f64 = 100.0;
 
 /// How many of the worst legs are told.
 const WORST: usize = 10;
@@ -123,6 +129,39 @@ fn shape(noise: NoiseKind) -> Shape {
     }
 }
 
+/// The variance of a sum of α's with these factors, of which so much is known: factorsᵀ · information⁻¹ · factors. Infinite where it
+/// hangs on an α of which nothing is known.
+fn variance_of(factors: &Alphas, information: &Square) -> f64 {
+    let (mut swept, mut known) = (*information, [false; 6]);
+    for alpha in 0..6 {
+        // Less than that is what rounding leaves of nothing.
+        known[alpha] = swept[alpha][alpha] > 1e-9 * information[alpha][alpha];
+        if known[alpha] {
+            sweep(&mut swept, alpha);
+        }
+    }
+    let (mut variance, mut unknown) = (0.0, 0.0f64);
+    for alpha in 0..6 {
+        let mut weight = 0.0;
+        for k in (0..6).filter(|k| known[*k]) {
+            weight += swept[alpha][k] * factors[k];
+        }
+        if known[alpha] {
+            variance += factors[alpha] * weight;
+        } else {
+            // How much it would be, were this one alone.
+            let left = factors[alpha] + weight;
+            unknown = unknown.max(left * left / information[alpha][alpha]);
+        }
+    }
+    if unknown > variance { f64::INFINITY } else { variance }
+}
+
+/// Where the second half of a log begins.
+fn half<T>(legs: &[T]) -> usize {
+    legs.len() / 2
+}
+
 /// Each leg by the α's of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
@@ -155,18 +194,17 @@ impl Judged {
     }
 }
 
-/// A fit to half of the log, and the other half.
+/// A fit to the first half of the log, and the second.
 pub(super) struct Halves {
     best: Parameters,
-    /// Residuals that the fit has seen.
-    seen: usize,
+    /// Of the logarithm of the held-out residuals' variances, in the mean, by what is uncertain of the fit.
+    of_fit: f64,
     evidence: Evidence,
     observations: Vec<Observation>,
     noise: NoiseKind,
 }
 
 impl Halves {
-    /// Blocks in turn, of [`BLOCK`] 50 legs or, of a short log, an eighth of it.
     pub fn new(
         model: Model,
         noise: NoiseKind,
@@ -174,24 +212,14 @@ impl Halves {
         observations: &[Observation],
         near: &Parameters,
     ) -> Self {
-        let block = BLOCK.min(observations.len() / 8).max(1);
-        let mut halves = [Vec::new(), Vec::new()];
-        for (i, each) in observations.chunks(block).enumerate() {
-            halves[i % 2].extend_from_slice(each);
-        }
-        let [fitted, held_out] = halves;
-        let seen = Evidence::new(model, noise, &fitted);
-        let best = Fitted::new(&seen, model.alphas(), robust, Some(near)).best;
-        let told = |all: &[Observation]| {
-            all.iter().flat_map(|each| each.residuals).filter(|r| r.is_finite()).count()
-        };
-        Self {
-            best,
-            seen: told(&fitted),
-            evidence: Evidence::new(model, noise, &held_out),
-            observations: held_out,
-            noise,
-        }
+        let (fitted, held_out) = observations.split_at(half(observations));
+        let seen = Evidence::new(model, noise, fitted);
+        let fit = Fitted::new(&seen, model.alphas(), robust, Some(near));
+        let evidence = Evidence::new(model, noise, held_out);
+        let ((mean, _), (_, squares)) =
+            (evidence.log_variances_by(&fit.best), seen.log_variances_by(&fit.best));
+        let of_fit = ((shape(noise).kurtosis - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
+        Self { best: fit.best, of_fit, evidence, observations: held_out.to_vec(), noise }
     }
 
     /// Standardized residuals of the held-out half, its bad legs left out, if the α's are larger by a factor.
@@ -212,19 +240,18 @@ impl Halves {
 
     fn held_out(&self) -> HeldOut {
         let standardized = self.standardized(&self.best);
-        let (count, seen) = (standardized.len() as f64, self.seen as f64);
+        let (count, of_fit) = (standardized.len() as f64, self.of_fit);
         let Shape { kurtosis, slope, .. } = shape(self.noise);
-        // Of the variances that the α's make, by the fit.
-        let of_fit = (kurtosis - 1.0) / seen;
-        let about = |middle: f64, variance: f64| {
-            [-1.0, 1.0].map(|side| middle + side * NORMAL_95 * f64::sqrt(variance))
+        let about = |middle: f64, variance: f64, most: f64| {
+            let off = NORMAL_95 * variance.sqrt();
+            [(middle - off).max(0.0), (middle + off).min(most)]
         };
         HeldOut {
             count: standardized.len(),
             coverage: self.coverage(&standardized),
-            coverage_interval: about(0.95, 0.95 * 0.05 / count + slope * slope * of_fit),
+            coverage_interval: about(0.95, 0.95 * 0.05 / count + slope * slope * of_fit, 1.0),
             squared_error: standardized.iter().map(|z| z * z).sum::<f64>() / count,
-            squared_error_interval: about(1.0, (kurtosis - 1.0) / count + of_fit),
+            squared_error_interval: about(1.0, (kurtosis - 1.0) / count + of_fit, f64::INFINITY),
             log_likelihood: self.log_likelihood(&self.best),
         }
     }
@@ -280,8 +307,21 @@ fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) ->
     let mut told: Vec<f64> = standardized.iter().copied().filter(|z| z.is_finite()).collect();
     sort(&mut told);
     let count = told.len();
-    let mean = |power: i32| told.iter().map(|z| z.powi(power)).sum::<f64>() / count as f64;
-    let square = mean(2);
+    let moments = |half: &[f64]| {
+        half.iter().filter(|z| z.is_finite()).fold([0.0; 3], |[count, square, fourth], z| {
+            [count + 1.0, square + z * z, fourth + z * z * z * z]
+        })
+    };
+    let (first, second) = standardized.split_at(half(standardized));
+    let halves = [first, second].map(moments);
+    // By their numbers of residuals.
+    let kurtosis = halves
+        .iter()
+        .filter(|[count, ..]| *count > 0.0)
+        .map(|[count, square, fourth]| count * count * fourth / (square * square))
+        .sum::<f64>()
+        / count as f64;
+    let square = halves.iter().map(|[_, square, _]| square).sum::<f64>() / count as f64;
     let pairs = || {
         let both = standardized.windows(2).zip(neighbours.get(1..).unwrap_or(&[]));
         both.filter(|(pair, next)| **next && pair.iter().all(|z| z.is_finite()))
@@ -297,7 +337,7 @@ fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) ->
     KindDoubts {
         name,
         count,
-        kurtosis: mean(4) / (square * square),
+        kurtosis,
         autocorrelation: pairs().sum::<f64>() / neighbouring / square,
         autocorrelation_limit: NORMAL_95 / neighbouring.sqrt(),
         quantiles: if count > 0 { (1..100).map(|i| at(f64::from(i) / 100.0)).collect() } else { Vec::new() },

@@ -112,7 +112,7 @@ pub fn cut(odometry: &Trajectory, reference: &Trajectory, length: LegLength, clo
     // The reading with which a leg began, and its end there.
     let mut began: Option<(f64, SE2, Option<End>)> = None;
     for (sample, (time, reading)) in odometry.samples().enumerate() {
-        let Some((start_time, start_reading, start)) = began.filter(|_| !odometry.pauses_before(sample))
+        let Some((start_time, start_reading, start)) = began.filter(|_| !odometry.has_gap_before(sample))
         else {
             began = Some((time, reading, log.end_at(sample, time, reading)));
             continue;

@@ -210,6 +210,23 @@ impl Evidence {
         })
     }
 
+    /// By how much the logarithms of the residuals' variances change with each α: in the mean, and Σ of the squares and products.
+    pub(super) fn log_variances_by(&self, at: &Parameters) -> (Alphas, [Alphas; 6]) {
+        let (mut count, mut mean, mut squares) = (0.0, [0.0; 6], [[0.0; 6]; 6]);
+        for row in &self.rows {
+            let variances = self.variances(row, &at.alphas);
+            for kind in (0..3).filter(|kind| row.told[*kind] && variances[*kind] > 0.0) {
+                let (pair, slopes) = (self.pairs[kind], row.coefficients[kind].map(|f| f / variances[kind]));
+                count += 1.0;
+                for (k, slope) in pair.into_iter().zip(slopes) {
+                    mean[k] += slope;
+                    pair.into_iter().zip(slopes).for_each(|(l, other)| squares[k][l] += slope * other);
+                }
+            }
+        }
+        (mean.map(|sum| sum / count), squares)
+    }
+
     /// Bad legs as they are likeliest under the α's, by a step of expectation and maximization.
     fn bad_again(&self, at: &Parameters, robust: Robust) -> Option<Bad> {
         let bad = at.bad.as_ref()?;

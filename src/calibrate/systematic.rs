@@ -160,7 +160,7 @@ impl Systematic {
 pub type Which = [bool; ERRORS];
 
 /// Six by six.
-type Square = [[f64; ERRORS]; ERRORS];
+pub(super) type Square = [[f64; ERRORS]; ERRORS];
 
 /// What a step of least squares says of the systematic errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -261,8 +261,9 @@ impl LeastSquares {
     }
 }
 
-/// Inverts a symmetric matrix in one of its variables.
-fn sweep(matrix: &mut Square, pivot: usize) {
+/// Inverts a symmetric matrix in one of its variables. In one place: it is long code.
+#[inline(never)]
+pub(super) fn sweep(matrix: &mut Square, pivot: usize) {
     let size = matrix[pivot][pivot];
     let row = matrix[pivot].map(|entry| entry / size);
     for (i, each) in matrix.iter_mut().enumerate() {

@@ -10,8 +10,10 @@ pub struct Trajectory {
     /// s, each later than the one before.
     times: Vec<f64>,
     poses: Vec<SE2>,
-    /// Between two samples that are further apart (s) nobody knows where the robot was.
-    longest_gap: f64,
+    /// Of each sample, whether there is a gap before it: nobody knows how the robot came there from the one before.
+    gaps: Vec<bool>,
+    /// s.
+    usual_step: f64,
 }
 
 /// Which sample is no part of a trajectory.
@@ -76,8 +78,26 @@ impl Trajectory {
         }
         let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         sort(&mut steps);
-        let usual = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
-        Ok(Self { times, poses, longest_gap: STEPS_OF_A_GAP * usual })
+        let usual_step = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+        let longest = STEPS_OF_A_GAP * usual_step;
+        let mut gaps = vec![false; times.len()];
+        gaps.iter_mut()
+            .skip(1)
+            .zip(times.windows(2))
+            .for_each(|(gap, pair)| *gap = pair[1] - pair[0] > longest);
+        Ok(Self { times, poses, gaps, usual_step })
+    }
+
+    /// With a gap before each of these samples too, as where rows were of no use, or a reference jumped. Before the first sample
+    /// nothing is known in any case.
+    #[must_use]
+    pub fn broken_before(mut self, samples: impl IntoIterator<Item = usize>) -> Self {
+        for sample in samples {
+            if let Some(gap) = self.gaps.get_mut(sample) {
+                *gap = true;
+            }
+        }
+        self
     }
 
     /// Where commands lead from the origin, each (a time in s, v in m/s, ω in rad/s) held until the next one.
@@ -104,9 +124,9 @@ impl Trajectory {
         self.times.iter().copied().zip(self.poses.iter().copied())
     }
 
-    /// How often nothing is known of a while.
+    /// How many gaps there are.
     pub fn gaps(&self) -> usize {
-        self.times.windows(2).filter(|pair| pair[1] - pair[0] > self.longest_gap).count()
+        self.gaps.iter().skip(1).filter(|gap| **gap).count()
     }
 
     /// The times of its first and last sample, s. None of an empty one.
@@ -116,11 +136,11 @@ impl Trajectory {
 
     /// The usual time between two samples, s; 0 where there are none.
     pub fn usual_step(&self) -> f64 {
-        self.longest_gap / STEPS_OF_A_GAP
+        self.usual_step
     }
 
     /// By how much it has turned at each sample since the first, rad, not wrapped: as if no step turned by more than half a
-    /// circle.
+    /// circle, not even one across a gap.
     pub(super) fn turned(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let steps = self.poses.windows(2).map(|pair| {
@@ -132,9 +152,9 @@ impl Trajectory {
 
     /// Its velocity (m/s ahead and to the left, rad/s) at a sample: the mean over the steps before and after it.
     pub(super) fn velocity(&self, sample: usize) -> Vector3<f64> {
-        let from = if sample > 0 && !self.pauses_before(sample) { sample - 1 } else { sample };
+        let from = if sample > 0 && !self.gaps[sample] { sample - 1 } else { sample };
         let next = sample + 1;
-        let to = if next < self.times.len() && !self.pauses_before(next) { next } else { sample };
+        let to = if next < self.times.len() && !self.gaps[next] { next } else { sample };
         if from == to {
             return Vector3::zeros();
         }
@@ -152,12 +172,12 @@ impl Trajectory {
         let off = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
         let before = after.saturating_sub(1);
         let nearest = if off(before) < off(after) { before } else { after };
-        (off(nearest) <= 0.5 * self.longest_gap).then_some(nearest)
+        (off(nearest) <= 0.5 * STEPS_OF_A_GAP * self.usual_step).then_some(nearest)
     }
 
     /// Whether there is a gap before this sample.
-    pub(super) fn pauses_before(&self, sample: usize) -> bool {
-        self.times[sample] - self.times[sample - 1] > self.longest_gap
+    pub(super) fn has_gap_before(&self, sample: usize) -> bool {
+        self.gaps[sample]
     }
 
     /// Whether nothing is known of some time between these two (s).
@@ -166,11 +186,9 @@ impl Trajectory {
         if from < *first || to > *last {
             return true;
         }
-        let before = self.times.partition_point(|time| *time <= from).saturating_sub(1);
-        self.times[before..]
-            .windows(2)
-            .take_while(|pair| pair[0] < to)
-            .any(|pair| pair[1] - pair[0] > self.longest_gap)
+        let after = self.times.partition_point(|time| *time <= from);
+        let end = self.times.partition_point(|time| *time < to);
+        self.gaps[after..].iter().take((end + 1).saturating_sub(after)).any(|gap| *gap)
     }
 
     /// Where the robot is at `time` (s): between two samples on the arc of constant velocities that joins them. None before
@@ -181,11 +199,10 @@ impl Trajectory {
         if at == time {
             return Some(pose);
         }
-        let before = after.checked_sub(1)?;
-        let step = at - self.times[before];
-        let share = (time - self.times[before]) / step;
+        let before = after.checked_sub(1).filter(|_| !self.gaps[after])?;
+        let share = (time - self.times[before]) / (at - self.times[before]);
         let way = pose.boxminus(&self.poses[before]);
-        (step <= self.longest_gap).then(|| self.poses[before].boxplus(way * share))
+        Some(self.poses[before].boxplus(way * share))
     }
 }
 

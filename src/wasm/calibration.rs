@@ -24,7 +24,7 @@ export interface SystematicValue {
 export interface KindDoubts {
   name: 'rot1' | 'trans' | 'rot2' | 'strafe' | 'v' | 'omega' | 'gamma';
   count: number;
-  /** Of the normal distribution 3, of the triangular 2.4. */
+  /** Of each half of the log by itself, in the mean: of the normal distribution 3, of the triangular 2.4. */
   kurtosis: number;
   /** Of neighbouring legs; the model says 0. */
   autocorrelation: number;
@@ -66,7 +66,7 @@ export interface Calibration {
   outliers: number | null;
   doubts: {
     kinds: KindDoubts[];
-    /** Half of the log by the α's of the other half; intervals say where a figure is in 95 of 100 logs of which the model is true. */
+    /** The second half of the log by the α's of the first; intervals say where a figure is in 95 of 100 logs of which the model is true. */
     heldOut: { count: number; coverage: number; expected: number; interval: Interval; logLikelihood: number };
     /** The mean of (r/σ)² over the held-out residuals. */
     squaredError: { mean: number; interval: Interval };
@@ -78,7 +78,7 @@ export interface Calibration {
   inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
   /** By the lengths of legs, from the shortest on; empty unless asked for. */
   byLength: AlphasAtLength[];
-  /** How often each trajectory pauses: no leg leads across. */
+  /** How often nothing is known of the way, because a trajectory pauses or is said to break: no leg leads across. */
   gaps: { odometry: number; reference: number };
 }
 

@@ -1,6 +1,6 @@
 //! Logs of JavaScript: odometry and reference.
 
-use super::fields::{Fields, doubles, in_range, item, length, no_memory, number, printed};
+use super::fields::{Fields, doubles, in_range, item, length, no_memory, number, printed, type_error, whole};
 use crate::calibrate::{ReferenceError, Trajectory, TrajectoryError, TrajectoryFault};
 use crate::geom::se2::SE2;
 use crate::sim::settings::check_real;
@@ -16,6 +16,8 @@ export interface LoggedPoses {
   x: ArrayLike<number>;
   y: ArrayLike<number>;
   theta: ArrayLike<number>;
+  /** The places, rising, of poses before which nothing is known of the way, besides those after a pause: where rows are missing, or it jumps. */
+  breaks?: ArrayLike<number>;
 }
 
 /** Commands with times, each held until the next: s, rising; m/s; rad/s. */
@@ -23,6 +25,8 @@ export interface LoggedCommands {
   t: ArrayLike<number>;
   v: ArrayLike<number>;
   omega: ArrayLike<number>;
+  /** As of poses. */
+  breaks?: ArrayLike<number>;
 }
 
 /** Where the robot really was, in any fixed frame, and how well that is known at one moment. */
@@ -46,21 +50,25 @@ const COORDINATE: RangeInclusive<f64> = -1e9..=1e9;
 /// Poses or commands.
 pub fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
+    if !value.is_object() {
+        let allowed = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
+        return Err(type_error(field, value, allowed));
+    }
     let fields = Fields::open(field, &prefix, value)?;
     if fields.value("v")?.is_undefined() && fields.value("omega")?.is_undefined() {
-        return poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta"])?);
+        return poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?);
     }
-    let fields = Fields::new(field, &prefix, value, &["t", "v", "omega"])?;
+    let fields = Fields::new(field, &prefix, value, &["t", "v", "omega", "breaks"])?;
     let columns = columns(&fields, ["t", "v", "omega"])?;
     let [t, v, omega] = &columns;
     let commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
-    trajectory(field, Trajectory::from_commands(commands))
+    trajectory(&fields, Trajectory::from_commands(commands))
 }
 
 /// Poses, and how well they are known.
 pub fn read_reference(field: &str, value: &JsValue) -> Result<(Trajectory, ReferenceError), JsValue> {
     let prefix = format!("{field}.");
-    let keys = ["t", "x", "y", "theta", "positionDeviation", "headingDeviation"];
+    let keys = ["t", "x", "y", "theta", "breaks", "positionDeviation", "headingDeviation"];
     let fields = Fields::new(field, &prefix, value, &keys)?;
     let deviation = |key: &str| fields.optional(key, |path, value| in_range(path, value, &(0.0..=1e3)));
     let error = ReferenceError {
@@ -74,12 +82,12 @@ fn poses(fields: &Fields) -> Result<Trajectory, JsValue> {
     let columns = columns(fields, ["t", "x", "y", "theta"])?;
     let [t, x, y, theta] = &columns;
     let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
-    trajectory(fields.path("").trim_end_matches('.'), Trajectory::new(t.iter().copied().zip(poses)))
+    trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// In the words of [`TrajectoryError`], whose numbers Rust would print: that is a twentieth of a module.
-fn trajectory(field: &str, read: Result<Trajectory, TrajectoryError>) -> Result<Trajectory, JsValue> {
-    read.map_err(|TrajectoryError { sample, fault }| {
+/// With its breaks. Errors are in the words of [`TrajectoryError`], whose numbers Rust would print: that is a twentieth of a module.
+fn trajectory(fields: &Fields, read: Result<Trajectory, TrajectoryError>) -> Result<Trajectory, JsValue> {
+    let read = read.map_err(|TrajectoryError { sample, fault }| {
         let what = match fault {
             TrajectoryFault::NotFinite => {
                 "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned()
@@ -89,8 +97,32 @@ fn trajectory(field: &str, read: Result<Trajectory, TrajectoryError>) -> Result<
                 format!("is not later than the one before, at {before} s; allowed are times that rise")
             }
         };
-        RangeError::new(&format!("{field}: sample {sample} {what}")).into()
-    })
+        let field = fields.path("");
+        JsValue::from(RangeError::new(&format!("{}: sample {sample} {what}", field.trim_end_matches('.'))))
+    })?;
+    broken(fields, read)
+}
+
+/// With gaps where the caller says that there are some.
+fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
+    let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
+    if breaks.is_undefined() {
+        return Ok(trajectory);
+    }
+    let (last, mut before) = (trajectory.samples().len() - 1, 0);
+    for i in 0..length(&field, &breaks, "an array of numbers")? {
+        let item = item(&field, &breaks, i)?;
+        let sample = item.as_f64().map_or(0, |number| number as usize);
+        if sample <= before || sample > last || item.as_f64() != Some(sample as f64) {
+            let path = format!("{field}[{i}]");
+            whole(&path, &item, 1..=last as u64)?;
+            let message = format!("{path} is {sample}; allowed is more than {before}, the one before it");
+            return Err(RangeError::new(&message).into());
+        }
+        trajectory = trajectory.broken_before([sample]);
+        before = sample;
+    }
+    Ok(trajectory)
 }
 
 /// Arrays of numbers, as long as the first of them, which has times.

@@ -124,6 +124,62 @@ fn clocks_that_have_nothing_to_do_with_each_other_are_aligned() {
 }
 
 #[test]
+fn clocks_are_aligned_by_what_is_known_of_the_turns() {
+    let model = Model::Odometry(OdometryRule::Nav2);
+    let errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
+    let simulation = Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, 2000, 6) };
+    let [odometry, reference] = simulation.log();
+    let offset = |reference: &Trajectory| {
+        let told = calibrate(&odometry, reference, &options(&simulation, Robust::No)).expect("legs enough");
+        told.systematic.clock_offset
+    };
+    // A reference that begins anew every twenty seconds, with another heading; one that sees a third of the time; one that was there for
+    // a fifth of the drive.
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+    let mut turned = 0.0;
+    let turn = |(at, (t, pose)): (usize, (f64, SE2))| {
+        if at % 400 == 0 {
+            turned = NoiseKind::Normal.sample(Variance(1.0), &mut rng);
+        }
+        (t, SE2::new(0.0, 0.0, turned) * pose)
+    };
+    let anew = Trajectory::new(reference.samples().enumerate().map(turn).collect::<Vec<_>>());
+    let breaks = (0..reference.samples().len()).step_by(400);
+    let seldom = Trajectory::new(reference.samples().filter(|(t, _)| t.rem_euclid(60.0) < 20.0));
+    let rows = reference.samples().len();
+    let shortly = Trajectory::new(reference.samples().skip(rows / 2).take(rows / 5));
+    for broken in [
+        anew.expect("times rise").broken_before(breaks),
+        seldom.expect("times rise"),
+        shortly.expect("times rise"),
+    ] {
+        let found = offset(&broken) - 3.2;
+        assert!(found.abs() < 0.05, "{found}, {} gaps", broken.gaps());
+    }
+}
+
+#[test]
+fn jumps_that_are_said_are_no_bad_legs() {
+    // As `a_hundredth_of_bad_legs_does_not_decide`, and without anything robust.
+    let model = Model::Odometry(OdometryRule::Nav2);
+    let still = Simulation { errors: INJECTED, ..Simulation::of(model, NoiseKind::Normal, 10_000, 11) };
+    let jumping = Simulation { jumps: 0.01, ..still };
+    let [odometry, reference] = jumping.log();
+    let way = |pair: &[(f64, SE2)]| pair[1].1.boxminus(&pair[0].1).xy().norm();
+    let samples: Vec<_> = reference.samples().collect();
+    let jumps: Vec<usize> = (1..samples.len()).filter(|i| way(&samples[i - 1..=*i]) > 0.2).collect();
+    assert!(jumps.len() > 70);
+    let broken = reference.broken_before(jumps.iter().copied());
+    let told = calibrate(&odometry, &broken, &options(&jumping, Robust::No)).expect("legs enough");
+    for (k, alpha) in told.estimate.alphas.iter().enumerate() {
+        let times = alpha / ALPHAS[k];
+        assert!((times - 1.0).abs() < 0.1, "α{} times {times}", k + 1);
+    }
+    assert_eq!(told.doubts.verdict, Verdict::Fits);
+    assert!(told.legs.len() + 2 * jumps.len() > 10_000);
+}
+
+#[test]
 fn the_references_own_error_is_no_noise_of_the_robot() {
     // A reference that shakes by 3 mm and 3 mrad, as stated: α's as they are, of legs whose noise is not much larger.
     let model = Model::Odometry(OdometryRule::Omni);
@@ -154,6 +210,32 @@ fn too_few_legs_are_refused() {
     let [odometry, reference] = simulation.log();
     let refused = calibrate(&odometry, &reference, &options(&simulation, Robust::No));
     assert!(matches!(refused, Err(CalibrateError::FewLegs { legs: 6 | 7 })), "{refused:?}");
+}
+
+#[test]
+fn two_drives_without_a_common_time_are_refused() {
+    let model = Model::Odometry(OdometryRule::Nav2);
+    let one = Simulation::of(model, NoiseKind::Normal, 500, 6);
+    let [odometry, reference] = one.log();
+    let [_, of_another] = Simulation { seed: 7, ..one }.log();
+    let later = |trajectory: &Trajectory, by: f64| {
+        Trajectory::new(trajectory.samples().map(|(t, pose)| (t + by, pose)).collect::<Vec<_>>())
+    };
+    let refused =
+        calibrate(&odometry, &later(&of_another, 1e6).expect("times rise"), &options(&one, Robust::No));
+    assert_eq!(refused, Err(CalibrateError::Apart));
+    // Straight on and without turns, they are taken as they are, if they overlap at all.
+    let straight = |from: f64| {
+        let ahead = |i| (from + 0.1 * f64::from(i), SE2::new(0.05 * f64::from(i), 0.0, 0.0));
+        Trajectory::new((0..1000).map(ahead)).expect("times rise")
+    };
+    let told = calibrate(&straight(0.0), &straight(70.0), &options(&one, Robust::No)).expect("legs enough");
+    assert_eq!(told.systematic.clock_offset, 0.0);
+    let refused = calibrate(&straight(0.0), &straight(100.0), &options(&one, Robust::No));
+    assert_eq!(refused, Err(CalibrateError::Apart));
+    // By their turns the same drive is found as far away as it may be.
+    let told = calibrate(&odometry, &later(&reference, 1e6).expect("times rise"), &options(&one, Robust::No));
+    assert!((told.expect("legs enough").systematic.clock_offset - 1e6).abs() < 0.05);
 }
 
 #[test]

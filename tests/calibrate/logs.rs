@@ -1,6 +1,6 @@
 //! Trajectories, and the legs that they are cut into.
 
-use motion::calibrate::{LegLength, Trajectory, cut};
+use motion::calibrate::{Leg, LegLength, Trajectory, cut};
 use motion::geom::se2::SE2;
 
 fn straight(count: usize, step: f64) -> Trajectory {
@@ -50,6 +50,51 @@ fn no_leg_leads_across_a_gap() {
             .iter()
             .all(|leg| leg.times[0] >= 2.0 - 1e-9 && leg.times[1] <= 4.9 + 1e-9)
     );
+}
+
+#[test]
+fn no_leg_spans_a_break() {
+    let whole = straight(101, 0.1);
+    let length = LegLength::Moved { distance: 0.25, angle: 0.2 };
+    let all = cut(&whole, &whole, length, 0.0);
+    let times: Vec<f64> = whole.samples().map(|(t, _)| t).collect();
+    let breaks = [17, 33, 34, 70];
+    let broken = whole.clone().broken_before(breaks);
+    assert_eq!([whole.gaps(), broken.gaps()], [0, 4]);
+    let spans = |leg: &Leg| {
+        let across = |at: usize| leg.times[0] < times[at] - 1e-9 && times[at] - 1e-9 < leg.times[1];
+        breaks.into_iter().any(across)
+    };
+    assert!(all.iter().any(spans));
+    // Of the reference: the others are as they are.
+    let legs = cut(&whole, &broken, length, 0.0);
+    assert_eq!(legs, all.iter().filter(|leg| !spans(leg)).copied().collect::<Vec<_>>());
+    // Of the odometry: the first after a break begins there.
+    let legs = cut(&broken, &whole, length, 0.0);
+    assert!(legs.len() > 25 && !legs.iter().any(spans));
+    assert!([17, 34, 70].iter().all(|at| legs.iter().any(|leg| leg.times[0] == times[*at])));
+    // Between is nothing, on either side all.
+    assert!(broken.has_gap(times[16] + 0.01, times[17] - 0.01) && broken.pose_at(times[16] + 0.01).is_none());
+    assert!(!broken.has_gap(times[15], times[16]) && !broken.has_gap(times[17], times[18]));
+    assert!([16, 17].iter().all(|at| broken.pose_at(times[*at]).is_some()));
+    // Before the first sample there is nothing in any case, and there is none after the last.
+    assert_eq!(whole.clone().broken_before([0, 101]).gaps(), 0);
+}
+
+#[test]
+fn a_jump_that_is_said_is_in_no_velocity() {
+    let jumps = |at: usize| if (40..43).contains(&at) { 5.0 } else { 0.0 };
+    let whole = straight(101, 0.1);
+    let samples = whole.samples().map(|(t, pose)| (t, pose.x())).enumerate();
+    let jumping = samples.map(|(at, (t, x))| (t, SE2::new(x, jumps(at), 0.0))).collect::<Vec<_>>();
+    let jumping = Trajectory::new(jumping).expect("times rise").broken_before([40, 43]);
+    // Its own legs too, of which some are the three samples between the jumps.
+    let legs = cut(&jumping, &jumping, LegLength::Moved { distance: 0.15, angle: 0.2 }, 0.0);
+    assert!(legs.len() > 45);
+    assert!(legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
+    for leg in legs {
+        assert!(leg.velocities.iter().all(|velocity| (velocity - nalgebra::Vector3::x()).norm() < 1e-9));
+    }
 }
 
 #[test]

@@ -19,6 +19,21 @@ pub const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
+/// How the noise of a leg, of variance 1, differs from what the model takes it for.
+#[derive(Clone, Copy, Debug)]
+pub enum Unlike {
+    /// Not at all.
+    Nothing,
+    /// Student's t with so many degrees of freedom.
+    Tails(usize),
+    /// That of a leg is this share of that of the one before, and otherwise its own.
+    Autoregressive(f64),
+    /// Its deviation is another one in the course of the log, from 0 to 1.
+    Changing(fn(f64) -> f64),
+    /// The logarithm of its variance wanders with this deviation, and forgets a tenth of it from leg to leg; the mean of the variance is 1.
+    Wandering(f64),
+}
+
 /// What a log is made with.
 #[derive(Clone, Copy, Debug)]
 pub struct Simulation {
@@ -33,6 +48,9 @@ pub struct Simulation {
     pub reverses: bool,
     /// v and ω in a leg, by its number; at random unless said.
     pub drive: Option<fn(usize) -> [f64; 2]>,
+    pub unlike: Unlike,
+    /// The share of the log in which it drives straight on, before anything else.
+    pub straight: f64,
     pub seed: u64,
 }
 
@@ -48,6 +66,8 @@ impl Simulation {
             jumps: 0.0,
             reverses,
             drive: None,
+            unlike: Unlike::Nothing,
+            straight: 0.0,
             seed,
         }
     }
@@ -63,10 +83,13 @@ impl Simulation {
         let (mut speeds, mut left, mut began) = ([0.3, 0.0], 40, 0);
         // What was driven since the leg began, by what the odometry would say without its errors.
         let (mut driven, mut inside) = (SE2::identity(), Vec::new());
-        let mut legs = 0;
+        let (mut legs, mut unit_noise, mut wander) = (0, [0.0; 3], 0.0);
         while legs < self.count {
             if left == 0 {
                 speeds = self.speeds(&mut rng);
+                if (legs as f64) < self.straight * self.count as f64 {
+                    speeds = [0.4, 0.0];
+                }
                 left = rng.random_range(15..60);
             }
             left -= 1;
@@ -82,7 +105,15 @@ impl Simulation {
                 continue;
             }
             let from = base.last().expect("some").1;
-            let to = self.executed(&from, &driven, time - start_time, &mut rng);
+            unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
+            if let Unlike::Wandering(deviation) = self.unlike {
+                let own = NoiseKind::Normal.sample(Variance(deviation * deviation), &mut rng);
+                wander = 0.9 * wander + f64::sqrt(1.0 - 0.81) * own;
+                // The mean of e to a normal number is e to half its variance.
+                let times = libm::exp(0.5 * (wander - 0.5 * deviation * deviation));
+                unit_noise = unit_noise.map(|noise| times * noise);
+            }
+            let to = self.executed(&from, &driven, time - start_time, unit_noise);
             // Where it ends beyond what was read comes evenly on the way.
             let off = (driven.inverse() * from.inverse() * to).log();
             let ahead = |time: f64| (time - start_time) / (inside.len() as f64 * STEP);
@@ -114,8 +145,23 @@ impl Simulation {
         }
     }
 
-    fn executed(&self, from: &SE2, driven: &SE2, dt: f64, rng: &mut impl Rng) -> SE2 {
-        let unit_noise = [0; 3].map(|_| self.noise.sample(Variance(1.0), rng));
+    fn unit_noise(&self, course: f64, before: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
+        before.map(|before| {
+            let own = self.noise.sample(Variance(1.0), rng);
+            match self.unlike {
+                Unlike::Nothing | Unlike::Wandering(_) => own,
+                Unlike::Tails(freedom) => {
+                    let normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
+                    let square: f64 = (0..freedom).map(normal).map(|z| z * z).sum();
+                    own * f64::sqrt((freedom as f64 - 2.0) / square)
+                }
+                Unlike::Autoregressive(share) => share * before + (1.0 - share * share).sqrt() * own,
+                Unlike::Changing(deviation) => deviation(course) * own,
+            }
+        })
+    }
+
+    fn executed(&self, from: &SE2, driven: &SE2, dt: f64, unit_noise: [f64; 3]) -> SE2 {
         let of_five: [f64; 5] = std::array::from_fn(|k| ALPHAS[k]);
         match self.model {
             Model::Odometry(rule) => {

@@ -114,16 +114,38 @@ test('by the length of legs: the α’s of all others beside those of the legs a
   assert.deepEqual([shortest.alphas, shortest.intervals], [[null, null, null, null], [null, null, null, null]]);
 });
 
+test('no leg spans a break of either log, and the others are as they were', () => {
+  const whole = motion.calibrate({ odometry, reference });
+  const places = [500, 501, 2000];
+  for (const [broken, row] of /** @type {const} */ ([[{ odometry: { ...odometry, breaks: places }, reference }, odometry.t[500]], [{ odometry, reference: { ...reference, breaks: Uint16Array.from(places) } }, reference.t[500] - 0.12]])) {
+    const { legs, gaps } = motion.calibrate(broken);
+    assert.deepEqual(gaps, { odometry: 0, reference: 0, [broken.reference === reference ? 'odometry' : 'reference']: 3 });
+    assert.ok(legs.count < whole.legs.count && legs.count >= whole.legs.count - 6, `${legs.count} of ${whole.legs.count}`);
+    for (let i = 0; i < legs.count; i++) assert.ok(legs.times[2 * i + 1] < row + 0.01 || legs.times[2 * i] > row - 0.05);
+  }
+  const { odometry: own, reference: other } = motion.calibrate({ odometry: { ...odometry, breaks: [] }, reference: { ...reference, breaks: undefined } }).gaps;
+  assert.deepEqual([own, other], [0, 0]);
+});
+
 test('refusals name what is wrong and what is allowed', () => {
   const few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
   /** @type {[any, RegExp][]} */
   const refused = [
-    [{ reference }, /^odometry is undefined; allowed is an object$/],
+    [{}, /^odometry is undefined; allowed is an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks$/],
+    [{ odometry }, /^reference is undefined; allowed is an object with keys from t, x, y, theta, breaks, positionDeviation, headingDeviation$/],
     [{ odometry, reference: { ...reference, x: [1] } }, /^reference\.x has length 1; allowed is \d+, as of reference\.t$/],
     [{ odometry: { ...odometry, t: [] }, reference }, /^odometry\.t has length 0; allowed is 2 to 10000000$/],
     [{ odometry: { ...few, x: [0, 'a'] }, reference }, /^odometry\.x\[1\] is "a"; allowed is a number$/],
     [{ odometry: { ...few, theta: [0, NaN] }, reference }, /^odometry\.theta\[1\] is NaN; allowed /],
     [{ odometry: { ...few, t: [1, 1] }, reference }, /^odometry: sample 1 is not later than the one before, at 1 s; allowed are times that rise$/],
+    [{ odometry: { ...few, breaks: [0] }, reference }, /^odometry\.breaks\[0\] is 0; allowed is a whole number from 1 to 1$/],
+    [{ odometry: { ...few, breaks: [2] }, reference }, /^odometry\.breaks\[0\] is 2; allowed is a whole number from 1 to 1$/],
+    [{ odometry: { ...few, breaks: ['1'] }, reference }, /^odometry\.breaks\[0\] is "1"; allowed is a number$/],
+    [{ odometry, reference: { ...reference, breaks: [7, 9.5] } }, /^reference\.breaks\[1\] is 9\.5; allowed is a whole number from 1 to \d+$/],
+    [{ odometry, reference: { ...reference, breaks: [7, NaN] } }, /^reference\.breaks\[1\] is NaN; allowed /],
+    [{ odometry, reference: { ...reference, breaks: Uint32Array.of(7, 9, 9) } }, /^reference\.breaks\[2\] is 9; allowed is more than 9, the one before it$/],
+    [{ odometry, reference: { ...reference, breaks: 7 } }, /^reference\.breaks is 7; allowed is an array of numbers$/],
+    [{ odometry: { t: [0, 1], v: [0, 0], omega: [0, 0], breaks: [-1] }, reference }, /^odometry\.breaks\[0\] is -1; allowed /],
     [{ odometry: few, reference: few }, /^the log has \d legs for which both trajectories are known; allowed are 8 at least/],
     [{ odometry, reference, model: 'banana' }, /^model is "banana"; allowed is "odometry" or /],
     [{ odometry, reference, model: 'velocity', rule: 'nav2' }, /^rule is given beside a model that has its own; allowed is /],

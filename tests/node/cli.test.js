@@ -54,7 +54,7 @@ async function askedOf(args) {
 test('the options reach the core', async () => {
   const { odometry: own, reference, ...fit } = await askedOf(FILES);
   assert.deepEqual(fit, { byLength: true, legs: { distance: 0.25, angle: 0.2 } });
-  assert.deepEqual([Object.keys(own), Object.keys(reference)], [['t', 'x', 'y', 'theta'], ['t', 'x', 'y', 'theta']]);
+  assert.deepEqual([Object.keys(own), Object.keys(reference)], [['t', 'x', 'y', 'theta', 'breaks'], ['t', 'x', 'y', 'theta', 'breaks']]);
   const all = '--model omnidirectional --rule nav2 --distance 0.5 --angle 0.3 --noise triangular --robust --without mountYaw,leverArm --seed 7 --position-deviation 0.001 --heading-deviation 2e-3';
   const { reference: told, ...rest } = await askedOf([...FILES, ...all.split(' ')]);
   delete rest.odometry;
@@ -93,7 +93,8 @@ for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
   [['calibrate', 'odom.csv'], /^“odom\.csv” belongs to no option; expected are options such as --odometry\.$/],
   [['calibrate', '--odometri', 'a'], /^--odometri is no option; expected are those of --help\.$/],
   [['calibrate', '--odometry'], /^Option '--odometry <value>' argument missing; expected is what --help shows\.$/],
-  [['calibrate', ...FILES, '--distance', '-1'], /^Option '--distance' argument is ambiguous; expected is what --help shows\.$/],
+  [['calibrate', ...FILES, '--distance', '-1', '-2'], /^-2 is no option; expected are those of --help\.$/],
+  [['calibrate', ...FILES, '--distance', '--json'], /^Option '--distance' argument is ambiguous; expected is what --help shows\.$/],
   [['calibrate', '--reference', 'a.csv'], /^--odometry is missing; expected is a file, or --recording with both\.$/],
   [['calibrate', ...FILES, '--angle', 'wide'], /^--angle is “wide”; expected is a number\.$/],
   [['calibrate', ...FILES, '--robust=some'], /^--robust is “some”; expected is a number\.$/],
@@ -112,9 +113,86 @@ for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
 }
 
 test('what the core refuses, it refuses by the name of the logs', async () => {
-  const { code, err } = await said(['calibrate', ...FILES, '--distance=-1']);
-  assert.equal(code, 2);
-  assert.match(err, /^odometry\.csv and reference\.csv: .*distance.* -1; allowed (is|are) .*\n$/);
+  for (const asked of [['--distance=-1'], ['--distance', '-1']]) {
+    const { code, err } = await said(['calibrate', ...FILES, ...asked]);
+    assert.equal(code, 2);
+    assert.match(err, /^odometry\.csv and reference\.csv: .*distance.* -1; allowed (is|are) .*\n$/);
+  }
+});
+
+test('each verdict has its sentence, and stands beside the lines for Nav2 where there is something to doubt', async () => {
+  const motion = /** @type {any} */ (await load());
+  for (const [verdict, sentence] of [
+    ['overconfident', 'Overconfident: fewer held-out legs end inside than should. Inflate the α\'s, or a filter gets lost.'],
+    ['lazy', 'Lazy: more held-out legs end inside than should. A filter would believe its sensors more than it could.'],
+    ['heavy-tails', 'The tails are heavier than the noise\'s: a few legs are far out. Try --robust, and look at the worst legs.'],
+    ['correlated', 'The error of one leg tells that of the next: something systematic is left that the model does not know.'],
+    ['few-legs', 'Too few legs to tell. Drive on, or take shorter legs.'],
+    ['fits', 'The model fits this log.'],
+  ]) {
+    const calibrate = (/** @type {any} */ options) => {
+      const told = motion.calibrate(options);
+      return { ...told, doubts: { ...told.doubts, verdict } };
+    };
+    const { out } = await said(['calibrate', ...FILES], async () => ({ calibrate }));
+    const lines = out.split('\n');
+    assert.ok(lines.includes(sentence), `${verdict}: ${out}`);
+    assert.equal(lines.includes(`    # ${sentence}`), verdict !== 'fits', verdict);
+  }
+});
+
+/** The example's reference with other rows. @param {(cells: number[], i: number) => number[] | undefined} change */
+function referenceOf(change) {
+  const [header, ...rows] = readFileSync(example('reference'), 'utf8').trim().split('\n');
+  const cells = rows.map((row) => row.split(',').map(Number)).flatMap((row, i) => [change(row, i) ?? []]);
+  return file('changed.csv', [header, ...cells.filter((row) => row.length).map((row) => row.join(','))].join('\n'));
+}
+
+/** What is told of the example with another reference. @param {string} path @param {string[]} more */
+async function toldOf(path, ...more) {
+  const { code, out, err } = await said(['calibrate', '--odometry', example('odometry'), '--reference', path, '--json', ...more]);
+  assert.equal(code, 0, err);
+  return JSON.parse(out);
+}
+
+test('a reference that jumps, is lost and says nothing for a while: what is left is as good without --robust', async () => {
+  const clean = await toldOf(example('reference'));
+  // Fifty times half a metre aside for three rows, and back; ten times no number; four seconds of one pose.
+  const jumps = (/** @type {number} */ i) => i % 80 >= 40 && i % 80 < 43;
+  let held = [0, 0, 0];
+  const path = referenceOf(([t, x, y, yaw], i) => {
+    if (i <= 1000) held = [x, y, yaw];
+    if (i > 1000 && i < 1080) return [t, ...held];
+    if (i % 400 === 7) return [t, NaN, y, yaw];
+    return jumps(i) ? [t, x + 0.4, y + 0.3, yaw] : [t, x, y, yaw];
+  });
+  const told = await toldOf(path);
+  assert.ok(told.gaps.reference > 100 && told.gaps.odometry === 0, JSON.stringify(told.gaps));
+  assert.match(told.logs[1].found.join('\n'), /jumps, the first at .*/);
+  for (const [i, alpha] of TRUTH.alphas.entries()) {
+    const [low, high] = told.intervals[i];
+    assert.ok(low <= alpha && alpha <= high, `α${i + 1}: ${low} to ${high}`);
+    assert.ok(Math.abs(told.alphas[i] / clean.alphas[i] - 1) < 0.35, `α${i + 1}: ${told.alphas[i]}, ${clean.alphas[i]}`);
+  }
+  assert.equal(told.doubts.verdict, 'fits');
+  // Handed to the core without its breaks, the same log says something else.
+  const motion = /** @type {any} */ (await load());
+  const { odometry: own, reference } = together(...(await Promise.all([readLog(new File([readFileSync(example('odometry'))], 'odometry.csv')), readLog(new File([readFileSync(path)], 'changed.csv'))])));
+  const { alphas } = motion.calibrate({ odometry: own.data, reference: { ...reference.data, breaks: undefined } });
+  assert.ok(Math.max(...alphas.map((/** @type {number} */ alpha, /** @type {number} */ i) => alpha / clean.alphas[i])) > 10, alphas.join(' '));
+});
+
+test('clocks without a common time are aligned by the turns, which is said; two drives are refused', async () => {
+  const clean = await toldOf(example('reference'));
+  const told = await toldOf(referenceOf(([t, ...pose]) => [t + 1_600_000_000, ...pose]));
+  assert.match(told.logs[1].found.at(-1), /^its times \(16000000\d\d\.\d\d s to .* s\) and those of odometry\.csv \(10\.00 s to .* s\) have nothing in common: the clocks are aligned by how the robot turned$/);
+  const { value, interval } = told.systematic.clockOffset;
+  assert.ok(Math.abs(value - 1_600_000_000.12) < 0.01 && interval[0] < 1_600_000_000.12 && 1_600_000_000.12 < interval[1], `${value} ${interval}`);
+  // A quarter of a microsecond is all that doubles know of such times.
+  for (const [i, alpha] of told.alphas.entries()) assert.ok(Math.abs(alpha / clean.alphas[i] - 1) < 1e-3, `${alpha}`);
+  const straight = referenceOf(([t, x]) => [t + 1_600_000_000, x, 0, 0]);
+  const { code, err } = await said(['calibrate', '--odometry', example('odometry'), '--reference', straight]);
+  assert.deepEqual([code, err], [2, 'odometry.csv and changed.csv: odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive\n']);
 });
 
 test('from a shell: help, a sentence, and a pipe that is closed', () => {
@@ -143,6 +221,15 @@ test('the example log: the truth lies in the intervals, and the command says wha
   for (const key of ['alphas', 'intervals', 'bootstrap', 'systematic', 'logLikelihood', 'outliers', 'gaps']) assert.deepEqual(told[key], calibration[key], key);
   // JSON knows no NaN.
   assert.deepEqual(told.legs.residuals, Array.from(calibration.legs.residuals, (each) => (Number.isNaN(each) ? null : each)));
+});
+
+test('doc/calibration.md names what is in the JSON', async () => {
+  const told = JSON.parse((await said(['calibrate', ...FILES, '--json'])).out);
+  const [, section] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
+  const missing = Object.keys(told).filter((key) => !section.includes(`\`${key}\``));
+  assert.deepEqual(missing, []);
+  assert.deepEqual([told.start, told.legs.times[0] >= 0, told.fit], [9, true, { legs: { distance: 0.25, angle: 0.2 } }]);
+  assert.deepEqual(told.logs.map((/** @type {any} */ { name }) => name), ['odometry.csv', 'reference.csv']);
 });
 
 test('a recording says the same as tables of the same drive', async () => {

@@ -26,8 +26,8 @@ test('its README says what it was made with', () => {
 test('it is small, and read without a complaint', async () => {
   const logs = await Promise.all(['odometry.csv', 'reference.csv'].map((name) => readLog(new File([textOf(name)], name))));
   assert.ok(logs.reduce((sum, { name }) => sum + statSync(new URL(name, folder)).size, 0) <= 300_000);
-  for (const { found, breaks } of logs) {
-    assert.deepEqual([found.gaps.count, found.jumps.count, breaks.length], [0, 0, 0]);
+  for (const { found, data } of logs) {
+    assert.deepEqual([found.gaps.count, found.jumps.count, data.breaks.length], [0, 0, 0]);
     assert.ok(Object.values(found.leftOut).every(({ count }) => count === 0));
   }
   const { odometry, reference } = together(logs[0], logs[1]);

@@ -26,7 +26,7 @@ async function refusalOf(reading) {
 const close = (/** @type {number} */ is, /** @type {number} */ expected) => assert.ok(Math.abs(is - expected) < 1e-12, `${is} ${expected}`);
 
 test('columns are found by their names, whatever separates them', async () => {
-  const expected = { t: [0.5, 0.75], x: [1, 2], y: [-3, 4], theta: [0.25, 0.5] };
+  const expected = { t: [0.5, 0.75], x: [1, 2], y: [-3, 4], theta: [0.25, 0.5], breaks: [] };
   for (const [header, ...rows] of [
     ['t,x,y,yaw', '0.5,1,-3,0.25', '0.75,2,4,0.5'],
     ['Time;Y;X;Theta', '0.5;-3;1;0.25', '0.75;4;2;0.5'],
@@ -111,7 +111,8 @@ test('rows that are of no use are left out, counted, and said where first; nothi
   assert.deepEqual(leftOut.duplicate, { count: 1, line: 6, t: 3 });
   assert.deepEqual(leftOut.falling, { count: 1, line: 8, t: 2.5 });
   assert.deepEqual([leftOut.short.count, leftOut.short.line, log.how.cutShort], [1, 12, true]);
-  assert.deepEqual([...log.breaks], [1, 2, 3]);
+  // One row late, or told twice, is no hole.
+  assert.deepEqual([...log.data.breaks], [1, 3]);
   assert.equal(tell(log, english.found).length, 6);
   assert.equal(tell(log, german.found).length, 6);
 });
@@ -121,15 +122,25 @@ test('one time that is far ahead does not make all that follow late', async () =
   const log = await read(`t,x,y,yaw\n${rows.join('\n')}`);
   assert.equal(log.data.t.length, 49);
   assert.deepEqual(log.found.leftOut.falling, { count: 1, line: 22, t: 1e6 });
-  assert.deepEqual([...log.breaks], [20]);
+  assert.deepEqual([...log.data.breaks], []);
+  // What was of no use before it is a hole as it was.
+  const lost = await read(`t,x,y,yaw\n${rows.toSpliced(20, 0, '1.95,nan,0,0').join('\n')}`);
+  assert.deepEqual([...lost.data.breaks], [20]);
+});
+
+test('nothing leads across the moment in which a clock was set back', async () => {
+  const rows = Array.from({ length: 300 }, (_, i) => `${(i < 200 ? i : i - 50) / 10},${i / 100},0,0`);
+  const { data, found } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual([found.leftOut.falling.count, data.t.length], [49, 250]);
+  assert.deepEqual([...data.breaks], [200]);
 });
 
 test('pauses and jumps are found', async () => {
   const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + (i >= 100 ? 3 : 0), i / 100 + (i >= 200 ? 1 : 0), 0, i / 50 + (i >= 300 ? 1.5 : 0)].join(','));
-  const { found, breaks } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  const { found, data } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
   assert.deepEqual([found.gaps.count, found.gaps.t, found.gaps.longest], [1, 99 / 20, 3.05]);
   assert.deepEqual([found.jumps.count, found.jumps.t], [2, 13]);
-  assert.deepEqual([...breaks], [200, 300]);
+  assert.deepEqual([...data.breaks], [200, 300]);
 });
 
 test('a heading that goes round is no jump', async () => {
@@ -142,8 +153,11 @@ test('two logs get one start', async () => {
   const both = together(odometry, reference);
   assert.equal(both.start, 1_700_000_000);
   assert.deepEqual([[...both.odometry.data.t], [...both.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
-  const { message } = await refusalOf(read('t,x,y,yaw\n0,0,0,0\n1,0,0,0').then((other) => together(odometry, other)));
-  assert.equal(message, 'run.csv: its times (0.00 s to 1.00 s) and those of run.csv (1700000000.25 s to 1700000009.50 s) have nothing in common; expected are two logs of one drive, by one clock.');
+  const other = together(odometry, await read('t,x,y,yaw\n0,0,0,0\n1,0,0,0'));
+  const apart = 'its times (0.00 s to 1.00 s) and those of run.csv (1700000000.25 s to 1700000009.50 s) have nothing in common: the clocks are aligned by how the robot turned';
+  assert.deepEqual([other.start, tell(other.reference, english.found).at(-1)], [0, apart]);
+  assert.deepEqual([...other.odometry.data.t], [1_700_000_000.25, 1_700_000_009.5]);
+  assert.equal(tell(other.reference, german.found).length, tell(both.reference, german.found).length + 1);
 });
 
 test('a reference that has lost the robot is left out while the odometry moves on, and one that stands with it is not', async () => {
@@ -154,7 +168,7 @@ test('a reference that has lost the robot is left out while the odometry moves o
   assert.deepEqual([same.reference.data, same.reference.found], [good.data, good.found]);
   const { reference } = together(odometry, lost);
   assert.deepEqual([...reference.data.t], [...lost.data.t].filter((_, i) => i <= 200 || i >= 300));
-  assert.deepEqual([...reference.breaks], [201]);
+  assert.deepEqual([...reference.data.breaks], [201]);
   assert.deepEqual(reference.found.leftOut.held, { count: 99, line: 0, t: 10.05 });
   assert.ok(tell(reference, english.found).includes('left out 99 rows: the pose stands while the odometry moves on'));
   const { message } = await refusalOf(poses(() => 7).then((still) => together(odometry, still)));

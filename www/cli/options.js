@@ -24,7 +24,7 @@ What goes in (times in s or ns, m, rad):
 
 What is fitted:
   --model NAME             odometry (unless said), omnidirectional, velocity
-  --rule NAME              of the odometry model: table (unless said), nav2, beluga
+  --rule NAME              of the odometry model: table (unless said), nav2 (for Nav2's AMCL), beluga
   --distance M --angle RAD a leg ends after so much, as AMCL's update_min_d and update_min_a; 0.25 and 0.2 unless said
   --duration S             or after so long
   --noise NAME             normal (unless said), triangular
@@ -113,11 +113,12 @@ const defined = (all) => /** @type {T} */ (Object.fromEntries(Object.entries(all
 
 /** @param {string[]} args */
 function parsed(args) {
-  // Alone, it asks for an estimate; Node knows no options whose value may be left out.
+  // Node takes a negative number for an option, and knows none whose value may be left out: --robust alone asks for an estimate.
+  const isNumberOf = (/** @type {number} */ i) => isNumber(args[i]) && TAKES_VALUE.test(args[i - 1] ?? '');
   const whole = args.flatMap((arg, i) => {
-    if (args[i - 1] === '--robust' && isNumber(arg)) return [];
-    if (arg !== '--robust') return [arg];
-    return [isNumber(args[i + 1]) ? `--robust=${args[i + 1]}` : '--robust='];
+    if (isNumberOf(i)) return [];
+    if (isNumberOf(i + 1)) return [`${arg}=${args[i + 1]}`];
+    return [arg === '--robust' ? '--robust=' : arg];
   });
   try {
     return parseArgs({ args: whole, options: OPTIONS, allowPositionals: true });
@@ -131,8 +132,11 @@ function parsed(args) {
   }
 }
 
+/** An option that stands apart from its value. */
+const TAKES_VALUE = new RegExp(`^--(${Object.entries(OPTIONS).flatMap(([name, { type }]) => (type === 'string' ? [name] : [])).join('|')})$`);
+
 /** @param {string | undefined} arg */
-const isNumber = (arg) => arg !== undefined && /^[+-]?[\d.]/.test(arg);
+const isNumber = (arg) => arg !== undefined && /^[+-]?\.?\d/.test(arg);
 
 /**
  * @param {'odometry' | 'reference'} role

@@ -106,7 +106,7 @@ export function textOf({ calibration, fit, logs, start, date }) {
     ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
     '',
     `${legs.count} legs ${lengthOf(fit.legs)}; model ${model}${rule}, ${fit.noise ?? 'normal'} noise`,
-    ...(gaps.odometry + gaps.reference > 0 ? [`no leg leads across ${gaps.odometry} pauses of the odometry and ${gaps.reference} of the reference`] : []),
+    ...(gaps.odometry + gaps.reference > 0 ? [`no leg leads across ${gaps.odometry} gaps of the odometry and ${gaps.reference} of the reference`] : []),
     '',
     ...aligned([['', 'value', '95 %', '95 % by bootstrap', 'noise of'], ...rows]),
     ...undeterminedOf(calibration, model),

@@ -62,8 +62,6 @@ export const log = {
       `keine Transformationen führen von ${frames.replace(',', ' nach ')}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
     noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',
     held: 'ihre Pose steht, während die Odometrie weitergeht; erwartet wird eine, die dem Roboter folgt.',
-    apart: (name, one, other) =>
-      `seine Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam; erwartet werden zwei Logs einer Fahrt, nach einer Uhr.`,
   },
   found: {
     rows: (kept, rows, seconds, rate) => `${kept} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz`,
@@ -81,5 +79,7 @@ export const log = {
     unit: (unit) => `Zeiten in ${unit}, nach ihrer Größe`,
     degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
     cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
+    apart: (name, one, other) =>
+      `ihre Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam: die Uhren werden danach gestellt, wie der Roboter sich gedreht hat`,
   },
 };

@@ -69,8 +69,6 @@ export const log = {
     noMessages: 'there are no messages on it; expected are at least 2.',
     /** Of two logs. */
     held: 'its pose stands while the odometry moves on; expected is one that follows the robot.',
-    apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
-      `its times (${one}) and those of ${name} (${other}) have nothing in common; expected are two logs of one drive, by one clock.`,
   },
   /** What was found in a log, a sentence each. */
   found: {
@@ -92,5 +90,7 @@ export const log = {
     unit: (/** @type {string} */ unit) => `times in ${unit}, by their size`,
     degrees: 'headings in degrees, by the name of the column',
     cutShort: 'the file ends in the middle of a row or record',
+    apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
+      `its times (${one}) and those of ${name} (${other}) have nothing in common: the clocks are aligned by how the robot turned`,
   },
 };

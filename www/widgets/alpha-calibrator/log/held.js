@@ -16,7 +16,7 @@ const MOVES = 0.05;
  * @returns {Log} the reference without rows that repeat a pose while the odometry moves on
  */
 export function withoutHeld(reference, odometry) {
-  const { t, x, y, theta } = /** @type {Poses} */ (reference.data);
+  const { t, x, y, theta, breaks: known } = /** @type {Poses} */ (reference.data);
   const movedAt = moving(odometry.data);
   /** @type {[number, number][]} rows from and to, of which the first is good */
   const held = [];
@@ -33,11 +33,11 @@ export function withoutHeld(reference, odometry) {
   const places = new Uint32Array(t.length + 1);
   for (let i = 0; i < t.length; i++) places[i + 1] = places[i] + kept[i];
   const count = t.length - places[t.length];
-  const breaks = new Set([...reference.breaks, ...held.map(([, to]) => to)].filter((row) => row < t.length).map((row) => places[row]));
+  const rows = new Set([...known, ...held.map(([, to]) => to)].map((row) => places[row]));
+  const breaks = Uint32Array.from(rows).filter((row) => row < places[t.length]).sort();
   return {
     ...reference,
-    data: { t: t.filter(isKept), x: x.filter(isKept), y: y.filter(isKept), theta: theta.filter(isKept) },
-    breaks: Uint32Array.from([...breaks].filter((row) => row > 0 && row < places[t.length]).sort((a, b) => a - b)),
+    data: { t: t.filter(isKept), x: x.filter(isKept), y: y.filter(isKept), theta: theta.filter(isKept), breaks },
     found: { ...reference.found, leftOut: { ...reference.found.leftOut, held: { count, line: 0, t: t[held[0][0]] } } },
   };
 }

@@ -75,25 +75,25 @@ export function usualTopics(topics) {
 }
 
 /**
- * Two logs of one drive, by one clock: the times of both are those after the same start, and the reference is without rows in
- * which it had lost the robot.
+ * Two logs of one drive: the times of both are those after the same start, and the reference is without rows in which it had lost
+ * the robot, as far as their clocks tell. Where they have no time in common, that is said.
  *
  * @param {Log} odometry
  * @param {Log} reference of poses
  * @returns {{ odometry: Log, reference: Log, start: number }}
- * @throws {LogError} where they have no time in common
+ * @throws {LogError} where the reference has no poses, or none that follow the robot
  */
 export function together(odometry, reference) {
-  if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', Object.keys(reference.data).join(', ')));
+  if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', 't, v, omega'));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [odometry, reference].map((log) => after(start, log));
   const [one, other] = [first.data.t, second.data.t];
-  if (one[0] > other[other.length - 1] || other[0] > one[one.length - 1]) {
-    throw new LogError({ file: reference.name }, (say) => say.apart(odometry.name, span(reference), span(odometry)));
-  }
+  const isApart = one[0] > other[other.length - 1] || other[0] > one[one.length - 1];
   const reliable = withoutHeld(second, first);
   if (reliable.data.t.length < 2) throw new LogError({ file: reference.name }, (say) => say.held);
-  return { odometry: first, reference: reliable, start };
+  /** @type {Log['how']} */
+  const how = { ...reliable.how, ...(isApart ? { apart: [odometry.name, span(reference), span(odometry)] } : {}) };
+  return { odometry: first, reference: { ...reliable, how }, start };
 }
 
 /** @param {number} start @param {Log} log @returns {Log} */
@@ -139,5 +139,6 @@ export function tell({ data: { t }, start, how, found }, say) {
     ...(gaps.count ? [say.gaps(gaps.count, start + gaps.t, gaps.longest)] : []),
     ...(jumps.count ? [say.jumps(jumps.count, start + jumps.t)] : []),
     ...(how.cutShort ? [say.cutShort] : []),
+    ...(how.apart ? [say.apart(...how.apart)] : []),
   ];
 }

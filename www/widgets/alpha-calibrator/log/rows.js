@@ -20,6 +20,8 @@ import { LogError } from './refusal.js';
  * @property {'radians' | 'degrees' | 'quaternion' | 'none'} heading
  * @property {Record<string, string>} columns what was found in which column, or in which topic
  * @property {boolean} cutShort whether the file ends in the middle of a row or record
+ * @property {[string, string, string]} [apart] of a reference that has no time in common with the odometry: the name of that, and the
+ *   times of both
  *
  * @typedef {object} Found
  * @property {number} rows
@@ -28,16 +30,19 @@ import { LogError } from './refusal.js';
  * @property {Trouble} jumps steps that are much faster than the others
  * @property {number} step the usual one, in seconds
  *
- * @typedef {{ t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array }} Poses s, m, rad
+ * @typedef {object} Breaks
+ * @property {Uint32Array} breaks the rows, rising, before which nothing is known of the way: where rows were of no use, or the log
+ *   jumps; pauses, which the core finds itself, are not among them
  *
- * @typedef {{ t: Float64Array, v: Float64Array, omega: Float64Array }} Commands s, m/s, rad/s
+ * @typedef {{ t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array } & Breaks} Poses s, m, rad
+ *
+ * @typedef {{ t: Float64Array, v: Float64Array, omega: Float64Array } & Breaks} Commands s, m/s, rad/s
  *
  * @typedef {object} Log
  * @property {string} name of the file, with the topic if there is one
  * @property {'poses' | 'commands'} kind
  * @property {number} start whole seconds that were taken from all times
  * @property {Poses | Commands} data as the core takes it: times rise strictly, in seconds after the start
- * @property {Uint32Array} breaks the rows before which something was left out or the log jumps: nothing leads across
  * @property {How} how
  * @property {Found} found
  */
@@ -77,8 +82,10 @@ export class Rows {
   #columns = [0, 1, 2, 3].map(() => new Float64Array(ROOM));
   /** @type {Record<Reason, Trouble>} */
   #leftOut = { notFinite: none(), noRotation: none(), short: none(), duplicate: none(), falling: none(), held: none() };
-  /** Whether something was left out since the last row that was kept. */
+  /** Whether, since the last row that was kept, there was a time of which nothing is known. */
   #broken = false;
+  /** How many rows in a row went back in time. */
+  #late = 0;
   /** @type {number[]} */
   #breaks = [];
   #lastLine = 0;
@@ -118,11 +125,15 @@ export class Rows {
       if (last === 0 || at <= t[last - 1]) return this.#note('falling', line, at);
       this.#note('falling', this.#lastLine, t[last]);
       this.#kept -= 1;
-      if (this.#breaks.at(-1) === this.#kept) this.#breaks.pop();
+      if (this.#breaks.at(-1) === this.#kept) {
+        this.#breaks.pop();
+        this.#broken = true;
+      }
     }
     if (this.#kept === t.length) this.#columns = this.#columns.map(grown);
     if (this.#broken && this.#kept > 0) this.#breaks.push(this.#kept);
     this.#broken = false;
+    this.#late = 0;
     const [times, first, second, third] = this.#columns;
     times[this.#kept] = at;
     first[this.#kept] = a;
@@ -172,12 +183,12 @@ export class Rows {
       jumps.rows.push(i);
     }
     const { rows, ...counted } = jumps;
+    const breaks = Uint32Array.from(new Set([...this.#breaks, ...rows])).sort();
     return {
       name,
       kind,
       start: this.#start,
-      data: kind === 'poses' ? { t, x, y, theta } : { t, v: x, omega: y },
-      breaks: Uint32Array.from([...new Set([...this.#breaks, ...rows])].sort((a, b) => a - b)),
+      data: kind === 'poses' ? { t, x, y, theta, breaks } : { t, v: x, omega: y, breaks },
       how,
       found: { rows: count, leftOut: this.#leftOut, gaps, jumps: counted, step },
     };
@@ -193,7 +204,9 @@ export class Rows {
     const trouble = this.#leftOut[reason];
     if (trouble.count === 0) Object.assign(trouble, { line, t });
     trouble.count += 1;
-    this.#broken = true;
+    if (reason === 'falling') this.#late += 1;
+    // No hole is where a time is told twice, nor one row late: those beside it are known. Two that go back are of a clock that was set.
+    if (!(reason === 'duplicate' || (reason === 'falling' && this.#late < 2))) this.#broken = true;
   }
 }
 

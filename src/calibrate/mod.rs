@@ -12,6 +12,7 @@ mod density;
 mod doubts;
 mod legs;
 mod likelihood;
+mod maximum;
 mod model;
 mod profile;
 mod systematic;

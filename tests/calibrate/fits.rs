@@ -151,7 +151,7 @@ fn ten_thousand_legs_tell_the_alphas_to_two_hundredths_in_the_middle() {
 
 #[test]
 fn ninety_five_of_a_hundred_intervals_have_the_true_value() {
-    // Of 400 logs a share of 0.95 has the deviation 0.011: 2.5 hundredths are 2.3 of them.
+    // Of 400 logs a share of 0.95 has the deviation 0.011. The furthest of some forty is within 3.3 of them in 96 of 100 cases.
     const LOGS: u64 = 400;
     for model in MODELS {
         for noise in NOISES {
@@ -165,7 +165,7 @@ fn ninety_five_of_a_hundred_intervals_have_the_true_value() {
             }
             for (k, covered) in covered.iter().enumerate() {
                 let share = *covered as f64 / LOGS as f64;
-                println!("{model:?} {noise:?} α{} {share}", k + 1);
+                assert!((share - 0.95).abs() < 0.036, "{model:?} {noise:?} α{}: {share}", k + 1);
             }
         }
     }

@@ -3,5 +3,6 @@
 mod errors;
 mod fits;
 mod logs;
+mod passes;
 mod same;
 mod simulated;

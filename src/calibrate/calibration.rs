@@ -5,7 +5,7 @@ use super::clock::clock_offset;
 use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, doubts};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Leg, LegLength, cut};
-use super::likelihood::{Evidence, Parameters, Robust};
+use super::likelihood::{Evidence, Parameters, Robust, Slope};
 use super::model::{Model, Observation, Uncertainty};
 use super::profile::{Estimate, Fitted};
 use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic, Which};
@@ -137,7 +137,7 @@ pub struct Calibrating {
     legs: Vec<Leg>,
     observations: Vec<Observation>,
     evidence: Evidence,
-    best: Option<Parameters>,
+    best: Option<(Parameters, Slope)>,
     intervals: Vec<Option<[f64; 2]>>,
     /// Of the legs that were asked for, while those of other lengths are fitted.
     asked: Option<Calibration>,
@@ -227,7 +227,8 @@ impl Calibrating {
                     }
                 }
                 self.observe(odometry, reference, self.removed, self.options.remove)?;
-                self.best = Some(self.fitted(self.options.robust).best);
+                let fitted = self.fitted(self.options.robust);
+                self.best = Some((fitted.best, fitted.slope));
                 Stage::Interval(0)
             }
             Stage::Interval(alpha) => {
@@ -256,7 +257,8 @@ impl Calibrating {
                 }
             }
             Stage::LengthFit(place) => {
-                self.best = Some(self.fitted(self.options.robust).best);
+                let fitted = self.fitted(self.options.robust);
+                self.best = Some((fitted.best, fitted.slope));
                 Stage::LengthInterval(place, 0)
             }
             Stage::LengthInterval(place, alpha) => {
@@ -337,15 +339,25 @@ impl Calibrating {
 
     fn fitted(&self, robust: Robust) -> Fitted<'_> {
         let Options { model, .. } = self.options;
-        let near = self.best.as_ref().filter(|best| best.bad.is_some() == (robust != Robust::No));
-        Fitted::new(&self.evidence, model.alphas(), robust, near)
+        match self.best {
+            Some(best)
+                if matches!(self.stage, Stage::Interval(_) | Stage::Judge | Stage::LengthInterval(..)) =>
+            {
+                Fitted::at(&self.evidence, model.alphas(), best)
+            }
+            best => {
+                let near =
+                    best.map(|(near, _)| near).filter(|near| near.bad.is_some() == (robust != Robust::No));
+                Fitted::new(&self.evidence, model.alphas(), robust, near.as_ref())
+            }
+        }
     }
 
     /// The systematic errors a step better; whether they are as they were.
     fn refine(&mut self) -> bool {
         // Bad legs are set aside here even if the α's are to answer for them.
         let robust = if self.options.robust == Robust::No { Robust::Estimated } else { self.options.robust };
-        let best = self.fitted(robust).best;
+        let Fitted { best, slope, .. } = self.fitted(robust);
         let mut squares = LeastSquares::after(self.known);
         let legs = self.legs.iter().zip(&self.observations).zip(self.evidence.each(&best));
         for ((leg, observation), density) in legs {
@@ -357,7 +369,7 @@ impl Calibrating {
                 .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 });
             squares.add(&self.systematic, leg, observation, weights);
         }
-        self.best = Some(best);
+        self.best = Some((best, slope));
         let Step { change, deviations, inverse } = squares.step();
         (self.deviations, self.known) = (deviations, inverse);
         let mut stays = true;
@@ -404,11 +416,7 @@ impl Calibrating {
 
     /// The α's that are determined, and why the others are not.
     fn estimate(&self, fitted: &Fitted) -> (Estimate, Vec<Option<Undetermined>>) {
-        let Options { model, noise, .. } = self.options;
-        let other =
-            (noise != NoiseKind::Normal).then(|| Evidence::new(model, NoiseKind::Normal, &self.observations));
-        let normal = other.as_ref().unwrap_or(&self.evidence);
-        let reasons = undetermined(fitted, normal, model, &self.observations, &self.intervals);
+        let reasons = undetermined(fitted, self.options.model, &self.observations, &self.intervals);
         let told = |(interval, reason): (&Option<[f64; 2]>, &Option<Undetermined>)| {
             interval.filter(|_| reason.is_none())
         };

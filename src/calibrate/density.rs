@@ -1,5 +1,6 @@
 //! How likely the three residuals of a leg are, and which variances would make them likelier.
 
+use super::likelihood::ROOT_6;
 use crate::noise::NoiseKind;
 
 /// The density of a leg's residuals: `factor` · exp(`exponent`), so that neither is too small for a double.
@@ -16,9 +17,9 @@ pub(super) struct Density {
 impl Density {
     /// Π N(rₖ; 0, vₖ) without its powers of 2π: of a residual that is not told r is 0 and v is 1.
     #[inline(always)]
-    pub fn normal(squares: &[f64; 3], variances: &[f64; 3]) -> Self {
+    pub fn normal(sizes: &[f64; 3], variances: &[f64; 3]) -> Self {
         let precisions = variances.map(|variance| 1.0 / variance);
-        let shares: [f64; 3] = std::array::from_fn(|k| squares[k] * precisions[k]);
+        let shares: [f64; 3] = std::array::from_fn(|k| sizes[k] * sizes[k] * precisions[k]);
         Self {
             factor: (precisions[0] * precisions[1] * precisions[2]).sqrt(),
             exponent: -0.5 * (shares[0] + shares[1] + shares[2]),
@@ -27,35 +28,41 @@ impl Density {
         }
     }
 
-    /// Π (c − |r|)/c² with c = √(6v). At the ends of its support its information is infinite: for that stands minus the second
-    /// derivative itself, or 0 in the middle, where that is negative.
+    /// Π (c − |r|)/c² with c = √(6v), without its powers of 6: of a residual that is not told r is 0 and v is 1. At the ends of its support its information is
+    /// infinite: for that stands minus the second derivative itself, or 0 in the middle, where that is negative.
     #[inline(always)]
-    pub fn triangular(squares: &[f64; 3], variances: &[f64; 3]) -> Self {
+    pub fn triangular(sizes: &[f64; 3], variances: &[f64; 3]) -> Self {
         let ends = variances.map(|variance| (6.0 * variance).sqrt());
-        let outward: [f64; 3] = std::array::from_fn(|k| squares[k].sqrt() / ends[k]);
-        if outward.iter().any(|share| *share >= 1.0 || share.is_nan()) {
+        let left: [f64; 3] = std::array::from_fn(|k| ends[k] - sizes[k]);
+        if !left.iter().all(|left| *left > 0.0) {
             return Self { factor: 0.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
         }
-        let by_variance: [f64; 3] =
-            std::array::from_fn(|k| 0.5 * (1.0 / (1.0 - outward[k]) - 2.0) / variances[k]);
+        let precisions = variances.map(|variance| 1.0 / variance);
+        // By the part of the half triangle that is left outside of the residual.
+        let inverse: [f64; 3] = std::array::from_fn(|k| ends[k] / left[k]);
         Self {
-            factor: (0..3).map(|k| (1.0 - outward[k]) / ends[k]).product(),
+            factor: (0..3).map(|k| left[k] * precisions[k] / ROOT_6).product(),
             exponent: 0.0,
-            by_variance,
+            by_variance: std::array::from_fn(|k| 0.5 * precisions[k] * (inverse[k] - 2.0)),
             information: std::array::from_fn(|k| {
-                let left = 1.0 - outward[k];
-                let bend = outward[k] / (left * left) + 2.0 / left - 4.0;
-                0.25 * bend.max(0.0) / (variances[k] * variances[k])
+                let bend = inverse[k] * (inverse[k] + 1.0) - 4.0;
+                0.25 * bend.max(0.0) * (precisions[k] * precisions[k])
             }),
         }
     }
 
     #[inline(always)]
-    pub fn of(noise: NoiseKind, squares: &[f64; 3], variances: &[f64; 3]) -> Self {
+    pub fn of(noise: NoiseKind, sizes: &[f64; 3], variances: &[f64; 3]) -> Self {
         match noise {
-            NoiseKind::Normal => Self::normal(squares, variances),
-            NoiseKind::Triangular => Self::triangular(squares, variances),
+            NoiseKind::Normal => Self::normal(sizes, variances),
+            NoiseKind::Triangular => Self::triangular(sizes, variances),
         }
+    }
+
+    /// With that of other residuals under the same variances. Rare, and long code in few places.
+    #[inline(never)]
+    pub fn or_of(&self, noise: NoiseKind, sizes: &[f64; 3], variances: &[f64; 3]) -> Self {
+        self.or(&Self::of(noise, sizes, variances)).0
     }
 
     #[inline(always)]

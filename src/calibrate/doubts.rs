@@ -235,7 +235,7 @@ impl Halves {
     }
 
     fn log_likelihood(&self, at: &Parameters) -> f64 {
-        self.evidence.slope(at).log_likelihood / self.observations.len() as f64
+        self.evidence.slope(at, Robust::No).log_likelihood / self.observations.len() as f64
     }
 
     fn held_out(&self) -> HeldOut {

@@ -4,6 +4,7 @@ use super::density::{Density, LogProduct};
 use super::model::{Model, Observation};
 use super::trajectory::sort;
 use crate::noise::NoiseKind;
+use std::cell::Cell;
 
 /// What the α's are at a point: of as many as there may be, six.
 pub(super) type Alphas = [f64; 6];
@@ -23,8 +24,8 @@ pub enum Robust {
 /// A leg's part of the likelihood.
 #[derive(Clone, Copy, Debug)]
 struct Row {
-    /// Of the residuals; 0 of one that is not told.
-    squares: [f64; 3],
+    /// How large the residuals are; 0 of one that is not told.
+    sizes: [f64; 3],
     coefficients: [[f64; 2]; 3],
     /// 1 of a residual that is not told, of which nothing then depends.
     floors: [f64; 3],
@@ -36,10 +37,14 @@ struct Row {
 /// What all legs say.
 #[derive(Clone, Debug)]
 pub struct Evidence {
-    pairs: [[usize; 2]; 3],
-    noise: NoiseKind,
+    pub(super) pairs: [[usize; 2]; 3],
+    pub(super) noise: NoiseKind,
     rows: Vec<Row>,
+    /// The α's of which some residual says anything.
+    pub(super) told: [bool; 6],
     other_ways: Vec<[f64; 3]>,
+    /// Rows that were gone through.
+    visits: Cell<usize>,
 }
 
 impl Evidence {
@@ -52,7 +57,9 @@ impl Evidence {
             pairs: model.kinds().map(|kind| kind.alphas),
             noise,
             rows: Vec::new(),
+            told: [false; 6],
             other_ways: Vec::new(),
+            visits: Cell::new(0),
         };
         observations.into_iter().for_each(|each| evidence.add(each));
         evidence
@@ -64,65 +71,151 @@ impl Evidence {
         let told: [bool; 3] = std::array::from_fn(|k| {
             residuals[k].is_finite() && (coefficients[k] != [0.0; 2] || floors[k] > 0.0)
         });
-        let square = |residuals: &[f64; 3]| {
-            std::array::from_fn(|k| if told[k] { residuals[k] * residuals[k] } else { 0.0 })
-        };
+        let size =
+            |residuals: &[f64; 3]| std::array::from_fn(|k| if told[k] { residuals[k].abs() } else { 0.0 });
         self.rows.push(Row {
-            squares: square(residuals),
+            sizes: size(residuals),
             coefficients: std::array::from_fn(|k| if told[k] { coefficients[k] } else { [0.0; 2] }),
             floors: std::array::from_fn(|k| if told[k] { floors[k] } else { 1.0 }),
             told,
             other_way: if other_way.is_some() { self.other_ways.len() as u32 } else { u32::MAX },
         });
-        self.other_ways.extend(other_way.as_ref().map(square));
+        for (pair, coefficients) in self.pairs.iter().zip(&self.rows[self.rows.len() - 1].coefficients) {
+            for i in 0..2 {
+                self.told[pair[i]] |= coefficients[i] > 0.0;
+            }
+        }
+        self.other_ways.extend(other_way.as_ref().map(size));
+    }
+
+    /// How often all legs were gone through so far; parts of them count as such.
+    pub fn passes(&self) -> f64 {
+        self.visits.get() as f64 / self.rows.len() as f64
     }
 
     fn residuals_told(&self) -> usize {
         self.rows.iter().map(|row| row.told.iter().filter(|told| **told).count()).sum()
     }
 
-    /// Where to begin: of each kind its two α's answer for half of what is there, without the hundredths that are far from the
-    /// rest.
+    /// Where to begin, as if noise were normal: of each kind its two α's answer for half of what is there, without the hundredths that
+    /// are far from the rest.
     pub(super) fn beginning(&self, robust: Robust) -> Parameters {
         let mut alphas = [0.0f64; 6];
         let mut spreads = [1.0; 3];
         for (kind, pair) in self.pairs.iter().enumerate() {
             let told = || self.rows.iter().filter(|row| row.told[kind]);
-            let mut squares: Vec<f64> = told().map(|row| row.squares[kind]).collect();
-            if squares.is_empty() {
+            let mut sizes: Vec<f64> = told()
+                .step_by(1 + self.rows.len() / ENOUGH_FOR_A_MEDIAN)
+                .map(|row| row.sizes[kind])
+                .collect();
+            if sizes.is_empty() {
                 continue;
             }
-            sort(&mut squares);
-            let most = squares[squares.len() / 2] * FAR;
-            let sum: f64 = told()
-                .map(|row| if robust == Robust::No { row.squares[kind] } else { row.squares[kind].min(most) })
-                .sum();
-            for (i, k) in pair.iter().enumerate() {
-                let coefficients: f64 = told().map(|row| row.coefficients[kind][i]).sum();
+            sort(&mut sizes);
+            let median = sizes[sizes.len() / 2];
+            let most = median * median * FAR;
+            let (mut count, mut sum, mut coefficients) = (0.0, 0.0, [0.0; 2]);
+            for row in told() {
+                let square = row.sizes[kind] * row.sizes[kind];
+                count += 1.0;
+                sum += if robust == Robust::No { square } else { square.min(most) };
+                coefficients[0] += row.coefficients[kind][0];
+                coefficients[1] += row.coefficients[kind][1];
+            }
+            for (k, coefficients) in pair.iter().zip(coefficients) {
                 if coefficients > 0.0 {
                     // Of perfect ones too something: the scoring goes down from there.
                     alphas[*k] = alphas[*k].max((0.5 * sum / coefficients).max(1e-12));
                 }
             }
-            spreads[kind] = (most.max(sum / squares.len() as f64)).max(1e-12);
-        }
-        // No residual may be outside of its triangle.
-        if self.noise == NoiseKind::Triangular && robust == Robust::No {
-            let largest = self.rows.iter().flat_map(|row| {
-                let variances = self.variances(row, &alphas);
-                (0..3).map(move |k| row.squares[k] / (6.0 * variances[k]))
-            });
-            let widen = largest.fold(0.0, f64::max);
-            if widen >= 0.9 {
-                alphas = alphas.map(|alpha| alpha * widen / 0.8);
-            }
+            spreads[kind] = most.max(sum / count).max(1e-12);
         }
         let bad = match robust {
             Robust::No => None,
             Robust::Stated(share) => Some(Bad { share, spreads }),
             Robust::Estimated => Some(Bad { share: 0.02, spreads }),
         };
-        Parameters { alphas, bad }
+        Parameters { alphas, bad, noise: NoiseKind::Normal }
+    }
+
+    /// How near to the edge of its triangle (as a share of its length) a residual has to be for the likelihood not to be a parabola, where
+    /// α's are about as well known as so many legs tell them.
+    pub(super) fn width(&self) -> f64 {
+        (EDGE / (self.rows.len() as f64).sqrt()).min(1.0)
+    }
+
+    /// By what factor, 1 or more, these α's have to be larger for all residuals to be inside of their triangles by this share of their
+    /// length; not finite where no factor is large enough.
+    pub(super) fn widening(&self, alphas: &Alphas, widened: &[usize], share: f64) -> f64 {
+        self.visit(self.rows.len());
+        let part = 6.0 * (1.0 - share) * (1.0 - share);
+        let (mut others, mut these) = (*alphas, [0.0; 6]);
+        for &k in widened {
+            (others[k], these[k]) = (0.0, alphas[k]);
+        }
+        let mut factor: f64 = 1.0;
+        for row in &self.rows {
+            let (fixed, widened) = (self.variances(row, &others), self.variances(row, &these));
+            for k in 0..3 {
+                let missing = row.sizes[k] * row.sizes[k] / part - fixed[k];
+                if missing > factor * (widened[k] - row.floors[k]) {
+                    factor = missing / (widened[k] - row.floors[k]);
+                }
+            }
+        }
+        factor
+    }
+
+    /// The legs with a residual so near to the edge of its triangle (in its length) that no parabola has their likelihood;
+    /// of normal noise none.
+    pub(super) fn edge(&self, at: &Parameters) -> Self {
+        let mut edge = Self { rows: Vec::new(), other_ways: Vec::new(), visits: Cell::new(0), ..*self };
+        if at.noise == NoiseKind::Normal {
+            return edge;
+        }
+        self.visit(self.rows.len());
+        let width = self.width();
+        let [least, most] = [1.0 - width, 1.0 + width].map(|ratio| 6.0 * ratio * ratio);
+        for row in &self.rows {
+            let variances = self.variances(row, &at.alphas);
+            let other_way = self.other_ways.get(row.other_way as usize);
+            let near = |sizes: &[f64; 3]| {
+                (0..3).any(|k| {
+                    let square = sizes[k] * sizes[k];
+                    square > least * variances[k] && square < most * variances[k]
+                })
+            };
+            if near(&row.sizes) || other_way.is_some_and(near) {
+                let place = edge.other_ways.len() as u32;
+                edge.other_ways.extend(other_way);
+                edge.rows.push(Row { other_way: if other_way.is_some() { place } else { u32::MAX }, ..*row });
+            }
+        }
+        edge
+    }
+
+    /// How far a step may go without any residual leaving its triangle, as a share of it.
+    pub(super) fn reach(&self, from: &Alphas, to: &Alphas) -> f64 {
+        let mut reach: f64 = 1.0;
+        for row in &self.rows {
+            let [before, after] = [from, to].map(|alphas| self.variances(row, alphas));
+            for k in 0..3 {
+                let square = row.sizes[k] * row.sizes[k];
+                let [left, then] = [6.0 * before[k] - square, 6.0 * after[k] - square];
+                if left > 0.0 && left + reach * (then - left) < 0.0 {
+                    reach = left / (left - then);
+                }
+            }
+        }
+        reach
+    }
+
+    pub(super) fn legs(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub(super) fn visit(&self, rows: usize) {
+        self.visits.set(self.visits.get() + rows);
     }
 
     #[inline(always)]
@@ -136,30 +229,33 @@ impl Evidence {
 
     /// The density of a row, and the probability that it is bad.
     #[inline(always)]
-    fn density(&self, row: &Row, variances: &[f64; 3], bad: Option<&Bad>) -> (Density, f64) {
-        let mut density = Density::of(self.noise, &row.squares, variances);
-        if let Some(squares) = self.other_ways.get(row.other_way as usize) {
-            density = density.or(&Density::of(self.noise, squares, variances)).0;
+    fn density(&self, row: &Row, variances: &[f64; 3], at: &Parameters) -> (Density, f64) {
+        let mut density = Density::of(at.noise, &row.sizes, variances);
+        if let Some(sizes) = self.other_ways.get(row.other_way as usize) {
+            density = density.or_of(at.noise, sizes, variances);
         }
-        let Some(Bad { share, spreads }) = bad else { return (density, 0.0) };
+        let Some(Bad { share, spreads }) = &at.bad else { return (density, 0.0) };
         let wider: [f64; 3] =
-            std::array::from_fn(|k| if row.told[k] { variances[k] + spreads[k] } else { variances[k] });
-        let far = Density::normal(&row.squares, &wider);
-        let powers = if self.noise == NoiseKind::Triangular {
-            row.told.iter().filter(|told| **told).map(|_| 1.0 / ROOT_TAU).product()
+            std::array::from_fn(|k| if row.told[k] { variances[k] + spreads[k] } else { 1.0 });
+        let far = Density::normal(&row.sizes, &wider);
+        let powers = if at.noise == NoiseKind::Triangular {
+            row.told.iter().filter(|told| **told).map(|_| ROOT_6 / ROOT_TAU).product()
         } else {
             1.0
         };
         density.times(1.0 - share).or(&far.times(share * powers))
     }
 
-    /// The logarithm of the likelihood (nats), its derivatives, and what Fisher expects of the second ones.
-    pub(super) fn slope(&self, at: &Parameters) -> Slope {
+    /// The logarithm of the likelihood (nats), its derivatives, and what Fisher expects of the second ones. With `robust` also what the
+    /// bad legs are likely to be if this is what the others are.
+    pub(super) fn slope(&self, at: &Parameters, robust: Robust) -> Slope {
+        self.visit(self.rows.len());
         let mut logs = LogProduct::EMPTY;
         let (mut exponents, mut gradients, mut informations) = (0.0, [[0.0; 2]; 3], [[0.0; 3]; 3]);
+        let mut again = at.bad.filter(|_| robust != Robust::No).map(BadAgain::new);
         for row in &self.rows {
             let variances = self.variances(row, &at.alphas);
-            let (density, _) = self.density(row, &variances, at.bad.as_ref());
+            let (density, part) = self.density(row, &variances, at);
             logs.multiply(density.factor);
             exponents += density.exponent;
             for kind in 0..3 {
@@ -171,15 +267,19 @@ impl Evidence {
                 informations[kind][1] += f * g * information;
                 informations[kind][2] += g * g * information;
             }
+            if let Some(again) = &mut again {
+                again.add(row, &variances, part);
+            }
         }
-        let constant = match self.noise {
-            NoiseKind::Normal => libm::log(ROOT_TAU) * self.residuals_told() as f64,
-            NoiseKind::Triangular => 0.0,
+        let constant = match at.noise {
+            NoiseKind::Normal => libm::log(ROOT_TAU),
+            NoiseKind::Triangular => libm::log(ROOT_6),
         };
-        let total = logs.log() + exponents - constant;
+        let total = logs.log() + exponents - constant * self.residuals_told() as f64;
         // With a variance of 0 the logarithm is infinite, and so is the share, or none.
         let log_likelihood = if total.is_finite() { total } else { f64::NEG_INFINITY };
-        let mut slope = Slope { log_likelihood, gradient: [0.0; 6], information: [[0.0; 6]; 6] };
+        let bad = again.map(|again| again.likeliest(robust));
+        let mut slope = Slope { log_likelihood, gradient: [0.0; 6], information: [[0.0; 6]; 6], bad };
         for (kind, [first, second]) in self.pairs.into_iter().enumerate() {
             slope.gradient[first] += gradients[kind][0];
             slope.gradient[second] += gradients[kind][1];
@@ -196,7 +296,7 @@ impl Evidence {
     pub(super) fn each(&self, at: &Parameters) -> impl Iterator<Item = LegDensity> {
         self.rows.iter().map(move |row| {
             let variances = self.variances(row, &at.alphas);
-            let (density, bad) = self.density(row, &variances, at.bad.as_ref());
+            let (density, bad) = self.density(row, &variances, at);
             let mut gradient = [0.0; 6];
             for (kind, [first, second]) in self.pairs.into_iter().enumerate() {
                 gradient[first] += row.coefficients[kind][0] * density.by_variance[kind];
@@ -226,26 +326,46 @@ impl Evidence {
         }
         (mean.map(|sum| sum / count), squares)
     }
+}
 
-    /// Bad legs as they are likeliest under the α's, by a step of expectation and maximization.
-    fn bad_again(&self, at: &Parameters, robust: Robust) -> Option<Bad> {
-        let bad = at.bad.as_ref()?;
-        let (mut shares, mut spread, mut usual) = (0.0, [[0.0; 2]; 3], [[0.0; 2]; 3]);
-        for row in &self.rows {
-            let variances = self.variances(row, &at.alphas);
-            let (_, part) = self.density(row, &variances, Some(bad));
-            shares += part;
-            for k in (0..3).filter(|k| row.told[*k]) {
-                // A step of scoring: of u = v + w by w.
-                let precision = 1.0 / (variances[k] + bad.spreads[k]);
-                spread[k][0] += part * precision * (row.squares[k] * precision - 1.0);
-                spread[k][1] += part * precision * precision;
-                usual[k][0] += (1.0 - part) * variances[k];
-                usual[k][1] += 1.0 - part;
-            }
+/// Bad legs as they are likeliest under some α's, by a step of expectation and maximization.
+struct BadAgain {
+    bad: Bad,
+    /// The first derivative of the log-likelihood by the share, and minus the second one.
+    share: [f64; 2],
+    spread: [[f64; 2]; 3],
+    usual: [[f64; 2]; 3],
+}
+
+impl BadAgain {
+    fn new(bad: Bad) -> Self {
+        Self { bad, share: [0.0; 2], spread: [[0.0; 2]; 3], usual: [[0.0; 2]; 3] }
+    }
+
+    /// A leg that is bad with this probability.
+    #[inline(always)]
+    fn add(&mut self, row: &Row, variances: &[f64; 3], part: f64) {
+        let by_share = (part - self.bad.share) / (self.bad.share * (1.0 - self.bad.share));
+        self.share[0] += by_share;
+        self.share[1] += by_share * by_share;
+        for k in (0..3).filter(|k| row.told[*k]) {
+            // A step of scoring: of u = v + w by w.
+            let precision = 1.0 / (variances[k] + self.bad.spreads[k]);
+            let square = row.sizes[k] * row.sizes[k];
+            self.spread[k][0] += part * precision * (square * precision - 1.0);
+            self.spread[k][1] += part * precision * precision;
+            self.usual[k][0] += (1.0 - part) * variances[k];
+            self.usual[k][1] += 1.0 - part;
         }
+    }
+
+    fn likeliest(self, robust: Robust) -> Bad {
+        let Self { bad, share, spread, usual } = self;
         let share = match robust {
-            Robust::Estimated => shares / self.rows.len() as f64,
+            // Concave: the step is too long only towards none.
+            Robust::Estimated if share[1] > 0.0 => {
+                (bad.share + share[0] / share[1]).max(0.01 * bad.share).clamp(1e-9, 0.5)
+            }
             _ => bad.share,
         };
         let spreads = std::array::from_fn(|k| {
@@ -254,7 +374,7 @@ impl Evidence {
             // Not by more than tenfold at once: far from the maximum the step is too long.
             (bad.spreads[k] + step).max(0.1 * bad.spreads[k]).min(10.0 * bad.spreads[k]).max(least)
         });
-        Some(Bad { share: share.clamp(1e-9, 0.5), spreads })
+        Bad { share, spreads }
     }
 }
 
@@ -268,11 +388,22 @@ const FAR: f64 = 8.0 / 0.454_936;
 /// A bad leg is at least three times as uncertain as others usually are, or it could not be told from them.
 const LEAST_SPREAD: f64 = 8.0;
 
+/// √6.
+pub(super) const ROOT_6: f64 = 2.449_489_742_783_178;
+
+/// So many tell a median to a hundredth.
+const ENOUGH_FOR_A_MEDIAN: usize = 10_000;
+
+/// For [`Evidence::width`]: a few deviations of an α, and 400 residuals on either side of the edge, of however many legs.
+const EDGE: f64 = 20.0;
+
 /// Where the likelihood is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Parameters {
     pub alphas: Alphas,
     pub bad: Option<Bad>,
+    /// What noise is taken for.
+    pub noise: NoiseKind,
 }
 
 /// The legs that are off by more than any motion explains: how many there are, and the variance of each kind that they have
@@ -281,6 +412,17 @@ pub(super) struct Parameters {
 pub(super) struct Bad {
     pub share: f64,
     pub spreads: [f64; 3],
+}
+
+impl Bad {
+    /// A part of the way to another.
+    pub fn toward(&self, to: &Self, share: f64) -> Self {
+        let between = |a: f64, b: f64| a + share * (b - a);
+        Self {
+            share: between(self.share, to.share),
+            spreads: std::array::from_fn(|k| between(self.spreads[k], to.spreads[k])),
+        }
+    }
 }
 
 /// What the parameters make of a leg.
@@ -299,122 +441,7 @@ pub(super) struct LegDensity {
 pub(super) struct Slope {
     pub log_likelihood: f64,
     pub gradient: Alphas,
-    information: [Alphas; 6],
-}
-
-impl Slope {
-    /// What is known of an α when all others are estimated with it: the inverse of its variance, were the likelihood a
-    /// parabola.
-    pub fn information_of(&self, alpha: usize, free: &[usize]) -> f64 {
-        let mut left = self.information;
-        // The Schur complement, one variable out after the other.
-        for out in free.iter().copied().filter(|other| *other != alpha) {
-            let row = left[out];
-            if row[out] > 0.0 {
-                for each in &mut left {
-                    let factor = each[out] / row[out];
-                    each.iter_mut().zip(row).for_each(|(entry, of_row)| *entry -= factor * of_row);
-                }
-            }
-        }
-        left[alpha][alpha]
-    }
-
-    /// The maximum of the parabola at `from` with this `gradient` over all `free` α's that are 0 or more, the others as they are in
-    /// `at`.
-    pub fn maximum(&self, gradient: &Alphas, from: &Alphas, mut at: Alphas, free: &[usize]) -> Alphas {
-        // From coordinate to coordinate: what is left over another step of the whole takes care of.
-        for _ in 0..SWEEPS {
-            let before = at;
-            for &k in free {
-                let curvature = self.information[k][k];
-                if curvature > 0.0 {
-                    let pull: f64 = (0..6).map(|l| self.information[k][l] * (from[l] - at[l])).sum();
-                    at[k] = (at[k] + (gradient[k] + pull) / curvature).max(0.0);
-                }
-            }
-            if (0..6).all(|k| (at[k] - before[k]).abs() <= 1e-13 * at[k]) {
-                break;
-            }
-        }
-        at
-    }
-
-    /// How much the parabola promises for a step, nats.
-    fn promised(&self, from: &Alphas, to: &Alphas) -> f64 {
-        let step: Alphas = std::array::from_fn(|k| to[k] - from[k]);
-        (0..6)
-            .map(|k| {
-                step[k]
-                    * (self.gradient[k] - 0.5 * (0..6).map(|l| self.information[k][l] * step[l]).sum::<f64>())
-            })
-            .sum()
-    }
-}
-
-/// Of the maximum of a parabola, through all α's in turn: two of them nearly alike settle within a few hundred.
-const SWEEPS: usize = 300;
-
-/// Of the whole: ten are usual, and a hundred where triangular noise has the maximum in a narrow corner.
-pub(super) const STEPS: usize = 200;
-
-/// What another step has to promise, nats: less is a thousandth of a deviation, and of many legs below the rounding of their sum.
-const ENOUGH: f64 = 1e-6;
-
-/// What a step has to have brought for another one, nats: along the edge of a triangle they become ever smaller, and a hundredth of
-/// this does not move an interval's end.
-const GAINED: f64 = 1e-4;
-
-/// The parameters under which the legs are likeliest, from `start` on; α's that are not `free` stay as they are, and so do the
-/// bad legs without `robust`. Steps are at most as many as said.
-pub(super) fn maximize(
-    evidence: &Evidence,
-    start: Parameters,
-    free: &[usize],
-    robust: Robust,
-    steps: usize,
-) -> (Parameters, Slope) {
-    let mut at = start;
-    let mut here = evidence.slope(&at);
-    for _ in 0..steps {
-        let before = here.log_likelihood;
-        if robust != Robust::No {
-            let bad = evidence.bad_again(&at, robust);
-            let there = evidence.slope(&Parameters { bad, ..at });
-            if there.log_likelihood > before {
-                (at, here) = (Parameters { bad, ..at }, there);
-            }
-        }
-        let step = better(evidence, &at, &here, free);
-        if let Some(step) = step {
-            (at, here) = step;
-        }
-        let gained = here.log_likelihood - before;
-        if gained.is_nan() || gained <= GAINED {
-            break;
-        }
-    }
-    (at, here)
-}
-
-/// A step that makes the legs likelier; none where there is no such.
-fn better(evidence: &Evidence, at: &Parameters, here: &Slope, free: &[usize]) -> Option<(Parameters, Slope)> {
-    let aim = here.maximum(&here.gradient, &at.alphas, at.alphas, free);
-    let promised = here.promised(&at.alphas, &aim);
-    if promised.is_nan() || promised < ENOUGH {
-        return None;
-    }
-    // Where the parabola promises too much, less of it.
-    let mut share = 1.0;
-    while share > 1e-4 {
-        let alphas = std::array::from_fn(|k| at.alphas[k] + share * (aim[k] - at.alphas[k]));
-        let to = Parameters { alphas, ..*at };
-        let there = evidence.slope(&to);
-        if there.log_likelihood > here.log_likelihood {
-            return Some((to, there));
-        }
-        // Outside of a triangle there is no telling how far.
-        share *= if there.log_likelihood.is_finite() { 0.5 } else { 0.25 };
-    }
-    None
+    pub information: [Alphas; 6],
+    /// What the bad legs are likely to be, if that was asked for.
+    pub bad: Option<Bad>,
 }

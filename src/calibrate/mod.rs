@@ -13,6 +13,7 @@ mod doubts;
 mod leg_lengths;
 mod legs;
 mod likelihood;
+mod maximum;
 mod model;
 mod profile;
 mod systematic;

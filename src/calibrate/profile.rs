@@ -1,6 +1,9 @@
 //! The likeliest α's, and how well they are known.
 
-use super::likelihood::{self, Evidence, Parameters, Robust, Slope, maximize};
+use super::doubts::NORMAL_95;
+use super::likelihood::{Alphas, Evidence, Parameters, Robust, Slope};
+use super::maximum::{INSIDE, Near, maximize};
+use crate::noise::NoiseKind;
 
 /// What the residuals say of the α's.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,25 +19,31 @@ pub struct Estimate {
     pub outliers: Option<f64>,
 }
 
-/// By how much the log-likelihood falls towards the ends of a 95 % interval, twice: the 95 % quantile of χ² with one degree
-/// of freedom, 1.96².
-const FALL: f64 = 3.841_458_820_694_124;
+/// The root of twice the fall of the log-likelihood towards the ends of a 95 % interval: that of the 95 % quantile of χ² with one
+/// degree of freedom.
+const HEIGHT: f64 = NORMAL_95;
 
-/// How well an end is found, as a share of the fall: a thousandth of the interval's length.
+/// How well an end is found, as a share of that: a thousandth of the interval's length.
 const NEAR: f64 = 1e-3;
 
-/// Steps to an end; each is a fit of the others. Where the likelihood is about a parabola three do.
+/// Steps to an end; each is a pass over all legs. Of many legs one does.
 const STEPS: usize = 40;
+
+/// Within what is near a point.
+const DOUBLINGS: usize = 8;
+
+/// No α is looked for beyond.
+const FARTHEST: f64 = 1e12;
+
+/// What the others may still promise at an end, nats: of that the parabola tells a tenth well.
+const SLIGHT: f64 = 0.02;
+
+/// From so close, as a share of the root of the fall, the parabola at a point finds the end to [`NEAR`]: its error is of second order.
+const CLOSE: f64 = 0.05;
 
 /// An α of 1 is an error as large as what drives it, or of a radian a metre: who cannot say whether it is nothing or that knows
 /// nothing of it.
 const ANYTHING: f64 = 1.0;
-
-/// From where the parabola has the others two or three are usual.
-const OTHERS_STEPS: usize = 30;
-
-/// 1.5⁶ is 11.
-const WIDER: usize = 6;
 
 /// Fits the α's of a model to what its legs say.
 pub fn fit(evidence: &Evidence, count: usize, robust: Robust) -> Estimate {
@@ -55,14 +64,33 @@ pub(super) struct Fitted<'a> {
 impl<'a> Fitted<'a> {
     /// The maximum, from where another one was if that is known.
     pub fn new(evidence: &'a Evidence, count: usize, robust: Robust, near: Option<&Parameters>) -> Self {
-        let start = evidence.beginning(robust);
-        let free: Vec<usize> = (0..count).filter(|k| start.alphas[*k] > 0.0).collect();
-        let start = match near {
-            Some(near) if evidence.slope(near).log_likelihood.is_finite() => *near,
-            _ => start,
-        };
-        let (best, slope) = maximize(evidence, start, &free, robust, likelihood::STEPS);
+        let free: Vec<usize> = (0..count).filter(|k| evidence.told[*k]).collect();
+        let warm = near.map(|near| maximize(evidence, *near, &free, robust));
+        let (best, slope) = warm
+            .filter(|(_, slope)| slope.log_likelihood.is_finite())
+            .unwrap_or_else(|| maximize(evidence, Self::beginning(evidence, &free, robust), &free, robust));
         Self { evidence, best, slope, free }
+    }
+
+    /// A maximum that is known.
+    pub fn at(evidence: &'a Evidence, count: usize, (best, slope): (Parameters, Slope)) -> Self {
+        Self { evidence, best, slope, free: (0..count).filter(|k| evidence.told[*k]).collect() }
+    }
+
+    /// Where to begin: triangular noise where it is likeliest as a normal one, and wide enough.
+    fn beginning(evidence: &Evidence, free: &[usize], robust: Robust) -> Parameters {
+        let normal = evidence.beginning(robust);
+        if evidence.noise == NoiseKind::Normal {
+            return normal;
+        }
+        let (start, _) = maximize(evidence, normal, free, robust);
+        let wider = if robust == Robust::No {
+            evidence.widening(&start.alphas, free, INSIDE * evidence.width())
+        } else {
+            // What is outside to begin with is bad, and stays outside.
+            1.0 + evidence.width()
+        };
+        Parameters { alphas: start.alphas.map(|alpha| alpha * wider), noise: evidence.noise, ..start }
     }
 
     /// What is told of it, with the intervals of its α's.
@@ -83,8 +111,10 @@ impl<'a> Fitted<'a> {
         if !self.free.contains(&alpha) {
             return None;
         }
-        let profile = Profile { fitted: self, alpha };
-        let interval = [profile.lower(), profile.upper()];
+        let others = self.free.iter().copied().filter(|k| *k != alpha).collect();
+        let profile = Profile { fitted: self, alpha, others };
+        let about = Near::new(self.evidence, self.best, &self.slope);
+        let interval = [profile.end(&about, -1.0), profile.end(&about, 1.0)];
         (interval[0] > 0.0 || interval[1] <= ANYTHING).then_some(interval)
     }
 }
@@ -93,89 +123,145 @@ impl<'a> Fitted<'a> {
 struct Profile<'a> {
     fitted: &'a Fitted<'a>,
     alpha: usize,
+    others: Vec<usize>,
 }
 
 impl Profile<'_> {
-    /// Twice the fall of the log-likelihood at a value.
-    fn fall(&self, value: f64) -> f64 {
-        let Fitted { evidence, best, slope, free } = self.fitted;
-        let others: Vec<usize> = free.iter().copied().filter(|k| *k != self.alpha).collect();
-        // Where the parabola has the others, which have to answer for something where this one answers for less.
-        let mut alphas = best.alphas;
+    /// By what is near a point: the likeliest others beside a value, and the root of twice the fall there.
+    fn beside(&self, near: &Near, value: f64) -> (Alphas, f64) {
+        let mut alphas = near.at.alphas;
         alphas[self.alpha] = value;
-        alphas = slope.maximum(&slope.gradient, &best.alphas, alphas, &others);
-        for k in &others {
-            alphas[*k] = alphas[*k].max(1e-3 * best.alphas[self.alpha]);
+        for k in &self.others {
+            // They have to answer for something where this one answers for less.
+            alphas[*k] = alphas[*k].max(1e-3 * self.best());
         }
-        // Where a residual is outside of its triangle, the others have to be larger first; ten times as large is out of the question.
-        for _ in 0..WIDER {
-            if evidence.slope(&Parameters { alphas, ..*best }).log_likelihood.is_finite() {
-                break;
-            }
-            others.iter().for_each(|k| alphas[*k] *= 1.5);
-        }
-        let (_, there) =
-            maximize(evidence, Parameters { alphas, ..*best }, &others, Robust::No, OTHERS_STEPS);
-        2.0 * (slope.log_likelihood - there.log_likelihood)
+        let (alphas, there) = near.maximum(alphas, &self.others);
+        (alphas, self.root(&there))
     }
 
-    fn lower(&self) -> f64 {
-        let best = self.fitted.best.alphas[self.alpha];
-        let mut far = best - self.reach();
-        for _ in 0..STEPS {
-            if far.is_nan() || far <= 0.0 {
-                break;
-            }
-            if self.fall(far) > FALL {
-                return self.end(far);
-            }
-            far = best - 2.0 * (best - far);
+    /// The root of twice the fall of the log-likelihood; 0 if there is no fall.
+    fn root(&self, there: &Slope) -> f64 {
+        (2.0 * (self.fitted.slope.log_likelihood - there.log_likelihood)).max(0.0).sqrt()
+    }
+
+    fn best(&self) -> f64 {
+        self.fitted.best.alphas[self.alpha]
+    }
+
+    /// The lower end, on side −1, or the upper one, on side 1: where what is near the maximum has it, then what is near that place, until
+    /// it stays. 0 or infinity where the likelihood does not fall enough.
+    fn end(&self, about: &Near, side: f64) -> f64 {
+        let evidence = self.fitted.evidence;
+        let last = if side < 0.0 { 0.0 } else { f64::INFINITY };
+        if self.best() == last {
+            return last;
         }
-        if best == 0.0 || self.fall(0.0) <= FALL { 0.0 } else { self.end(0.0) }
-    }
-
-    fn upper(&self) -> f64 {
-        let best = self.fitted.best.alphas[self.alpha];
-        let mut far = best + self.reach();
-        // Twice as far, until it falls enough.
-        for _ in 0..STEPS {
-            if self.fall(far) > FALL {
-                return self.end(far);
-            }
-            far = best + 2.0 * (far - best);
-        }
-        f64::INFINITY
-    }
-
-    /// Where the end would be, were the likelihood a parabola, and a little more.
-    fn reach(&self) -> f64 {
-        let Fitted { best, slope, free, .. } = self.fitted;
-        let deviation = slope.information_of(self.alpha, free).sqrt().recip();
-        2.2 * if deviation.is_finite() { deviation } else { best.alphas[self.alpha] }
-    }
-
-    /// Where it falls as far as at the end of the interval, between the best value and one that is too far. The root of the
-    /// fall is nearly linear, on which a false position finds it soon.
-    fn end(&self, far: f64) -> f64 {
-        let height = FALL.sqrt();
-        let root = |value: f64| self.fall(value).max(0.0).sqrt();
-        let (mut inside, mut low) = (self.fitted.best.alphas[self.alpha], 0.0);
-        let (mut outside, mut high) = (far, root(far));
-        let mut value = far;
+        let mut bracket = Bracket { inside: [self.best(), 0.0], outside: [last, f64::NAN] };
+        let mut moved: Option<Near> = None;
         for step in 0..STEPS {
+            let near = moved.as_ref().unwrap_or(about);
             // Every third step halves, so that no end stays for good.
-            let share = if !high.is_finite() || step % 3 == 2 { 0.5 } else { (height - low) / (high - low) };
-            value = inside + share * (outside - inside);
-            let here = root(value);
-            if ((here - height) / height).abs() < NEAR {
+            let halve = bracket.outside[1] == f64::INFINITY || step % 3 == 2 && bracket.is_closed();
+            let value = if halve { bracket.between(true) } else { self.crossing(near, &bracket, side) };
+            if step > 0 && bracket.is_near(value, self.best()) {
+                return value;
+            }
+            let (alphas, _) = self.beside(near, value);
+            let to = Parameters { alphas, ..about.at };
+            let here = evidence.slope(&to, Robust::No);
+            if !here.log_likelihood.is_finite() {
+                bracket.outside = [value, f64::INFINITY];
+                continue;
+            }
+            let near = if step == 0 { about.moved(to, &here) } else { Near::new(evidence, to, &here) };
+            let (_, top) = near.maximum(alphas, &self.others);
+            let root = self.root(&top);
+            bracket.narrow(value, root);
+            let off = (root / HEIGHT - 1.0).abs();
+            let settled = top.log_likelihood - here.log_likelihood < SLIGHT;
+            if settled && off < NEAR || value == last && root <= HEIGHT || bracket.is_narrow(self.best()) {
+                return value;
+            }
+            if settled && off < CLOSE {
+                return self.crossing(&near, &bracket, side);
+            }
+            if value > FARTHEST {
                 break;
             }
-            if here > height {
-                (outside, high) = (value, here);
-            } else {
-                (inside, low) = (value, here);
+            moved = Some(near);
+        }
+        if bracket.is_closed() { bracket.inside[0] } else { last }
+    }
+
+    /// Where what is near a point falls as far as at the end, or a place on the way there.
+    fn crossing(&self, near: &Near, bracket: &Bracket, side: f64) -> f64 {
+        let mut bracket = *bracket;
+        if !bracket.is_closed() {
+            // Further and further, until it falls enough.
+            let deviation = self.fitted.slope.information_of(self.alpha, &self.fitted.free).sqrt().recip();
+            let reach = 2.0 * if deviation.is_finite() { deviation } else { self.best() };
+            let mut far = reach.max((near.at.alphas[self.alpha] - self.best()).abs());
+            for _ in 0..DOUBLINGS {
+                let value = (self.best() + side * far).max(0.0);
+                bracket.narrow(value, self.beside(near, value).1);
+                if bracket.is_closed() {
+                    break;
+                }
+                if value == 0.0 {
+                    return value;
+                }
+                far *= 2.0;
             }
         }
-        value
+        // The root of the fall is nearly linear, on which a false position finds it soon.
+        for step in 0..STEPS {
+            if !bracket.is_closed() || bracket.is_narrow(self.best()) {
+                break;
+            }
+            let value = bracket.between(step % 3 == 2);
+            let root = self.beside(near, value).1;
+            if (root / HEIGHT - 1.0).abs() < 0.2 * NEAR {
+                return value;
+            }
+            bracket.narrow(value, root);
+        }
+        bracket.inside[0]
+    }
+}
+
+/// Two values with the roots of their falls: one that falls too little, and one that falls too far, NaN if there is none yet.
+#[derive(Clone, Copy, Debug)]
+struct Bracket {
+    inside: [f64; 2],
+    outside: [f64; 2],
+}
+
+impl Bracket {
+    fn narrow(&mut self, value: f64, root: f64) {
+        if root > HEIGHT {
+            self.outside = [value, root];
+        } else {
+            self.inside = [value, root];
+        }
+    }
+
+    fn is_closed(&self) -> bool {
+        !self.outside[1].is_nan()
+    }
+
+    /// Whether nothing more can be between its values: what makes the difference is a residual that leaves its triangle.
+    fn is_narrow(&self, best: f64) -> bool {
+        self.is_near(self.outside[0], best)
+    }
+
+    fn is_near(&self, value: f64, best: f64) -> bool {
+        (value - self.inside[0]).abs() < NEAR * (self.inside[0] - best).abs()
+    }
+
+    /// The false position, or the middle.
+    fn between(&self, halve: bool) -> f64 {
+        let Self { inside: [from, low], outside: [to, high] } = *self;
+        let share = if halve || !high.is_finite() { 0.5 } else { (HEIGHT - low) / (high - low) };
+        from + share * (to - from)
     }
 }

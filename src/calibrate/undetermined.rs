@@ -1,8 +1,9 @@
 //! Why a log does not determine an α, and so what to drive that it does.
 
-use super::likelihood::{Evidence, Parameters};
+use super::likelihood::{Parameters, Robust};
 use super::model::{Model, Observation};
 use super::profile::Fitted;
+use crate::noise::NoiseKind;
 
 /// What a log lacks that would tell an α.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,16 +31,16 @@ const SHORT: f64 = 4.0;
 /// Of each α why it is not determined; None where it is.
 ///
 /// It is not where its profile has no end; nor where that has ends that are not the likelihood's: with turn and way in one ratio
-/// an α may take all that the other has, and the ends are where one of them is 0. What there is to know of an α is asked of `normal`
+/// an α may take all that the other has, and the ends are where one of them is 0. What there is to know of an α is asked of normal
 /// noise: of triangular noise a few legs at its edges would tell most.
 pub(super) fn undetermined(
     fitted: &Fitted,
-    normal: &Evidence,
     model: Model,
     observations: &[Observation],
     intervals: &[Option<[f64; 2]>],
 ) -> Vec<Option<Undetermined>> {
-    let slope = normal.slope(&Parameters { bad: None, ..fitted.best });
+    let normal = Parameters { bad: None, noise: NoiseKind::Normal, ..fitted.best };
+    let slope = fitted.evidence.slope(&normal, Robust::No);
     let of = |(alpha, interval): (usize, &Option<[f64; 2]>)| {
         let alone = slope.information_of(alpha, &[]);
         let beside = slope.information_of(alpha, &fitted.free);

@@ -5,6 +5,7 @@ mod errors;
 mod fits;
 mod leg_lengths;
 mod logs;
+mod passes;
 mod same;
 mod simulated;
 mod sparse;

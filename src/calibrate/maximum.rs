@@ -1,0 +1,247 @@
+//! Where a likelihood is largest, by few passes over all legs.
+
+use super::likelihood::{Alphas, Bad, Evidence, Parameters, Robust, Slope};
+
+impl Slope {
+    /// What is known of an α when all others are estimated with it: the inverse of its variance, were the likelihood a
+    /// parabola.
+    pub fn information_of(&self, alpha: usize, free: &[usize]) -> f64 {
+        let mut left = self.information;
+        // The Schur complement, one variable out after the other.
+        for out in free.iter().copied().filter(|other| *other != alpha) {
+            let row = left[out];
+            if row[out] > 0.0 {
+                for each in &mut left {
+                    let factor = each[out] / row[out];
+                    each.iter_mut().zip(row).for_each(|(entry, of_row)| *entry -= factor * of_row);
+                }
+            }
+        }
+        left[alpha][alpha]
+    }
+
+    /// The maximum of the parabola at `from` with this `gradient` over all `free` α's that are 0 or more, the others as they are in
+    /// `at`.
+    pub fn maximum(&self, gradient: &Alphas, from: &Alphas, mut at: Alphas, free: &[usize]) -> Alphas {
+        // From coordinate to coordinate: what is left over another step of the whole takes care of.
+        for _ in 0..SWEEPS {
+            let before = at;
+            for &k in free {
+                let curvature = self.information[k][k];
+                if curvature > 0.0 {
+                    let pull: f64 = (0..6).map(|l| self.information[k][l] * (from[l] - at[l])).sum();
+                    at[k] = (at[k] + (gradient[k] + pull) / curvature).max(0.0);
+                }
+            }
+            if (0..6).all(|k| (at[k] - before[k]).abs() <= 1e-13 * at[k]) {
+                break;
+            }
+        }
+        at
+    }
+
+    /// The parabola elsewhere.
+    fn moved(&self, from: &Alphas, to: &Alphas) -> Self {
+        let mut moved = *self;
+        for k in 0..6 {
+            let pull: f64 = (0..6).map(|l| self.information[k][l] * (to[l] - from[l])).sum();
+            moved.gradient[k] -= pull;
+            moved.log_likelihood += (to[k] - from[k]) * (self.gradient[k] - 0.5 * pull);
+        }
+        moved
+    }
+
+    /// This and the other, `times` over.
+    fn plus(&self, other: &Self, times: f64) -> Self {
+        let mut sum = *self;
+        sum.log_likelihood += times * other.log_likelihood;
+        for k in 0..6 {
+            sum.gradient[k] += times * other.gradient[k];
+            for l in 0..6 {
+                sum.information[k][l] += times * other.information[k][l];
+            }
+        }
+        sum
+    }
+}
+
+/// Of the maximum of a parabola, through all α's in turn: two of them nearly alike settle within a few hundred.
+const SWEEPS: usize = 300;
+
+/// Of the whole: five are usual.
+const STEPS: usize = 60;
+
+/// A residual is inside of its triangle to begin with by this share of the width of its edge.
+pub(super) const INSIDE: f64 = 0.1;
+
+/// Where other maxima are looked for, in widths of the edge.
+const HOPS: [f64; 6] = [1.0, 0.5, 0.25, 0.125, -0.125, -0.25];
+
+/// The shortest part of a step.
+const LEAST: f64 = 1e-4;
+
+/// Where so little is promised, nats, other maxima are looked for.
+const SETTLED: f64 = 0.01;
+
+/// Of the way to where a residual leaves its triangle.
+const LESS: f64 = 0.9;
+
+/// Others that had to be larger by this are out of the question.
+const WIDEST: f64 = 10.0;
+
+/// Within what is near a point.
+const NEAR_STEPS: usize = 20;
+
+/// What another step has to promise, nats: less is a thousandth of a deviation, and of many legs below the rounding of their sum.
+const ENOUGH: f64 = 1e-6;
+
+/// What a step has to have brought for another one, nats: a hundredth of this does not move an interval's end.
+const GAINED: f64 = 1e-4;
+
+/// The likelihood near a point: of legs at the edge of their triangle exactly, which are few, of all others the parabola there.
+#[derive(Clone, Debug)]
+pub(super) struct Near<'a> {
+    evidence: &'a Evidence,
+    pub at: Parameters,
+    rest: Slope,
+    edge: Evidence,
+}
+
+impl<'a> Near<'a> {
+    /// About a point where the likelihood is that.
+    pub fn new(evidence: &'a Evidence, at: Parameters, here: &Slope) -> Self {
+        let edge = evidence.edge(&at);
+        Self::with_edge(evidence, at, here, edge)
+    }
+
+    /// Elsewhere, where the same legs are at the edge.
+    pub fn moved(&self, at: Parameters, here: &Slope) -> Self {
+        Self::with_edge(self.evidence, at, here, self.edge.clone())
+    }
+
+    fn with_edge(evidence: &'a Evidence, at: Parameters, here: &Slope, edge: Evidence) -> Self {
+        let mut near = Self { evidence, at, rest: *here, edge };
+        near.rest = here.plus(&near.of_edge(&at.alphas), -1.0);
+        near
+    }
+
+    fn of_edge(&self, alphas: &Alphas) -> Slope {
+        self.evidence.visit(self.edge.legs());
+        self.edge.slope(&Parameters { alphas: *alphas, ..self.at }, Robust::No)
+    }
+
+    fn slope(&self, alphas: &Alphas) -> Slope {
+        self.of_edge(alphas).plus(&self.rest.moved(&self.at.alphas, alphas), 1.0)
+    }
+
+    /// The `free` α's that make it largest, from a point on.
+    pub fn maximum(&self, mut at: Alphas, free: &[usize]) -> (Alphas, Slope) {
+        // Residuals outside of their triangles have to be inside first.
+        let mut here = self.slope(&at);
+        if here.log_likelihood == f64::NEG_INFINITY && self.edge.legs() > 0 {
+            let wider = self.edge.widening(&at, free, INSIDE * self.evidence.width());
+            if wider < WIDEST {
+                free.iter().for_each(|k| at[*k] *= wider);
+                here = self.slope(&at);
+            }
+        }
+        for _ in 0..NEAR_STEPS {
+            let aim = here.maximum(&here.gradient, &at, at, free);
+            let promised = here.moved(&at, &aim).log_likelihood - here.log_likelihood;
+            if promised.is_nan() || promised < ENOUGH {
+                break;
+            }
+            let reach = self.edge.reach(&at, &aim);
+            let most = if reach < 1.0 { LESS * reach } else { 1.0 };
+            let Some((to, there)) = likelier(&here, [most, LEAST], &|share| {
+                let to = between(&at, &aim, share);
+                (Parameters { alphas: to, ..self.at }, self.slope(&to))
+            }) else {
+                break;
+            };
+            let gained = there.log_likelihood - here.log_likelihood;
+            (at, here) = (to.alphas, there);
+            if gained <= GAINED {
+                break;
+            }
+        }
+        (at, here)
+    }
+
+    /// With bad legs every one that is in its triangle or out of it makes a maximum of its own. The likeliest of those nearby.
+    fn hop(&self, at: &mut Alphas, here: &mut Slope, free: &[usize]) {
+        for pair in self.evidence.pairs {
+            for share in HOPS {
+                let mut from = *at;
+                pair.iter().for_each(|k| from[*k] *= 1.0 + share * self.evidence.width());
+                let (to, there) = self.maximum(from, free);
+                if there.log_likelihood > here.log_likelihood + GAINED {
+                    (*at, *here) = (to, there);
+                }
+            }
+        }
+    }
+}
+
+fn between(from: &Alphas, to: &Alphas, share: f64) -> Alphas {
+    std::array::from_fn(|k| from[k] + share * (to[k] - from[k]))
+}
+
+/// The first of ever shorter parts of a step that makes the legs likelier.
+fn likelier(
+    here: &Slope,
+    [mut share, least]: [f64; 2],
+    step: &dyn Fn(f64) -> (Parameters, Slope),
+) -> Option<(Parameters, Slope)> {
+    while share > least {
+        let (to, there) = step(share);
+        if there.log_likelihood > here.log_likelihood {
+            return Some((to, there));
+        }
+        // Outside of a triangle there is no telling how far.
+        share *= if there.log_likelihood.is_finite() { 0.5 } else { 0.25 };
+    }
+    None
+}
+
+/// The parameters under which the legs are likeliest, from `start` on; α's that are not `free` stay as they are.
+pub(super) fn maximize(
+    evidence: &Evidence,
+    start: Parameters,
+    free: &[usize],
+    robust: Robust,
+) -> (Parameters, Slope) {
+    let mut at = start;
+    let mut here = evidence.slope(&at, robust);
+    for _ in 0..STEPS {
+        let near = Near::new(evidence, at, &here);
+        let (mut aim, mut top) = near.maximum(at.alphas, free);
+        if at.bad.is_some() && near.edge.legs() > 0 && top.log_likelihood - here.log_likelihood < SETTLED {
+            near.hop(&mut aim, &mut top, free);
+        }
+        let promised = top.log_likelihood - here.log_likelihood;
+        if here.bad.is_none() && (promised.is_nan() || promised < ENOUGH) {
+            break;
+        }
+        let bad = here.bad.or(at.bad);
+        let least = if bad.is_some() { 0.3 } else { LEAST };
+        let step = |bad: Option<Bad>, least: f64| {
+            likelier(&here, [1.0, least], &|share| {
+                let bad = at.bad.zip(bad).map(|(from, to)| from.toward(&to, share));
+                let to = Parameters { alphas: between(&at.alphas, &aim, share), bad, ..at };
+                (to, evidence.slope(&to, robust))
+            })
+        };
+        // Where bad legs cannot be told from others their least spread is in the way of what they are likely to be.
+        let alone = || if promised >= GAINED { step(at.bad, LEAST) } else { None };
+        let Some((to, there)) = step(bad, least).or_else(alone) else {
+            break;
+        };
+        let gained = there.log_likelihood - here.log_likelihood;
+        (at, here) = (to, there);
+        if gained <= GAINED {
+            break;
+        }
+    }
+    (at, here)
+}

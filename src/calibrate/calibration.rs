@@ -315,9 +315,11 @@ impl Calibrating {
         }
         let length = self.options.legs.times(factor);
         let cut = |length| cut(odometry, reference, length, self.removed.clock_offset);
-        let legs = length.map_or_else(Vec::new, cut);
-        let every = legs.len().div_ceil(MOST).max(1);
-        self.legs = legs.into_iter().step_by(every).collect();
+        self.legs = length.map_or_else(Vec::new, cut);
+        let every = self.legs.len().div_ceil(MOST).max(1);
+        let kept = self.legs.len().div_ceil(every);
+        (0..kept).for_each(|place| self.legs[place] = self.legs[every * place]);
+        self.legs.truncate(kept);
         let enough = self.legs.len() >= FEWEST && have_rows(&self.legs, odometry, reference);
         if enough {
             self.observe_legs(self.removed, self.options.remove);

@@ -193,6 +193,8 @@ impl Trajectory {
 
     /// Where the robot is at `time` (s): between two samples on the arc of constant velocities that joins them. None before
     /// the first, after the last, and inside of a gap.
+    // Arcs are long code.
+    #[inline(never)]
     pub fn pose_at(&self, time: f64) -> Option<SE2> {
         let after = self.times.partition_point(|each| *each < time);
         let (at, pose) = (*self.times.get(after)?, self.poses[after]);

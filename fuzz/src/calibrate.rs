@@ -18,7 +18,7 @@ const PARTS: usize = 6;
 const ROWS: usize = 64;
 
 /// Steps of a calibration at most, with room.
-const STEPS: usize = 90;
+const STEPS: usize = 250;
 
 const MODELS: [Model; 5] = [
     Model::Odometry(OdometryRule::Table),

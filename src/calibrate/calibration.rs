@@ -1,7 +1,7 @@
 //! From a log to parameters, one step after the other.
 
 use super::bootstrap;
-use super::clock::clock_offset;
+use super::clock::Alignment;
 use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, doubts};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Leg, LegLength, cut};
@@ -129,6 +129,7 @@ pub fn calibrate(
 pub struct Calibrating {
     options: Options,
     stage: Stage,
+    alignment: Alignment,
     systematic: Systematic,
     deviations: [Option<f64>; ERRORS],
     /// Of the last round.
@@ -168,6 +169,7 @@ impl Calibrating {
         Self {
             options,
             stage: Stage::Align,
+            alignment: Alignment::default(),
             systematic: Systematic::NONE,
             deviations: [None; ERRORS],
             known: [[0.0; ERRORS]; ERRORS],
@@ -187,7 +189,7 @@ impl Calibrating {
         let asked = ROUNDS + 2 + alphas;
         let steps = asked + if self.options.by_length { FACTORS.len() * (2 + alphas) + 1 } else { 0 };
         let done = match self.stage {
-            Stage::Align => 0,
+            Stage::Align => return self.alignment.progress() / steps as f64,
             Stage::Round(round) => 1 + round,
             Stage::Fit => ROUNDS,
             Stage::Interval(alpha) => ROUNDS + 1 + alpha,
@@ -210,8 +212,8 @@ impl Calibrating {
     ) -> Result<Option<Calibration>, CalibrateError> {
         self.stage = match self.stage {
             Stage::Align => {
-                self.systematic.clock_offset =
-                    clock_offset(odometry, reference).ok_or(CalibrateError::Apart)?;
+                let Some(offset) = self.alignment.step(odometry, reference) else { return Ok(None) };
+                self.systematic.clock_offset = offset.ok_or(CalibrateError::Apart)?;
                 Stage::Round(0)
             }
             Stage::Round(round) => {

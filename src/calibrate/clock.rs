@@ -24,40 +24,76 @@ const SURELY: f64 = 0.9;
 /// By how much more alike they have to be far away.
 const CLEARLY: f64 = 0.05;
 
-/// By how much (s) the reference's clock is ahead of the odometry's: where the correlation of their turn rates is largest. Where
-/// they are not alike anywhere, as of a robot that does not turn, 0 if the recordings overlap at all, and none if they do not.
+/// Products of two rates in a step: some twenty milliseconds of them.
+const WORK: usize = 8_000_000;
+
+/// By how much (s) the reference's clock is ahead of the odometry's, being sought: where the correlation of their turn rates is
+/// largest. Where they are not alike anywhere, as of a robot that does not turn, 0 if the recordings overlap at all, and none if they
+/// do not.
 ///
 /// Where the recordings overlap for half of the shorter one at least, and are surely alike at an offset of [`NEARLY`] 10 s at most, that
-/// is taken; otherwise any that makes them overlap so is looked at.
-pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Option<f64> {
-    let [Some([from, to]), Some([start, end])] = [odometry, reference].map(Trajectory::span) else {
-        return None;
-    };
-    let [read, seen] = [odometry, reference].map(Turns::new);
-    let half = 0.5 * (to - from).min(end - start);
-    let finest = STEP.max(0.5 * odometry.usual_step()).max((to - from) / MOST);
-    let common = to.min(end) - from.max(start);
-    let near = if common >= half {
-        best(&read, &seen, [-NEARLY, NEARLY], finest.max(NEARLY / COARSE))
-    } else {
-        None
-    };
-    if let Some((lag, _)) = near.filter(|(_, alike)| *alike >= SURELY) {
-        return Some(lag);
+/// is taken; otherwise any that makes them overlap so is looked at, coarsely, and then ever finer around the best.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Alignment {
+    look: Option<Look>,
+    /// The best of what is near, once that was looked at.
+    near: Option<Option<Likeness>>,
+    /// How many looks are done.
+    looks: u8,
+}
+
+/// An offset (s), and how alike the turn rates are there.
+type Likeness = (f64, f64);
+
+impl Alignment {
+    /// How much is done, from 0 to 1; of the looks that are left nobody knows how many they are.
+    pub fn progress(&self) -> f64 {
+        let share = |look: &Look| look.alike.len() as f64 / (look.offsets + 1) as f64;
+        1.0 - libm::exp2(-(f64::from(self.looks) + self.look.as_ref().map_or(0.0, share)))
     }
-    let range = [start - to + half, end - from - half];
-    let mut step = finest.max((range[1] - range[0]) / COARSE);
-    let mut far = best(&read, &seen, range, step);
-    while let Some((about, _)) = far.filter(|_| step > finest) {
-        let around = [about - 2.0 * step, about + 2.0 * step];
-        step = finest.max(step / 50.0);
-        far = best(&read, &seen, around, step);
-    }
-    // Of two that are as alike the nearer one.
-    match [near, far] {
-        [Some((lag, alike)), Some((_, farther))] if farther - alike < CLEARLY => Some(lag),
-        [_, Some((lag, _))] | [Some((lag, _)), None] => Some(lag),
-        [None, None] => (common >= 0.0).then_some(0.0),
+
+    /// Goes on by a step; the offset after the last one.
+    pub fn step(&mut self, odometry: &Trajectory, reference: &Trajectory) -> Option<Option<f64>> {
+        let [Some([from, to]), Some([start, end])] = [odometry, reference].map(Trajectory::span) else {
+            return Some(None);
+        };
+        let half = 0.5 * (to - from).min(end - start);
+        let finest = STEP.max(0.5 * odometry.usual_step()).max((to - from) / MOST);
+        let common = to.min(end) - from.max(start);
+        let look_at = |range, step: f64| Some(Look::new(odometry, reference, range, finest.max(step)));
+        let range = [start - to + half, end - from - half];
+        let anywhere = || look_at(range, (range[1] - range[0]) / COARSE);
+        if self.look.is_none() && common < half {
+            self.near = Some(None);
+            self.look = anywhere();
+        }
+        let nearly = || look_at([-NEARLY, NEARLY], NEARLY / COARSE);
+        let mut look = self.look.take().or_else(nearly)?;
+        if !look.go_on() {
+            self.look = Some(look);
+            return None;
+        }
+        self.looks += 1;
+        let found = look.best();
+        let Some(near) = self.near else {
+            if let Some((lag, _)) = found.filter(|(_, alike)| *alike >= SURELY) {
+                return Some(Some(lag));
+            }
+            self.near = Some(found);
+            self.look = anywhere();
+            return None;
+        };
+        if let Some((about, _)) = found.filter(|_| look.step > finest) {
+            let around = [about - 2.0 * look.step, about + 2.0 * look.step];
+            self.look = look_at(around, look.step / 50.0);
+            return None;
+        }
+        // Of two that are as alike the nearer one.
+        Some(match [near, found] {
+            [Some((lag, alike)), Some((_, farther))] if farther - alike < CLEARLY => Some(lag),
+            [_, Some((lag, _))] | [Some((lag, _)), None] => Some(lag),
+            [None, None] => (common >= 0.0).then_some(0.0),
+        })
     }
 }
 
@@ -100,26 +136,56 @@ impl<'a> Turns<'a> {
     }
 }
 
-/// The lag in a range at which two are most alike, to a part of `step`, and how much; none where they are not.
-fn best(read: &Turns, seen: &Turns, [from, to]: [f64; 2], step: f64) -> Option<(f64, f64)> {
-    let (first, last) = (*read.times.first()?, *read.times.last()?);
-    let count = ((last - first) / step) as usize;
-    let lags = ((to - from) / step).round() as usize + 1;
-    let read = read.rates(first, step, count);
-    let seen = seen.rates(first + from, step, count + lags - 1);
-    let known = |rates: &[Option<f64>]| rates.iter().flatten().count();
-    let least = known(&read).min(known(&seen)) / 2;
-    let alike: Vec<f64> = (0..lags).map(|lag| correlation(&read, &seen[lag..], least)).collect();
-    let (lag, most) = alike.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    if most < ALIKE {
-        return None;
+/// Turn rates at all offsets of a range.
+#[derive(Clone, Debug)]
+struct Look {
+    /// The first offset, s.
+    from: f64,
+    /// Between two of them, s.
+    step: f64,
+    read: Vec<Option<f64>>,
+    seen: Vec<Option<f64>>,
+    /// Fewer rates that are known of both tell nothing.
+    least: usize,
+    /// How alike they are at each offset so far, and how many offsets there are.
+    alike: Vec<f64>,
+    offsets: usize,
+}
+
+impl Look {
+    fn new(odometry: &Trajectory, reference: &Trajectory, [from, to]: [f64; 2], step: f64) -> Self {
+        let [first, last] = odometry.span().unwrap_or_default();
+        let count = ((last - first) / step) as usize;
+        let offsets = ((to - from) / step).round() as usize + 1;
+        let read = Turns::new(odometry).rates(first, step, count);
+        let seen = Turns::new(reference).rates(first + from, step, count + offsets - 1);
+        let known = |rates: &[Option<f64>]| rates.iter().flatten().count();
+        let least = known(&read).min(known(&seen)) / 2;
+        Self { from, step, read, seen, least, alike: Vec::with_capacity(offsets), offsets }
     }
-    // The vertex of the parabola through it and its neighbours.
-    let beside = |lag: usize| alike.get(lag).copied().unwrap_or(most);
-    let (before, after) = (beside(lag.wrapping_sub(1)), beside(lag + 1));
-    let bend = before - 2.0 * most + after;
-    let part = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
-    Some((from + (lag as f64 + part) * step, most))
+
+    /// Whether all is looked at.
+    fn go_on(&mut self) -> bool {
+        let until = self.offsets.min(self.alike.len() + WORK / self.read.len().max(1) + 1);
+        for offset in self.alike.len()..until {
+            self.alike.push(correlation(&self.read, &self.seen[offset..], self.least));
+        }
+        until == self.offsets
+    }
+
+    /// Where they are most alike, to a part of a step, and how much; none where they are not.
+    fn best(&self) -> Option<Likeness> {
+        let (place, most) = self.alike.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        if most < ALIKE {
+            return None;
+        }
+        // The vertex of the parabola through it and its neighbours.
+        let beside = |place: usize| self.alike.get(place).copied().unwrap_or(most);
+        let (before, after) = (beside(place.wrapping_sub(1)), beside(place + 1));
+        let bend = before - 2.0 * most + after;
+        let part = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+        Some((self.from + (place as f64 + part) * self.step, most))
+    }
 }
 
 /// Pearson's, of as many as are known of both; 0 where that is fewer than `least`, or one does not change.

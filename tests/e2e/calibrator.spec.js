@@ -1,3 +1,4 @@
+import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { odometry, poseOf, recordingOf, stampOf, transform } from '../mcap.js';
@@ -61,7 +62,7 @@ async function choose(widget, files) {
 
 test('opens with the simulated log, said to be one, whose true α’s are inside of the intervals', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^\d+ legs of the simulated log\. The model fits: of legs that it has not seen, 9\d\.\d.% end inside its 95 %\.$/);
+  await expect(caption(widget)).toHaveText(/^\d+ legs of the simulated log\. The model fits: of residuals that it has not seen, 9\d\.\d.% are inside its 95 %\.$/);
   const { alphas, intervals } = await stats(widget);
   const truth = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth);
   expect(alphas.length).toBe(4);
@@ -146,7 +147,7 @@ test('inflation multiplies what is predicted and what is taken along, and fits n
   await slider.fill('2');
   await settled(widget);
   expect(await fits()).toBe(before);
-  await expect(widget.locator('textarea.yaml')).toHaveValue(new RegExp(`alpha3: ${Number((2 * Number(alphas[2])).toPrecision(4))}  #`));
+  await expect(widget.locator('textarea.yaml')).toHaveValue(new RegExp(`alpha3: ${(2 * Number(alphas[2])).toFixed(4)}  #`));
   await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too large: lazy/);
   await slider.fill('0.3');
   await settled(widget);
@@ -158,9 +159,9 @@ test('the lines for Nav2 say what they are of', async ({ page }) => {
   await fold(widget, 'For Nav2').locator('summary').click();
   const { alphas } = await stats(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
-  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals\n/);
+  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals\n/);
   expect(yaml).toContain('    robot_model_type: "nav2_amcl::DifferentialMotionModel"\n');
-  alphas.forEach((alpha, i) => expect(yaml).toMatch(new RegExp(`^ {4}alpha${i + 1}: ${Number(Number(alpha).toPrecision(4))}  # [\\d.e-]+ – [\\d.e-]+$`, 'm')));
+  alphas.forEach((alpha, i) => expect(yaml).toMatch(new RegExp(`^ {4}alpha${i + 1}: ${Number(alpha).toFixed(3).slice(0, -1)}\\d*  # [\\d.]+ to [\\d.]+$`, 'm')));
   expect(yaml).toContain('    update_min_d: 0.3\n    update_min_a: 0.2\n');
   await widget.getByRole('radio', { name: 'omnidirectional' }).check();
   await settled(widget);
@@ -194,6 +195,22 @@ async function recordingWith(topics) {
   const wheels = rows('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
   return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }
+
+test('of the same log it says the same as the command line, to the last bit', async ({ page }) => {
+  const widget = await openCalibrator(page, 'robust="false" seed="0" bylength');
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv\./);
+  await settled(widget);
+  const shown = await widget.evaluate((element) => {
+    const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
+    return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
+  });
+  const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
+  const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, '--json'], { encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28 });
+  const { date, fit, logs, start, ...printed } = JSON.parse(stdout);
+  expect([fit, start, logs.length, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 9, 2, 'string']);
+  expect(JSON.parse(shown)).toEqual(printed);
+});
 
 test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {
   const widget = await openCalibrator(page);

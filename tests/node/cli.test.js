@@ -11,6 +11,7 @@ import { load } from '../../dist/core.js';
 import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.js';
 import { run } from '../../www/cli/run.js';
+import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
 import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
 
@@ -122,20 +123,15 @@ test('what the core refuses, it refuses by the name of the logs', async () => {
 
 test('each verdict has its sentence, and stands beside the lines for Nav2 where there is something to doubt', async () => {
   const motion = /** @type {any} */ (await load());
-  for (const [verdict, sentence] of [
-    ['overconfident', 'Overconfident: fewer held-out legs end inside than should. Inflate the α\'s, or a filter gets lost.'],
-    ['lazy', 'Lazy: more held-out legs end inside than should. A filter would believe its sensors more than it could.'],
-    ['heavy-tails', 'The tails are heavier than the noise\'s: a few legs are far out. Try --robust, and look at the worst legs.'],
-    ['correlated', 'The error of one leg tells that of the next: something systematic is left that the model does not know.'],
-    ['few-legs', 'Too few legs to tell. Drive on, or take shorter legs.'],
-    ['fits', 'The model fits this log.'],
-  ]) {
+  for (const verdict of /** @type {(keyof typeof en.verdicts)[]} */ (Object.keys(en.verdicts))) {
     const calibrate = (/** @type {any} */ options) => {
       const told = motion.calibrate(options);
       return { ...told, doubts: { ...told.doubts, verdict } };
     };
     const { out } = await said(['calibrate', ...FILES], async () => ({ calibrate }));
     const lines = out.split('\n');
+    const [coverage] = out.match(/(?<=inside of 95 % +)[\d.]+ %/) ?? [''];
+    const sentence = en.verdicts[verdict](coverage);
     assert.ok(lines.includes(sentence), `${verdict}: ${out}`);
     assert.equal(lines.includes(`    # ${sentence}`), verdict !== 'fits', verdict);
   }
@@ -261,11 +257,11 @@ test('as text: a table of the α’s, what is systematic, the doubts, a verdict,
     assert.ok(Math.abs(Number(value) / alpha - 1) < 0.01, `${value} ${alpha}`);
     assert.match(out, new RegExp(`^alpha${i + 1}  +${value}  `, 'm'));
   }
-  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# The tails are heavier [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
+  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# Heavy tails: [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
   for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out residuals inside of 95 % +\S+ % /m]) assert.match(out, line);
   const { out: byTable } = await said(['calibrate', ...FILES]);
-  assert.match(byTable, /^The model fits this log\.$/m);
-  assert.match(byTable, /^ {4}# fitted under another rule than Nav2's: see --rule nav2$/m);
+  assert.match(byTable, /^The model fits: of residuals that it has not seen, [\d.]+ % are inside its 95 %\.$/m);
+  assert.match(byTable, /^ {4}# fitted under another rule than Nav2’s: choose that of Nav2$/m);
 });
 
 test('each reason why an α is not determined has a sentence, and advice that fits the model', async () => {
@@ -277,15 +273,15 @@ test('each reason why an α is not determined has a sentence, and advice that fi
   const lacking = async (undetermined, ...args) => {
     const { out, err } = await said(['calibrate', ...FILES, ...args], async () => ({ calibrate: () => ({ ...told, undetermined }) }));
     assert.equal(err, '');
-    return out.split('\n').filter((line) => /^This log .* determined\./.test(line));
+    return out.split('\n').filter((line) => /^alpha.* not determined: /.test(line));
   };
   assert.deepEqual(await lacking([null, null, null, null]), []);
   assert.deepEqual(await lacking(['one-ratio', 'one-ratio', 'drives-too-little', 'one-ratio']), [
-    'This log hardly goes anywhere: alpha3 is not determined. Drive straight on, some fifty legs.',
-    'This log turns and drives in one ratio: alpha1, alpha2, and alpha4 are not determined. Drive straight on and turn on the spot, some fifty legs of each.',
+    'alpha3 not determined: this log hardly goes anywhere; drive straight on, some fifty legs',
+    'alpha1, alpha2, and alpha4 not determined: this log turns and drives in one ratio; drive straight on and turn on the spot, some fifty legs of each',
   ]);
   assert.deepEqual(await lacking([null, 'turns-too-little', null, 'turns-too-little'], '--odometry', commands, '--model', 'velocity', '--reference', file('moving.csv', ['t,x,y,yaw', ...t.map(rows((time) => time))].join('\n'))), [
-    'This log turns too little: alpha2 and alpha4 are not determined. Drive tight bends, some fifty legs.',
+    'alpha2 and alpha4 not determined: this log turns too little; drive tight bends, some fifty legs',
   ]);
 });
 
@@ -327,5 +323,5 @@ test('where a log does not determine an α, no line says one', async () => {
   assert.equal(code, 0, err);
   assert.match(out, /^alpha1 +not determined by this log/m);
   assert.match(out, /^ {4}# alpha1: not determined by this log$/m);
-  assert.match(out, /^This log turns too little: alpha1 and alpha4 are not determined\. Turn on the spot, some fifty times\.$/m);
+  assert.match(out, /^alpha1 and alpha4 not determined: this log turns too little; turn on the spot, some fifty times$/m);
 });

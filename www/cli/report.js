@@ -1,5 +1,8 @@
 /** What came out, as text and as JSON. */
 
+import { en } from '../widgets/alpha-calibrator/en.js';
+import { between, fixed, nav2Lines, short } from '../widgets/alpha-calibrator/lines.js';
+
 /**
  * @typedef {[number, number] | null} Interval
  * @typedef {{ distance?: number, angle?: number, duration?: number }} Legs
@@ -12,54 +15,11 @@
  * @property {string} date
  */
 
-/** Significant digits of an interval's width, and of what has no interval. */
-const [OF_WIDTH, DIGITS] = [2, 3];
-
-/** What Nav2 calls its models. @type {Record<string, string>} */
-const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
-
-/** The rules under which Nav2's models are. */
-const ITS_RULES = ['nav2', 'omni'];
-
 /** What the noises of the models grow with, in the order of the α's. @type {Record<string, string[]>} */
 const GROW = {
   odometry: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn'],
   omnidirectional: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn', 'sideways, with the way'],
   velocity: ['v, with v', 'v, with ω', 'ω, with v', 'ω, with ω', 'γ, with v', 'γ, with ω'],
-};
-
-/** @type {Record<string, string>} */
-const VERDICTS = {
-  fits: 'The model fits this log.',
-  overconfident: 'Overconfident: fewer held-out legs end inside than should. Inflate the α\'s, or a filter gets lost.',
-  lazy: 'Lazy: more held-out legs end inside than should. A filter would believe its sensors more than it could.',
-  'heavy-tails': 'The tails are heavier than the noise\'s: a few legs are far out. Try --robust, and look at the worst legs.',
-  correlated: 'The error of one leg tells that of the next: something systematic is left that the model does not know.',
-  'few-legs': 'Too few legs to tell. Drive on, or take shorter legs.',
-};
-
-/**
- * Of each reason why an α is not determined: what the log lacks, and what to drive. Fifty legs tell an α of
- * its own to a fifth. Under the velocity model turns on the spot tell no executed turn.
- *
- * @type {Record<string, { lack: string, drive: string, byCommands: string }>}
- */
-const LACKING = {
-  'turns-too-little': {
-    lack: 'This log turns too little',
-    drive: 'Turn on the spot, some fifty times.',
-    byCommands: 'Drive tight bends, some fifty legs.',
-  },
-  'drives-too-little': {
-    lack: 'This log hardly goes anywhere',
-    drive: 'Drive straight on, some fifty legs.',
-    byCommands: 'Drive straight on and in bends, some fifty legs of each.',
-  },
-  'one-ratio': {
-    lack: 'This log turns and drives in one ratio',
-    drive: 'Drive straight on and turn on the spot, some fifty legs of each.',
-    byCommands: 'Drive straight on and in tighter bends, some fifty legs of each.',
-  },
 };
 
 /** What is systematic: its name, its unit, and how many numbers it has. @type {[string, string, string][]} */
@@ -70,22 +30,6 @@ const SYSTEMATIC = [
   ['distanceScale', 'scale of distance', ''],
   ['turnScale', 'scale of turning', ''],
 ];
-
-/** What stands for a figure that a log is too short for. */
-const NONE = '–';
-
-/** @param {number | null} value */
-const short = (value, digits = DIGITS) => (value !== null && Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : NONE);
-
-/** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
-function fixed(value, interval) {
-  const width = interval ? interval[1] - interval[0] : 0;
-  if (value === null || !Number.isFinite(value) || !(width > 0 && width < Infinity)) return short(value);
-  return value.toFixed(Math.max(0, Math.min(12, OF_WIDTH - 1 - Math.floor(Math.log10(width)))));
-}
-
-/** @param {Interval | undefined} interval */
-const between = (interval) => (interval ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
 
 /**
  * @param {Result} result
@@ -118,9 +62,9 @@ export function textOf({ calibration, fit, logs, start, date }) {
     ...(outliers === null || outliers === undefined ? [] : [`bad legs: ${short(100 * outliers)} %`]),
     ...worstOf(doubts, legs, start),
     '',
-    VERDICTS[doubts.verdict] ?? doubts.verdict,
+    verdictOf(calibration),
     '',
-    ...nav2Lines({ calibration, fit, logs, date }),
+    ...nav2Of({ calibration, fit, logs, start, date }),
     '',
   ].join('\n');
 }
@@ -138,11 +82,9 @@ function lengthOf({ distance, angle, duration }) {
  * @returns {string[]}
  */
 function undeterminedOf({ undetermined }, model) {
-  return Object.entries(LACKING).flatMap(([reason, { lack, drive, byCommands }]) => {
+  return Object.entries(en.alphas.lacking).flatMap(([reason, { lack, drive, byCommands }]) => {
     const names = undetermined.flatMap((/** @type {string | null} */ its, /** @type {number} */ i) => (its === reason ? [`alpha${i + 1}`] : []));
-    if (!names.length) return [];
-    const are = names.length > 1 ? 'are' : 'is';
-    return [`${lack}: ${new Intl.ListFormat('en').format(names)} ${are} not determined. ${model === 'velocity' ? byCommands : drive}`];
+    return names.length ? [`${new Intl.ListFormat('en').format(names)} not determined: ${lack}; ${model === 'velocity' ? byCommands : drive}`] : [];
   });
 }
 
@@ -179,7 +121,7 @@ function systematicRow([key, name, unit], systematic) {
 
 /** @param {any} doubts @returns {string[][]} */
 function doubtRows({ kinds, heldOut, squaredError }) {
-  const percent = (/** @type {number | null} */ share) => (share === null || Number.isNaN(share) ? NONE : `${short(100 * share)} %`);
+  const percent = (/** @type {number | null} */ share) => (share === null || Number.isNaN(share) ? '–' : `${short(100 * share)} %`);
   return [
     ['held-out residuals inside of 95 %', percent(heldOut.coverage), heldOut.interval ? heldOut.interval.map(percent).join(' to ') : ''],
     ['squared error by degree of freedom', fixed(squaredError.mean, squaredError.interval), between(squaredError.interval)],
@@ -198,30 +140,20 @@ function worstOf({ worst }, legs, start) {
 }
 
 /**
- * Lines of nav2_params.yaml.
+ * What there is to doubt, in a sentence.
  *
- * @param {Pick<Result, 'calibration' | 'fit' | 'logs' | 'date'>} result
- * @returns {string[]}
+ * @param {Result['calibration']} calibration
  */
-export function nav2Lines({ calibration, fit, logs, date }) {
-  const { alphas, intervals, legs, doubts } = calibration;
-  const { model = 'odometry', rule = 'table' } = fit;
-  if (!Object.hasOwn(NAV2, model)) return ['nav2_params.yaml has no lines for the velocity model.'];
-  const names = [...new Set(logs.map(({ name }) => name))].join(' and ');
-  const comments = [
-    // A name may have lines of its own, which would end the comment.
-    `${legs.count} legs ${lengthOf(fit.legs)} of ${names}, ${date}; 95 % intervals`.replaceAll(/\s+/g, ' '),
-    ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : ['fitted under another rule than Nav2\'s: see --rule nav2']),
-    ...(doubts.verdict === 'fits' ? [] : [VERDICTS[doubts.verdict]]),
-  ];
-  const lines = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => {
-    if (alpha === null) return `# alpha${i + 1}: not determined by this log`;
-    return `alpha${i + 1}: ${fixed(alpha, intervals[i])}  # ${between(intervals[i])}`;
-  });
-  const triggers = fit.legs.duration === undefined ? [`update_min_d: ${fit.legs.distance}`, `update_min_a: ${fit.legs.angle}`] : [];
-  const fifth = alphas.length < 5 ? ['# alpha5 is of the omnidirectional model alone'] : [];
-  const all = [...comments.map((line) => `# ${line}`), `robot_model_type: "${NAV2[model]}"`, ...lines, ...fifth, ...triggers];
-  return ['# nav2_params.yaml', 'amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
+const verdictOf = ({ doubts: { verdict, heldOut } }) => en.verdicts[/** @type {keyof typeof en.verdicts} */ (verdict)](`${short(100 * heldOut.coverage)} %`);
+
+/** @param {Result} result @returns {string[]} */
+function nav2Of({ calibration, fit, logs, date }) {
+  const { alphas, intervals, legs: { count }, doubts } = calibration;
+  const { model = 'odometry', rule = 'table', legs } = fit;
+  const log = [...new Set(logs.map(({ name }) => name))].join(' and ');
+  const doubt = doubts.verdict === 'fits' ? undefined : verdictOf(calibration);
+  const lines = nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, doubt }, en.nav2);
+  return lines.length ? ['# nav2_params.yaml', ...lines] : ['nav2_params.yaml has no lines for the velocity model.'];
 }
 
 /** @param {string[][]} rows of a table @returns {string[]} */

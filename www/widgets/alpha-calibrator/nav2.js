@@ -5,17 +5,10 @@ import { Part } from '../../figure/part.js';
 import { save } from '../../figure/takeaway/export.js';
 import { words } from '../../messages/registry.js';
 import { button } from '../../ui/controls.js';
+import { percent } from '../../ui/format.js';
+import { nav2Lines } from './lines.js';
 
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
-
-/** Significant digits of an α in a file: its interval has fewer. */
-const DIGITS = 4;
-
-/** What Nav2 calls its models. @type {Record<string, string>} */
-const TYPES = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
-
-/** As a file has it, whatever the reader's language. @param {number} value */
-const plain = (value) => String(Number(value.toPrecision(DIGITS)));
 
 /**
  * Lines for nav2_params.yaml, each with what is known of it.
@@ -23,29 +16,17 @@ const plain = (value) => String(Number(value.toPrecision(DIGITS)));
  * @param {Figure} figure
  * @returns {string} none where Nav2 has no such model
  */
-export function yamlOf({ reading: { config, stats, legs }, logName }) {
+function yamlOf({ reading: { config, stats, legs: { count } }, logName }) {
   const { model, rule, distance, angle, inflation } = config;
-  const say = words.calibrator.nav2;
-  const type = TYPES[model];
-  if (!type) return '';
+  const { alphas, intervals, doubts: { verdict, heldOut } } = stats;
+  const doubt = verdict === 'fits' ? undefined : words.calibrator.verdicts[verdict](percent(heldOut.coverage));
   const date = new Date().toISOString().slice(0, 10);
-  const notes = [
-    say.of(String(legs.count), logName, date),
-    ...(rule === 'nav2' || rule === 'omni' ? [] : [say.otherRule]),
-    ...(inflation === 1 ? [] : [say.inflated(plain(inflation))]),
-  ];
-  const alphas = stats.alphas.map((alpha, i) => {
-    const interval = stats.intervals[i]?.map((end) => plain(inflation * end));
-    // A name may have lines of its own, which would end the comment.
-    return alpha === null ? `# alpha${i + 1}: ${say.undetermined}` : `alpha${i + 1}: ${plain(inflation * alpha)}  # ${interval?.join(' – ') ?? ''}`;
-  });
-  const lines = [`robot_model_type: "${type}"`, ...alphas, `update_min_d: ${plain(distance)}`, `update_min_a: ${plain(angle)}`];
-  const comments = notes.map((note) => `    # ${note.replaceAll(/\s+/g, ' ')}`);
-  return ['amcl:', '  ros__parameters:', ...comments, ...lines.map((line) => `    ${line}`), ''].join('\n');
+  const fitted = { alphas, intervals, count, model, rule, legs: { distance, angle }, log: logName, date, doubt, inflation };
+  return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 
 /** All that was found, with typed arrays as plain ones. @param {Figure} figure */
-export function jsonOf({ reading: { config, stats, legs, truth }, logName }) {
+function jsonOf({ reading: { config, stats, legs, truth }, logName }) {
   const all = { log: logName, date: new Date().toISOString(), settings: config, ...stats, ...(truth && { truth }), legs };
   return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value), 1);
 }

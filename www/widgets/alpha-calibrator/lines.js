@@ -1,0 +1,70 @@
+/** What came out as the lines of nav2_params.yaml that it is for, and its numbers as files have them, whatever the reader's language. */
+
+/**
+ * @typedef {[number, number] | null} Interval
+ *
+ * @typedef {object} Fitted
+ * @property {(number | null)[]} alphas
+ * @property {Interval[]} intervals
+ * @property {number} count of legs
+ * @property {string} model
+ * @property {string} rule
+ * @property {{ distance?: number, angle?: number, duration?: number }} legs
+ * @property {string} log its name, or theirs
+ * @property {string} date
+ * @property {string} [doubt] a sentence, where there is something to doubt
+ * @property {number} [inflation]
+ *
+ * @typedef {typeof import('./en.js').en.nav2} Words
+ */
+
+/** Significant digits of an interval's width, and of what has no interval. */
+const [OF_WIDTH, DIGITS] = [2, 3];
+
+/** What stands for a figure that a log is too short for. */
+const NONE = '–';
+
+/** What Nav2 calls its models. @type {Record<string, string>} */
+const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
+
+/** The rules under which Nav2's models are. */
+const ITS_RULES = ['nav2', 'omni'];
+
+/** @param {number | null} value */
+export const short = (value, digits = DIGITS) => (value !== null && Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : NONE);
+
+/** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
+export function fixed(value, interval) {
+  const width = interval ? interval[1] - interval[0] : 0;
+  if (value === null || !Number.isFinite(value) || !(width > 0 && width < Infinity)) return short(value);
+  return value.toFixed(Math.max(0, Math.min(12, OF_WIDTH - 1 - Math.floor(Math.log10(width)))));
+}
+
+/** @param {Interval | undefined} interval */
+export const between = (interval) => (interval ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
+
+/**
+ * @param {Fitted} fitted
+ * @param {Words} say
+ * @returns {string[]} none where Nav2 has no such model
+ */
+export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, doubt, inflation = 1 }, say) {
+  if (!Object.hasOwn(NAV2, model)) return [];
+  const { distance, angle, duration } = legs;
+  const notes = [
+    say.of(String(count), duration === undefined ? say.moved(short(distance ?? null), short(angle ?? null)) : say.lasted(short(duration)), log, date),
+    ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
+    ...(inflation === 1 ? [] : [say.inflated(short(inflation))]),
+    ...(doubt ? [doubt] : []),
+  ];
+  const lines = alphas.map((alpha, i) => {
+    const ends = /** @type {Interval} */ (intervals[i]?.map((end) => inflation * end) ?? null);
+    return alpha === null ? `# alpha${i + 1}: ${say.undetermined}` : `alpha${i + 1}: ${fixed(inflation * alpha, ends)}  # ${between(ends)}`;
+  });
+  // A name may have lines of its own, which would end the comment.
+  const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
+  const fifth = alphas.length < 5 ? [`# ${say.fifth}`] : [];
+  const triggers = duration === undefined ? [`update_min_d: ${short(distance ?? null)}`, `update_min_a: ${short(angle ?? null)}`] : [];
+  const all = [...comments, `robot_model_type: "${NAV2[model]}"`, ...lines, ...fifth, ...triggers];
+  return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
+}

@@ -62,7 +62,7 @@ async function choose(widget, files) {
 
 test('opens with the simulated log, said to be one, whose true α’s are inside of the intervals', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^\d+ legs of the simulated log\. The model fits: of residuals that it has not seen, 9\d\.\d.% are inside its 95 %\.$/);
+  await expect(caption(widget)).toHaveText(/^\d+ legs of the simulated log\. The model fits: of unseen residuals, 9\d\.\d.% are inside its 95 %\.$/);
   const { alphas, intervals } = await stats(widget);
   const truth = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth);
   expect(alphas.length).toBe(4);

@@ -229,9 +229,9 @@ export class AlphaCalibratorElement extends FigureElement {
         <div part="controls">${modelControls(this)}<div class="controls">${legLengths(this)}</div></div>
         <div class="folds">
           ${fold(say.panels.title, () => panels(this))}
-          ${fold(say.lengths.title, () => lengths(this))}
           ${fold(say.doubts.title, () => doubts(this))}
           ${fold(say.inflation.title, () => inflation(this))}
+          ${fold(say.lengths.title, () => lengths(this))}
           ${fold(say.own.title, () => ownLog(this, this.#opener), FOLD)}
           ${fold(say.nav2.title, () => nav2(this, this.#copied))}
           ${exportMenu(this, reading.config.seed, say.csvTitle)} ${this.copies.render()} ${this.presenting.button()}

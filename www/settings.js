@@ -139,9 +139,9 @@ export const settings = {
     { key: 'distanceScale', type: 'boolean', default: true, sentence: 'Whether the odometry’s scale of distances is removed.' },
     { key: 'turnScale', type: 'boolean', default: true, sentence: 'Whether the odometry’s scale of turns is removed.' },
     { key: 'clockOffset', type: 'boolean', default: true, sentence: 'Whether the offset between the two clocks is removed.' },
-    { key: 'byLength', type: 'boolean', default: false, sentence: 'Whether the α’s of legs of other lengths are fitted too, which takes several times as long.' },
+    { key: 'byLength', type: 'boolean', default: false, sentence: 'Whether the α’s of legs of other lengths are fitted too, which takes up to three times as long.' },
     { key: 'inflation', type: 'number', min: 0.01, max: 100, default: 1, sentence: 'What the α’s are multiplied by in what is predicted.' },
-    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 7, sentence: 'The same seed is the same luck of the simulated log, and of the bootstrap.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 8, sentence: 'The same seed is the same luck of the simulated log, and of the bootstrap.' },
   ],
 };
 

@@ -243,7 +243,7 @@ fn doubts_make_sense(Calibration { doubts, inflation, legs, judged, .. }: &Calib
     assert!(!(from > 0.95 || to < 0.95 || least > 1.0 || most < 1.0), "{held_out:?}");
     assert_eq!(worst.len(), legs.len().min(10));
     assert!(worst.is_sorted_by(|a, b| judged[*a].squared_error >= judged[*b].squared_error), "{worst:?}");
-    assert_eq!(*verdict == Verdict::FewLegs, legs.len() < 100);
+    assert_eq!(*verdict == Verdict::FewLegs, legs.len() < 100 || held_out.count < 50);
     let Inflation { factors, coverage, log_likelihood } = inflation;
     assert_eq!([factors.len(), coverage.len(), log_likelihood.len()], [25; 3]);
     coverage.iter().for_each(|share| laws::share("inflated", *share));

@@ -2,14 +2,14 @@
 
 use super::bootstrap;
 use super::clock::Alignment;
-use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, doubts};
+use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, Verdict, doubts};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Leg, LegLength, cut};
 use super::likelihood::{Evidence, Parameters, Robust, Slope};
 use super::model::{Model, Observation, Uncertainty};
 use super::profile::{Estimate, Fitted};
 use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic, Which};
-use super::trajectory::Trajectory;
+use super::trajectory::{Trajectory, sort};
 use super::undetermined::{Undetermined, undetermined};
 use crate::noise::NoiseKind;
 use nalgebra::Matrix2;
@@ -130,6 +130,8 @@ pub struct Calibrating {
     options: Options,
     stage: Stage,
     alignment: Alignment,
+    /// The systematic errors as long as no leg has told any: none but the offset of the clocks.
+    begun: Systematic,
     systematic: Systematic,
     deviations: [Option<f64>; ERRORS],
     /// Of the last round.
@@ -161,6 +163,12 @@ enum Stage {
 /// Rounds at most: systematic errors of the usual sizes stay after three or four.
 const ROUNDS: usize = 12;
 
+/// Of an α: noise whose deviation is three times what drives it is none of a robot.
+const WILD: f64 = 10.0;
+
+/// Half of the legs are so many times as long as asked: more than a sample or two too late.
+const LONGER: f64 = 1.5;
+
 /// A change that is so small a part of its deviation is none.
 const STAYS: f64 = 0.01;
 
@@ -170,6 +178,7 @@ impl Calibrating {
             options,
             stage: Stage::Align,
             alignment: Alignment::default(),
+            begun: Systematic::NONE,
             systematic: Systematic::NONE,
             deviations: [None; ERRORS],
             known: [[0.0; ERRORS]; ERRORS],
@@ -213,7 +222,8 @@ impl Calibrating {
         self.stage = match self.stage {
             Stage::Align => {
                 let Some(offset) = self.alignment.step(odometry, reference) else { return Ok(None) };
-                self.systematic.clock_offset = offset.ok_or(CalibrateError::Apart)?;
+                self.begun.clock_offset = offset.ok_or(CalibrateError::Apart)?;
+                self.systematic = self.begun;
                 Stage::Round(0)
             }
             Stage::Round(round) => {
@@ -301,8 +311,8 @@ impl Calibrating {
         let observe = |leg: &Leg| {
             let own = Matrix2::identity() * (2.0 * reference_error.position * reference_error.position);
             let heading = reference_error.heading * reference_error.heading;
-            let place = own + without.uncertainty(leg, &deviations);
-            model.observe(leg, &without, &Uncertainty { place, heading })
+            let bearing = own + without.uncertainty(leg, &deviations);
+            model.observe(leg, &without, &Uncertainty { place: own, bearing, heading })
         };
         self.observations = self.legs.iter().map(observe).collect();
         self.evidence = Evidence::new(model, noise, &self.observations);
@@ -318,9 +328,8 @@ impl Calibrating {
         let length = self.options.legs.times(factor);
         let cut = |length| cut(odometry, reference, length, self.removed.clock_offset);
         self.legs = length.map_or_else(Vec::new, cut);
-        let every = self.legs.len().div_ceil(MOST).max(1);
-        let kept = self.legs.len().div_ceil(every);
-        (0..kept).for_each(|place| self.legs[place] = self.legs[every * place]);
+        let (all, kept) = (self.legs.len(), self.legs.len().min(MOST));
+        (0..kept).for_each(|place| self.legs[place] = self.legs[place * all / kept]);
         self.legs.truncate(kept);
         let enough = self.legs.len() >= FEWEST && have_rows(&self.legs, odometry, reference);
         if enough {
@@ -378,7 +387,11 @@ impl Calibrating {
         (self.deviations, self.known) = (deviations, inverse);
         let mut stays = true;
         for (i, error) in Error::ALL.into_iter().enumerate() {
-            let Some(deviation) = deviations[i] else { continue };
+            let Some(deviation) = deviations[i] else {
+                // Whatever an earlier round made of it.
+                self.systematic.set(error, self.begun.get(error));
+                continue;
+            };
             let most = 4.0 * error.largest_deviation();
             let change = change[i].max(-most).min(most);
             self.systematic.set(error, self.systematic.get(error) + change);
@@ -401,7 +414,10 @@ impl Calibrating {
         let neighbours: Vec<bool> = (0..self.legs.len())
             .map(|i| i > 0 && self.legs[i - 1].times[1] == self.legs[i].times[0])
             .collect();
-        let doubts = doubts(model, noise, &self.observations, &judged, &neighbours, &halves);
+        let mut doubts = doubts(model, noise, &self.observations, &judged, &neighbours, &halves);
+        if doubts.verdict != Verdict::FewLegs {
+            doubts.verdict = self.mismatch(&estimate).unwrap_or(doubts.verdict);
+        }
         Calibration {
             estimate,
             undetermined,
@@ -416,6 +432,21 @@ impl Calibrating {
             observations: std::mem::take(&mut self.observations),
             by_length: Vec::new(),
         }
+    }
+
+    /// Whether the log is not what it is taken for.
+    fn mismatch(&self, estimate: &Estimate) -> Option<Verdict> {
+        let scale_is_wild = |error: Error| {
+            self.deviations[error as usize].is_some() && !(0.5..=2.0).contains(&self.systematic.get(error))
+        };
+        if [Error::DistanceScale, Error::TurnScale].into_iter().any(scale_is_wild)
+            || estimate.alphas.iter().any(|alpha| *alpha > WILD)
+        {
+            return Some(Verdict::Unrelated);
+        }
+        let mut lengths: Vec<f64> = self.legs.iter().map(|leg| self.options.legs.share_of(leg)).collect();
+        sort(&mut lengths);
+        (lengths[lengths.len() / 2] > LONGER).then_some(Verdict::LongLegs)
     }
 
     /// The α's that are determined, and why the others are not.

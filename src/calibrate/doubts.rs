@@ -60,6 +60,10 @@ pub struct HeldOut {
 pub enum Verdict {
     /// Too few legs to say.
     FewLegs,
+    /// The reference is not of this drive, or in other units: it goes half as far or twice, or other ways altogether.
+    Unrelated,
+    /// Legs are much longer than was asked, because one of the logs has few samples: the α's are those of longer legs.
+    LongLegs,
     /// Residuals are far out more often than the noise explains.
     HeavyTails,
     /// Neighbouring legs have something in common.
@@ -100,6 +104,9 @@ const SLIGHT_CORRELATION: f64 = 0.1;
 
 /// So much kurtosis more than the noise has does no harm, however sure it is.
 const SLIGHT_KURTOSIS: f64 = 0.5;
+
+/// So many more or fewer of the residuals inside than should be do no harm: 94 of 100 in place of 95.
+const SLIGHT_COVERAGE: f64 = 0.01;
 
 /// Of a kind of noise with variance 1.
 struct Shape {
@@ -299,7 +306,18 @@ pub(super) fn doubts(
         worst.truncate(WORST);
     }
     let held_out = halves.held_out();
-    let verdict = verdict(observations.len(), &kinds, &held_out, noise);
+    // What the reference errs by where two legs meet is in both, with opposite signs.
+    let shared = [0, 1, 2].map(|k| {
+        let shares = judged
+            .iter()
+            .zip(observations)
+            .map(|(leg, observation)| observation.floors[k] / (leg.deviations[k] * leg.deviations[k]));
+        let (count, sum) = shares
+            .filter(|share| share.is_finite())
+            .fold((0.0, 0.0), |(n, sum), share| (n + 1.0, sum + share));
+        if count > 0.0 { -0.5 * sum / count } else { 0.0 }
+    });
+    let verdict = verdict(observations.len(), &kinds, shared, &held_out, noise);
     Doubts { kinds, held_out, worst, verdict }
 }
 
@@ -339,26 +357,36 @@ fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) ->
         count,
         kurtosis,
         autocorrelation: pairs().sum::<f64>() / neighbouring / square,
-        autocorrelation_limit: NORMAL_95 / neighbouring.sqrt(),
+        autocorrelation_limit: if neighbouring > 0.0 { NORMAL_95 / neighbouring.sqrt() } else { f64::NAN },
         quantiles: if count > 0 { (1..100).map(|i| at(f64::from(i) / 100.0)).collect() } else { Vec::new() },
     }
 }
 
-fn verdict(legs: usize, kinds: &[KindDoubts], held_out: &HeldOut, noise: NoiseKind) -> Verdict {
+/// `shared` is what the autocorrelation of each kind may go down to because of the reference's stated error.
+fn verdict(
+    legs: usize,
+    kinds: &[KindDoubts],
+    shared: [f64; 3],
+    held_out: &HeldOut,
+    noise: NoiseKind,
+) -> Verdict {
     let Shape { kurtosis, .. } = shape(noise);
     // Of three kinds one is beyond two deviations by chance in every seventh log, beyond three in every hundredth.
     let tails = |kind: &KindDoubts| {
         kind.kurtosis - kurtosis > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
     };
-    let correlated = |kind: &KindDoubts| {
-        kind.autocorrelation.abs() > SLIGHT_CORRELATION.max(1.5 * kind.autocorrelation_limit)
+    let correlated = |(kind, shared): (&KindDoubts, f64)| {
+        let most = SLIGHT_CORRELATION.max(1.5 * kind.autocorrelation_limit);
+        kind.autocorrelation > most || kind.autocorrelation < shared - most
     };
-    match held_out {
-        _ if legs < FEW => Verdict::FewLegs,
+    let HeldOut { count, coverage, coverage_interval: [from, to], .. } = *held_out;
+    match () {
+        // Legs that tell nothing are none.
+        _ if legs < FEW || count < FEW / 2 => Verdict::FewLegs,
         _ if kinds.iter().any(tails) => Verdict::HeavyTails,
-        _ if kinds.iter().any(correlated) => Verdict::Correlated,
-        HeldOut { coverage, coverage_interval: [from, _], .. } if coverage < from => Verdict::Overconfident,
-        HeldOut { coverage, coverage_interval: [_, to], .. } if coverage > to => Verdict::Lazy,
+        _ if kinds.iter().zip(shared).any(correlated) => Verdict::Correlated,
+        _ if coverage < from.min(0.95 - SLIGHT_COVERAGE) => Verdict::Overconfident,
+        _ if coverage > to.max(0.95 + SLIGHT_COVERAGE) => Verdict::Lazy,
         _ => Verdict::Fits,
     }
 }

@@ -26,6 +26,17 @@ impl LegLength {
     /// `update_min_a`, rad.
     pub const AMCL_ANGLE: f64 = 0.2;
 
+    /// How far a leg is, as a share of the trigger that ended it.
+    pub(super) fn share_of(&self, leg: &Leg) -> f64 {
+        let [from, to] = leg.odometry;
+        match *self {
+            Self::Moved { distance, angle } => ((to.x() - from.x()).abs() / distance)
+                .max((to.y() - from.y()).abs() / distance)
+                .max(wrap_angle(to.theta() - from.theta()).abs() / angle),
+            Self::Lasted { duration } => leg.duration() / duration,
+        }
+    }
+
     fn ends(&self, time: f64, reading: &SE2, began: (f64, SE2)) -> bool {
         let (start_time, start) = began;
         match *self {

@@ -63,6 +63,9 @@ pub struct Observation {
 pub struct Uncertainty {
     /// The covariance of its end, m².
     pub place: Matrix2<f64>,
+    /// The same for its direction, with what is left uncertain of clock and lever arm: of a leg that hardly leads anywhere the direction
+    /// is theirs. What they are off by along the way was fitted to the same residuals, and makes these smaller, not greater.
+    pub bearing: Matrix2<f64>,
     /// The variance of a heading, rad², independent at either end.
     pub heading: f64,
 }
@@ -70,15 +73,19 @@ pub struct Uncertainty {
 impl Uncertainty {
     /// The variance along a direction, m².
     fn along(&self, direction: f64) -> f64 {
-        let (sin, cos) = libm::sincos(direction);
-        let toward = Vector2::new(cos, sin);
-        (self.place * toward).dot(&toward)
+        variance_along(&self.place, direction)
     }
 
     /// The variance (rad²) of the direction of a motion: at most that of a direction of which nothing is known.
     fn of_bearing(&self, bearing: f64, distance: f64) -> f64 {
-        (self.along(bearing + FRAC_PI_2) / (distance * distance)).min(PI * PI / 3.0)
+        (variance_along(&self.bearing, bearing + FRAC_PI_2) / (distance * distance)).min(PI * PI / 3.0)
     }
+}
+
+fn variance_along(covariance: &Matrix2<f64>, direction: f64) -> f64 {
+    let (sin, cos) = libm::sincos(direction);
+    let toward = Vector2::new(cos, sin);
+    (covariance * toward).dot(&toward)
 }
 
 impl Model {

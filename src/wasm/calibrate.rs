@@ -86,22 +86,23 @@ pub fn calibrated(
 }
 
 fn model(fields: &Fields) -> Result<Model, JsValue> {
-    let asked = fields.optional("model", word)?.unwrap_or(Asked::Odometry);
+    let asked: Option<Asked> = fields.optional("model", word)?;
     let rule: Option<OdometryRule> = fields.optional("rule", word)?;
+    let is_omni = rule == Some(OdometryRule::Omni);
     let fits = match asked {
-        Asked::Velocity => rule.is_none(),
-        Asked::Omnidirectional => rule.is_none_or(|rule| rule == OdometryRule::Omni),
-        Asked::Odometry => true,
+        None => true,
+        Some(Asked::Odometry) => !is_omni,
+        Some(Asked::Omnidirectional) => is_omni || rule.is_none(),
+        Some(Asked::Velocity) => rule.is_none(),
     };
     if !fits {
-        let message =
-            "rule is given beside a model that has its own; allowed is a rule of the odometry model";
+        let message = "rule does not go with the model; allowed is table, nav2 or beluga with odometry, omni with omnidirectional, and none with velocity";
         return Err(RangeError::new(message).into());
     }
     Ok(match asked {
-        Asked::Odometry => Model::Odometry(rule.unwrap_or(OdometryRule::Table)),
-        Asked::Omnidirectional => Model::Odometry(OdometryRule::Omni),
-        Asked::Velocity => Model::Velocity,
+        Some(Asked::Velocity) => Model::Velocity,
+        Some(Asked::Omnidirectional) => Model::Odometry(OdometryRule::Omni),
+        Some(Asked::Odometry) | None => Model::Odometry(rule.unwrap_or(OdometryRule::Table)),
     })
 }
 

@@ -16,7 +16,7 @@ export type Interval = [number, number];
 export interface SystematicValue {
   value: number | null;
   interval: Interval | null;
-  /** Whether it was removed before the α's were fitted. */
+  /** Whether it was removed before the α's were fitted: of what was to be, what the log determines. */
   removed: boolean;
 }
 
@@ -72,7 +72,7 @@ export interface Calibration {
     squaredError: { mean: number; interval: Interval };
     /** Places of the legs that are furthest from what was expected, the worst first. */
     worst: number[];
-    verdict: 'few-legs' | 'heavy-tails' | 'correlated' | 'overconfident' | 'lazy' | 'fits';
+    verdict: 'few-legs' | 'unrelated' | 'long-legs' | 'heavy-tails' | 'correlated' | 'overconfident' | 'lazy' | 'fits';
   };
   /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
   inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
@@ -211,7 +211,8 @@ fn systematic_to_js(calibration: &Calibration, remove: Which) -> Result<JsValue,
                 errors.iter().map(|error| of(*error)).collect::<Result<Array, JsValue>>()?.into(),
             ],
         };
-        let removed = remove[errors[0] as usize].into();
+        let determined = errors.iter().any(|error| calibration.deviations[*error as usize].is_some());
+        let removed = (determined && remove[errors[0] as usize]).into();
         Ok((*key, object(&[("value", value), ("interval", interval), ("removed", removed)])?))
     });
     object(&entries.collect::<Result<Vec<_>, JsValue>>()?)
@@ -259,6 +260,8 @@ fn kind_to_js(kind: &KindDoubts) -> Result<JsValue, JsValue> {
 fn verdict_word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::FewLegs => "few-legs",
+        Verdict::Unrelated => "unrelated",
+        Verdict::LongLegs => "long-legs",
         Verdict::HeavyTails => "heavy-tails",
         Verdict::Correlated => "correlated",
         Verdict::Overconfident => "overconfident",

@@ -267,8 +267,8 @@ fn too_few_legs_or_rows_tell_nothing() {
     assert_eq!(told_of(32, shorter), [(256, false), (128, true), (64, true), (32, true), (16, true)]);
     let lasting = LegLength::Lasted { duration: 0.4 };
     assert_eq!(told_of(32, lasting), [(256, false), (128, true), (64, true), (32, true), (16, true)]);
-    // Every other one of 24 000 legs.
-    assert_eq!(told_of(6000, LegLength::AMCL)[0], (12_000, true));
+    // Five in six of 24 000 legs.
+    assert_eq!(told_of(6000, LegLength::AMCL)[0], (20_000, true));
     // By turns of more than half a circle no leg ends; who does not want it to, has legs of all lengths.
     let [wide, wider] = [0.9, 4.0].map(|angle| told_of(64, LegLength::Moved { distance: 0.25, angle }));
     assert_eq!(wide[4], (0, false));

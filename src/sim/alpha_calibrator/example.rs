@@ -31,12 +31,12 @@ pub const TURN_SCALE: f64 = 0.97;
 
 /// How far the reference jumps (m), for how many rows, and how often: it spoils a hundredth of the legs or so.
 pub const JUMP: f64 = 0.5;
-const JUMP_ROWS: usize = 10;
-const JUMPS_A_ROW: f64 = 1e-3;
+const JUMP_ROWS: usize = 25;
+const JUMPS_A_ROW: f64 = 4e-4;
 
 /// s between two rows, and how many.
-const STEP: f64 = 0.05;
-const ROWS: usize = 3600;
+const STEP: f64 = 0.02;
+const ROWS: usize = 9000;
 
 /// m/s and rad/s.
 const SPEED: f64 = 0.6;
@@ -103,7 +103,8 @@ pub fn example(seed: u64) -> Log {
     for row in 1..ROWS {
         let time = STEP * row as f64;
         let (_, driven) = open.rows[open.rows.len() - 1];
-        let [v, omega] = robot.drive(time, &(open.truth * driven), &mut rng);
+        // Who steers by where he really is corrects his own errors, and then these and his turns have something in common.
+        let [v, omega] = robot.drive(time, &(start * odometry[row - 1].1), &mut rng);
         let driven = driven * SE2::exp(&Vector3::new(v * STEP, 0.0, omega * STEP));
         let read = Vector3::new(v * STEP / DISTANCE_SCALE, 0.0, omega * STEP / TURN_SCALE);
         let pose = odometry[row - 1].1 * SE2::exp(&read);

@@ -154,6 +154,58 @@ test('inflation multiplies what is predicted and what is taken along, and fits n
   await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too small: overconfident/);
 });
 
+test('at a factor that was tried its figure stands whatever stands beside it; beyond all of them none', async ({ page }) => {
+  const widget = await openCalibrator(page, 'noise="triangular" robust="false"');
+  await unfold(widget);
+  const { factors, logLikelihood } = (await stats(widget)).inflation;
+  const at = Array.from(factors).indexOf(1);
+  // Smaller triangles do not reach as far as the residuals.
+  expect(Number.isFinite(logLikelihood[at]) && !Number.isFinite(logLikelihood[at - 1])).toBe(true);
+  const plots = fold(widget, 'Inflate').locator('svg.plot');
+  await expect(plots.nth(1)).toHaveAttribute('aria-label', new RegExp(` At 1\\.00 it is ${logLikelihood[at].toFixed(2).replace('-', '−')} nats a leg\\.$`));
+  await expect(plots.nth(1).locator('circle')).toHaveCount(1);
+  await widget.evaluate((element) => element.setAttribute('inflation', '0.02'));
+  await settled(widget);
+  await expect(plots.nth(0)).toHaveAttribute('aria-label', / At 0\.02 it is —\.$/);
+  await expect(plots.nth(1)).toHaveAttribute('aria-label', / At 0\.02 it is — nats a leg\.$/);
+  await expect(fold(widget, 'Inflate').locator('circle')).toHaveCount(0);
+  await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText('');
+});
+
+test('quantiles and classes are by the noise of the model', async ({ page }) => {
+  const widget = await openCalibrator(page, 'noise="triangular"');
+  await unfold(widget);
+  const doubts = fold(widget, 'Doubts');
+  await expect(doubts.locator('.plot-key li').first()).toHaveText('triangular');
+  const ofCurve = () => doubts.locator('svg.plot path.curve').nth(1).evaluate((path) => path.getBoundingClientRect().width);
+  const triangular = await ofCurve();
+  const classes = () => widget.evaluate((element) => /** @type {any} */ (element).reading.classes.reduce((/** @type {number} */ sum, /** @type {number} */ place) => sum + place, 0));
+  const usual = await classes();
+  await widget.getByRole('radio', { name: 'normal' }).check();
+  await settled(widget);
+  await expect(doubts.locator('.plot-key li').first()).toHaveText('normal');
+  // From a hundredth to 99 of them.
+  expect(triangular / (await ofCurve())).toBeCloseTo(2.103 / 2.326, 2);
+  expect(usual).not.toBe(await classes());
+});
+
+test('a log of turns on the spot alone: no doubt has an interval without an end', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.evaluate((element) => {
+    const count = 2000;
+    const t = Float64Array.from({ length: count }, (_, i) => i / 20);
+    const none = new Float64Array(count);
+    const turning = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: none, y: none, theta: turning(0) }, reference: { t, x: none, y: none, theta: turning(0.01) } } });
+  });
+  await settled(widget);
+  await unfold(widget);
+  const { kinds } = (await stats(widget)).doubts;
+  expect(kinds.filter(({ autocorrelationLimit }) => autocorrelationLimit === Infinity).length).toBeGreaterThan(0);
+  await expect(fold(widget, 'Doubts')).not.toContainText('∞');
+  await expect(fold(widget, 'Doubts').getByRole('row', { name: /^autocorrelation, / }).first()).toContainText('—');
+});
+
 test('the lines for Nav2 say what they are of', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await fold(widget, 'For Nav2').locator('summary').click();
@@ -208,7 +260,7 @@ test('of the same log it says the same as the command line, to the last bit', as
   const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
   const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, '--json'], { encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28 });
   const { date, fit, logs, start, ...printed } = JSON.parse(stdout);
-  expect([fit, start, logs.length, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 9, 2, 'string']);
+  expect([fit, start, logs.length, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 }, byLength: true }, 9, 2, 'string']);
   expect(JSON.parse(shown)).toEqual(printed);
 });
 
@@ -294,8 +346,10 @@ test('a log without legs says so, and trouble with it is no failure', async ({ p
   });
   await settled(widget);
   await unfold(widget);
-  await expect(caption(widget)).toHaveText(/^No legs:/);
+  await expect(caption(widget)).toHaveText(/^Fewer than eight legs:/);
   await expect(rows(widget).first()).toHaveText(/—/);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /none is looked at\.$/);
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'There is no leg to look at.');
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
   expect(await heard(page, ['error'])).toEqual([]);

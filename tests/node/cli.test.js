@@ -224,7 +224,7 @@ test('doc/calibration.md names what is in the JSON', async () => {
   const [, section] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
   const missing = Object.keys(told).filter((key) => !section.includes(`\`${key}\``));
   assert.deepEqual(missing, []);
-  assert.deepEqual([told.start, told.legs.times[0] >= 0, told.fit], [9, true, { legs: { distance: 0.25, angle: 0.2 } }]);
+  assert.deepEqual([told.start, told.legs.times[0] >= 0, told.fit], [9, true, { legs: { distance: 0.25, angle: 0.2 }, byLength: true }]);
   assert.deepEqual(told.logs.map((/** @type {any} */ { name }) => name), ['odometry.csv', 'reference.csv']);
 });
 
@@ -324,4 +324,21 @@ test('where a log does not determine an α, no line says one', async () => {
   assert.match(out, /^alpha1 +not determined by this log/m);
   assert.match(out, /^ {4}# alpha1: not determined by this log$/m);
   assert.match(out, /^alpha1 and alpha4 not determined: this log turns too little; turn on the spot, some fifty times$/m);
+});
+
+test('figures that are nowhere, tiny or one alone, in the text', async () => {
+  const motion = /** @type {any} */ (await load());
+  const told = motion.calibrate(await askedOf(FILES));
+  /** What is printed of other figures. @param {any} change */
+  const printed = async (change) => (await said(['calibrate', ...FILES], async () => ({ calibrate: () => ({ ...told, ...change }) }))).out;
+  const kinds = told.doubts.kinds.map((/** @type {any} */ kind) => ({ ...kind, autocorrelation: NaN, autocorrelationLimit: Infinity }));
+  const nowhere = await printed({ doubts: { ...told.doubts, kinds, squaredError: { mean: 1.02, interval: [0, Infinity] } } });
+  assert.match(nowhere, /^squared error by degree of freedom +1\.02$/m);
+  assert.match(nowhere, /^autocorrelation, rot1 +–$/m);
+  const tiny = await printed({ alphas: [2.34e-13, ...told.alphas.slice(1)], intervals: [[1.8e-13, 2.9e-13], ...told.intervals.slice(1)] });
+  assert.match(tiny, /^alpha1 +2\.3e-13 +1\.8e-13 to 2\.9e-13 /m);
+  const gaps = async (/** @type {number} */ odometry) => (await printed({ gaps: { odometry, reference: 1 } })).match(/^no leg .*$/m)?.[0];
+  assert.equal(await gaps(1), 'no leg leads across 1 gap of the odometry and 1 of the reference');
+  assert.equal(await gaps(2), 'no leg leads across 2 gaps of the odometry and 1 of the reference');
+  assert.equal(await gaps(0), 'no leg leads across 0 gaps of the odometry and 1 of the reference');
 });

@@ -102,7 +102,7 @@ export function optionsOf(args) {
   return {
     odometry: partOf('odometry', values.odometry ?? values.recording, values['odom-topic'], framesOf('odom-frames', values['odom-frames'])),
     reference: partOf('reference', values.reference ?? values.recording, values['reference-topic'], framesOf('frames', values.frames)),
-    fit: { legs, ...defined(given) },
+    fit: { legs, byLength: true, ...defined(given) },
     deviations: defined({ positionDeviation: number('position-deviation'), headingDeviation: number('heading-deviation') }),
     json: values.json ?? false,
   };

@@ -50,7 +50,7 @@ export function textOf({ calibration, fit, logs, start, date }) {
     ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
     '',
     `${legs.count} legs ${lengthOf(fit.legs)}; model ${model}${rule}, ${fit.noise ?? 'normal'} noise`,
-    ...(gaps.odometry + gaps.reference > 0 ? [`no leg leads across ${gaps.odometry} gaps of the odometry and ${gaps.reference} of the reference`] : []),
+    ...(gaps.odometry + gaps.reference > 0 ? [`no leg leads across ${gaps.odometry} ${gaps.odometry === 1 ? 'gap' : 'gaps'} of the odometry and ${gaps.reference} of the reference`] : []),
     '',
     ...aligned([['', 'value', '95 %', '95 % by bootstrap', 'noise of'], ...rows]),
     ...undeterminedOf(calibration, model),
@@ -123,11 +123,11 @@ function systematicRow([key, name, unit], systematic) {
 function doubtRows({ kinds, heldOut, squaredError }) {
   const percent = (/** @type {number | null} */ share) => (share === null || Number.isNaN(share) ? '–' : `${short(100 * share)} %`);
   return [
-    ['held-out residuals inside of 95 %', percent(heldOut.coverage), heldOut.interval ? heldOut.interval.map(percent).join(' to ') : ''],
+    ['held-out residuals inside of 95 %', percent(heldOut.coverage), heldOut.interval?.every(Number.isFinite) ? heldOut.interval.map(percent).join(' to ') : ''],
     ['squared error by degree of freedom', fixed(squaredError.mean, squaredError.interval), between(squaredError.interval)],
     ...kinds.flatMap((/** @type {any} */ { name, kurtosis, autocorrelation, autocorrelationLimit }) => [
       [`kurtosis, ${name}`, short(kurtosis), ''],
-      [`autocorrelation, ${name}`, short(autocorrelation), autocorrelationLimit ? `within ±${short(autocorrelationLimit)}` : ''],
+      [`autocorrelation, ${name}`, short(autocorrelation), Number.isFinite(autocorrelationLimit) ? `within ±${short(autocorrelationLimit)}` : ''],
     ]),
   ];
 }

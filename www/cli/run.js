@@ -54,7 +54,7 @@ export async function run(args, { load, print, complain, now = new Date() }) {
  */
 function calibrate(motion, { fit, deviations }, { odometry, reference }) {
   try {
-    return motion.calibrate({ ...fit, byLength: true, odometry: odometry.data, reference: { ...reference.data, ...deviations } });
+    return motion.calibrate({ ...fit, odometry: odometry.data, reference: { ...reference.data, ...deviations } });
   } catch (error) {
     // It names a field, the value, and what is allowed.
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;

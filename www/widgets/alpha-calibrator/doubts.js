@@ -7,6 +7,8 @@ import { button, radioGroup, rich } from '../../ui/controls.js';
 import { NOTHING, counted, fixed, percent } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
+import { between } from './curve.js';
+import { QUANTILES, REACH } from './quantiles.js';
 import { alphaName, significantly, thousandths } from './words.js';
 
 /**
@@ -66,37 +68,14 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
 /** How the curve of each noise looks. @type {{ role: Role, dash?: string }[]} */
 const LOOKS = [{ role: 'prediction' }, { role: 'prior', dash: '7 4' }, { role: 'posterior', dash: '2 4' }];
 
-/** What the quantiles reach to, standard deviations. */
-const REACH = 4;
-
-/**
- * The quantile of the standard normal distribution at each hundredth from 0.01 to 0.99: by bisection of a series of its
- * distribution function, to a thousandth and better.
- */
-const NORMAL = Float64Array.from({ length: 99 }, (_, i) => normalQuantile((i + 1) / 100));
-
-/** @param {number} share */
-function normalQuantile(share) {
-  let [low, high] = [-REACH, REACH];
-  while (high - low > 1e-4) {
-    const middle = (low + high) / 2;
-    // Φ(x) = ½ + φ(x)·(x + x³/3 + x⁵/15 + …).
-    let [term, sum] = [middle, middle];
-    for (let n = 3; Math.abs(term) > 1e-7; n += 2) sum += term *= (middle * middle) / n;
-    const below = 0.5 + (Math.exp((-middle * middle) / 2) / Math.sqrt(2 * Math.PI)) * sum;
-    if (below < share) low = middle;
-    else high = middle;
-  }
-  return (low + high) / 2;
-}
-
 /** @param {Figure} figure */
 export function doubts(figure) {
   if (figure.reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
-  const { stats: { doubts: { kinds, heldOut, squaredError, worst }, outliers, gaps } } = figure.reading;
+  const { config: { noise }, stats: { doubts: { kinds, heldOut, squaredError, worst }, outliers, gaps } } = figure.reading;
   const say = words.calibrator.doubts;
   const nameOf = (/** @type {string} */ name) => /** @type {Record<string, string>} */ (words.calibrator.panels.kinds)[name];
-  const range = (/** @type {readonly number[]} */ [low, high], /** @type {(value: number) => string} */ print) => `${print(low)} – ${print(high)}`;
+  const range = (/** @type {readonly number[]} */ [low, high], /** @type {(value: number) => string} */ print) =>
+    Number.isFinite(high - low) ? `${print(low)} – ${print(high)}` : NOTHING;
   const two = (/** @type {number} */ value) => fixed(value, 2);
   return html`<div class="figures">
       <figure>
@@ -105,8 +84,8 @@ export function doubts(figure) {
           x: { name: say.qqX, from: -3, to: 3 },
           y: { name: say.qqY, from: -REACH, to: REACH },
           curves: [
-            { name: say.qqExpected, role: 'truth', x: [-REACH, REACH], y: [-REACH, REACH] },
-            ...kinds.map(({ name, quantiles }, i) => ({ name: nameOf(name), ...LOOKS[i], x: NORMAL, y: quantiles })),
+            { name: words.calibrator.noises[noise], role: 'truth', x: [-REACH, REACH], y: [-REACH, REACH] },
+            ...kinds.map(({ name, quantiles }, i) => ({ name: nameOf(name), ...LOOKS[i], x: QUANTILES[noise], y: quantiles })),
           ],
         })}
         <figcaption>${say.qq}</figcaption>
@@ -118,8 +97,8 @@ export function doubts(figure) {
           rows: [
             [say.heldOut, percent(heldOut.coverage), range(heldOut.interval, percent)],
             [say.squared, two(squaredError.mean), range(squaredError.interval, two)],
-            ...kinds.map(({ name, kurtosis }) => [say.kurtosis(nameOf(name)), two(kurtosis), figure.reading.config.noise === 'normal' ? fixed(3, 2) : two(2.4)]),
-            ...kinds.map(({ name, autocorrelation, autocorrelationLimit: most }) => [say.autocorrelation(nameOf(name)), two(autocorrelation), `${two(-most)} – ${two(most)}`]),
+            ...kinds.map(({ name, kurtosis }) => [say.kurtosis(nameOf(name)), two(kurtosis), noise === 'normal' ? fixed(3, 2) : two(2.4)]),
+            ...kinds.map(({ name, autocorrelation, autocorrelationLimit: most }) => [say.autocorrelation(nameOf(name)), two(autocorrelation), range([-most, most], two)]),
             [say.outliers, outliers === null ? NOTHING : percent(outliers), NOTHING],
             [say.gaps, `${counted(gaps.odometry)}, ${counted(gaps.reference)}`, NOTHING],
           ],
@@ -141,9 +120,9 @@ export function inflation(figure) {
   const marks = [{ x: factor, text: `f = ${fixed(factor, 2)}` }];
   const [covered, nats] = [between(factors, coverage, factor), between(factors, logLikelihood, factor)];
   const [low, high] = heldOut.interval;
-  const signature = covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
+  const signature = Number.isNaN(covered) ? '' : covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
   const finite = logLikelihood.filter(Number.isFinite);
-  const best = Math.max(...finite);
+  const best = finite.length > 0 ? Math.max(...finite) : 0;
   return html`<fieldset>${slider(figure, 'inflation')}</fieldset>
     <div class="figures">
       <figure>${plot({
@@ -160,25 +139,11 @@ export function inflation(figure) {
       <figure>${plot({
         label: say.likelihoodLabel(fixed(factor, 2), fixed(nats, 2)),
         x,
-        y: { name: say.likelihood, from: Math.max(Math.min(...finite), best - 6), to: best + 0.5 },
+        y: { name: say.likelihood, from: Math.max(Math.min(...finite, best), best - 6), to: best + 0.5 },
         curves: [{ name: say.likelihood, role: 'prediction', x: factors, y: logLikelihood }],
         points: [{ role: 'prediction', x: factor, y: nats, error: 0 }],
         marks,
       })}</figure>
     </div>
     <p class="caption">${signature}</p>`;
-}
-
-/**
- * The value of a curve between its points, by the logarithm of where.
- *
- * @param {Float64Array} factors
- * @param {Float64Array} values
- * @param {number} factor
- */
-function between(factors, values, factor) {
-  const after = factors.findIndex((each) => each >= factor);
-  if (after <= 0) return values[after < 0 ? values.length - 1 : 0];
-  const share = Math.log(factor / factors[after - 1]) / Math.log(factors[after] / factors[after - 1]);
-  return values[after - 1] + share * (values[after] - values[after - 1]);
 }

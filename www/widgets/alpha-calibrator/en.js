@@ -37,7 +37,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     correlated: (coverage) => `Something is left: one leg’s error tells the next one’s. Of unseen residuals, ${coverage} are inside its 95 %.`,
     'few-legs': () => 'Too few legs to say whether the model is any good. Drive on, or take shorter legs.',
   },
-  none: 'No legs: the log does not move as far, or both parts have no time in common.',
+  none: 'Fewer than eight legs: too little motion, or no time in common.',
   alphas: {
     caption: 'Likeliest values, with 95 % intervals',
     captionTrue: 'Likeliest, with 95 % intervals; | simulated with',
@@ -101,7 +101,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     square: 'as the tables have it',
     linear: 'noise of the length itself',
     at: (value, length) => `${value} at ${length}`,
-    simulated: 'The simulated log was made of legs of 0.25 m or 0.2 rad: of longer and shorter ones no α’s are true.',
+    simulated: (distance, angle) => `The simulated log was made of legs of ${distance} m or ${angle} rad: of longer and shorter ones no α’s are true.`,
     label: (alpha, points) => `Alpha ${alpha} by the length of legs: ${points}.`,
   },
   doubts: {
@@ -116,10 +116,9 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     autocorrelation: (kind) => `autocorrelation, ${kind}`,
     outliers: 'bad legs',
     gaps: 'gaps of odometry and reference',
-    qq: 'Quantiles of the standardized residuals against those of the normal distribution. Where the model is true they are on the diagonal.',
-    qqLabel: (kinds) => `Quantiles of standardized residuals against those of the normal distribution: ${kinds}.`,
-    qqExpected: 'normal',
-    qqX: 'normal quantile',
+    qq: 'Quantiles of the standardized residuals against those of the model’s noise. Where the model is true they are on the diagonal.',
+    qqLabel: (kinds) => `Quantiles of standardized residuals against those of the model’s noise: ${kinds}.`,
+    qqX: 'quantile of the model’s noise',
     qqY: 'measured',
     worst: 'Worst legs',
     worstLeg: (number) => `Leg ${number}`,
@@ -170,6 +169,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   },
   csvTitle: 'Every leg, with what was read, what was driven, and the residuals',
   logNotInCode: 'Your log is not in it: the figure opens with the simulated one.',
+  noWay: 'View of the floor from above: there are fewer than eight legs, and none is looked at.',
+  noLeg: 'There is no leg to look at.',
   way: (legs, classes, chosen) =>
     `View of the floor from above, x to the right and y up: the way of the robot by the reference, in ${of(legs, 'leg')}. ${classes} are further off than 19 in 20 would be. Leg ${chosen} is looked at.`,
   legText: (number, readX, readY, endX, endY) =>

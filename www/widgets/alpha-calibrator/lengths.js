@@ -3,8 +3,9 @@
 import { html } from 'lit';
 import { check } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { NOTHING } from '../../ui/format.js';
+import { NOTHING, typed } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
+import { SIMULATED } from './settings.js';
 import { alphaName, driverOf, significantly, thousandths } from './words.js';
 
 /**
@@ -26,7 +27,7 @@ export function lengths(figure) {
     ${byLength.length === 0
       ? ''
       : html`<div class="panels">${alphas.map((_, i) => html`<figure>${lengthPlot(config, byLength, i)}</figure>`)}</div>
-        <p class="figcaption">${say.caption} ${truth ? say.simulated : ''}</p>`}`;
+        <p class="figcaption">${say.caption} ${truth ? say.simulated(typed(SIMULATED.distance, 0), typed(SIMULATED.angle, 0)) : ''}</p>`}`;
 }
 
 /**

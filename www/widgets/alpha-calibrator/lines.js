@@ -21,6 +21,11 @@
 /** Significant digits of an interval's width, and of what has no interval. */
 const [OF_WIDTH, DIGITS] = [2, 3];
 
+/** Below it values have an exponent. */
+const TINY = 1e-6;
+
+const MOST_DECIMALS = 12;
+
 /** What stands for a figure that a log is too short for. */
 const NONE = '–';
 
@@ -31,17 +36,23 @@ const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 
 const ITS_RULES = ['nav2', 'omni'];
 
 /** @param {number | null} value */
-export const short = (value, digits = DIGITS) => (value !== null && Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : NONE);
+export const short = (value, digits = DIGITS) => (value !== null && Number.isFinite(value) ? pointed(String(Number(value.toPrecision(digits)))) : NONE);
+
+/** To readers of YAML 1.1 a number with an exponent is a text unless it has a point. @param {string} number */
+const pointed = (number) => number.replace(/^(-?\d)e/, '$1.0e');
 
 /** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
 export function fixed(value, interval) {
   const width = interval ? interval[1] - interval[0] : 0;
   if (value === null || !Number.isFinite(value) || !(width > 0 && width < Infinity)) return short(value);
-  return value.toFixed(Math.max(0, Math.min(12, OF_WIDTH - 1 - Math.floor(Math.log10(width)))));
+  const decimals = OF_WIDTH - 1 - Math.floor(Math.log10(width));
+  if (width >= TINY || Math.abs(value) >= TINY) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
+  const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
+  return digits < 0 ? '0' : pointed(value.toExponential(Math.min(MOST_DECIMALS, digits)));
 }
 
-/** @param {Interval | undefined} interval */
-export const between = (interval) => (interval ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
+/** Nothing where an end is nowhere. @param {Interval | undefined} interval */
+export const between = (interval) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
 
 /**
  * @param {Fitted} fitted
@@ -59,7 +70,7 @@ export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, da
   ];
   const lines = alphas.map((alpha, i) => {
     const ends = /** @type {Interval} */ (intervals[i]?.map((end) => inflation * end) ?? null);
-    return alpha === null ? `# alpha${i + 1}: ${say.undetermined}` : `alpha${i + 1}: ${fixed(inflation * alpha, ends)}  # ${between(ends)}`;
+    return alpha === null ? `# alpha${i + 1}: ${say.undetermined}` : `alpha${i + 1}: ${fixed(inflation * alpha, ends)}${ends ? `  # ${between(ends)}` : ''}`;
   });
   // A name may have lines of its own, which would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);

@@ -1,6 +1,12 @@
 /** What the Alpha Calibrator shows of its machine. */
 
-/** @import { AlphaCalibrator as Machine, CalibrationLegs } from '../../types.d.ts' */
+import { SHARES, SQUARED } from './quantiles.js';
+import { SIMULATED } from './settings.js';
+
+/**
+ * @import { AlphaCalibrator as Machine, CalibrationLegs } from '../../types.d.ts'
+ * @import { Noise } from './quantiles.js'
+ */
 
 /**
  * @typedef {object} Reading
@@ -14,15 +20,6 @@
  */
 
 /**
- * Shares of the legs that are below the squared error of each class, were the model true: the last class has one leg in a
- * thousand.
- */
-export const SHARES = [0.5, 0.95, 0.999];
-
-/** Quantiles of χ² at these shares, by how many residuals a leg tells. */
-const QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
-
-/**
  * Everything that the pictures and readouts need of the machine, asked once a change.
  *
  * @param {Machine} machine
@@ -33,18 +30,19 @@ export function readingOf(machine, before) {
   const { config, fits } = machine;
   if (before?.fits === fits) return { ...before, config };
   const { stats, legs, truth } = machine;
-  return { config, fits, stats, legs, truth, classes: classesOf(legs), opening: openingOf(legs, config.distance) };
+  return { config, fits, stats, legs, truth, classes: classesOf(legs, config.noise), opening: openingOf(legs, config.distance) };
 }
 
 /**
  * How unusual each leg is: the place among `SHARES` of the first that it is below.
  *
  * @param {CalibrationLegs} legs
+ * @param {Noise} noise of the model
  */
-function classesOf({ count, squaredError, residuals }) {
+export function classesOf({ count, squaredError, residuals }, noise) {
   return Uint8Array.from({ length: count }, (_, leg) => {
     const told = residuals.subarray(3 * leg, 3 * leg + 3).reduce((sum, residual) => sum + Number(!Number.isNaN(residual)), 0);
-    const place = QUANTILES[told].findIndex((quantile) => squaredError[leg] <= quantile);
+    const place = SQUARED[noise][told].findIndex((quantile) => squaredError[leg] <= quantile);
     return place < 0 ? SHARES.length : place;
   });
 }
@@ -73,4 +71,4 @@ export const legOf = ({ opening, legs }, chosen) => (chosen !== null && chosen <
 
 /** Whether the true α's are those of the present fit: of its rule, and of its legs. @param {Reading} reading */
 export const truthHolds = ({ truth, config: { rule, model, distance, angle } }) =>
-  truth !== null && model === 'odometry' && rule === 'table' && distance === 0.25 && angle === 0.2;
+  truth !== null && model === 'odometry' && rule === 'table' && distance === SIMULATED.distance && angle === SIMULATED.angle;

@@ -39,6 +39,9 @@ export const documentation = {
 /** What the models are called together with their rules: two settings, and one choice. */
 export const KINDS = /** @type {const} */ (['table', 'nav2', 'beluga', 'omni', 'velocity']);
 
+/** Legs of the simulated log: those that the element opens with. */
+export const SIMULATED = { distance: 0.25, angle: 0.2 };
+
 /** @typedef {(typeof KINDS)[number]} Kind */
 
 /** @param {AlphaCalibratorSettings} config @returns {Kind} */

@@ -67,6 +67,7 @@ export function longestCaption(log) {
  * @param {number} chosen
  */
 export function wayText({ legs, classes }, chosen) {
+  if (chosen < 0) return words.calibrator.noWay;
   const far = classes.reduce((sum, place) => sum + Number(place > 1), 0);
   return words.calibrator.way(counted(legs.count), counted(far), counted(chosen + 1));
 }
@@ -78,6 +79,7 @@ export function wayText({ legs, classes }, chosen) {
  * @param {number} chosen
  */
 export function legText(leg, chosen) {
-  const [readX, readY, endX, endY] = leg ? [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]] : [NaN, NaN, NaN, NaN];
+  if (!leg) return words.calibrator.noLeg;
+  const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
   return words.calibrator.legText(counted(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
 }

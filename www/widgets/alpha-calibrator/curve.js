@@ -1,0 +1,18 @@
+/** Curves of which a few points are known. */
+
+/**
+ * The value of a curve between its points, by the logarithm of where.
+ *
+ * @param {ArrayLike<number>} at where its points are, rising
+ * @param {ArrayLike<number>} values
+ * @param {number} where
+ * @returns {number} NaN beyond its ends, and beside a point that is not finite
+ */
+export function between(at, values, where) {
+  const after = Array.from(at).findIndex((each) => each >= where);
+  if (after < 0 || (after === 0 && at[0] > where)) return NaN;
+  if (at[after] === where) return values[after];
+  const share = Math.log(where / at[after - 1]) / Math.log(at[after] / at[after - 1]);
+  const value = values[after - 1] + share * (values[after] - values[after - 1]);
+  return Number.isFinite(value) ? value : NaN;
+}

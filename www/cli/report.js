@@ -15,13 +15,6 @@ import { between, fixed, nav2Lines, short } from '../widgets/alpha-calibrator/li
  * @property {string} date
  */
 
-/** What the noises of the models grow with, in the order of the α's. @type {Record<string, string[]>} */
-const GROW = {
-  odometry: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn'],
-  omnidirectional: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn', 'sideways, with the way'],
-  velocity: ['v, with v', 'v, with ω', 'ω, with v', 'ω, with ω', 'γ, with v', 'γ, with ω'],
-};
-
 /** What is systematic: its name, its unit, and how many numbers it has. @type {[string, string, string][]} */
 const SYSTEMATIC = [
   ['clockOffset', 'clock offset', 's'],
@@ -44,7 +37,7 @@ export function textOf({ calibration, fit, logs, start, date }) {
     alpha === null ? 'not determined by this log' : fixed(alpha, intervals[i]),
     between(intervals[i]),
     between(bootstrap[i]),
-    GROW[model][i],
+    en.alphas.noiseOf[/** @type {keyof typeof en.alphas.noiseOf} */ (model)][i],
   ]);
   return [
     ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
@@ -148,11 +141,11 @@ const verdictOf = ({ doubts: { verdict, heldOut } }) => en.verdicts[/** @type {k
 
 /** @param {Result} result @returns {string[]} */
 function nav2Of({ calibration, fit, logs, date }) {
-  const { alphas, intervals, legs: { count }, doubts } = calibration;
+  const { alphas, intervals, legs: { count }, doubts: { verdict }, systematic } = calibration;
   const { model = 'odometry', rule = 'table', legs } = fit;
   const log = [...new Set(logs.map(({ name }) => name))].join(' and ');
-  const doubt = doubts.verdict === 'fits' ? undefined : verdictOf(calibration);
-  const lines = nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, doubt }, en.nav2);
+  const doubt = verdict === 'fits' ? undefined : verdictOf(calibration);
+  const lines = nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, verdict, doubt, systematic }, en.nav2);
   return lines.length ? ['# nav2_params.yaml', ...lines] : ['nav2_params.yaml has no lines for the velocity model.'];
 }
 

@@ -36,6 +36,8 @@ export const de = {
     lazy: (coverage) => `Träge: Von neuen Residuen liegen ${coverage} in seinen 95 %.`,
     'heavy-tails': (coverage) => `Schwere Ränder: Wenige liegen weit ab und entscheiden. Von neuen Residuen liegen ${coverage} in den 95 %.`,
     correlated: (coverage) => `Noch ein fester Fehler: Der einer Etappe verrät den der nächsten. ${coverage} liegen in den 95 %.`,
+    unrelated: () => 'Die Referenz folgt dieser Odometrie nicht: Ist sie von einer anderen Fahrt, in Grad oder in Millimetern?',
+    'long-legs': (coverage) => `Die Etappen sind länger als verlangt: zu wenige Zeilen. Von neuen Residuen liegen ${coverage} in den 95 %.`,
     'few-legs': () => 'Zu wenige Etappen, um über das Modell zu urteilen: weiterfahren oder kürzere nehmen.',
   },
   none: 'Weniger als acht Etappen: zu wenig Bewegung oder keine gemeinsame Zeit.',
@@ -47,6 +49,11 @@ export const de = {
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `nicht bestimmt: ${lack}; ${drive}`,
+    noiseOf: {
+      odometry: ['Drehung, durch die Drehung', 'Drehung, durch den Weg', 'Weg, durch den Weg', 'Weg, durch die Drehung'],
+      omnidirectional: ['Drehung, durch die Drehung', 'Drehung, durch den Weg', 'Weg, durch den Weg', 'Weg, durch die Drehung', 'quer, durch den Weg'],
+      velocity: ['v, durch v', 'v, durch ω', 'ω, durch v', 'ω, durch ω', 'γ, durch v', 'γ, durch ω'],
+    },
     lacking: {
       'turns-too-little': { lack: 'zu wenig gedreht', drive: 'etwa fünfzig Mal auf der Stelle drehen', byCommands: 'enge Kurven fahren, etwa fünfzig Etappen' },
       'drives-too-little': { lack: 'kaum gefahren', drive: 'geradeaus fahren, etwa fünfzig Etappen', byCommands: 'geradeaus und in Kurven fahren, je etwa fünfzig Etappen' },
@@ -55,6 +62,7 @@ export const de = {
   },
   systematic: {
     caption: 'Feste Fehler; entfernt wird, was angekreuzt ist',
+    captionTrue: 'Feste Fehler, angekreuzt entfernt; grau: simuliert mit',
     what: 'fester Fehler',
     value: 'Wert',
     interval: '95 %',
@@ -166,6 +174,7 @@ export const de = {
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,
     lasted: (duration) => `von ${duration} s`,
     inflated: (factor) => `alle mit ${factor} vervielfacht`,
+    corrected: (errors) => `für eine berichtigte Odometrie: ${errors}`,
     fifth: 'alpha5 hat nur das omnidirektionale Modell',
   },
   csvTitle: 'Jede Etappe: was gelesen und was gefahren wurde, und die Residuen',

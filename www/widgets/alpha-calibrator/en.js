@@ -35,6 +35,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     lazy: (coverage) => `Lazy: of unseen residuals, ${coverage} are inside its 95 %. A filter learns too little from the wheels.`,
     'heavy-tails': (coverage) => `Heavy tails: a few legs are far out, and decide. Of unseen residuals, ${coverage} are inside its 95 %.`,
     correlated: (coverage) => `Something is left: one leg’s error tells the next one’s. Of unseen residuals, ${coverage} are inside its 95 %.`,
+    unrelated: () => 'The reference does not follow this odometry: is it of another drive, in degrees, or in millimetres?',
+    'long-legs': (coverage) => `Legs are longer than asked, as a log has too few rows for them. Of unseen residuals, ${coverage} are inside its 95 %.`,
     'few-legs': () => 'Too few legs to say whether the model is any good. Drive on, or take shorter legs.',
   },
   none: 'Fewer than eight legs: too little motion, or no time in common.',
@@ -46,6 +48,11 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
+    noiseOf: {
+      odometry: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn'],
+      omnidirectional: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn', 'sideways, with the way'],
+      velocity: ['v, with v', 'v, with ω', 'ω, with v', 'ω, with ω', 'γ, with v', 'γ, with ω'],
+    },
     lacking: {
       'turns-too-little': { lack: 'this log turns too little', drive: 'turn on the spot, some fifty times', byCommands: 'drive tight bends, some fifty legs' },
       'drives-too-little': { lack: 'this log hardly goes anywhere', drive: 'drive straight on, some fifty legs', byCommands: 'drive straight on and in bends, some fifty legs of each' },
@@ -54,6 +61,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   },
   systematic: {
     caption: 'What is systematic, and is removed where it is ticked',
+    captionTrue: 'Systematic, removed where ticked; grey: simulated with',
     what: 'systematic',
     value: 'value',
     interval: '95 %',
@@ -165,6 +173,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
     lasted: (duration) => `of ${duration} s`,
     inflated: (factor) => `all multiplied by ${factor}`,
+    corrected: (errors) => `of odometry that is corrected: ${errors}`,
     fifth: 'alpha5 is of the omnidirectional model alone',
   },
   csvTitle: 'Every leg, with what was read, what was driven, and the residuals',

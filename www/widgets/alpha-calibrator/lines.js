@@ -12,7 +12,9 @@
  * @property {{ distance?: number, angle?: number, duration?: number }} legs
  * @property {string} log its name, or theirs
  * @property {string} date
+ * @property {string} verdict
  * @property {string} [doubt] a sentence, where there is something to doubt
+ * @property {any} systematic as the core tells it
  * @property {number} [inflation]
  *
  * @typedef {typeof import('./en.js').en.nav2} Words
@@ -31,6 +33,9 @@ const NONE = '–';
 
 /** What Nav2 calls its models. @type {Record<string, string>} */
 const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
+
+/** Of these nothing is to be taken along. */
+const USELESS = ['few-legs', 'unrelated'];
 
 /** The rules under which Nav2's models are. */
 const ITS_RULES = ['nav2', 'omni'];
@@ -59,17 +64,19 @@ export const between = (interval) => (interval?.every(Number.isFinite) ? interva
  * @param {Words} say
  * @returns {string[]} none where Nav2 has no such model
  */
-export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, doubt, inflation = 1 }, say) {
+export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, verdict, doubt, systematic, inflation = 1 }, say) {
   if (!Object.hasOwn(NAV2, model)) return [];
   const { distance, angle, duration } = legs;
   const notes = [
     say.of(String(count), duration === undefined ? say.moved(short(distance ?? null), short(angle ?? null)) : say.lasted(short(duration)), log, date),
     ...(model !== 'odometry' || ITS_RULES.includes(rule) ? [] : [say.otherRule]),
     ...(inflation === 1 ? [] : [say.inflated(short(inflation))]),
+    ...correctionOf(systematic).map((errors) => say.corrected(errors)),
     ...(doubt ? [doubt] : []),
   ];
   const lines = alphas.map((alpha, i) => {
     const ends = /** @type {Interval} */ (intervals[i]?.map((end) => inflation * end) ?? null);
+    if (alpha !== null && USELESS.includes(verdict)) return `# alpha${i + 1}: ${fixed(inflation * alpha, ends)}`;
     return alpha === null ? `# alpha${i + 1}: ${say.undetermined}` : `alpha${i + 1}: ${fixed(inflation * alpha, ends)}${ends ? `  # ${between(ends)}` : ''}`;
   });
   // A name may have lines of its own, which would end the comment.
@@ -78,4 +85,16 @@ export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, da
   const triggers = duration === undefined ? [`update_min_d: ${short(distance ?? null)}`, `update_min_a: ${short(angle ?? null)}`] : [];
   const all = [...comments, `robot_model_type: "${NAV2[model]}"`, ...lines, ...fifth, ...triggers];
   return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
+}
+
+/**
+ * What was removed is still in the odometry of the robot, in the names that it has in the answer.
+ *
+ * @param {any} systematic
+ * @returns {string[]} one, or none
+ */
+function correctionOf(systematic) {
+  const removed = Object.entries(systematic).filter(([, each]) => each.removed);
+  const told = removed.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval?.[i] : interval)).join(', ')}`);
+  return told.length ? [told.join('; ')] : [];
 }

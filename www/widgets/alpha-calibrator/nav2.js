@@ -18,10 +18,10 @@ import { nav2Lines } from './lines.js';
  */
 function yamlOf({ reading: { config, stats, legs: { count } }, logName }) {
   const { model, rule, distance, angle, inflation } = config;
-  const { alphas, intervals, doubts: { verdict, heldOut } } = stats;
+  const { alphas, intervals, systematic, doubts: { verdict, heldOut } } = stats;
   const doubt = verdict === 'fits' ? undefined : words.calibrator.verdicts[verdict](percent(heldOut.coverage));
   const date = new Date().toISOString().slice(0, 10);
-  const fitted = { alphas, intervals, count, model, rule, legs: { distance, angle }, log: logName, date, doubt, inflation };
+  const fitted = { alphas, intervals, count, model, rule, legs: { distance, angle }, log: logName, date, verdict, doubt, systematic, inflation };
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 

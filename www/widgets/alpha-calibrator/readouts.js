@@ -17,10 +17,14 @@ import { alphaName, significantly } from './words.js';
 /** Of a whisker's row. */
 const CHART = { width: 200, height: 24, inset: 12 };
 
+/** Between the labels of the axis, at most. */
+const MOST_DECADES = 4;
+
 /** The likeliest α's, each with its interval on an axis that all of them share. @param {Reading} reading */
 export function alphaTable(reading) {
   const { alphas, intervals } = reading.stats;
   const say = words.calibrator.alphas;
+  const noises = say.noiseOf[/** @type {keyof typeof say.noiseOf} */ (reading.config.model)];
   const truth = truthHolds(reading) ? reading.truth?.alphas : undefined;
   const place = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
@@ -30,7 +34,7 @@ export function alphaTable(reading) {
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
-        <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
+        <th scope="row" title=${noises[i]}>${rich(`*α*${alphaName(i)}`)}<span class="visually-hidden">: ${noises[i]}</span></th>
         ${alpha === null
           ? html`<td class="unknown" colspan="3">${lackOf(reading, i)}</td>`
           : html`<td class="chart">${whisker(place, alpha, intervals[i], truth?.[i])}</td>
@@ -78,7 +82,9 @@ function axisOf(values) {
     const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
     return Math.max(0, Math.min(width, inset + share * (width - 2 * inset)));
   };
-  return { at, decades: Array.from({ length: to - from + 1 }, (_, i) => 10 ** (from + i)) };
+  // More labels would touch.
+  const step = Math.ceil((to - from) / MOST_DECADES);
+  return { at, decades: Array.from({ length: Math.floor((to - from) / step) + 1 }, (_, i) => 10 ** (from + i * step)) };
 }
 
 /**
@@ -106,7 +112,7 @@ export function systematicTable(figure) {
   const told = figure.settings.told;
   const digits = (/** @type {number} */ value) => fixed(value, 3);
   return html`<table class="systematic" part="table">
-    <caption>${say.caption}</caption>
+    <caption>${truth ? say.captionTrue : say.caption}</caption>
     <thead class="visually-hidden">
       <tr>
         <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th>

@@ -120,6 +120,11 @@ const own = css`
     --beside: 0.4em;
   }
 
+  /* Below the buttons of the presentation. */
+  :host([presentation]) .views > .tables {
+    padding-top: 2.2em;
+  }
+
   :host([presentation]) .surface:not(.with-controls) .looked > :is(fieldset, button) {
     display: none;
   }

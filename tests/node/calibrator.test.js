@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { between } from '../../www/widgets/alpha-calibrator/curve.js';
+import { axisOf, between } from '../../www/widgets/alpha-calibrator/curve.js';
 import { de } from '../../www/widgets/alpha-calibrator/de.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { between as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.js';
@@ -97,6 +97,15 @@ test('a curve is told at its points whatever stands beside them, and neither bey
   assert.ok(Math.abs(between(at, values, Math.SQRT2) - 1.35) < 1e-12);
   for (const where of [0.02, 0.3, 0.7, 3]) assert.ok(Number.isNaN(between(at, values, where)), `${where}`);
   assert.ok(Number.isNaN(between([], [], 1)));
+});
+
+test('an axis has two ends whatever is of a curve', () => {
+  for (const [values, from, to] of /** @type {[number[], number, number][]} */ ([
+    [[-Infinity, -20, 1, 2], -4, 2.5],
+    [[-Infinity, 1, 2], 1, 2.5],
+    [[-Infinity, -Infinity], 0, 0.5],
+    [[NaN], 0, 0.5],
+  ])) assert.deepEqual(axisOf(values, 6), { from, to });
 });
 
 test('numbers of files: as many digits as the interval has a meaning in, with an exponent where they are tiny', () => {

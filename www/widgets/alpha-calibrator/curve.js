@@ -16,3 +16,16 @@ export function between(at, values, where) {
   const value = values[after - 1] + share * (values[after] - values[after - 1]);
   return Number.isFinite(value) ? value : NaN;
 }
+
+/**
+ * From where to where an axis is to reach, for the highest points of a curve.
+ *
+ * @param {ArrayLike<number>} values
+ * @param {number} depth below the highest of them
+ * @returns {{ from: number, to: number }} around 0 where none is finite
+ */
+export function axisOf(values, depth) {
+  const finite = Array.from(values).filter(Number.isFinite);
+  const best = finite.length > 0 ? Math.max(...finite) : 0;
+  return { from: Math.max(Math.min(best, ...finite), best - depth), to: best + 0.5 };
+}

@@ -7,7 +7,7 @@ import { button, radioGroup, rich } from '../../ui/controls.js';
 import { NOTHING, counted, fixed, percent } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
-import { between } from './curve.js';
+import { axisOf, between } from './curve.js';
 import { QUANTILES, REACH } from './quantiles.js';
 import { alphaName, significantly, thousandths } from './words.js';
 
@@ -121,8 +121,6 @@ export function inflation(figure) {
   const [covered, nats] = [between(factors, coverage, factor), between(factors, logLikelihood, factor)];
   const [low, high] = heldOut.interval;
   const signature = Number.isNaN(covered) ? '' : covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
-  const finite = logLikelihood.filter(Number.isFinite);
-  const best = finite.length > 0 ? Math.max(...finite) : 0;
   return html`<fieldset>${slider(figure, 'inflation')}</fieldset>
     <div class="figures">
       <figure>${plot({
@@ -139,7 +137,7 @@ export function inflation(figure) {
       <figure>${plot({
         label: say.likelihoodLabel(fixed(factor, 2), fixed(nats, 2)),
         x,
-        y: { name: say.likelihood, from: Math.max(Math.min(...finite, best), best - 6), to: best + 0.5 },
+        y: { name: say.likelihood, ...axisOf(logLikelihood, 6) },
         curves: [{ name: say.likelihood, role: 'prediction', x: factors, y: logLikelihood }],
         points: [{ role: 'prediction', x: factor, y: nats, error: 0 }],
         marks,

@@ -147,6 +147,8 @@ test.describe('attributes', () => {
           const loaded = [told, again].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
           element.before(...boxes);
           await Promise.all(loaded);
+          // A state that takes long is entered in slices, a frame each.
+          while (/** @type {any} */ (element).settings.next) await new Promise(requestAnimationFrame);
           const configs = [element, told, again].map((each) => /** @type {AnyElement} */ (each).machine.config);
           for (const box of boxes) box.remove();
           return configs;

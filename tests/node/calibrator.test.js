@@ -123,11 +123,20 @@ test('numbers of files: as many digits as the interval has a meaning in, with an
 });
 
 test('lines for Nav2: an α without an interval has no empty comment', () => {
-  const fitted = { count: 9, model: 'odometry', rule: 'nav2', legs: { duration: 1 }, log: 'a.csv', date: '2026-01-02' };
+  const fitted = { count: 9, model: 'odometry', rule: 'nav2', legs: { duration: 1 }, log: 'a.csv', date: '2026-01-02', verdict: 'fits', systematic: {} };
   const lines = nav2Lines({ ...fitted, alphas: [1e-8, 0.1, null, 0.2], intervals: [null, [0.05, 0.16], null, null] }, en.nav2);
   assert.deepEqual(lines.filter((line) => /alpha[1-4]/.test(line)).map((line) => line.trim()), [
     'alpha1: 1.0e-8', 'alpha2: 0.10  # 0.05 to 0.16', `# alpha3: ${en.nav2.undetermined}`, 'alpha4: 0.2',
   ]);
+  // Of a log that tells nothing there is nothing to paste.
+  for (const verdict of ['few-legs', 'unrelated']) {
+    const none = nav2Lines({ ...fitted, verdict, alphas: [0.1, 0.1, 0.1, 0.1], intervals: [null, null, null, null] }, en.nav2);
+    assert.deepEqual(none.filter((line) => /^ *alpha/.test(line)), []);
+  }
+  const corrected = nav2Lines({ ...fitted, alphas: [0.1], intervals: [null], systematic: {
+    mountYaw: { value: 0.05, interval: [0.04, 0.06], removed: true }, turnScale: { value: 1.01, interval: [1, 1.02], removed: false },
+  } }, en.nav2);
+  assert.ok(corrected.includes('    # of odometry that is corrected: mountYaw 0.050'));
 });
 
 test('legs of the simulated log are those that the settings open with', () => {

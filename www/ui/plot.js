@@ -27,7 +27,6 @@ export const plotStyles = css`
     display: block;
     width: 100%;
     max-width: 34em;
-    overflow: visible;
   }
 
   .plot text {
@@ -134,7 +133,7 @@ export function plot({ label, x, y, curves, points = [], marks = [] }) {
           <line class="grid" x1=${LEFT} x2=${RIGHT} y1=${toY(value)} y2=${toY(value)} />
           <text x=${LEFT - 6} y=${toY(value) + 4} text-anchor="end">${text}</text>`,
       )}
-      <text class="name" x=${RIGHT} y=${BOTTOM + 31} text-anchor="end">${x.name}</text>
+      <text class="name" x=${RIGHT} y=${BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text class="name" x="0" y="12">${y.name}</text>
       <svg x=${LEFT} y=${TOP} width=${RIGHT - LEFT} height=${BOTTOM - TOP} viewBox="${LEFT} ${TOP} ${RIGHT - LEFT} ${BOTTOM - TOP}">
         ${curves.map((curve) => curve.error && svg`<path class="band" fill="var(--${curve.role})" d=${band(curve, toX, toY)} />`)}

@@ -6,10 +6,11 @@ use super::doubts::{Doubts, Halves, Inflation, Judged, NORMAL_95, Verdict, doubt
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Leg, LegLength, cut};
 use super::likelihood::{Evidence, Parameters, Robust, Slope};
+use super::mismatch::mismatch;
 use super::model::{Model, Observation, Uncertainty};
 use super::profile::{Estimate, Fitted};
 use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic, Which};
-use super::trajectory::{Trajectory, sort};
+use super::trajectory::Trajectory;
 use super::undetermined::{Undetermined, undetermined};
 use crate::noise::NoiseKind;
 use nalgebra::Matrix2;
@@ -162,12 +163,6 @@ enum Stage {
 
 /// Rounds at most: systematic errors of the usual sizes stay after three or four.
 const ROUNDS: usize = 12;
-
-/// Of an α: noise whose deviation is three times what drives it is none of a robot.
-const WILD: f64 = 10.0;
-
-/// Half of the legs are so many times as long as asked: more than a sample or two too late.
-const LONGER: f64 = 1.5;
 
 /// A change that is so small a part of its deviation is none.
 const STAYS: f64 = 0.01;
@@ -416,7 +411,8 @@ impl Calibrating {
             .collect();
         let mut doubts = doubts(model, noise, &self.observations, &judged, &neighbours, &halves);
         if doubts.verdict != Verdict::FewLegs {
-            doubts.verdict = self.mismatch(&estimate).unwrap_or(doubts.verdict);
+            doubts.verdict = mismatch(&self.legs, &self.observations, &self.removed, self.options.legs)
+                .unwrap_or(doubts.verdict);
         }
         Calibration {
             estimate,
@@ -432,21 +428,6 @@ impl Calibrating {
             observations: std::mem::take(&mut self.observations),
             by_length: Vec::new(),
         }
-    }
-
-    /// Whether the log is not what it is taken for.
-    fn mismatch(&self, estimate: &Estimate) -> Option<Verdict> {
-        let scale_is_wild = |error: Error| {
-            self.deviations[error as usize].is_some() && !(0.5..=2.0).contains(&self.systematic.get(error))
-        };
-        if [Error::DistanceScale, Error::TurnScale].into_iter().any(scale_is_wild)
-            || estimate.alphas.iter().any(|alpha| *alpha > WILD)
-        {
-            return Some(Verdict::Unrelated);
-        }
-        let mut lengths: Vec<f64> = self.legs.iter().map(|leg| self.options.legs.share_of(leg)).collect();
-        sort(&mut lengths);
-        (lengths[lengths.len() / 2] > LONGER).then_some(Verdict::LongLegs)
     }
 
     /// The α's that are determined, and why the others are not.

@@ -14,6 +14,7 @@ mod leg_lengths;
 mod legs;
 mod likelihood;
 mod maximum;
+mod mismatch;
 mod model;
 mod profile;
 mod systematic;

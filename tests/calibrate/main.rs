@@ -5,6 +5,7 @@ mod errors;
 mod fits;
 mod leg_lengths;
 mod logs;
+mod mismatch;
 mod passes;
 mod same;
 mod simulated;

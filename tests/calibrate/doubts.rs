@@ -2,24 +2,14 @@
 
 use crate::simulated::{ALPHAS, MODELS, Simulation, Unlike};
 use motion::NoiseKind;
-use motion::calibrate::{Calibration, Inflation, Model, Options, ReferenceError, Robust, Verdict, calibrate};
+use motion::calibrate::{Calibration, Inflation, Model, Robust, Verdict, calibrate};
 use motion::models::OdometryRule;
 
 const OMNI: Model = Model::Odometry(OdometryRule::Omni);
 
 fn calibrated(simulation: &Simulation, robust: Robust) -> Calibration {
     let [odometry, reference] = simulation.log();
-    let options = Options {
-        model: simulation.model,
-        legs: simulation.legs,
-        noise: simulation.noise,
-        robust,
-        remove: [true; 6],
-        reference_error: ReferenceError::default(),
-        seed: 0,
-        by_length: false,
-    };
-    calibrate(&odometry, &reference, &options).expect("legs enough")
+    calibrate(&odometry, &reference, &simulation.options(robust)).expect("legs enough")
 }
 
 /// Of so many logs that are made alike, how many get a verdict.

@@ -19,22 +19,9 @@ const INJECTED: Systematic = Systematic {
     turn_scale: 0.99,
 };
 
-fn options(simulation: &Simulation, robust: Robust) -> Options {
-    Options {
-        model: simulation.model,
-        legs: simulation.legs,
-        noise: simulation.noise,
-        robust,
-        remove: [true; 6],
-        reference_error: ReferenceError::default(),
-        seed: 0,
-        by_length: false,
-    }
-}
-
 fn calibrated(simulation: &Simulation, robust: Robust) -> Calibration {
     let [odometry, reference] = simulation.log();
-    calibrate(&odometry, &reference, &options(simulation, robust)).expect("legs enough")
+    calibrate(&odometry, &reference, &simulation.options(robust)).expect("legs enough")
 }
 
 #[test]
@@ -99,7 +86,7 @@ fn what_is_not_removed_is_in_the_alphas() {
     let errors = Systematic { mount_yaw: 0.07, ..Systematic::NONE };
     let simulation = Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, 3000, 5) };
     let [odometry, reference] = simulation.log();
-    let removed = options(&simulation, Robust::No);
+    let removed = simulation.options(Robust::No);
     let left = Options { remove: [false; 6], ..removed };
     let [with, without] =
         [left, removed].map(|options| calibrate(&odometry, &reference, &options).expect("legs enough"));
@@ -130,7 +117,7 @@ fn clocks_are_aligned_by_what_is_known_of_the_turns() {
     let simulation = Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, 2000, 6) };
     let [odometry, reference] = simulation.log();
     let offset = |reference: &Trajectory| {
-        let told = calibrate(&odometry, reference, &options(&simulation, Robust::No)).expect("legs enough");
+        let told = calibrate(&odometry, reference, &simulation.options(Robust::No)).expect("legs enough");
         told.systematic.clock_offset
     };
     // A reference that begins anew every twenty seconds, with another heading; one that sees a third of the time; one that was there for
@@ -170,7 +157,7 @@ fn jumps_that_are_said_are_no_bad_legs() {
     let jumps: Vec<usize> = (1..samples.len()).filter(|i| way(&samples[i - 1..=*i]) > 0.2).collect();
     assert!(jumps.len() > 70);
     let broken = reference.broken_before(jumps.iter().copied());
-    let told = calibrate(&odometry, &broken, &options(&jumping, Robust::No)).expect("legs enough");
+    let told = calibrate(&odometry, &broken, &jumping.options(Robust::No)).expect("legs enough");
     for (k, alpha) in told.estimate.alphas.iter().enumerate() {
         let times = alpha / ALPHAS[k];
         assert!((times - 1.0).abs() < 0.1, "α{} times {times}", k + 1);
@@ -193,10 +180,10 @@ fn the_references_own_error_is_no_noise_of_the_robot() {
     let shaken = Trajectory::new(shaken.collect::<Vec<_>>()).expect("times rise");
     let stated = Options {
         reference_error: ReferenceError { position: 3e-3, heading: 3e-3 },
-        ..options(&simulation, Robust::No)
+        ..simulation.options(Robust::No)
     };
     let told = calibrate(&odometry, &shaken, &stated).expect("legs enough");
-    let unstated = calibrate(&odometry, &shaken, &options(&simulation, Robust::No)).expect("legs enough");
+    let unstated = calibrate(&odometry, &shaken, &simulation.options(Robust::No)).expect("legs enough");
     for (k, real) in ALPHAS.iter().enumerate().take(5) {
         // Neighbours share an end, which is not taken into account: 15 hundredths are some four deviations.
         let [with, without] = [&told, &unstated].map(|told| told.estimate.alphas[k] / real);
@@ -208,7 +195,7 @@ fn the_references_own_error_is_no_noise_of_the_robot() {
 fn too_few_legs_are_refused() {
     let simulation = Simulation::of(Model::Velocity, NoiseKind::Normal, 7, 1);
     let [odometry, reference] = simulation.log();
-    let refused = calibrate(&odometry, &reference, &options(&simulation, Robust::No));
+    let refused = calibrate(&odometry, &reference, &simulation.options(Robust::No));
     assert!(matches!(refused, Err(CalibrateError::FewLegs { legs: 6 | 7 })), "{refused:?}");
 }
 
@@ -222,19 +209,19 @@ fn two_drives_without_a_common_time_are_refused() {
         Trajectory::new(trajectory.samples().map(|(t, pose)| (t + by, pose)).collect::<Vec<_>>())
     };
     let refused =
-        calibrate(&odometry, &later(&of_another, 1e6).expect("times rise"), &options(&one, Robust::No));
+        calibrate(&odometry, &later(&of_another, 1e6).expect("times rise"), &one.options(Robust::No));
     assert_eq!(refused, Err(CalibrateError::Apart));
     // Straight on and without turns, they are taken as they are, if they overlap at all.
     let straight = |from: f64| {
         let ahead = |i| (from + 0.1 * f64::from(i), SE2::new(0.05 * f64::from(i), 0.0, 0.0));
         Trajectory::new((0..1000).map(ahead)).expect("times rise")
     };
-    let told = calibrate(&straight(0.0), &straight(70.0), &options(&one, Robust::No)).expect("legs enough");
+    let told = calibrate(&straight(0.0), &straight(70.0), &one.options(Robust::No)).expect("legs enough");
     assert_eq!(told.systematic.clock_offset, 0.0);
-    let refused = calibrate(&straight(0.0), &straight(100.0), &options(&one, Robust::No));
+    let refused = calibrate(&straight(0.0), &straight(100.0), &one.options(Robust::No));
     assert_eq!(refused, Err(CalibrateError::Apart));
     // By their turns the same drive is found as far away as it may be.
-    let told = calibrate(&odometry, &later(&reference, 1e6).expect("times rise"), &options(&one, Robust::No));
+    let told = calibrate(&odometry, &later(&reference, 1e6).expect("times rise"), &one.options(Robust::No));
     assert!((told.expect("legs enough").systematic.clock_offset - 1e6).abs() < 0.05);
 }
 
@@ -258,7 +245,7 @@ fn no_log_is_too_strange() {
                 let simulation = Simulation::of(model, noise, 0, 0);
                 for odometry in &trajectories {
                     for reference in &trajectories {
-                        let all = Options { by_length: true, ..options(&simulation, robust) };
+                        let all = Options { by_length: true, ..simulation.options(robust) };
                         if let Ok(told) = calibrate(odometry, reference, &all) {
                             assert!(told.estimate.alphas.iter().all(|alpha| alpha.is_nan() || *alpha >= 0.0));
                             let untold = told.estimate.alphas.iter().map(|alpha| alpha.is_nan());

@@ -2,8 +2,8 @@
 
 use crate::simulated::{ALPHAS, MODELS, Simulation};
 use motion::calibrate::{
-    Calibration, Estimate, Evidence, LegLength, Model, Observation, Options, ReferenceError, Robust,
-    Systematic, Uncertainty, calibrate, cut, fit,
+    Calibration, Estimate, Evidence, LegLength, Model, Observation, Robust, Systematic, Uncertainty,
+    calibrate, cut, fit,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -175,22 +175,9 @@ fn ninety_five_of_a_hundred_intervals_have_the_true_value() {
     assert!(beyond <= 5, "{beyond}");
 }
 
-fn options(simulation: &Simulation) -> Options {
-    Options {
-        model: simulation.model,
-        legs: simulation.legs,
-        noise: simulation.noise,
-        robust: Robust::No,
-        remove: [true; 6],
-        reference_error: ReferenceError::default(),
-        seed: 0,
-        by_length: false,
-    }
-}
-
 fn calibrated(simulation: &Simulation) -> Calibration {
     let [odometry, reference] = simulation.log();
-    calibrate(&odometry, &reference, &options(simulation)).expect("legs enough")
+    calibrate(&odometry, &reference, &simulation.options(Robust::No)).expect("legs enough")
 }
 
 #[test]
@@ -204,7 +191,8 @@ fn an_alpha_of_which_nothing_is_said_is_not_told() {
         motion::calibrate::Trajectory::new(poses).expect("times rise")
     };
     let simulation = Simulation::of(Model::Odometry(OdometryRule::Table), NoiseKind::Normal, 0, 0);
-    let told = calibrate(&straight(true), &straight(false), &options(&simulation)).expect("legs enough");
+    let told =
+        calibrate(&straight(true), &straight(false), &simulation.options(Robust::No)).expect("legs enough");
     let Estimate { alphas, intervals, .. } = told.estimate;
     // It never turned: two of the α's nobody can know, and nothing of how it turns.
     assert!(alphas[0].is_nan() && intervals[0].is_none() && alphas[3].is_nan() && intervals[3].is_none());

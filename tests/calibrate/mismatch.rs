@@ -18,10 +18,7 @@ fn simulation(seed: u64) -> Simulation {
 }
 
 fn told(odometry: &Trajectory, reference: &Trajectory, reference_error: ReferenceError) -> Calibration {
-    let Simulation { model, legs, noise, .. } = simulation(0);
-    let robust = Robust::No;
-    let options =
-        Options { model, legs, noise, robust, remove: [true; 6], reference_error, seed: 0, by_length: false };
+    let options = Options { reference_error, ..simulation(0).options(Robust::No) };
     calibrate(odometry, reference, &options).expect("legs enough")
 }
 

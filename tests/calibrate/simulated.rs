@@ -1,6 +1,6 @@
 //! Logs of robots whose α's and errors are known.
 
-use motion::calibrate::{Error, LegLength, Model, Systematic, Trajectory};
+use motion::calibrate::{Error, LegLength, Model, Options, ReferenceError, Robust, Systematic, Trajectory};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::{NoiseKind, OdomDelta, Variance, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -70,6 +70,13 @@ impl Simulation {
             straight: 0.0,
             seed,
         }
+    }
+
+    /// What a calibration of its log is asked, if nothing else is said: all errors removed, no leg taken for bad, of no other length.
+    pub fn options(&self, robust: Robust) -> Options {
+        let Self { model, legs, noise, .. } = *self;
+        let reference_error = ReferenceError::default();
+        Options { model, legs, noise, robust, remove: [true; 6], reference_error, seed: 0, by_length: false }
     }
 
     /// What the odometry says, and what the reference does.

@@ -211,9 +211,9 @@ export class AlphaCalibratorElement extends FigureElement {
       <section
         class="machine"
         aria-label=${this.lettering.name}
-        @dragover=${this.#opener.over}
-        @dragleave=${this.#opener.away}
-        @drop=${this.#opener.drop}
+        @dragover=${this.#opener.dropped.over}
+        @dragleave=${this.#opener.dropped.away}
+        @drop=${this.#opener.dropped.drop}
       >
         <div class="views">
           <div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>

@@ -6,18 +6,15 @@ import { words } from '../../messages/registry.js';
 import { NOTHING, typed } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { SIMULATED } from './settings.js';
-import { alphaName, driverOf, significantly, thousandths } from './words.js';
+import { alphaName, driverOf, significantly } from './words.js';
 
 /**
  * @import { AlphasAtLength, AlphaCalibratorSettings } from '../../types.d.ts'
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
 
-/** Of a curve that bends. */
-const CHORDS = 40;
-
-/** An interval that reaches so many times as high as all α's would make them small: it leaves the plot instead. */
-const MUCH_HIGHER = 2;
+/** Decades of an axis at least: over one a law is hard to see. */
+const DECADES = 2;
 
 /** @param {Figure} figure */
 export function lengths(figure) {
@@ -40,22 +37,21 @@ function lengthPlot(config, byLength, index) {
   const driver = driverOf(config, index);
   const asked = driver === 'turn' ? config.angle : config.distance;
   const told = byLength.map(({ factor, alphas, intervals }) => ({ x: factor * asked, y: alphas[index] ?? NaN, ends: intervals[index] ?? undefined }));
-  const values = told.map(({ y }) => y).filter(Number.isFinite);
-  const most = Math.max(1e-12, ...values);
-  const highest = 1.1 * Math.max(most, ...told.map(({ ends }) => Math.min(ends?.[1] ?? 0, MUCH_HIGHER * most)));
-  const { scaled, unit } = thousandths(highest);
-  const [shortest, last] = [told[0].x, 1.05 * told[told.length - 1].x];
+  const there = told.flatMap(({ y, ends }) => [y, ...(ends ?? [])]).filter((value) => value > 0 && value < Infinity).map(Math.log10);
+  const to = there.length ? Math.ceil(Math.max(...there)) : 0;
+  // An interval from 0 has no end on such an axis, and one that is nearly so leaves it.
+  const from = Math.min(to - DECADES, Math.floor(Math.min(...told.map(({ y }) => (y > 0 ? Math.log10(y) : to)))));
+  const [shortest, last] = [told[0].x / 1.2, told[told.length - 1].x * 1.2];
   const fitted = byLength.find(({ factor }) => factor === 1)?.alphas[index] ?? null;
-  const along = Array.from({ length: CHORDS + 1 }, (_, i) => shortest * (last / shortest) ** (i / CHORDS));
-  const name = `α${alphaName(index)}`;
+  const ends = [shortest, last];
   return plot({
     label: say.label(String(index + 1), told.map(({ x, y }) => say.at(Number.isNaN(y) ? NOTHING : significantly(y), significantly(x))).join(', ')),
-    x: { name: say[driver], from: 0, to: last },
-    y: { name: unit === '' ? name : `${name} (${unit})`, from: 0, to: scaled(highest) },
-    curves: fitted === null ? [] : [
-      { name: say.square, role: 'truth', dash: '1 3', x: [shortest, last], y: [fitted, fitted].map(scaled) },
-      { name: say.linear, role: 'prior', dash: '7 4', x: along, y: along.map((x) => scaled((fitted * asked) / x)) },
+    x: { name: say[driver], from: shortest, to: last, logarithmic: true },
+    y: { name: `α${alphaName(index)}`, from: 10 ** from, to: 10 ** to, logarithmic: true },
+    curves: !fitted ? [] : [
+      { name: say.square, role: 'truth', dash: '1 3', x: ends, y: [fitted, fitted] },
+      { name: say.linear, role: 'prior', dash: '7 4', x: ends, y: ends.map((x) => (fitted * asked) / x) },
     ],
-    points: told.map(({ x, y, ends }) => ({ role: /** @type {const} */ ('prediction'), x, y: scaled(y), error: 0, ends: ends?.map(scaled) })),
+    points: told.map((point) => ({ role: /** @type {const} */ ('prediction'), error: 0, ...point })),
   });
 }

@@ -4,6 +4,7 @@ import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.js';
 import { language, words } from '../../messages/registry.js';
 import { button, inputOf } from '../../ui/controls.js';
+import { FileDrop, fileInput } from '../shared/files.js';
 
 /**
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
@@ -29,6 +30,7 @@ const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
 
 /** @extends {Part<Figure>} */
 export class LogOpener extends Part {
+  dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
   /** Why the latest log was refused. @type {(() => string) | undefined} */
   #complaint;
   /** What was found in the present log. @type {(() => string[]) | undefined} */
@@ -136,36 +138,8 @@ export class LogOpener extends Part {
       if (!stopping.signal.aborted) this.share = undefined;
       this.host.requestUpdate();
     }
-    await this.host.updateComplete;
-    if (this.complaint) this.#fold?.querySelector('[role=alert]')?.scrollIntoView({ block: 'nearest' });
+    if (this.complaint) await this.dropped.showRefusal();
   }
-
-  /** Not there until the figure has been drawn. @returns {HTMLDetailsElement | null} */
-  get #fold() {
-    return this.host.renderRoot.querySelector(`#${FOLD}`);
-  }
-
-  over = (/** @type {DragEvent} */ event) => {
-    if (!event.dataTransfer?.types.includes('Files')) return;
-    event.preventDefault();
-    /** @type {HTMLElement} */ (event.currentTarget).classList.add('dropping');
-  };
-
-  away = (/** @type {DragEvent} */ event) => {
-    const section = /** @type {HTMLElement} */ (event.currentTarget);
-    const to = /** @type {Node | null} */ (event.relatedTarget);
-    if (!section.contains(to)) section.classList.remove('dropping');
-  };
-
-  drop = (/** @type {DragEvent} */ event) => {
-    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
-    if (!event.dataTransfer?.types.includes('Files')) return;
-    // The browser would leave the page for the file.
-    event.preventDefault();
-    // What becomes of the file is said in there.
-    if (this.#fold) this.#fold.open = true;
-    this.choose([...event.dataTransfer.files]);
-  };
 }
 
 /** @param {Topic[]} topics @param {string} topic */
@@ -187,18 +161,7 @@ export function ownLog(figure, opener) {
   return html`<div class="own-log">
     <p>${say.text}</p>
     <label for="log-files">${say.files}</label>
-    <input
-      id="log-files"
-      type="file"
-      multiple
-      accept=${EXTENSIONS.join(',')}
-      @change=${(/** @type {Event} */ event) => {
-        const input = inputOf(event);
-        opener.choose([...(input.files ?? [])]);
-        // So that choosing the same file again, mended, is a change too.
-        input.value = '';
-      }}
-    />
+    ${fileInput('log-files', EXTENSIONS, (files) => opener.choose(files))}
     ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
     ${chosen ? whichIsWhich(opener, chosen) : nothing}
     <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>

@@ -6,7 +6,8 @@
 import { html, nothing } from 'lit';
 import { check, choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, choice, inputOf, longest, radioGroup, rich } from '../../ui/controls.js';
+import { button, choice, longest, radioGroup, rich } from '../../ui/controls.js';
+import { fileInput } from '../shared/files.js';
 import { EXTENSIONS } from './maps/open.js';
 import { MOTION, PRESETS, SAMPLERS } from './settings.js';
 
@@ -103,18 +104,7 @@ export function ownMap(figure, opener, map) {
     <div>
       <p>${say.text}</p>
       <label for="map-files">${say.files}</label>
-      <input
-        id="map-files"
-        type="file"
-        multiple
-        accept=${EXTENSIONS.join(',')}
-        @change=${(/** @type {Event} */ event) => {
-          const input = inputOf(event);
-          opener.choose([...(input.files ?? [])]);
-          // So that choosing the same file again, mended, is a change too.
-          input.value = '';
-        }}
-      />
+      ${fileInput('map-files', EXTENSIONS, (files) => opener.choose(files))}
       <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>
     </div>

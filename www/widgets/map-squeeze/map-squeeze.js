@@ -334,9 +334,9 @@ export class MapSqueezeElement extends FigureElement {
       <section
         class="machine"
         aria-label=${this.lettering.name}
-        @dragover=${this.#opener.over}
-        @dragleave=${this.#opener.leave}
-        @drop=${this.#opener.drop}
+        @dragover=${this.#opener.dropped.over}
+        @dragleave=${this.#opener.dropped.away}
+        @drop=${this.#opener.dropped.drop}
       >
         <div class="views">
           <div class="stage" part="picture">

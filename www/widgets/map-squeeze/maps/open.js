@@ -2,6 +2,7 @@
 
 import { Part } from '../../../figure/part.js';
 import { words } from '../../../messages/registry.js';
+import { FileDrop } from '../../shared/files.js';
 
 /** @import { OwnMap } from './files.js' */
 
@@ -13,6 +14,7 @@ export const FOLD = 'map-fold';
 
 /** @extends {Part<import('../map-squeeze.js').MapSqueezeElement>} */
 export class MapOpener extends Part {
+  dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
   /** Why the latest map was refused. @type {(() => string) | undefined} */
   #complaint;
   /** The latest attempt to read files: an earlier one that ends later is void. */
@@ -51,35 +53,7 @@ export class MapOpener extends Part {
         return sentence ? sentence(refused) : refused.cannot(message);
       };
       this.host.requestUpdate();
-      await this.host.updateComplete;
-      this.#fold?.querySelector('[role=alert]')?.scrollIntoView({ block: 'nearest' });
+      await this.dropped.showRefusal();
     }
   }
-
-  /** Not there until the figure has been drawn. @returns {HTMLDetailsElement | null} */
-  get #fold() {
-    return this.host.renderRoot.querySelector(`#${FOLD}`);
-  }
-
-  over = (/** @type {DragEvent} */ event) => {
-    if (!event.dataTransfer?.types.includes('Files')) return;
-    event.preventDefault();
-    /** @type {HTMLElement} */ (event.currentTarget).classList.add('dropping');
-  };
-
-  leave = (/** @type {DragEvent} */ event) => {
-    const section = /** @type {HTMLElement} */ (event.currentTarget);
-    const to = /** @type {Node | null} */ (event.relatedTarget);
-    if (!section.contains(to)) section.classList.remove('dropping');
-  };
-
-  drop = (/** @type {DragEvent} */ event) => {
-    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
-    if (!event.dataTransfer?.types.includes('Files')) return;
-    // The browser would leave the page for the file.
-    event.preventDefault();
-    // What becomes of the file is said in there.
-    if (this.#fold) this.#fold.open = true;
-    this.choose([...event.dataTransfer.files]);
-  };
 }

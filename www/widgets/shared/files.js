@@ -1,0 +1,74 @@
+/** How files get into a figure: chosen, or dropped on it. What becomes of them is said in a fold. */
+
+import { html } from 'lit';
+import { inputOf } from '../../ui/controls.js';
+
+/** @typedef {import('../../figure/figure.js').Figure} Figure */
+
+export class FileDrop {
+  #host;
+  #id;
+  #choose;
+
+  /**
+   * @param {Figure} host
+   * @param {string} id of the fold
+   * @param {(files: File[]) => void} choose
+   */
+  constructor(host, id, choose) {
+    this.#host = host;
+    this.#id = id;
+    this.#choose = choose;
+  }
+
+  /** Not there until the figure has been drawn. @returns {HTMLDetailsElement | null} */
+  get #fold() {
+    return this.#host.renderRoot.querySelector(`#${this.#id}`);
+  }
+
+  /** Shows why files were refused, once that is drawn. */
+  async showRefusal() {
+    await this.#host.updateComplete;
+    this.#fold?.querySelector('[role=alert]')?.scrollIntoView({ block: 'nearest' });
+  }
+
+  over = (/** @type {DragEvent} */ event) => {
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    event.preventDefault();
+    /** @type {HTMLElement} */ (event.currentTarget).classList.add('dropping');
+  };
+
+  away = (/** @type {DragEvent} */ event) => {
+    const section = /** @type {HTMLElement} */ (event.currentTarget);
+    const to = /** @type {Node | null} */ (event.relatedTarget);
+    if (!section.contains(to)) section.classList.remove('dropping');
+  };
+
+  drop = (/** @type {DragEvent} */ event) => {
+    /** @type {HTMLElement} */ (event.currentTarget).classList.remove('dropping');
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    // The browser would leave the page for the file.
+    event.preventDefault();
+    // What becomes of the file is said in there.
+    if (this.#fold) this.#fold.open = true;
+    this.#choose([...event.dataTransfer.files]);
+  };
+}
+
+/**
+ * @param {string} id
+ * @param {string[]} extensions what the names of files may end in
+ * @param {(files: File[]) => void} choose
+ */
+export const fileInput = (id, extensions, choose) => html`<input
+  id=${id}
+  type="file"
+  multiple
+  accept=${extensions.join(',')}
+  @change=${(/** @type {Event} */ event) => {
+    const input = inputOf(event);
+    choose([...(input.files ?? [])]);
+    // So that choosing the same file again, mended, is a change too.
+    input.value = '';
+  }}
+/>`;

@@ -22,7 +22,9 @@ test.use(STILL);
  * @param {string} [attributes]
  */
 async function openCalibrator(page, attributes = '') {
-  await show(page, `<main><h1>Bare</h1><alpha-calibrator heading-level="2" ${attributes}></alpha-calibrator></main>`);
+  await show(page, `<main><h1>Bare</h1><alpha-calibrator heading-level="2" ${attributes}></alpha-calibrator></main>`, {
+    script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
+  });
   const widget = page.locator('alpha-calibrator');
   await ready(widget);
   await expect(widget.locator('.folds')).toBeVisible();
@@ -92,6 +94,29 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   await expect(rows(widget)).toHaveCount(5);
   expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
 });
+
+for (const [width, language] of /** @type {[number, string][]} */ ([[375, 'en'], [375, 'de'], [640, 'de'], [960, 'de'], [1280, 'en']])) {
+  test(`what each α means stands beside it, on ${width} pixels, ${language}`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 900 });
+    const widget = await openCalibrator(page, `lang="${language}"`);
+    const words = { en: ['turn from turning', 'turn from driving', 'way from driving', 'way from turning'], de: ['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung'] };
+    await expect(rows(widget).locator('.of')).toHaveText(words[/** @type {'en' | 'de'} */ (language)]);
+    // In a line each, beside its value and inside of the table.
+    const told = await rows(widget).evaluateAll((all) => all.map((row) => {
+      const of = /** @type {Element} */ (row.querySelector('.of'));
+      const [, value] = row.querySelectorAll('td');
+      const text = new Range();
+      text.selectNodeContents(of);
+      const table = /** @type {Element} */ (row.closest('table'));
+      return { lines: text.getClientRects().length, end: text.getBoundingClientRect().right, value: value.getBoundingClientRect().left, over: table.scrollWidth - table.clientWidth, wide: table.getBoundingClientRect().right - innerWidth };
+    }));
+    for (const { lines, end, value, over, wide } of told) {
+      expect([lines, over]).toEqual([1, 0]);
+      expect(end).toBeLessThanOrEqual(value);
+      expect(wide).toBeLessThanOrEqual(0);
+    }
+  });
+}
 
 test('a few bad legs decide where none may be bad', async ({ page }) => {
   const widget = await openCalibrator(page);

@@ -308,7 +308,7 @@ test('the α’s by the length of legs are a table', async () => {
 test('by the omnidirectional rule five α’s, and one table is no two logs', async () => {
   const { code, out } = await said(['calibrate', ...FILES, '--rule', 'omni']);
   assert.equal(code, 0);
-  assert.match(out, /^alpha5  +0\.\d+ .*sideways, with the way$/m);
+  assert.match(out, /^alpha5  +0\.\d+ .*slide from driving$/m);
   const twice = await said(['calibrate', '--odometry', FILES[1], '--reference', FILES[1]]);
   assert.equal(twice.code, 2);
   assert.match(twice.err, /^odometry\.csv is both odometry and reference; expected are two tables, or an MCAP file\.$/m);

@@ -50,9 +50,9 @@ export const de = {
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `nicht bestimmt: ${lack}; ${drive}`,
     noiseOf: {
-      odometry: ['Drehung, durch die Drehung', 'Drehung, durch den Weg', 'Weg, durch den Weg', 'Weg, durch die Drehung'],
-      omnidirectional: ['Drehung, durch die Drehung', 'Drehung, durch den Weg', 'Weg, durch den Weg', 'Weg, durch die Drehung', 'quer, durch den Weg'],
-      velocity: ['v, durch v', 'v, durch ω', 'ω, durch v', 'ω, durch ω', 'γ, durch v', 'γ, durch ω'],
+      odometry: ['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung'],
+      omnidirectional: ['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung', 'quer durch Fahrt'],
+      velocity: ['v durch v', 'v durch ω', 'ω durch v', 'ω durch ω', 'γ durch v', 'γ durch ω'],
     },
     lacking: {
       'turns-too-little': { lack: 'zu wenig gedreht', drive: 'etwa fünfzig Mal auf der Stelle drehen', byCommands: 'enge Kurven fahren, etwa fünfzig Etappen' },

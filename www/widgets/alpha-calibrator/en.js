@@ -49,9 +49,9 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
     noiseOf: {
-      odometry: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn'],
-      omnidirectional: ['turning, with the turn', 'turning, with the way', 'way, with the way', 'way, with the turn', 'sideways, with the way'],
-      velocity: ['v, with v', 'v, with ω', 'ω, with v', 'ω, with ω', 'γ, with v', 'γ, with ω'],
+      odometry: ['turn from turning', 'turn from driving', 'way from driving', 'way from turning'],
+      omnidirectional: ['turn from turning', 'turn from driving', 'way from driving', 'way from turning', 'slide from driving'],
+      velocity: ['v from v', 'v from ω', 'ω from v', 'ω from ω', 'γ from v', 'γ from ω'],
     },
     lacking: {
       'turns-too-little': { lack: 'this log turns too little', drive: 'turn on the spot, some fifty times', byCommands: 'drive tight bends, some fifty legs' },

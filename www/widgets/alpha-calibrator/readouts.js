@@ -15,7 +15,7 @@ import { alphaName, significantly } from './words.js';
  */
 
 /** Of a whisker's row. */
-const CHART = { width: 200, height: 24, inset: 12 };
+const CHART = { width: 200, height: 24, middle: 18.5, inset: 12 };
 
 /** Between the labels of the axis, at most. */
 const MOST_DECADES = 4;
@@ -34,10 +34,10 @@ export function alphaTable(reading) {
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
-        <th scope="row" title=${noises[i]}>${rich(`*α*${alphaName(i)}`)}<span class="visually-hidden">: ${noises[i]}</span></th>
+        <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
         ${alpha === null
-          ? html`<td class="unknown" colspan="3">${lackOf(reading, i)}</td>`
-          : html`<td class="chart">${whisker(place, alpha, intervals[i], truth?.[i])}</td>
+          ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
+          : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
             <td class="roomy" data-room="0.0000">${significantly(alpha)}</td>
             <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${intervals[i] ? say.between(significantly(intervals[i][0]), significantly(intervals[i][1])) : NOTHING}</td>`}
       </tr>`)}
@@ -94,12 +94,11 @@ function axisOf(values) {
  * @param {number | undefined} truth
  */
 function whisker({ at, decades }, value, interval, truth) {
-  const { width, height } = CHART;
-  const middle = height / 2;
+  const { width, height, middle } = CHART;
   const [low, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
     ${decades.map((decade) => svg`<path class="grid" d="M${at(decade)} 0V${height}" />`)}
-    ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} 2V${height - 2}" />`}
+    ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} ${middle - 5}V${height}" />`}
     <path class="whisker" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
     <path class="dot" d="M${at(value)} ${middle}h0" />
   </svg>`;

@@ -33,10 +33,25 @@ const own = css`
     padding: 0 0.3em;
   }
 
+  .alphas :is(th, td) {
+    vertical-align: top;
+  }
+
+  /* Above the whisker, before its grid. */
+  .alphas .of {
+    position: relative;
+    top: 0.12em;
+    margin-bottom: -1.1em;
+    color: var(--muted);
+    font-size: 0.9em;
+    line-height: 1.1;
+    text-align: left;
+  }
+
   .alphas svg {
     display: block;
     width: 100%;
-    height: 1.5em;
+    height: 1.65em;
   }
 
   .alphas .sample {
@@ -84,6 +99,8 @@ const own = css`
   }
 
   .alphas .unknown {
+    display: block;
+    margin-top: 1em;
     text-align: left;
     font-style: italic;
     white-space: normal;
@@ -234,7 +251,7 @@ const own = css`
 
     .views > .tables {
       display: grid;
-      grid-template-columns: minmax(0, 9fr) minmax(0, 11fr);
+      grid-template-columns: minmax(min-content, 9fr) minmax(0, 11fr);
       column-gap: 1.25em;
       align-items: start;
       grid-area: 4 / 1 / 5 / 11;
@@ -257,7 +274,7 @@ const own = css`
     }
 
     .views {
-      grid-template-rows: auto 1fr auto;
+      grid-template: auto 1fr auto auto / repeat(7, minmax(0, 1fr)) minmax(min-content, 3.6fr);
     }
 
     .stage[part='picture'] {
@@ -274,11 +291,11 @@ const own = css`
 
     .views > .tables {
       display: block;
-      grid-area: 1 / 8 / 4 / 11;
+      grid-area: 1 / 8 / 4 / 9;
     }
 
     .views > .caption {
-      grid-area: 4 / 1 / 5 / 11;
+      grid-area: 4 / 1 / 5 / 9;
     }
   }
 `;

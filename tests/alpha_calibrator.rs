@@ -1,7 +1,7 @@
 //! The Alpha Calibrator's machine: its simulated log by what it was simulated with, its panels and its legs by another route.
 
 use motion::OdomDelta;
-use motion::calibrate::{Calibration, Error, ReferenceError, Trajectory, Verdict};
+use motion::calibrate::{Calibration, Error, Leg, ReferenceError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::sim::alpha_calibrator::example::{ALPHAS, example};
@@ -61,6 +61,40 @@ fn without_the_share_of_bad_legs_a_few_of_them_decide() {
     let Calibration { estimate, doubts, .. } = machine.calibration();
     assert!(estimate.alphas[2] > 5.0 * ALPHAS[2], "{:?}", estimate.alphas);
     assert_eq!(doubts.verdict, Verdict::HeavyTails);
+}
+
+/// Legs of a duration last it, whatever distance and angle say; inflation is no reason to fit anew.
+#[test]
+fn legs_end_after_a_duration_where_one_is_set() {
+    let settings = Settings { duration: 0.8, ..Settings::default() };
+    let mut machine = machine(settings);
+    assert!(machine.legs().len() > 100, "{}", machine.legs().len());
+    for Leg { times: [from, to], .. } in machine.legs() {
+        assert!((to - from - 0.8).abs() < 0.06, "{from} {to}");
+    }
+    let before = machine.legs().to_vec();
+    machine.configure(Settings { distance: 3.0, angle: 2.0, ..settings }).expect("allowed");
+    assert_eq!(machine.legs(), before);
+    machine.configure(Settings { distance: 3.0, angle: 2.0, ..Settings::default() }).expect("allowed");
+    assert!(machine.legs().len() < before.len() / 2);
+}
+
+/// What is set of the reference's own error counts as if the log had said it, and takes its place where that does.
+#[test]
+fn the_references_own_error_is_set_or_said_by_the_log() {
+    let alphas = |set: ReferenceError, said: ReferenceError| {
+        let mut machine = machine(Settings { deviations: set, ..Settings::default() });
+        machine.set_log(Log { error: said, ..example(Settings::default().seed) });
+        machine.calibration().estimate.alphas.clone()
+    };
+    let [none, error] = [ReferenceError::default(), ReferenceError { position: 0.004, heading: 0.003 }];
+    let [without, with] = [alphas(none, none), alphas(none, error)];
+    assert!(with[3] < 0.9 * without[3], "{with:?} {without:?}");
+    assert_eq!(alphas(error, none), with);
+    assert_eq!(alphas(error, ReferenceError { position: 0.1, heading: 0.1 }), with);
+    // Each by itself.
+    let half = ReferenceError { heading: 0.0, ..error };
+    assert_eq!(alphas(half, ReferenceError { position: 0.1, ..error }), with);
 }
 
 /// The mean of squares less what the other α answers for, by bins that this test makes itself.

@@ -343,7 +343,7 @@ macro_rules! settings {
                 #[doc = $sentence:literal]
                 $key:ident
                 $(: $type:ty = $default:expr $(, $unit:literal)?)?
-                $(, by $accessor:ident $(of $original:ident)?)?
+                $(, by $accessor:ident $(of $original:ident)? $(, $its_unit:literal)?)?
                 $(, in $range:expr $(, up to $most:ident)?)?
                 ;
             )+
@@ -370,7 +370,7 @@ macro_rules! settings {
             fn each(&mut self, see: &mut $crate::sim::settings::See) -> std::ops::ControlFlow<()> {
                 use $crate::sim::settings::{Settable, declaration};
                 $(see(
-                    const { &declaration!($key, $sentence, [$($($unit)?)?] $($(, of $original)?)?) },
+                    const { &declaration!($key, $sentence, [$($($unit)?)? $($($its_unit)?)?] $($(, of $original)?)?) },
                     settings!(@place self $key $($accessor)?)
                         .setting(settings!(@allowed self $($range $(, $most)?)?)),
                 )?;)+

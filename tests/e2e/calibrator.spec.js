@@ -273,8 +273,11 @@ async function recordingWith(topics) {
   return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }
 
-test('of the same log it says the same as the command line, to the last bit', async ({ page }) => {
-  const widget = await openCalibrator(page, 'robust="false" seed="0" bylength');
+for (const [attributes, options, legs] of /** @type {[string, string, object][]} */ ([
+  ['', '', { distance: 0.25, angle: 0.2 }],
+  ['duration="0.8" positiondeviation="0.004" headingdeviation="0.003"', '--duration 0.8 --position-deviation 0.004 --heading-deviation 0.003', { duration: 0.8 }],
+])) test(`of the same log it says the same as the command line, to the last bit: ${options}`, async ({ page }) => {
+  const widget = await openCalibrator(page, `robust="false" seed="0" bylength ${attributes}`);
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
   await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv\./);
   await settled(widget);
@@ -283,10 +286,45 @@ test('of the same log it says the same as the command line, to the last bit', as
     return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
   });
   const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
-  const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, '--json'], { encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28 });
+  const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, ...options.split(' ').filter(Boolean), '--json'], { encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28 });
   const { date, fit, logs, start, ...printed } = JSON.parse(stdout);
-  expect([fit, start, logs.length, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 }, byLength: true }, 9, 2, 'string']);
+  expect([fit, start, logs.length, typeof date]).toEqual([{ legs, byLength: true }, 9, 2, 'string']);
   expect(JSON.parse(shown)).toEqual(printed);
+});
+
+test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {
+  const widget = await openCalibrator(page, 'rule="nav2"');
+  const before = await stats(widget);
+  const time = widget.locator('.slider:has(#duration)');
+  await expect(time.locator('.typed')).toHaveValue('—');
+  await time.locator('.typed').fill('0.8');
+  await time.locator('.typed').press('Enter');
+  await settled(widget);
+  expect(await stateOf(widget)).toMatchObject({ duration: 0.8, distance: 0.25, angle: 0.2 });
+  const times = await widget.evaluate((element) => [.../** @type {AlphaCalibratorElement} */ (element).machine.legs.times]);
+  for (let leg = 0; leg < times.length; leg += 2) expect(Math.abs(times[leg + 1] - times[leg] - 0.8)).toBeLessThan(0.06);
+  await expect(widget.locator('.slider.off:is(:has(#distance), :has(#angle))')).toHaveCount(2);
+  await fold(widget, 'For Nav2').locator('summary').click();
+  await expect(widget.locator('textarea.yaml')).toHaveValue(/# \d+ legs of 0\.8 s of the simulated log/);
+  await expect(widget.locator('textarea.yaml')).not.toHaveValue(/update_min/);
+  await fold(widget, 'Other lengths').locator('summary').click();
+  await widget.getByRole('checkbox', { name: /^Fit legs/ }).check();
+  await settled(widget);
+  await expect(fold(widget, 'Other lengths').locator('svg.plot').first()).toHaveAttribute('aria-label', / at 0\.800,/);
+  await time.locator('#duration').fill('0');
+  await settled(widget);
+  expect((await stats(widget)).alphas).toEqual(before.alphas);
+  // The reference's own error is no noise of the wheels.
+  await fold(widget, 'Your log').locator('summary').click();
+  await widget.getByRole('slider', { name: /position of the reference/ }).fill('0.004');
+  await widget.getByRole('slider', { name: /heading of the reference/ }).fill('0.003');
+  await settled(widget);
+  expect(await stateOf(widget)).toMatchObject({ positionDeviation: 0.004, headingDeviation: 0.003, duration: 0 });
+  expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(before.alphas[3]));
+  const field = widget.locator('.slider:has(#positionDeviation) .typed');
+  await field.fill('-1');
+  await field.press('Enter');
+  await expect(widget.locator('.slider.refused')).toContainText('σxy is −1');
 });
 
 test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {

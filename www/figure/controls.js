@@ -81,7 +81,7 @@ function typeable(figure, key, symbol, row, take = row.input, print = row.show) 
         return print(number);
       }
       const given = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
-      figure.typing.refuse(key, words.refused(symbol.replaceAll('*', ''), given, limit(min), limit(max), whole));
+      figure.typing.refuse(key, words.refused(symbol.replaceAll(/[*_{}]/g, ''), given, limit(min), limit(max), whole));
     },
     refusal: figure.typing.refusalOf(key),
     forget: () => figure.typing.forget(),

@@ -10,8 +10,8 @@ pub use settings::*;
 use super::cloud::draws::Draws;
 use super::settings::{Rules, SettingsError};
 use crate::calibrate::{
-    Calibrating, Calibration, Doubts, ERRORS, Estimate, HeldOut, Inflation, KindDoubts, Leg, LegLength,
-    Options, ReferenceError, Robust, Systematic, Trajectory, Verdict,
+    Calibrating, Calibration, Doubts, ERRORS, Estimate, HeldOut, Inflation, KindDoubts, Leg, Options,
+    ReferenceError, Robust, Systematic, Trajectory, Verdict,
 };
 use crate::geom::se2::SE2;
 use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -334,11 +334,11 @@ impl Fitting {
 fn options(settings: &Settings, log: &Log) -> Options {
     Options {
         model: settings.model(),
-        legs: LegLength::Moved { distance: settings.distance, angle: settings.angle },
+        legs: settings.legs(),
         noise: settings.noise,
         robust: if settings.robust { Robust::Estimated } else { Robust::No },
         remove: settings.removed(),
-        reference_error: log.error,
+        reference_error: settings.reference_error(log.error),
         seed: settings.seed,
         by_length: settings.by_length,
     }

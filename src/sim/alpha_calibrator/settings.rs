@@ -1,6 +1,6 @@
 //! What a user sets of the Alpha Calibrator.
 
-use crate::calibrate::{self, Which};
+use crate::calibrate::{self, LegLength, ReferenceError, Which};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{Allowed, MAX_SEED, Rules, SettingsError, Word, Words, settings};
@@ -39,6 +39,8 @@ settings! {
         distance: f64 = 0.25, "m", in 0.01..=100.0;
         /// A leg ends where the odometry has turned by more: `update_min_a` of AMCL.
         angle: f64 = 0.2, "rad", in 0.01..=3.0;
+        /// Where it is above 0, a leg ends after so long instead, whatever the odometry says.
+        duration: f64 = 0.0, "s", in 0.0..=1e3;
         /// Whether the yaw at which the reference is mounted is removed.
         mountYaw, by mount_yaw_mut;
         /// Whether the reference’s lever arm is removed.
@@ -51,6 +53,10 @@ settings! {
         clockOffset, by clock_offset_mut;
         /// Whether the α’s of legs of other lengths are fitted too, which takes up to three times as long.
         byLength, by by_length_mut;
+        /// Standard deviation of the reference’s own coordinates; 0: as the log says, if it does.
+        positionDeviation, by position_deviation_mut, "m", in 0.0..=1e3;
+        /// Standard deviation of the reference’s own heading; 0: as the log says, if it does.
+        headingDeviation, by heading_deviation_mut, "rad", in 0.0..=1e3;
         /// What the α’s are multiplied by in what is predicted.
         inflation: f64 = 1.0, in 0.01..=100.0;
         // One whose intervals hold all of the true values: what everybody sees first should not be bad luck.
@@ -69,6 +75,8 @@ settings! {
             clock_offset: bool = true;
             /// The setting `byLength`.
             by_length: bool = false;
+            /// The settings `positionDeviation` and `headingDeviation`.
+            deviations: ReferenceError = ReferenceError { position: 0.0, heading: 0.0 };
         }
     }
 }
@@ -96,6 +104,14 @@ impl Settings {
 
     fn by_length_mut(&mut self) -> &mut bool {
         &mut self.by_length
+    }
+
+    fn position_deviation_mut(&mut self) -> &mut f64 {
+        &mut self.deviations.position
+    }
+
+    fn heading_deviation_mut(&mut self) -> &mut f64 {
+        &mut self.deviations.heading
     }
 
     /// Whether what is fitted under these settings is what is fitted under others: the factor is for the picture alone.
@@ -149,6 +165,23 @@ impl Settings {
             self.distance_scale,
             self.turn_scale,
         ]
+    }
+
+    /// Where a leg ends.
+    pub fn legs(&self) -> LegLength {
+        if self.duration > 0.0 {
+            return LegLength::Lasted { duration: self.duration };
+        }
+        LegLength::Moved { distance: self.distance, angle: self.angle }
+    }
+
+    /// How well a reference is known of which a log says this.
+    pub fn reference_error(&self, said: ReferenceError) -> ReferenceError {
+        let of = |own: f64, said: f64| if own > 0.0 { own } else { said };
+        ReferenceError {
+            position: of(self.deviations.position, said.position),
+            heading: of(self.deviations.heading, said.heading),
+        }
     }
 
     fn omnidirectional(&self) -> bool {

@@ -226,7 +226,7 @@ export class AlphaCalibratorElement extends FigureElement {
           <div class="tables">${alphaTable(reading)} ${systematicTable(this)}</div>`)}
         </div>
         ${this.stage.later(() => html`
-        <div part="controls">${modelControls(this)}<div class="controls">${legLengths(this)}</div></div>
+        <div part="controls">${modelControls(this)}${legLengths(this)}</div>
         <div class="folds">
           ${fold(say.panels.title, () => panels(this))}
           ${fold(say.doubts.title, () => doubts(this))}

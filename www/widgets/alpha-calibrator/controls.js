@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { check, choices, slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, radioGroup } from '../../ui/controls.js';
-import { counted, fixed, numberIn, percent } from '../../ui/format.js';
+import { NOTHING, counted, fixed, numberIn, percent, typed } from '../../ui/format.js';
 import { readoutList } from '../../ui/readouts.js';
 import { sliderRow } from '../../ui/slider.js';
 import { kindOf, settingsFor } from './settings.js';
@@ -77,9 +77,19 @@ export function modelControls(figure) {
 
 /** Where a leg ends. @param {Figure} figure */
 export function legLengths(figure) {
-  const { name } = words.calibrator.leg;
-  return ['distance', 'angle'].map((key) => html`<fieldset>
-    <legend class="visually-hidden">${name}</legend>
-    ${slider(figure, key)}
-  </fieldset>`);
+  const off = figure.settings.told.duration > 0;
+  const show = (/** @type {number} */ seconds) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
+  return inGroups(words.calibrator.leg.name, [slider(figure, 'distance', { off }), slider(figure, 'angle', { off }), slider(figure, 'duration', { show })]);
 }
+
+/** How well the reference is known by itself. @param {Figure} figure */
+export const deviations = (figure) =>
+  inGroups(words.calibrator.own.reference, [slider(figure, 'positionDeviation'), slider(figure, 'headingDeviation')]);
+
+/** Each beside the others, with room for its own line of help. @param {string} name @param {unknown[]} sliders */
+const inGroups = (name, sliders) => html`<div class="controls">
+  ${sliders.map((each) => html`<fieldset>
+    <legend class="visually-hidden">${name}</legend>
+    ${each}
+  </fieldset>`)}
+</div>`;

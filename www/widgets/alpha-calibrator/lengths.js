@@ -35,7 +35,8 @@ export function lengths(figure) {
 function lengthPlot(config, byLength, index) {
   const say = words.calibrator.lengths;
   const driver = driverOf(config, index);
-  const asked = driver === 'turn' ? config.angle : config.distance;
+  const lasts = config.duration > 0;
+  const asked = lasts ? config.duration : driver === 'turn' ? config.angle : config.distance;
   const told = byLength.map(({ factor, alphas, intervals }) => ({ x: factor * asked, y: alphas[index] ?? NaN, ends: intervals[index] ?? undefined }));
   const there = told.flatMap(({ y, ends }) => [y, ...(ends ?? [])]).filter((value) => value > 0 && value < Infinity).map(Math.log10);
   const to = there.length ? Math.ceil(Math.max(...there)) : 0;
@@ -46,7 +47,7 @@ function lengthPlot(config, byLength, index) {
   const ends = [shortest, last];
   return plot({
     label: say.label(String(index + 1), told.map(({ x, y }) => say.at(Number.isNaN(y) ? NOTHING : significantly(y), significantly(x))).join(', ')),
-    x: { name: say[driver], from: shortest, to: last, logarithmic: true },
+    x: { name: say[lasts ? 'time' : driver], from: shortest, to: last, logarithmic: true },
     y: { name: `α${alphaName(index)}`, from: 10 ** from, to: 10 ** to, logarithmic: true },
     curves: !fitted ? [] : [
       { name: say.square, role: 'truth', dash: '1 3', x: ends, y: [fitted, fitted] },

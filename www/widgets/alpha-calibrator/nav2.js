@@ -7,6 +7,7 @@ import { words } from '../../messages/registry.js';
 import { button } from '../../ui/controls.js';
 import { percent } from '../../ui/format.js';
 import { nav2Lines } from './lines.js';
+import { legsOf } from './settings.js';
 
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
 
@@ -17,11 +18,11 @@ import { nav2Lines } from './lines.js';
  * @returns {string} none where Nav2 has no such model
  */
 function yamlOf({ reading: { config, stats, legs: { count } }, logName }) {
-  const { model, rule, distance, angle, inflation } = config;
+  const { model, rule, inflation } = config;
   const { alphas, intervals, systematic, doubts: { verdict, heldOut } } = stats;
   const doubt = verdict === 'fits' ? undefined : words.calibrator.verdicts[verdict](percent(heldOut.coverage));
   const date = new Date().toISOString().slice(0, 10);
-  const fitted = { alphas, intervals, count, model, rule, legs: { distance, angle }, log: logName, date, verdict, doubt, systematic, inflation };
+  const fitted = { alphas, intervals, count, model, rule, legs: legsOf(config), log: logName, date, verdict, doubt, systematic, inflation };
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 

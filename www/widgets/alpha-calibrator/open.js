@@ -5,6 +5,7 @@ import { Part } from '../../figure/part.js';
 import { language, words } from '../../messages/registry.js';
 import { button, inputOf } from '../../ui/controls.js';
 import { FileDrop, fileInput } from '../shared/files.js';
+import { deviations } from './controls.js';
 
 /**
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
@@ -162,6 +163,8 @@ export function ownLog(figure, opener) {
     <p>${say.text}</p>
     <label for="log-files">${say.files}</label>
     ${fileInput('log-files', EXTENSIONS, (files) => opener.choose(files))}
+    <p>${say.deviations}</p>
+    ${deviations(figure)}
     ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
     ${chosen ? whichIsWhich(opener, chosen) : nothing}
     <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>

@@ -30,8 +30,11 @@ export function readingOf(machine, before) {
   const { config, fits } = machine;
   if (before?.fits === fits) return { ...before, config };
   const { stats, legs, truth } = machine;
-  return { config, fits, stats, legs, truth, classes: classesOf(legs, config.noise), opening: openingOf(legs, config.distance) };
+  return { config, fits, stats, legs, truth, classes: classesOf(legs, config.noise), opening: openingOf(legs, config.duration > 0 ? SHORTEST : config.distance) };
 }
+
+/** A leg that is shorter tells no direction, m. */
+const SHORTEST = 0.01;
 
 /**
  * How unusual each leg is: the place among `SHARES` of the first that it is below.
@@ -52,7 +55,7 @@ export function classesOf({ count, squaredError, residuals }, noise) {
  * cloud to see.
  *
  * @param {CalibrationLegs} legs
- * @param {number} distance that a leg may be long
+ * @param {number} distance that a leg is to be long
  * @returns {number} −1 where there is none
  */
 function openingOf({ squaredError, bad, odometry }, distance) {
@@ -70,5 +73,5 @@ function openingOf({ squaredError, bad, odometry }, distance) {
 export const legOf = ({ opening, legs }, chosen) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
 /** Whether the true α's are those of the present fit: of its rule, and of its legs. @param {Reading} reading */
-export const truthHolds = ({ truth, config: { rule, model, distance, angle } }) =>
-  truth !== null && model === 'odometry' && rule === 'table' && distance === SIMULATED.distance && angle === SIMULATED.angle;
+export const truthHolds = ({ truth, config: { rule, model, distance, angle, duration } }) =>
+  truth !== null && model === 'odometry' && rule === 'table' && distance === SIMULATED.distance && angle === SIMULATED.angle && duration === 0;

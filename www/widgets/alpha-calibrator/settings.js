@@ -44,6 +44,9 @@ export const SIMULATED = { distance: 0.25, angle: 0.2 };
 
 /** @typedef {(typeof KINDS)[number]} Kind */
 
+/** Where legs end, as `calibrate` takes it. @param {AlphaCalibratorSettings} config @returns {{ duration: number } | { distance: number, angle: number }} */
+export const legsOf = ({ distance, angle, duration }) => (duration > 0 ? { duration } : { distance, angle });
+
 /** @param {AlphaCalibratorSettings} config @returns {Kind} */
 export const kindOf = ({ model, rule }) => (model === 'velocity' ? 'velocity' : rule);
 
@@ -60,11 +63,14 @@ export const SYSTEMATIC = /** @type {const} */ (['clockOffset', 'mountYaw', 'lev
 export const looks = {
   distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
   angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
+  duration: { symbol: '*T*', role: 'prior', min: 0, max: 5, step: 0.1, decimals: 2 },
+  positionDeviation: { symbol: '*σ*_{xy}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
+  headingDeviation: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
   inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
 };
 
 /** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
 export const room = [
-  [0, 56.6, 160], [21, 51.4, 160], [30, 48.1, 160], [34, 47.2, 160], [38, 26.6, 45], [41, 27.4, 45], [41.5, 25.2, 45], [45, 26.8, 37.5],
+  [0, 58.4, 160], [21, 54.5, 160], [30, 48.1, 160], [34, 47.2, 160], [38, 26.6, 45], [41, 27.4, 45], [41.5, 25.2, 45], [45, 26.8, 37.5],
   [50, 26.6, 37.5], [56, 15.4, 35], [60, 14.6, 35], [70, 11.6, 35], [90, 9.2, 35],
 ];

@@ -166,6 +166,11 @@ const own = css`
     flex: none;
   }
 
+  [part='controls'] > .controls {
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 11em), 1fr));
+    column-gap: 1.5em;
+  }
+
   .folded > .choices {
     --name: auto;
 

@@ -93,9 +93,15 @@ for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
   [['calibrat'], /^the command is “calibrat”; expected is calibrate\.$/],
   [['calibrate', 'odom.csv'], /^“odom\.csv” belongs to no option; expected are options such as --odometry\.$/],
   [['calibrate', '--odometri', 'a'], /^--odometri is no option; expected are those of --help\.$/],
-  [['calibrate', '--odometry'], /^Option '--odometry <value>' argument missing; expected is what --help shows\.$/],
+  [['calibrate', '--odometry'], /^--odometry has no value; expected is one after it, or after = where it begins with -\.$/],
   [['calibrate', ...FILES, '--distance', '-1', '-2'], /^-2 is no option; expected are those of --help\.$/],
-  [['calibrate', ...FILES, '--distance', '--json'], /^Option '--distance' argument is ambiguous; expected is what --help shows\.$/],
+  [['calibrate', ...FILES, '--distance', '--json'], /^--distance has no value; expected is one after it, or after = where it begins with -\.$/],
+  [['calibrate', '--odometry', '-odom.csv'], /^--odometry has no value; expected is one after it, or after = where it begins with -\.$/],
+  [['calibrate', ...FILES, '--odometry', 'b.csv'], /^--odometry is given more than once; expected is one of it\.$/],
+  [['calibrate', ...FILES, '--robust', '--robust', '0.1'], /^--robust is given more than once; expected is one of it\.$/],
+  [['calibrate', ...FILES, '--distance', '0,25'], /^--distance is “0,25”; expected is a number with a decimal point, 0\.25\.$/],
+  [['calibrate', ...FILES, '--position-deviation', '-0,5'], /^--position-deviation is “-0,5”; expected is a number with a decimal point, -0\.5\.$/],
+  [['calibrate', ...FILES, '--distance', '0,25,3'], /^--distance is “0,25,3”; expected is a number\.$/],
   [['calibrate', '--reference', 'a.csv'], /^--odometry is missing; expected is a file, or --recording with both\.$/],
   [['calibrate', ...FILES, '--angle', 'wide'], /^--angle is “wide”; expected is a number\.$/],
   [['calibrate', ...FILES, '--robust=some'], /^--robust is “some”; expected is a number\.$/],
@@ -103,8 +109,8 @@ for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
   [['calibrate', ...FILES, '--without', 'yaw'], /^--without has “yaw”; expected are names of clockOffset, mountYaw, leverArm, distanceScale, turnScale\.$/],
   [['calibrate', ...FILES, '--frames', 'map'], /^--frames is “map”; expected are a parent and a child, as in map,base_link\.$/],
   [['calibrate', ...FILES, '--odom-topic', '/odom'], /^odometry\.csv is no recording and has no topic \/odom; expected is an MCAP file\.$/],
-  [['calibrate', ...FILES, '--reference', 'none.csv'], /^none\.csv: the file cannot be read \(ENOENT\); expected is one that is still there\.$/],
-  [['calibrate', ...FILES, '--reference', tmpdir()], /^.*: the file cannot be read \(no file\); expected is one that is still there\.$/],
+  [['calibrate', ...FILES.slice(0, 2), '--reference', 'none.csv'], /^none\.csv: the file cannot be read \(ENOENT\); expected is one that is still there\.$/],
+  [['calibrate', ...FILES.slice(0, 2), '--reference', tmpdir()], /^.*: the file cannot be read \(no file\); expected is one that is still there\.$/],
 ])) {
   test(`bad input has the exit code 2 and a sentence: ${args.filter((arg) => !arg.includes('/')).join(' ')}`, async () => {
     const { code, out, err } = await said(args);
@@ -113,12 +119,65 @@ for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
   });
 }
 
-test('what the core refuses, it refuses by the name of the logs', async () => {
-  for (const asked of [['--distance=-1'], ['--distance', '-1']]) {
-    const { code, err } = await said(['calibrate', ...FILES, ...asked]);
+test('what the core refuses of the options, it refuses by their names', async () => {
+  for (const [asked, start] of /** @type {[string[], string][]} */ ([
+    [['--distance=-1'], '--distance is -1;'],
+    [['--distance', '-1'], '--distance is -1;'],
+    [['--angle', '0'], '--angle is 0;'],
+    [['--duration', '1e9'], '--duration is 1000000000;'],
+    [['--robust', '0.9'], '--robust is 0.9;'],
+    [['--position-deviation', '-1'], '--position-deviation is -1;'],
+    [['--heading-deviation', '1e4'], '--heading-deviation is 10000;'],
+    [['--seed', '1.5'], '--seed is 1.5;'],
+    [['--model', 'omni'], '--model is "omni";'],
+    [['--rule', 'amcl'], '--rule is "amcl";'],
+    [['--model', 'velocity', '--rule', 'nav2'], '--rule does not go with the model;'],
+    [['--noise', 'gauss'], '--noise is "gauss";'],
+  ])) {
+    const { code, err } = await said(['calibrate', ...(asked[1] === 'velocity' ? COMMANDS() : FILES), ...asked]);
     assert.equal(code, 2);
-    assert.match(err, /^odometry\.csv and reference\.csv: .*distance.* -1; allowed (is|are) .*\n$/);
+    assert.ok(err.startsWith(start), err);
+    assert.match(err, /; allowed (is|are) .*[^.]\.\n$/);
   }
+});
+
+/** The example with commands in the place of its odometry. */
+const COMMANDS = () => ['--odometry', file('driven.csv', 't,v,omega\n10,1,0\n11,1,0\n12,1,0\n'), '--reference', example('reference')];
+
+test('what the core refuses of the logs, it refuses by theirs', async () => {
+  const { code, err } = await said(['calibrate', ...FILES, '--distance', '1000', '--angle', '1000']);
+  assert.equal(code, 2);
+  assert.match(err, /^odometry\.csv and reference\.csv: /);
+});
+
+test('the help names what the core takes', async () => {
+  const motion = /** @type {any} */ (await load());
+  const { odometry: own, reference } = await askedOf(FILES);
+  for (const name of ['model', 'rule', 'noise']) {
+    assert.throws(() => motion.calibrate({ odometry: own, reference, [name]: 'none' }), ({ message }) => {
+      const words = [...message.slice(message.indexOf(';')).matchAll(/"(\w+)"/g)].map(([, word]) => word);
+      assert.ok(words.length > 1);
+      const [, said] = HELP.match(new RegExp(`\n  --${name} NAME ((?:[^\n]|\n {10})*)`)) ?? [];
+      assert.deepEqual(words.filter((word) => !new RegExp(`\\b${word}\\b`).test(said)), []);
+      return true;
+    });
+  }
+});
+
+test('tables with decimal commas are refused by a sentence that says what is expected', async () => {
+  const texts = ['odometry', 'reference'].map((name) => /** @type {[string, string]} */ ([name, readFileSync(example(name), 'utf8')]));
+  const asked = (/** @type {string} */ kind, /** @type {(text: string) => string} */ change) =>
+    texts.flatMap(([name, text]) => [`--${name}`, file(`${kind}-${name}.csv`, change(text))]);
+  const semicolons = await said(['calibrate', ...asked('semicolons', (text) => text.replaceAll(',', ';').replaceAll('.', ','))]);
+  assert.deepEqual([semicolons.code, semicolons.err], [2, 'semicolons-odometry.csv, line 2: t is “10,000”; expected is a number with a decimal point.\n']);
+  const commas = await said(['calibrate', ...asked('commas', (text) => text.replaceAll('.', ','))]);
+  assert.equal(commas.code, 2);
+  assert.match(commas.err, /^commas-odometry\.csv, line \d: the row has \d cells, and the header 4; expected are as many, with decimal points in numbers\.\n$/);
+  // Semicolons alone separate as commas do, and a comma at the end of each row is none between cells.
+  const points = await said(['calibrate', ...asked('points', (text) => text.replaceAll(',', ';')), '--json']);
+  const ends = await said(['calibrate', ...asked('ends', (text) => text.replaceAll(/(?<=\d)$/gm, ',')), '--json']);
+  const clean = await said(['calibrate', ...FILES, '--json']);
+  for (const { out } of [points, ends]) assert.deepEqual(JSON.parse(out).alphas, JSON.parse(clean.out).alphas);
 });
 
 test('each verdict has its sentence, and stands beside the lines for Nav2 where there is something to doubt', async () => {
@@ -271,7 +330,7 @@ test('each reason why an α is not determined has a sentence, and advice that fi
   const told = motion.calibrate(await askedOf(FILES));
   /** What is said of α's that are not determined. @param {(string | null)[]} undetermined @param {string[]} args */
   const lacking = async (undetermined, ...args) => {
-    const { out, err } = await said(['calibrate', ...FILES, ...args], async () => ({ calibrate: () => ({ ...told, undetermined }) }));
+    const { out, err } = await said(['calibrate', ...(args.includes('--odometry') ? [] : FILES), ...args], async () => ({ calibrate: () => ({ ...told, undetermined }) }));
     assert.equal(err, '');
     return out.split('\n').filter((line) => /^alpha.* not determined: /.test(line));
   };

@@ -11,7 +11,7 @@ export const HELP = `motion-widgets calibrate: the α's of a robot's motion mode
   npx motion-widgets calibrate --odometry odom.csv --reference truth.csv
   npx motion-widgets calibrate --recording run.mcap --odom-topic /odom --reference-topic /mocap/pose
 
-What goes in (times in s or ns, m, rad):
+What goes in (times in s or ns, m, rad; numbers with a decimal point):
   --odometry FILE          CSV with a header, TUM, or an MCAP recording of ROS 2; also commands: t, v, omega
   --reference FILE         likewise, in any fixed frame: motion capture, total station, scan matching
   --recording FILE         one MCAP recording with both
@@ -24,7 +24,8 @@ What goes in (times in s or ns, m, rad):
 
 What is fitted:
   --model NAME             odometry (unless said), omnidirectional, velocity
-  --rule NAME              of the odometry model: table (unless said), nav2 (for Nav2's AMCL), beluga
+  --rule NAME              of the odometry model: table (unless said), nav2 (for Nav2's AMCL), beluga;
+                           omni is that of the omnidirectional model
   --distance M --angle RAD a leg ends after so much, as AMCL's update_min_d and update_min_a; 0.25 and 0.2 unless said
   --duration S             or after so long
   --noise NAME             normal (unless said), triangular
@@ -48,6 +49,27 @@ const OPTIONS = {
 
 /** What can be removed before the α's are fitted. */
 const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'];
+
+/** What the core calls the options, where that is another name. @type {Record<string, string>} */
+const FIELDS = {
+  'legs.distance': 'distance', 'legs.angle': 'angle', 'legs.duration': 'duration', 'robust.outliers': 'robust',
+  'reference.positionDeviation': 'position-deviation', 'reference.headingDeviation': 'heading-deviation',
+};
+
+/**
+ * What the core refuses of the options, by their names.
+ *
+ * @param {string} message of its error, which begins with a field
+ * @returns {string | undefined} nothing where it is of the logs
+ */
+export function refusalOf(message) {
+  const [field] = message.split(' ');
+  const name = FIELDS[field] ?? field;
+  return Object.hasOwn(OPTIONS, name) && !(name in LOGS) ? `--${name}${message.slice(field.length)}.` : undefined;
+}
+
+/** Fields of the core that are logs and no options' values. */
+const LOGS = { odometry: true, reference: true };
 
 /**
  * @typedef {object} Asked
@@ -79,7 +101,7 @@ export function optionsOf(args) {
     const value = values[name];
     if (value === undefined) return undefined;
     const is = typeof value === 'string' && value.trim() !== '' ? Number(value) : NaN;
-    if (!Number.isFinite(is)) throw new UsageError(`--${name} is “${cut(String(value))}”; expected is a number.`);
+    if (!Number.isFinite(is)) throw new UsageError(`--${name} is “${cut(String(value))}”; expected is ${numberLike(String(value))}.`);
     return is;
   };
   const { distance, angle, duration } = { distance: number('distance'), angle: number('angle'), duration: number('duration') };
@@ -108,6 +130,12 @@ export function optionsOf(args) {
   };
 }
 
+/** What is expected in the place of a text. @param {string} text */
+function numberLike(text) {
+  const pointed = text.replace(',', '.');
+  return text.includes(',') && Number.isFinite(Number(pointed)) ? `a number with a decimal point, ${pointed}` : 'a number';
+}
+
 /** @template {object} T @param {T} all @returns {T} those that are something */
 const defined = (all) => /** @type {T} */ (Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)));
 
@@ -121,11 +149,18 @@ function parsed(args) {
     return [arg === '--robust' ? '--robust=' : arg];
   });
   try {
-    return parseArgs({ args: whole, options: OPTIONS, allowPositionals: true });
+    const { tokens, ...all } = parseArgs({ args: whole, options: OPTIONS, allowPositionals: true, tokens: true });
+    const names = tokens.flatMap((token) => (token.kind === 'option' ? [token.name] : []));
+    const twice = names.find((name, i) => names.indexOf(name) < i);
+    if (twice !== undefined) throw new UsageError(`--${twice} is given more than once; expected is one of it.`);
+    return all;
   } catch (error) {
+    if (error instanceof UsageError) throw error;
     const reason = error instanceof Error ? error.message : String(error);
     const unknown = /Unknown option '(.*?)'/.exec(reason);
     if (unknown) throw new UsageError(`${cut(unknown[1])} is no option; expected are those of --help.`);
+    const alone = /^Option '(--[\w-]+).*' argument (missing|is ambiguous)/.exec(reason);
+    if (alone) throw new UsageError(`${alone[1]} has no value; expected is one after it, or after = where it begins with -.`);
     // What follows is advice, in lines of its own.
     const [first] = reason.split('\n');
     throw new UsageError(`${cut(first.replace(/\.$/, ''), 200)}; expected is what --help shows.`);

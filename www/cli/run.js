@@ -4,7 +4,7 @@ import { log as words } from '../widgets/alpha-calibrator/log/en.js';
 import { isRecording, readLog, tell, together, topicsOf, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
 import { LogError, cut, listed } from '../widgets/alpha-calibrator/log/refusal.js';
 import { onDisk } from './disk.js';
-import { HELP, UsageError, optionsOf } from './options.js';
+import { HELP, UsageError, optionsOf, refusalOf } from './options.js';
 import { jsonOf, textOf } from './report.js';
 
 /**
@@ -58,7 +58,7 @@ function calibrate(motion, { fit, deviations }, { odometry, reference }) {
   } catch (error) {
     // It names a field, the value, and what is allowed.
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-    throw new UsageError(`${odometry.name} and ${reference.name}: ${error.message}`);
+    throw new UsageError(refusalOf(error.message) ?? `${odometry.name} and ${reference.name}: ${error.message}`);
   }
 }
 

@@ -35,7 +35,8 @@ export const log = {
     twice: (/** @type {string} */ field, /** @type {string} */ one, /** @type {string} */ other) =>
       `both “${one}” and “${other}” may be ${FIELDS[field]}; expected is one of them.`,
     cells: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells; expected are at least ${needed}.`,
-    number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number.`,
+    wide: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells, and the header ${needed}; expected are as many, with decimal points in numbers.`,
+    number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : ''}.`,
     rows: (/** @type {number} */ most) => `there are more rows; expected are at most ${most}.`,
     falling: (/** @type {number} */ count, /** @type {number} */ rows) =>
       `${count} of ${rows} rows, this one first, go back in time; expected are times that grow.`,

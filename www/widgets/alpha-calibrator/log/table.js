@@ -17,6 +17,7 @@ import { Rows } from './rows.js';
  * @property {'csv' | 'tum'} name
  * @property {number} separator its byte; a blank stands for any number of blanks and tabulators
  * @property {Layout} layout
+ * @property {number} width cells of the header
  * @property {boolean} isHeader whether the line that told it is no row itself
  */
 
@@ -30,6 +31,9 @@ const SIZES = /** @type {const} */ ([['ns', 1e17], ['us', 1e14], ['ms', 1e11]]);
 
 /** The length of a quaternion that is a rotation, give or take. */
 const UNLIKE_ONE = 0.1;
+
+/** Lines whose cells are counted: of numbers with commas there are some among them. */
+const LOOKED_AT = 100;
 
 /** @type {Layout} */
 const TUM = {
@@ -75,6 +79,7 @@ export async function readTable(source, wanted, watching) {
       read = rowReader(format, rows, place);
       if (format.isHeader) continue;
     }
+    if (lines.number <= LOOKED_AT && format.separator === COMMA) checkWidth(utf8.decode(lines.bytes.subarray(from, to)), format.width, { ...place, line: lines.number });
     read?.(lines);
     if (lines.number % ROWS_A_LOOK === 0) await breathe(lines.share);
   }
@@ -102,12 +107,24 @@ function formatOf(line, comment, place, wanted) {
   const marks = [COMMA, SEMICOLON, TAB].filter((each) => countOf(line, each) > 0);
   const [separator = BLANK] = marks.toSorted((a, b) => countOf(line, b) - countOf(line, a));
   const [first, above] = [line, comment].map((each) => split(each, separator));
-  if (isHeader(first)) return { name: 'csv', separator, layout: layoutOf(first, place, wanted), isHeader: true };
-  if (separator === BLANK && first.length === 8 && wanted !== 'commands') return { name: 'tum', separator, layout: TUM, isHeader: false };
+  if (isHeader(first)) return { name: 'csv', separator, layout: layoutOf(first, place, wanted), width: first.length, isHeader: true };
+  if (separator === BLANK && first.length === 8 && wanted !== 'commands') return { name: 'tum', separator, layout: TUM, width: 8, isHeader: false };
   if (above.length === first.length && isHeader(above)) {
-    return { name: 'csv', separator, layout: layoutOf(above, place, wanted), isHeader: false };
+    return { name: 'csv', separator, layout: layoutOf(above, place, wanted), width: above.length, isHeader: false };
   }
   throw new LogError(place, (say) => say.header(cut(line)));
+}
+
+/**
+ * Where commas are both between cells and in numbers, a row has up to twice as many cells as its header.
+ *
+ * @param {string} line
+ * @param {number} width of the header
+ * @param {Place} place of the line
+ */
+function checkWidth(line, width, place) {
+  const count = split(line.replaceAll(/"[^"]*"/g, '').replace(/[,\s]+$/, ''), COMMA).length;
+  if (count > width && count <= 2 * width) throw new LogError(place, (say) => say.wide(count, width));
 }
 
 /** @param {string} line @param {number} separator */

@@ -447,6 +447,34 @@ test('α’s of other lengths of legs are fitted where they are asked for, and d
   await expect(widget).toHaveAttribute('bylength');
 });
 
+test('an α that a log does not tell from 0 is no result of 0', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  // It drives straight on and turns on the spot; its drives are off, its turns and directions are not.
+  await widget.evaluate((element) => {
+    const odometry = { t: [0], x: [0], y: [0], theta: [0] };
+    const reference = { t: [0], x: [0], y: [0], theta: [0] };
+    for (let step = 1; step < 4000; step++) {
+      const turns = Math.floor(step / 40) % 2;
+      for (const [log, off] of /** @type {[typeof odometry, number][]} */ ([[odometry, 0], [reference, 0.3 * Math.sin(step * step)]])) {
+        const last = step - 1;
+        const [way, turn] = turns ? [0, 0.04] : [0.025 * (1 + off), 0];
+        log.t.push(step / 20);
+        log.x.push(log.x[last] + way * Math.cos(log.theta[last]));
+        log.y.push(log.y[last] + way * Math.sin(log.theta[last]));
+        log.theta.push(log.theta[last] + turn);
+      }
+    }
+    Object.assign(element, { log: { odometry, reference } });
+  });
+  await settled(widget);
+  const { alphas, intervals } = await stats(widget);
+  const zeros = alphas.flatMap((alpha, i) => (alpha !== null && alpha < 1e-3 * (intervals[i]?.[1] ?? 0) ? [i] : []));
+  expect(zeros.length).toBeGreaterThan(0);
+  const sentences = ['turn on the spot, some fifty times', 'drive straight on, some fifty legs', 'drive straight on, some fifty legs', 'turn on the spot, some fifty times'];
+  for (const i of zeros) await expect(rows(widget).nth(i)).toContainText(new RegExp(`not told from 0, [\\d.]+ at most; to tell it, ${sentences[i]}`));
+  await expect(rows(widget).nth(2)).not.toContainText('not told');
+});
+
 test('of an α that a log does not determine it says why, and what to drive', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {

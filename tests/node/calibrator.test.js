@@ -132,7 +132,14 @@ test('lines for Nav2: an α without an interval has no empty comment', () => {
   for (const verdict of ['few-legs', 'unrelated']) {
     const none = nav2Lines({ ...fitted, verdict, alphas: [0.1, 0.1, 0.1, 0.1], intervals: [null, null, null, null] }, en.nav2);
     assert.deepEqual(none.filter((line) => /^ *alpha/.test(line)), []);
+    assert.deepEqual(none.filter((line) => /alpha1/.test(line)), [`    # alpha1: ${en.nav2.undetermined}`]);
   }
+  // Nor is 0 a result, however it is written; inflated, the most of it is too.
+  const zeros = nav2Lines({ ...fitted, inflation: 2, alphas: [0, 1e-7, 0, 0.1], intervals: [[0, 0.00123], [0, 0.0016], null, [0.05, 0.16]] }, en.nav2);
+  assert.deepEqual(zeros.filter((line) => /alpha[1-4]/.test(line)).map((line) => line.trim()), [
+    '# alpha1: not told from 0 by this log, 0.0025 at most', '# alpha2: not told from 0 by this log, 0.0032 at most',
+    '# alpha3: not told from 0 by this log, – at most', 'alpha4: 0.20  # 0.10 to 0.32',
+  ]);
   const corrected = nav2Lines({ ...fitted, alphas: [0.1], intervals: [null], systematic: {
     mountYaw: { value: 0.05, interval: [0.04, 0.06], removed: true }, turnScale: { value: 1.01, interval: [1, 1.02], removed: false },
   } }, en.nav2);

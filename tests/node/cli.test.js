@@ -344,6 +344,30 @@ test('each reason why an α is not determined has a sentence, and advice that fi
   ]);
 });
 
+test('an α that is not told from 0 is no result of 0: at most so much, and what to drive', async () => {
+  const motion = /** @type {any} */ (await load());
+  const told = motion.calibrate({ ...(await askedOf(FILES)), byLength: true });
+  const zero = (/** @type {any} */ at) => ({ ...at, alphas: [at.alphas[0], 0, at.alphas[2], 1e-9], intervals: [at.intervals[0], [0, 0.00123], at.intervals[2], [0, 0.0021]] });
+  const calibrate = () => ({ ...zero(told), byLength: told.byLength.map(zero) });
+  const { out } = await said(['calibrate', ...FILES], async () => ({ calibrate }));
+  assert.match(out, /^alpha2 +≤ 0\.0012 +0\.0000 to 0\.0012 /m);
+  assert.match(out, /^alpha4 +≤ 0\.0021 +0\.0000 to 0\.0021 /m);
+  assert.match(out, /^alpha4 not told from 0: to tell it, turn on the spot, some fifty times\nalpha2 not told from 0: to tell it, drive straight on, some fifty legs$/m);
+  assert.match(out, /^alpha2( +≤ 0\.0012){5}$/m);
+  assert.match(out, /^ {4}# alpha2: not told from 0 by this log, 0\.0012 at most$/m);
+  assert.doesNotMatch(out, /alpha\d:? +0(\.0*)?( |$)/m);
+});
+
+test('a log of ten seconds has no lines for Nav2 with values', async () => {
+  const short = ['odometry', 'reference'].flatMap((name) => {
+    const [header, ...rows] = readFileSync(example(name), 'utf8').trim().split('\n');
+    return [`--${name}`, file(`short-${name}.csv`, [header, ...rows.filter((row) => parseFloat(row) < 20)].join('\n'))];
+  });
+  const { out } = await said(['calibrate', ...short]);
+  assert.match(out, /^Too few legs to say whether the model is any good\. Drive on, or take shorter legs\.$/m);
+  assert.deepEqual(out.split('\n').filter((line) => /alpha[1-4]:/.test(line)), [1, 2, 3, 4].map((i) => `    # alpha${i}: not determined by this log`));
+});
+
 test('the α’s by the length of legs are a table', async () => {
   const { byLength } = JSON.parse((await said(['calibrate', ...FILES, '--json'])).out);
   const { out } = await said(['calibrate', ...FILES]);

@@ -1,7 +1,7 @@
 /** What came out, as text and as JSON. */
 
 import { en } from '../widgets/alpha-calibrator/en.js';
-import { between, fixed, nav2Lines, short } from '../widgets/alpha-calibrator/lines.js';
+import { adviceOf, between, fixed, isZero, mostOf, nav2Lines, neededFor, short } from '../widgets/alpha-calibrator/lines.js';
 
 /**
  * @typedef {[number, number] | null} Interval
@@ -34,7 +34,7 @@ export function textOf({ calibration, fit, logs, start, date }) {
   const rule = model === 'odometry' ? `, rule ${fit.rule ?? 'table'}` : '';
   const rows = alphas.map((/** @type {number | null} */ alpha, /** @type {number} */ i) => [
     `alpha${i + 1}`,
-    alpha === null ? 'not determined by this log' : fixed(alpha, intervals[i]),
+    alpha === null ? en.nav2.undetermined : toldOf(alpha, intervals[i]),
     between(intervals[i]),
     between(bootstrap[i]),
     en.alphas.noiseOf[/** @type {keyof typeof en.alphas.noiseOf} */ (model)][i],
@@ -74,12 +74,19 @@ function lengthOf({ distance, angle, duration }) {
  * @param {string} model
  * @returns {string[]}
  */
-function undeterminedOf({ undetermined }, model) {
-  return Object.entries(en.alphas.lacking).flatMap(([reason, { lack, drive, byCommands }]) => {
-    const names = undetermined.flatMap((/** @type {string | null} */ its, /** @type {number} */ i) => (its === reason ? [`alpha${i + 1}`] : []));
-    return names.length ? [`${new Intl.ListFormat('en').format(names)} not determined: ${lack}; ${model === 'velocity' ? byCommands : drive}`] : [];
+function undeterminedOf({ alphas, intervals, undetermined }, model) {
+  const { lacking } = en.alphas;
+  return /** @type {(keyof typeof lacking)[]} */ (Object.keys(lacking)).flatMap((reason) => {
+    const { lack, drive } = adviceOf(lacking, model, reason);
+    const those = (/** @type {(i: number) => boolean} */ are) => new Intl.ListFormat('en').format(alphas.flatMap((/** @type {unknown} */ _, /** @type {number} */ i) => (are(i) ? [`alpha${i + 1}`] : [])));
+    const unknown = those((i) => undetermined[i] === reason);
+    const zero = those((i) => undetermined[i] === null && isZero(alphas[i], intervals[i]) && neededFor(model, i) === reason);
+    return [...(unknown ? [`${unknown} not determined: ${lack}; ${drive}`] : []), ...(zero ? [`${zero} not told from 0: to tell it, ${drive}`] : [])];
   });
 }
+
+/** An α's value, or the most that it may be. @param {number | null} alpha @param {Interval | undefined} interval */
+const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${mostOf(interval)}` : fixed(alpha, interval));
 
 /**
  * A table of the α's by the length of legs, of each its value and its interval.
@@ -96,7 +103,7 @@ function byLengthOf({ alphas, byLength }, legs) {
   });
   const counts = byLength.map((/** @type {any} */ at) => `${at.legs} legs`);
   const rows = alphas.flatMap((/** @type {unknown} */ _, /** @type {number} */ i) => [
-    [`alpha${i + 1}`, ...byLength.map((/** @type {any} */ at) => fixed(at.alphas[i], at.intervals[i]))],
+    [`alpha${i + 1}`, ...byLength.map((/** @type {any} */ at) => toldOf(at.alphas[i], at.intervals[i]))],
     ['', ...byLength.map((/** @type {any} */ at) => between(at.intervals[i]))],
   ]);
   return [...aligned([['by length', ...lengths], ['', ...counts], ...rows]), ''];

@@ -52,6 +52,7 @@ export const de = {
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `nicht bestimmt: ${lack}; ${drive}`,
+    zero: (most, drive) => `von 0 nicht zu unterscheiden, höchstens ${most}; dafür ${drive}`,
     noiseOf: {
       odometry: ['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung'],
       omnidirectional: ['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung', 'quer durch Fahrt'],
@@ -175,6 +176,7 @@ export const de = {
     none: 'Nav2 hat kein Geschwindigkeitsmodell: Für seine Zeilen ein anderes wählen. In JSON steht alles.',
     otherRule: 'nach einer anderen Regel als der von Nav2 angepasst: die von Nav2 wählen',
     undetermined: 'von dieser Aufzeichnung nicht bestimmt',
+    zero: (most) => `hier nicht von 0 zu unterscheiden, höchstens ${most}`,
     of: (legs, length, log, date) => `${parts(legs)} ${length}, ${log}, ${date}; 95-%-Intervalle`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,
     lasted: (duration) => `von ${duration} s`,

@@ -51,6 +51,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
+    zero: (most, drive) => `not told from 0, ${most} at most; to tell it, ${drive}`,
     noiseOf: {
       odometry: ['turn from turning', 'turn from driving', 'way from driving', 'way from turning'],
       omnidirectional: ['turn from turning', 'turn from driving', 'way from driving', 'way from turning', 'slide from driving'],
@@ -174,6 +175,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     none: 'Nav2 has no velocity model: choose another one for its lines. JSON has everything.',
     otherRule: 'fitted under another rule than Nav2’s: choose that of Nav2',
     undetermined: 'not determined by this log',
+    zero: (most) => `not told from 0 by this log, ${most} at most`,
     of: (legs, length, log, date) => `${of(legs, 'leg')} ${length} of ${log}, ${date}; 95 % intervals`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
     lasted: (duration) => `of ${duration} s`,

@@ -5,8 +5,9 @@ import { check } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { NOTHING, typed } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
+import { driverOf } from './lines.js';
 import { SIMULATED } from './settings.js';
-import { alphaName, driverOf, significantly } from './words.js';
+import { alphaName, significantly } from './words.js';
 
 /**
  * @import { AlphasAtLength, AlphaCalibratorSettings } from '../../types.d.ts'
@@ -34,7 +35,7 @@ export function lengths(figure) {
  */
 function lengthPlot(config, byLength, index) {
   const say = words.calibrator.lengths;
-  const driver = driverOf(config, index);
+  const driver = driverOf(config.model, index);
   const lasts = config.duration > 0;
   const asked = lasts ? config.duration : driver === 'turn' ? config.angle : config.distance;
   const told = byLength.map(({ factor, alphas, intervals }) => ({ x: factor * asked, y: alphas[index] ?? NaN, ends: intervals[index] ?? undefined }));

@@ -60,6 +60,44 @@ export function fixed(value, interval) {
 export const between = (interval) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
 
 /**
+ * Whether an α is nothing beside what is known of it: a zero would look like a result.
+ *
+ * @param {number | null} alpha
+ * @param {Interval | undefined} interval
+ */
+export const isZero = (alpha, interval) => alpha !== null && Number(fixed(alpha, interval)) === 0;
+
+/** The most that an α may be. @param {Interval | undefined} interval */
+export const mostOf = (interval) => short(interval?.[1] ?? null, OF_WIDTH);
+
+/**
+ * What the variance that an α belongs to is driven by.
+ *
+ * @param {string} model
+ * @param {number} index of the α, from 0
+ * @returns {'turn' | 'way'}
+ */
+export function driverOf(model, index) {
+  if (model === 'velocity') return index % 2 ? 'turn' : 'way';
+  return index === 0 || index === 3 ? 'turn' : 'way';
+}
+
+/**
+ * What a log lacks for an α, and what to drive.
+ *
+ * @param {typeof import('./en.js').en.alphas.lacking} lacking
+ * @param {string} model
+ * @param {keyof typeof lacking} reason
+ */
+export function adviceOf(lacking, model, reason) {
+  const { lack, drive, byCommands } = lacking[reason];
+  return { lack, drive: model === 'velocity' ? byCommands : drive };
+}
+
+/** What would tell an α from 0: more of what drives it. @param {string} model @param {number} index @returns {'turns-too-little' | 'drives-too-little'} */
+export const neededFor = (model, index) => (driverOf(model, index) === 'turn' ? 'turns-too-little' : 'drives-too-little');
+
+/**
  * @param {Fitted} fitted
  * @param {Words} say
  * @returns {string[]} none where Nav2 has no such model
@@ -76,8 +114,8 @@ export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, da
   ];
   const lines = alphas.map((alpha, i) => {
     const ends = /** @type {Interval} */ (intervals[i]?.map((end) => inflation * end) ?? null);
-    if (alpha !== null && USELESS.includes(verdict)) return `# alpha${i + 1}: ${fixed(inflation * alpha, ends)}`;
-    return alpha === null ? `# alpha${i + 1}: ${say.undetermined}` : `alpha${i + 1}: ${fixed(inflation * alpha, ends)}${ends ? `  # ${between(ends)}` : ''}`;
+    if (alpha === null || USELESS.includes(verdict)) return `# alpha${i + 1}: ${say.undetermined}`;
+    return isZero(inflation * alpha, ends) ? `# alpha${i + 1}: ${say.zero(mostOf(ends))}` : `alpha${i + 1}: ${fixed(inflation * alpha, ends)}${ends ? `  # ${between(ends)}` : ''}`;
   });
   // A name may have lines of its own, which would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);

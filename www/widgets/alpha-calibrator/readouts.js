@@ -4,6 +4,7 @@ import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.js';
 import { rich, toggle } from '../../ui/controls.js';
 import { NOTHING, fixed, tick } from '../../ui/format.js';
+import { adviceOf, isZero, neededFor } from './lines.js';
 import { truthHolds } from './reading.js';
 import { SYSTEMATIC } from './settings.js';
 import { alphaName, significantly } from './words.js';
@@ -35,7 +36,7 @@ export function alphaTable(reading) {
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
-        ${alpha === null
+        ${alpha === null || lackOf(reading, i)
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
           : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
             <td class="roomy" data-room="0.0000">${significantly(alpha)}</td>
@@ -52,13 +53,17 @@ export function alphaTable(reading) {
   </table>`;
 }
 
-/** Why an α is not determined, and what to drive. @param {Reading} reading @param {number} index */
-function lackOf({ stats: { undetermined }, config: { model } }, index) {
+/** Why an α is not determined, or not told from 0, and what to drive; empty where it is. @param {Reading} reading @param {number} index */
+function lackOf({ stats: { alphas, intervals, undetermined }, config: { model } }, index) {
   const say = words.calibrator.alphas;
-  const reason = undetermined[index];
+  const [alpha, interval, reason] = [alphas[index], intervals[index], undetermined[index]];
+  if (alpha !== null) {
+    const most = interval ? significantly(interval[1]) : NOTHING;
+    return isZero(alpha, interval) ? say.zero(most, adviceOf(say.lacking, model, neededFor(model, index)).drive) : '';
+  }
   if (!reason) return NOTHING;
-  const { lack, drive, byCommands } = say.lacking[reason];
-  return say.unknown(lack, model === 'velocity' ? byCommands : drive);
+  const { lack, drive } = adviceOf(say.lacking, model, reason);
+  return say.unknown(lack, drive);
 }
 
 /** With the mark of the true value where it is named. */

@@ -6,9 +6,8 @@ import { counted, fixed, percent, powerOfTen, rounded } from '../../ui/format.js
 import { en } from './en.js';
 
 /**
- * @import { AlphaCalibratorSettings, LegView } from '../../types.d.ts'
+ * @import { LegView } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
- * @import { Driver } from './settings.js'
  */
 
 addEnglish({ calibrator: en });
@@ -28,18 +27,6 @@ export const significantly = (alpha) => (alpha === 0 ? '0' : alpha >= 1e-4 ? rou
 export function thousandths(highest) {
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
   return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
-}
-
-/**
- * What the variance that an α belongs to is driven by.
- *
- * @param {AlphaCalibratorSettings} config
- * @param {number} index of the α, from 0
- * @returns {Driver}
- */
-export function driverOf({ model }, index) {
-  if (model === 'velocity') return index % 2 ? 'turn' : 'way';
-  return index === 0 || index === 3 ? 'turn' : 'way';
 }
 
 /**

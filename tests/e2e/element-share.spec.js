@@ -64,6 +64,50 @@ test('the page’s own anchor is gone to once, whatever it is called', FRESH, as
   expect(scrolled).toBe(0);
 });
 
+test('a link leads to the figure that it was copied from, once; a reload leads nowhere', FRESH, async ({ page, context }) => {
+  const gap = '<p style="margin: 2000px 0">Between</p>';
+  const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
+  await show(page, body);
+  const figure = (/** @type {import('@playwright/test').Page} */ of, /** @type {number} */ i) => of.locator('banana-machine').nth(i);
+  const tops = (/** @type {import('@playwright/test').Page} */ of) =>
+    of.locator('banana-machine').evaluateAll((all) => all.map((each) => Math.round(each.getBoundingClientRect().top)));
+  /** @type {string[]} */
+  const links = [];
+  for (const i of [0, 1]) {
+    await figure(page, i).scrollIntoViewIfNeeded();
+    await ready(figure(page, i));
+    // The address has the first one's state when the second one is copied.
+    links.push(new URL(await figure(page, i).evaluate((element) => /** @type {AnyElement} */ (element).shareLink())).hash);
+    await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
+  }
+  expect(links[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
+  for (const [i, fragment] of links.entries()) {
+    const other = await context.newPage();
+    await show(other, body, { fragment });
+    await ready(figure(other, i));
+    await expect.poll(async () => (await tops(other))[i]).toBe(0);
+    // One more of them, and the reader is elsewhere.
+    const moved = await other.evaluate(async () => {
+      scrollTo(0, 100);
+      document.body.append(document.createElement('banana-machine'));
+      document.body.append(/** @type {Element} */ (document.querySelector('banana-machine')));
+      await new Promise((resolve) => setTimeout(resolve));
+      return scrollY;
+    });
+    expect(moved).toBe(100);
+    await other.close();
+  }
+  // One that is followed on the page.
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.evaluate((hash) => (location.hash = hash), links[0]);
+  await expect.poll(async () => (await tops(page))[0]).toBe(0);
+  await page.evaluate(() => scrollTo(0, 700));
+  await page.reload();
+  await expect(page.locator('banana-machine:defined')).toHaveCount(2);
+  await frames(page);
+  expect(await page.evaluate(() => scrollY)).toBe(700);
+});
+
 test('an anchor that is not there is none', FRESH, async ({ page }) => {
   await show(page, '<banana-machine></banana-machine>', { fragment: '#nowhere&theme=a' });
   await ready(page.locator('banana-machine'));

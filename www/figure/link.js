@@ -15,12 +15,33 @@ export class Link extends Part {
   #writing = 0;
 
   hostConnected() {
-    addEventListener('hashchange', this.follow);
-    goToAnchor();
+    addEventListener('hashchange', this.#changed);
+    arrive();
+    if (this.#isOf(linked)) {
+      linked = undefined;
+      this.#goTo();
+    }
   }
 
   hostDisconnected() {
-    removeEventListener('hashchange', this.follow);
+    removeEventListener('hashchange', this.#changed);
+  }
+
+  #changed = () => {
+    if (this.#isOf(parts()[0])) this.#goTo();
+    void this.follow();
+  };
+
+  /** Whether a part of the address is this figure's. @param {string | undefined} part */
+  #isOf(part) {
+    return part?.startsWith(`${keyOf(this.host)}=`);
+  }
+
+  /** Who follows a link to this figure is to see it. */
+  #goTo() {
+    const { host } = this;
+    // It has its room then.
+    void host.updateComplete.then(() => host.scrollIntoView());
   }
 
   /** Looks for a state to open in: the first time only, as the address says where the figure began. */
@@ -70,9 +91,9 @@ export class Link extends Part {
     }
   }
 
-  /** @returns {Promise<string>} the address of this page with the present state */
+  /** @returns {Promise<string>} the address of this page with the present state, which is gone to unless the page's own anchor is */
   async address() {
-    return addressWith(keyOf(this.host), await this.#pack());
+    return addressWith(keyOf(this.host), await this.#pack(), !isAnchor(parts()[0]));
   }
 
   #pack() {
@@ -100,13 +121,15 @@ function keyOf(element) {
 /**
  * @param {string} key
  * @param {string} text
+ * @param {boolean} [first] whether it is before all others
  * @returns {string} the page's address with it
  */
-function addressWith(key, text) {
+function addressWith(key, text, first = false) {
   const part = `${key}=${text}`;
   const all = parts();
   const at = all.findIndex((each) => each.startsWith(`${key}=`));
-  const next = at < 0 ? [...all, part] : all.with(at, part);
+  const others = all.filter((_, i) => i !== at);
+  const next = first ? [part, ...others] : at < 0 ? [...all, part] : all.with(at, part);
   // In full: a base element of the page does not matter then.
   return `${location.href.replace(/#.*/, '')}#${next.join('&')}`;
 }
@@ -115,21 +138,27 @@ function parts() {
   return location.hash.slice(1).split('&').filter((part) => part !== '');
 }
 
-let anchored = false;
+/** @param {string | undefined} part */
+const isAnchor = (part) => part !== undefined && !part.includes('=');
+
+let arrived = false;
+
+/** The part of the link by which the reader came that is to be gone to, until it is. @type {string | undefined} */
+let linked;
 
 /**
  * Goes to the page's own anchor, once: a browser looks for the whole fragment, states included, and does
  * not find it.
  */
-function goToAnchor() {
-  if (anchored) return;
-  anchored = true;
-  const [first, second] = parts();
-  if (!second || first.includes('=')) return;
+function arrive() {
+  if (arrived) return;
+  arrived = true;
   // On a reload the browser goes back to where the reader was.
   const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType('navigation'));
   if (navigation?.type !== 'navigate') return;
-  document.getElementById(decoded(first))?.scrollIntoView();
+  const [first, second] = parts();
+  linked = first;
+  if (second && isAnchor(first)) document.getElementById(decoded(first))?.scrollIntoView();
 }
 
 /** @param {string} text */

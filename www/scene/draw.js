@@ -28,15 +28,15 @@ const TICK_SPACING = { x: 60, y: 48 };
  */
 const TICKS_A_STROKE = 25;
 
-/** Gap between entries of a key, and width of a sample in one: shares of the size of its type. */
-const KEY = { gap: 0.8, sample: 1.5, space: 0.35 };
+/** Gap between entries of a key, width of a sample in one, and from line to line: shares of the size of its type. */
+const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
  * Hairline axes with ticks at the left and the bottom, a faint grid, and above it the name of what runs upwards and a key.
  *
  * @param {Brush} brush
  * @param {{ x: string, y: string }} names with their units in brackets
- * @param {KeyEntry[]} key the most important first: as many as there is room for
+ * @param {KeyEntry[]} key the most important first: as many as there is room for, in as many lines as the view keeps free
  */
 export function drawAxes(brush, names, key) {
   const { context, view, palette, font } = brush;
@@ -76,8 +76,7 @@ export function drawAxes(brush, names, key) {
   context.fillText(xName, right, bottom + 6);
   context.textAlign = 'left';
   const yName = names.y.replace('(', `(${yTicks.unit}`);
-  context.fillText(yName, 2, top - 22);
-  drawKey(brush, 2 + context.measureText(yName).width, key);
+  drawKey(brush, yName, key);
 }
 
 /**
@@ -86,22 +85,34 @@ export function drawAxes(brush, names, key) {
  * @property {(x: number, y: number, width: number) => void} draw a sample, from its left to its right in the middle of the line; CSS pixels
  *
  * @param {Brush} brush
- * @param {number} x where there is room, CSS pixels
+ * @param {string} before the name that it begins after
  * @param {KeyEntry[]} entries
  */
-function drawKey({ context, view, palette, font }, x, entries) {
-  const { top } = view.frame;
+function drawKey({ context, view, palette, font }, before, entries) {
   const size = parseFloat(font);
-  const width = KEY.sample * size;
-  for (const { name, draw } of entries) {
-    context.font = font;
-    const from = x + KEY.gap * size;
-    const text = from + width + KEY.space * size;
-    x = text + context.measureText(name).width;
-    if (x > view.width) return;
-    context.fillStyle = palette.ink;
-    context.fillText(name, text, top - 22);
-    draw(from, top - 22 + size / 2, width);
+  const [width, line] = [KEY.sample * size, KEY.line * size];
+  let y = view.frame.top - 22;
+  const [begin, last] = [2 + context.measureText(before).width, Math.floor(y / line)];
+  context.font = font;
+  let [x, row] = [begin, 0];
+  const placed = [];
+  for (const entry of entries) {
+    const length = (KEY.gap + KEY.space) * size + width + context.measureText(entry.name).width;
+    // A line of its own begins without a gap.
+    if (x + length > view.width && row < last) [x, row] = [2 - KEY.gap * size, row + 1];
+    if (x + length > view.width) break;
+    placed.push({ ...entry, from: x + KEY.gap * size, row });
+    x += length;
+  }
+  // The last line stands next to the picture.
+  y -= row * line;
+  context.font = `italic ${font}`;
+  context.fillText(before, 2, y);
+  context.font = font;
+  context.fillStyle = palette.ink;
+  for (const { name, draw, from, row } of placed) {
+    context.fillText(name, from + width + KEY.space * size, y + row * line);
+    draw(from, y + row * line + size / 2, width);
   }
 }
 

@@ -42,7 +42,8 @@ export const plotStyles = css`
     stroke: var(--rule);
   }
 
-  .plot .band {
+  :is(.plot, .plot-key) .band {
+    stroke: none;
     opacity: 0.22;
   }
 
@@ -96,6 +97,7 @@ export const plotStyles = css`
  * @property {ArrayLike<number>} x
  * @property {ArrayLike<number>} y what is no number leaves a gap; nothing is drawn beyond the axes
  * @property {ArrayLike<number>} [error] half the height of a band around it
+ * @property {boolean} [area] whether the band is all there is of it
  *
  * @typedef {object} Point a measured value, with its standard error either way
  * @property {Role} role
@@ -137,7 +139,7 @@ export function plot({ label, x, y, curves, points = [], marks = [] }) {
       <text class="name" x="0" y="12">${y.name}</text>
       <svg x=${LEFT} y=${TOP} width=${RIGHT - LEFT} height=${BOTTOM - TOP} viewBox="${LEFT} ${TOP} ${RIGHT - LEFT} ${BOTTOM - TOP}">
         ${curves.map((curve) => curve.error && svg`<path class="band" fill="var(--${curve.role})" d=${band(curve, toX, toY)} />`)}
-        ${curves.map((curve) => svg`<path class="curve" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${line(curve, toX, toY)} />`)}
+        ${curves.map((curve) => !curve.area && svg`<path class="curve" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${line(curve, toX, toY)} />`)}
         ${marks.map((mark, row) => markOf(mark, row, toX, toY))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: at, y: value, error, ends: [low, high] = [value - error, value + error] }) => svg`<path
@@ -150,9 +152,9 @@ export function plot({ label, x, y, curves, points = [], marks = [] }) {
     </svg>
     <ul class="plot-key" part="legend">
       ${curves.map(
-        ({ name, role, dash }) => html`<li>
+        ({ name, role, dash, area }) => html`<li>
           <svg viewBox="0 0 36 10" aria-hidden="true">
-            <path class="curve" stroke="var(--${role})" stroke-dasharray=${dash ?? nothing} d="M1 5H35" />
+            <path class=${area ? 'band' : 'curve'} fill="var(--${role})" stroke="var(--${role})" stroke-dasharray=${dash ?? nothing} d=${area ? 'M1 1H35V9H1Z' : 'M1 5H35'} />
           </svg>${rich(name)}
         </li>`,
       )}

@@ -52,7 +52,6 @@ export const de = {
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `nicht bestimmt: ${lack}; ${drive}`,
-    zero: (most, drive) => `von 0 nicht zu unterscheiden, höchstens ${most}; dafür ${drive}`,
     noiseOf: {
       odometry: ['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung'],
       omnidirectional: ['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung', 'quer durch Fahrt'],
@@ -102,6 +101,7 @@ export const de = {
     bins: 'Mittel von Etappen',
     slope: (alpha) => `Steigung *α*${alpha}`,
     noSlope: (alpha) => `*α*${alpha} ist nicht bestimmt`,
+    zero: (alpha, drive) => `*α*${alpha} ist nicht von 0 zu unterscheiden; dafür ${drive}`,
     label: (kind, alpha, value) => `Quadrierte Residuen, ${kind}, in Klassen, und eine Gerade mit der Steigung Alpha ${alpha}, ${value}.`,
     axis: 'r²',
   },
@@ -143,6 +143,7 @@ export const de = {
     expected: '95 %',
     likelihood: 'Log-Likelihood je Etappe (nats)',
     factor: 'f',
+    present: (factor) => `*f* = ${factor}`,
     coverageLabel: (factor, coverage) => `Anteil der ungesehenen Residuen in ihren 95-%-Intervallen über der Vergrößerung. Bei ${factor} sind es ${coverage}.`,
     likelihoodLabel: (factor, nats) => `Log-Likelihood ungesehener Etappen über der Vergrößerung. Bei ${factor} sind es ${nats} nats je Etappe.`,
     signature: {

@@ -8,6 +8,7 @@ import { NOTHING, counted, fixed, percent } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
 import { axisOf, between } from './curve.js';
+import { adviceOf, isZero, neededFor } from './lines.js';
 import { QUANTILES, REACH } from './quantiles.js';
 import { alphaName, significantly, thousandths } from './words.js';
 
@@ -21,7 +22,8 @@ import { alphaName, significantly, thousandths } from './words.js';
 export function panels(figure) {
   const { machine, reading, state: { own: { driver } }, gesture } = figure;
   const say = words.calibrator.panels;
-  const isVelocity = reading.config.model === 'velocity';
+  const { model } = reading.config;
+  const isVelocity = model === 'velocity';
   const axes = isVelocity ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
   const { kinds } = reading.stats.doubts;
   if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
@@ -31,6 +33,7 @@ export function panels(figure) {
       ${machine?.panels(driver).map((panel, i) => html`<figure>
         <p class="panel">${say.kinds[/** @type {keyof typeof say.kinds} */ (kinds[i].name)]}</p>
         ${panelPlot(panel, say.kinds[/** @type {keyof typeof say.kinds} */ (kinds[i].name)], axes[/** @type {'turn' | 'way'} */ (driver)])}
+        ${noteOf(panel, model)}
       </figure>`)}
     </div>
     <p class="figcaption">${rich(say.caption)}</p>`;
@@ -47,22 +50,28 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const highest = 1.1 * Math.max(1e-12, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
   const { scaled, unit } = thousandths(highest);
   const name = alphaName(alpha);
-  // The band has the width of the interval, on either side of its middle.
   const [low, high] = interval ?? [NaN, NaN];
   const middle = (low + high) / 2;
   /** @type {Curve[]} */
   const lines = slope === null ? [] : [
     { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, scaled(slope * last)] },
-    { name: words.calibrator.alphas.interval, role: 'cloud', dash: '1 4', x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
   ];
-  return html`${plot({
+  return plot({
     label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : significantly(slope)),
     x: { name: axis, from: 0, to: last },
     y: { name: unit === '' ? say.axis : `${say.axis} (${unit})`, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
     curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
     points: x.map((at, i) => ({ role: /** @type {const} */ ('ink'), x: at, y: scaled(y[i]), error: scaled(error[i]) })),
-  })}
-  ${slope === null ? html`<p class="note">${rich(say.noSlope(name))}</p>` : ''}`;
+  });
+}
+
+/** What a line does not tell of its α. @param {CalibrationPanel} panel @param {string} model */
+function noteOf({ alpha, slope, interval }, model) {
+  const { panels: say, alphas: { lacking } } = words.calibrator;
+  if (slope !== null && !isZero(slope, interval)) return '';
+  const name = alphaName(alpha);
+  return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, neededFor(model, alpha)).drive))}</p>`;
 }
 
 /** How the curve of each noise looks. @type {{ role: Role, dash?: string }[]} */
@@ -117,7 +126,9 @@ export function inflation(figure) {
   const say = words.calibrator.inflation;
   if (factors.length === 0) return html`<p>${words.calibrator.none}</p>`;
   const x = { name: say.factor, from: factors[0], to: factors[factors.length - 1], logarithmic: true };
-  const marks = [{ x: factor, text: `f = ${fixed(factor, 2)}` }];
+  /** @type {(axis: { from: number, to: number }) => Curve} */
+  const present = ({ from, to }) => ({ name: say.present(fixed(factor, 2)), role: 'accent', dash: '2 3', x: [factor, factor], y: [from, to] });
+  const ends = axisOf(logLikelihood, 6);
   const [covered, nats] = [between(factors, coverage, factor), between(factors, logLikelihood, factor)];
   const [low, high] = heldOut.interval;
   const signature = Number.isNaN(covered) ? '' : covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
@@ -130,17 +141,16 @@ export function inflation(figure) {
         curves: [
           { name: say.expected, role: 'truth', dash: '1 3', x: [x.from, x.to], y: [heldOut.expected, heldOut.expected] },
           { name: say.coverage, role: 'prediction', x: factors, y: coverage },
+          present({ from: 0, to: 1 }),
         ],
         points: [{ role: 'prediction', x: factor, y: covered, error: 0 }],
-        marks,
       })}</figure>
       <figure>${plot({
         label: say.likelihoodLabel(fixed(factor, 2), fixed(nats, 2)),
         x,
-        y: { name: say.likelihood, ...axisOf(logLikelihood, 6) },
-        curves: [{ name: say.likelihood, role: 'prediction', x: factors, y: logLikelihood }],
+        y: { name: say.likelihood, ...ends },
+        curves: [{ name: say.likelihood, role: 'prediction', x: factors, y: logLikelihood }, present(ends)],
         points: [{ role: 'prediction', x: factor, y: nats, error: 0 }],
-        marks,
       })}</figure>
     </div>
     <p class="caption">${signature}</p>`;

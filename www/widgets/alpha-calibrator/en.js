@@ -51,7 +51,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     interval: '95 %',
     between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
-    zero: (most, drive) => `not told from 0, ${most} at most; to tell it, ${drive}`,
     noiseOf: {
       odometry: ['turn from turning', 'turn from driving', 'way from driving', 'way from turning'],
       omnidirectional: ['turn from turning', 'turn from driving', 'way from driving', 'way from turning', 'slide from driving'],
@@ -101,6 +100,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     bins: 'means of legs',
     slope: (alpha) => `slope *α*${alpha}`,
     noSlope: (alpha) => `*α*${alpha} is not determined`,
+    zero: (alpha, drive) => `*α*${alpha} is not told from 0; to tell it, ${drive}`,
     label: (kind, alpha, value) => `Squared residuals of the ${kind}, in bins, and a line whose slope is alpha ${alpha}, ${value}.`,
     axis: 'r²',
   },
@@ -142,6 +142,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     expected: '95 %',
     likelihood: 'log-likelihood a leg (nats)',
     factor: 'f',
+    present: (factor) => `*f* = ${factor}`,
     coverageLabel: (factor, coverage) => `Share of held-out residuals inside of their 95 % intervals against the inflation. At ${factor} it is ${coverage}.`,
     likelihoodLabel: (factor, nats) => `Log-likelihood of held-out legs against the inflation. At ${factor} it is ${nats} nats a leg.`,
     signature: {

@@ -22,6 +22,9 @@ const REACH = 16;
 /** Legs that are stroked at once: browsers take far longer for one path of many. */
 const LEGS_A_STROKE = 500;
 
+/** Room for a key in two lines, CSS pixels. */
+const TWO_LINES = 42;
+
 /** Radius of the rings around the worst legs, CSS pixels. */
 const RING = 6;
 
@@ -49,7 +52,7 @@ function between(one, other) {
  */
 export class WayPicture extends Picture {
   constructor() {
-    super('plane', new View());
+    super('plane', new View({ top: TWO_LINES }));
   }
 
   /**
@@ -147,7 +150,7 @@ function drawLegs({ context, view }, reference, are, { colour, width }) {
  */
 export class LegPicture extends Picture {
   constructor() {
-    super('leg', new View({ left: 50 }));
+    super('leg', new View({ left: 50, top: TWO_LINES }));
   }
 
   /** @param {Scene} scene */

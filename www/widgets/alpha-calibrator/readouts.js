@@ -3,8 +3,8 @@
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.js';
 import { rich, toggle } from '../../ui/controls.js';
-import { NOTHING, fixed, tick } from '../../ui/format.js';
-import { adviceOf, isZero, neededFor } from './lines.js';
+import { NOTHING, fixed, significant, tick } from '../../ui/format.js';
+import { adviceOf, isZero } from './lines.js';
 import { truthHolds } from './reading.js';
 import { SYSTEMATIC } from './settings.js';
 import { alphaName, significantly } from './words.js';
@@ -36,10 +36,10 @@ export function alphaTable(reading) {
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${rich(`*α*${alphaName(i)}`)}</th>
-        ${alpha === null || lackOf(reading, i)
+        ${alpha === null
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
           : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
-            <td class="roomy" data-room="0.0000">${significantly(alpha)}</td>
+            <td class="roomy" data-room="0.0000">${toldOf(alpha, intervals[i])}</td>
             <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${intervals[i] ? say.between(significantly(intervals[i][0]), significantly(intervals[i][1])) : NOTHING}</td>`}
       </tr>`)}
       <tr aria-hidden="true">
@@ -53,14 +53,13 @@ export function alphaTable(reading) {
   </table>`;
 }
 
-/** Why an α is not determined, or not told from 0, and what to drive; empty where it is. @param {Reading} reading @param {number} index */
-function lackOf({ stats: { alphas, intervals, undetermined }, config: { model } }, index) {
+/** An α, or the most that it may be. @param {number} alpha @param {Interval | null} interval */
+const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${interval ? significant(interval[1], 2) : NOTHING}` : significantly(alpha));
+
+/** Why an α is not determined, and what to drive. @param {Reading} reading @param {number} index */
+function lackOf({ stats: { undetermined }, config: { model } }, index) {
   const say = words.calibrator.alphas;
-  const [alpha, interval, reason] = [alphas[index], intervals[index], undetermined[index]];
-  if (alpha !== null) {
-    const most = interval ? significantly(interval[1]) : NOTHING;
-    return isZero(alpha, interval) ? say.zero(most, adviceOf(say.lacking, model, neededFor(model, index)).drive) : '';
-  }
+  const reason = undetermined[index];
   if (!reason) return NOTHING;
   const { lack, drive } = adviceOf(say.lacking, model, reason);
   return say.unknown(lack, drive);

@@ -207,6 +207,48 @@ for (const width of [375, 700, 1280]) for (const language of ['en', 'de']) {
   });
 }
 
+for (const width of [375, 1280]) {
+  test(`what is taken along as a picture has the way, the α’s with their intervals, the panels, and the verdict, on ${width} pixels`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 900 });
+    const widget = await openCalibrator(page);
+    const texts = await rows(widget).evaluateAll((all) => all.map((row) => {
+      const [of, value, between] = ['.of', 'td:nth-of-type(2)', '.between'].map((part) => row.querySelector(part)?.textContent?.trim());
+      return `${of}: ${value}, ${between}`;
+    }));
+    const said = await caption(widget).textContent();
+    await fold(widget, 'Why these').locator('summary').click();
+    for (const driver of ['turn', 'way']) {
+      await widget.getByRole('radio', { name: driver, exact: true }).check();
+      const drawn = await widget.evaluate(async (element) => {
+        const figure = /** @type {any} */ (element);
+        const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
+        const all = (/** @type {string} */ selector) => [...root.querySelectorAll(selector)];
+        const image = await createImageBitmap(await figure.toPNG());
+        return {
+          texts: all('text').map((text) => text.textContent),
+          unbegun: all('path').filter((path) => !path.getAttribute('d')?.startsWith('M')).length,
+          bands: all('path[opacity="0.22"]:not([fill="none"])').length,
+          dotted: all('path[stroke-dasharray="2.5,3.5"]').length,
+          size: [root.getAttribute('width'), root.getAttribute('height')].map(Number),
+          png: [image.width, image.height],
+          described: root.querySelector('desc')?.textContent ?? '',
+        };
+      });
+      texts.forEach((text, i) => {
+        expect(drawn.texts).toContain(`α${'₁₂₃₄'[i]} ${text}`);
+        expect(drawn.described).toContain(text);
+      });
+      expect(drawn.texts).toContain(said);
+      expect(drawn.texts.filter((text) => text?.includes(', r²')).map((text) => text?.split(',')[0])).toEqual(['first rotation', 'drive', 'second rotation']);
+      expect(drawn.texts.filter((text) => text?.startsWith('slope'))).toEqual(driver === 'turn' ? ['slope α₁', 'slope α₄', 'slope α₁'] : ['slope α₂', 'slope α₃', 'slope α₂']);
+      // In the key, and on the floor.
+      expect([drawn.unbegun, drawn.bands, drawn.dotted]).toEqual([0, 3, 2]);
+      expect(drawn.size[0] / drawn.size[1]).toBeCloseTo(720 / 610, 1);
+      drawn.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * drawn.size[i])).toBeLessThanOrEqual(1));
+    }
+  });
+}
+
 test('in plots the key names every line, and no label lies on a curve', async ({ page }) => {
   const widget = await openCalibrator(page, 'inflation="1.5"');
   await unfold(widget);
@@ -219,8 +261,8 @@ test('in plots the key names every line, and no label lies on a curve', async ({
   }
   const panel = fold(widget, 'Why these').locator('figure').first();
   const points = await panel.locator('.plot circle').count();
-  // The slope, and a bar of each point; the band has no line in its middle.
-  await expect(panel.locator('.plot path.curve')).toHaveCount(1 + points);
+  // The slope, a bar of each point, and what stands for these in the key; the band has no line in its middle.
+  await expect(panel.locator('.plot path.curve')).toHaveCount(2 + points);
   await expect(panel.locator('.plot path.band')).toHaveCount(1);
   await expect(panel.locator('.plot-key .curve')).toHaveCount(2);
   await expect(panel.locator('.plot-key .band')).toHaveCount(1);

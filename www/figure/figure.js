@@ -122,8 +122,10 @@ export class FigureElement extends LitElement {
   cloud;
   /** Of a figure that plays what a slider sets: told of each frame, it says whether there is more. @type {{ advance(elapsed: number): boolean } | undefined} */
   player;
-  /** The first is the one that is taken along. @type {import('../scene/picture.js').Picture<any>[]} */
+  /** The first is the one that is taken along, unless there is a plate. @type {import('../scene/picture.js').Picture<any>[]} */
   pictures = [];
+  /** What is taken along in the place of a picture, of a size of its own. @type {import('../scene/picture.js').Picture<any> & { size: { width: number, height: number } } | undefined} */
+  plate;
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
   #updating = false;

@@ -26,6 +26,9 @@ const LETTERS = 13;
 /** A length in the figure's own style. @param {number} pixels of a view */
 export const length = (pixels) => `${pixels / 16}em`;
 
+/** A size in pixels of a view, in CSS pixels. @param {{ width: number, height: number }} size @param {Element} canvas with letters in its style */
+export const inCss = ({ width, height }, canvas) => [width, height].map((each) => (each * parseFloat(getComputedStyle(canvas).fontSize)) / LETTERS);
+
 /** Longest side of a canvas in every browser. */
 export const LONGEST_SIDE = 16_384;
 

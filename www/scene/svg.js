@@ -59,6 +59,12 @@ export class SvgContext {
     this.#open.push(0);
   }
 
+  /** @type {CanvasTransform['translate']} */
+  translate = (x, y) => {
+    this.#marks.push(`<g transform="translate(${short(x)} ${short(y)})">`);
+    this.#open[this.#open.length - 1]++;
+  };
+
   restore() {
     this.#marks.push('</g>'.repeat(this.#open.pop() ?? 0));
   }
@@ -74,7 +80,8 @@ export class SvgContext {
 
   /** @type {CanvasPath['lineTo']} */
   lineTo = (x, y) => {
-    this.#path += `L${short(x)},${short(y)}`;
+    // A canvas begins a path so, too.
+    this.#path += `${this.#path ? 'L' : 'M'}${short(x)},${short(y)}`;
   };
 
   /** @type {CanvasPath['quadraticCurveTo']} */

@@ -17,8 +17,9 @@ import { lengths } from './lengths.js';
 import { Copied, nav2 } from './nav2.js';
 import { FOLD, LogOpener, ownLog } from './open.js';
 import { LegPicture, WayPicture } from './pictures.js';
+import { Plate } from './plate.js';
 import { legOf, readingOf } from './reading.js';
-import { alphaTable, systematicTable } from './readouts.js';
+import { alphaTable, alphaTexts, systematicTable } from './readouts.js';
 import { attributes, declared, looks, own, room, vocabulary } from './settings.js';
 import { calibratorStyles } from './styles.js';
 import { captionOf, legText, longestCaption, wayText } from './words.js';
@@ -47,6 +48,7 @@ export class AlphaCalibratorElement extends FigureElement {
   #way = new WayPicture();
   #one = new LegPicture();
   pictures = [this.#way, this.#one];
+  plate = new Plate(this);
   #opener = new LogOpener(this);
   #copied = new Copied(this);
   /** A log of the reader's or of the page's; null for the simulated one. @type {CalibrationLog | null} */
@@ -182,7 +184,7 @@ export class AlphaCalibratorElement extends FigureElement {
     const kinds = this.reading.stats.doubts.kinds.map(({ name }) => name);
     return {
       title: this.lettering.name,
-      description: wayText(this.reading, this.chosen),
+      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName)].join(' '),
       settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',

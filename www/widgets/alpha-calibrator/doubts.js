@@ -20,29 +20,36 @@ import { alphaName, significantly, thousandths } from './words.js';
 
 /** Squared residuals of the three noises against what drives them. @param {Figure} figure */
 export function panels(figure) {
-  const { machine, reading, state: { own: { driver } }, gesture } = figure;
+  const { reading, state: { own: { driver } }, gesture } = figure;
   const say = words.calibrator.panels;
-  const { model } = reading.config;
-  const isVelocity = model === 'velocity';
-  const axes = isVelocity ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
-  const { kinds } = reading.stats.doubts;
   if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
   const choose = (/** @type {import('./settings.js').Driver} */ name) => gesture.choose('driver', name);
   return html`${radioGroup(say.against, 'driver', say.drivers, driver, choose)}
     <div class="panels">
-      ${machine?.panels(driver).map((panel, i) => html`<figure>
-        <p class="panel">${say.kinds[/** @type {keyof typeof say.kinds} */ (kinds[i].name)]}</p>
-        ${panelPlot(panel, say.kinds[/** @type {keyof typeof say.kinds} */ (kinds[i].name)], axes[/** @type {'turn' | 'way'} */ (driver)])}
-        ${noteOf(panel, model)}
+      ${panelsOf(figure).map(({ panel, plot: described }) => html`<figure>
+        ${plot(described)}
+        ${noteOf(panel, reading.config.model)}
       </figure>`)}
     </div>
     <p class="figcaption">${rich(say.caption)}</p>`;
+}
+
+/** The panels with their plots; none where there are no legs. @param {Figure} figure */
+export function panelsOf({ machine, reading: { config, legs, stats }, state: { own: { driver } } }) {
+  const say = words.calibrator.panels;
+  const axes = config.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
+  const all = legs.count > 0 ? (machine?.panels(driver) ?? []) : [];
+  return all.map((panel, i) => {
+    const kind = say.kinds[/** @type {keyof typeof say.kinds} */ (stats.doubts.kinds[i].name)];
+    return { panel, plot: panelPlot(panel, kind, axes[/** @type {'turn' | 'way'} */ (driver)]) };
+  });
 }
 
 /**
  * @param {CalibrationPanel} panel
  * @param {string} kind
  * @param {string} axis
+ * @returns {import('../../ui/plot.js').Plot}
  */
 function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const say = words.calibrator.panels;
@@ -57,13 +64,13 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
     { name: say.slope(name), role: 'prediction', x: [0, last], y: [0, scaled(slope * last)] },
     { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, last], y: [0, scaled(middle * last)], error: [0, scaled(((high - low) / 2) * last)] },
   ];
-  return plot({
+  return {
     label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : significantly(slope)),
     x: { name: axis, from: 0, to: last },
-    y: { name: unit === '' ? say.axis : `${say.axis} (${unit})`, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
+    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
     curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
     points: x.map((at, i) => ({ role: /** @type {const} */ ('ink'), x: at, y: scaled(y[i]), error: scaled(error[i]) })),
-  });
+  };
 }
 
 /** What a line does not tell of its α. @param {CalibrationPanel} panel @param {string} model */

@@ -40,7 +40,7 @@ export function alphaTable(reading) {
           ? html`<td colspan="3"><div class="of">${noises[i]}</div><span class="unknown">${lackOf(reading, i)}</span></td>`
           : html`<td class="chart"><div class="of">${noises[i]}</div>${whisker(place, alpha, intervals[i], truth?.[i])}</td>
             <td class="roomy" data-room="0.0000">${toldOf(alpha, intervals[i])}</td>
-            <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${intervals[i] ? say.between(significantly(intervals[i][0]), significantly(intervals[i][1])) : NOTHING}</td>`}
+            <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${betweenOf(intervals[i])}</td>`}
       </tr>`)}
       <tr aria-hidden="true">
         <td></td>
@@ -64,6 +64,19 @@ function lackOf({ stats: { undetermined }, config: { model } }, index) {
   const { lack, drive } = adviceOf(say.lacking, model, reason);
   return say.unknown(lack, drive);
 }
+
+/** All α's as texts, each with its interval. @param {Reading} reading */
+export function alphaTexts(reading) {
+  const { stats: { alphas, intervals }, config } = reading;
+  const say = words.calibrator.alphas;
+  return alphas.map((alpha, i) => {
+    const told = alpha === null ? [lackOf(reading, i)] : [toldOf(alpha, intervals[i]), betweenOf(intervals[i])];
+    return `α${alphaName(i)} ${say.noiseOf[config.model][i]}: ${told.join(', ')}`;
+  });
+}
+
+/** @param {Interval | null} interval */
+const betweenOf = (interval) => (interval ? words.calibrator.alphas.between(significantly(interval[0]), significantly(interval[1])) : NOTHING);
 
 /** With the mark of the true value where it is named. */
 function trueCaption() {

@@ -188,11 +188,6 @@ const own = css`
     gap: 0.5em 1em;
   }
 
-  .panel {
-    margin: 0;
-    font-style: italic;
-  }
-
   .figcaption {
     margin: 0.3em 0 0;
     color: var(--muted);

@@ -11,7 +11,7 @@
 import { createHash } from 'node:crypto';
 import { appendFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { Instrumenter } from '@stryker-mutator/instrumenter';
 import { ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
@@ -134,20 +134,39 @@ async function noted(notes, { plan = '', options = [] }) {
 /** @param {string} path @returns {any[]} */
 const linesOf = (path) => readFileSync(path, 'utf8').split('\n').filter(Boolean).map((line) => JSON.parse(line));
 
-/** What the tests reach, learnt where it is not known. @returns {Promise<Trial[]>} */
+/** What the tests reach, learnt of the files of tests that are not known. @returns {Promise<Trial[]>} */
 async function learn() {
-  const hash = createHash('sha256');
-  const paths = ['www', 'src', 'tests/e2e', 'package-lock.json'].flatMap(filesOf);
-  for (const path of paths) hash.update(`\0${path}\0`).update(readFileSync(join(ROOT, path)));
-  const file = join(OUTPUT, `reached-${hash.digest('hex').slice(0, 16)}`);
-  if (!existsSync(file)) {
-    progress('Running the tests without a mutant');
-    const shards = PROCESSES.map((i) => noted(join(OUTPUT, `reached-${i}`), { options: ['--shard', `${i}/${PROCESSES.length}`] }));
+  const files = filesOf('tests/e2e');
+  const isSpec = (/** @type {string} */ path) => path.endsWith('.spec.js');
+  const shared = digestOf(['www', 'src', 'package-lock.json'].flatMap(filesOf).concat(files.filter((path) => path.endsWith('.js') && !isSpec(path))));
+  const known = new Map(files.filter(isSpec).map((path) => {
+    const name = basename(path, '.spec.js');
+    const own = files.filter((each) => basename(each).startsWith(`${name}.`));
+    return [name, join(OUTPUT, `reached-${name}-${digestOf(own, shared).slice(0, 16)}`)];
+  }));
+  const unknown = [...known].filter(([, file]) => !existsSync(file));
+  if (unknown.length > 0) {
+    progress('Running tests without a mutant');
+    const patterns = unknown.map(([name]) => `/${name}\\.spec\\.js`);
+    const shards = PROCESSES.map((i) => noted(join(OUTPUT, `reached-${i}`), { options: [...patterns, '--shard', `${i}/${PROCESSES.length}`] }));
     const lines = (await Promise.all(shards)).flat();
     if (lines.every(({ passed }) => !passed)) throw new Missing('No test passes on the build without a mutant: see above.');
-    writeFileSync(file, lines.map((line) => `${JSON.stringify(line)}\n`).join(''));
+    for (const [name, file] of unknown) {
+      const own = lines.filter(({ test }) => test.startsWith(`${name} › `));
+      writeFileSync(file, own.map((line) => `${JSON.stringify(line)}\n`).join(''));
+    }
   }
-  return linesOf(file).map((trial) => ({ ...trial, reached: new Set(trial.reached) }));
+  return [...known.values()].flatMap(linesOf).map((trial) => ({ ...trial, reached: new Set(trial.reached) }));
+}
+
+/**
+ * @param {string[]} paths
+ * @param {string} [seed]
+ */
+function digestOf(paths, seed = '') {
+  const hash = createHash('sha256').update(seed);
+  for (const path of paths) hash.update(`\0${path}\0`).update(readFileSync(join(ROOT, path)));
+  return hash.digest('hex');
 }
 
 /**

@@ -2,7 +2,8 @@
  * What stands in for @playwright/test in the copy of the tests that figure.mjs runs. Without a plan it notes which mutants
  * each test reaches; with one, it runs a test once for each mutant, or several, that are planned for it and not caught yet.
  * One that fails with a single mutant runs once more without it, and if it passes then, once more with it: only what fails
- * both times was noticed, and no accident of a busy machine.
+ * both times was noticed, and no accident of a busy machine. What fails without it may have been left so by the failure before:
+ * it has another try in a browser of its own.
  *
  * @module
  */
@@ -19,14 +20,17 @@ const plan = MUTANTS_PLAN === '' ? undefined : JSON.parse(readFileSync(MUTANTS_P
 
 /**
  * @typedef {import('@playwright/test').TestInfo} TestInfo
- * @typedef {'first' | 'without' | 'again'} Turn of a test with its mutants
+ * @typedef {'first' | 'without' | 'anew' | 'again'} Turn of a test with its mutants
  * @typedef {{ test: string, ids: string[], turn: Turn, milliseconds: number }} Run
  */
 
 const note = (/** @type {object} */ line) => appendFileSync(MUTANTS_NOTES, `${JSON.stringify(line)}\n`);
 
+/** What a failure tells in each turn. @type {Record<Turn, 'failed' | 'doubtful' | 'unsound' | 'caught'>} */
+const FAILURES = { first: 'failed', without: 'doubtful', anew: 'unsound', again: 'caught' };
+
 /**
- * @param {'failed' | 'sound' | 'unsound' | 'caught'} kind
+ * @param {'failed' | 'doubtful' | 'sound' | 'unsound' | 'caught'} kind
  * @param {string[]} ids
  * @param {string} [test] of any test without it
  */
@@ -76,18 +80,19 @@ const trying = plain.extend(/** @type {any} */ ({
       const { test, ids, turn, milliseconds } = runOf(info);
       info.skip(ids.every((id) => isNoted('caught', [id])));
       if (turn === 'without') info.skip(!isNoted('failed', ids, test));
+      if (turn === 'anew') info.skip(!isNoted('doubtful', ids, test));
       if (turn === 'again') info.skip(!isNoted('sound', ids, test));
       info.setTimeout(20_000 + 5 * milliseconds);
       await use();
       if (info.status !== info.expectedStatus) failed(info, info.error?.message ?? `${info.status}`);
-      else if (turn === 'without' && !isNoted('unsound', ids, test)) note({ kind: 'sound', ids, test });
+      else if (isWithout(turn) && !isNoted(FAILURES[turn], ids, test)) note({ kind: 'sound', ids, test });
     },
     { auto: true },
   ],
   mutants: [
     async (/** @type {any} */ { context }, /** @type {any} */ use, /** @type {TestInfo} */ info) => {
       const { ids, turn } = runOf(info);
-      const active = turn === 'without' ? [] : ids.filter((id) => !isNoted('caught', [id]));
+      const active = isWithout(turn) ? [] : ids.filter((id) => !isNoted('caught', [id]));
       await context.addInitScript((/** @type {string[]} */ given) => Object.assign(globalThis, { activeMutants: given }), active);
       await use();
     },
@@ -95,13 +100,15 @@ const trying = plain.extend(/** @type {any} */ ({
   ],
 }));
 
+const isWithout = (/** @type {Turn} */ turn) => turn === 'without' || turn === 'anew';
+
 /** @param {TestInfo} info @returns {Run} */
 const runOf = (info) => JSON.parse(String(info.annotations.find(({ type }) => type === 'run')?.description));
 
 /** @param {TestInfo} info @param {string} message */
 function failed(info, message) {
   const { test, ids, turn } = runOf(info);
-  const kind = turn === 'first' ? 'failed' : turn === 'without' ? 'unsound' : 'caught';
+  const kind = FAILURES[turn];
   if (!isNoted(kind, ids, test)) note({ kind, ids, test, message: message.slice(0, 300) });
 }
 
@@ -119,7 +126,7 @@ function planned(test) {
       if (plan === undefined) target(title, { ...details, annotation: { type: 'key', description: key } }, body);
       const { runs = [], milliseconds = 0 } = plan?.[key] ?? {};
       for (const ids of runs) {
-        const turns = /** @type {Turn[]} */ (ids.length > 1 ? ['first'] : ['first', 'without', 'again']);
+        const turns = /** @type {Turn[]} */ (ids.length > 1 ? ['first'] : ['first', 'without', 'anew', 'again']);
         for (const turn of turns) {
           const description = JSON.stringify({ test: key, ids, turn, milliseconds });
           target(`${title} #${ids.join('+')} ${turn}`, { ...details, annotation: { type: 'run', description } }, attempt(body));
@@ -148,6 +155,7 @@ function attempt(work) {
     } catch (error) {
       if (info.status === 'timedOut' || info.status === 'interrupted') throw error;
       failed(info, String(error instanceof Error ? error.message : error));
+      if (runOf(info).turn === 'without') throw error;
     }
   };
   // Of the text, Playwright learns which fixtures it needs.

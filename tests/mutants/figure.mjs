@@ -138,11 +138,10 @@ const linesOf = (path) => readFileSync(path, 'utf8').split('\n').filter(Boolean)
 async function learn() {
   const files = filesOf('tests/e2e');
   const isSpec = (/** @type {string} */ path) => path.endsWith('.spec.js');
-  const shared = digestOf(['www', 'src', 'package-lock.json'].flatMap(filesOf).concat(files.filter((path) => path.endsWith('.js') && !isSpec(path))));
+  const shared = digestOf(['www', 'src', 'package-lock.json'].flatMap(filesOf).concat(files.filter((path) => !isSpec(path))));
   const known = new Map(files.filter(isSpec).map((path) => {
     const name = basename(path, '.spec.js');
-    const own = files.filter((each) => basename(each).startsWith(`${name}.`));
-    return [name, join(OUTPUT, `reached-${name}-${digestOf(own, shared).slice(0, 16)}`)];
+    return [name, join(OUTPUT, `reached-${name}-${digestOf([path], shared).slice(0, 16)}`)];
   }));
   const unknown = [...known].filter(([, file]) => !existsSync(file));
   if (unknown.length > 0) {

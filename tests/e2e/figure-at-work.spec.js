@@ -136,6 +136,21 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
     figure.cloud.reseed();
     await rest();
     said.push(`Another seed: ${figure.seed !== seed}`);
+    // The view eases, but not what is taken along.
+    figure.setState({ widget: 'banana-machine', version: 1, shown: 301, playing: false });
+    await rest();
+    figure.v = 1.5;
+    const atOnce = figure.toSVG();
+    for (let i = 0; i < 60; i++) await new Promise(requestAnimationFrame);
+    said.push(`The same later: ${figure.toSVG() === atOnce}`);
+    for (const tag of ['map-squeeze', 'odometry-decomposer', 'dead-reckoning']) {
+      const other = /** @type {any} */ (document.createElement(tag));
+      const opened = new Promise((resolve) => other.addEventListener('load', () => resolve([other.machine.shown, other.playing]), { once: true }));
+      main.prepend(other);
+      said.push(`${tag} opens with ${await opened}`);
+      other.remove();
+    }
+
     // An element without its cloud on the page any more.
     figure.remove();
     await new Promise(requestAnimationFrame);
@@ -180,6 +195,9 @@ test('a core that traps is made again three times, and then a sentence says that
       said.push(`${what}: ${answer} | ${between} | ${told.join(', ')} | ${[figure.machine === machine, figure.motion === motion, figure.seed, figure.getState()?.shown, runtime.failure, root.querySelector('.failure')?.textContent, root.querySelectorAll('canvas').length].join(' ')}`);
     };
     await note('Well', () => runtime.attempt(() => 5));
+    await note('Hastened again', async () => {
+      await runtime.hasten();
+    });
     await note('Refused', () => runtime.attempt(() => { throw new RangeError('x is 1'); }));
     await note('Tolerated', () => runtime.tolerate(() => { throw new RangeError('x is 1'); }));
     await note('Tolerated well', () => runtime.tolerate(() => 5));

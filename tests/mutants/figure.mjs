@@ -36,15 +36,19 @@ const inCopy = (/** @type {string} */ path) => join(COPY, path);
 /** What a bundle and the tests read, besides what is in build/ itself. */
 const COPIED = ['www', 'scripts', 'python', 'examples', 'doc', 'src', 'tests', 'package.json', 'package-lock.json', 'playwright.config.js'];
 
-/** How many tests a mutant has met at most after each round, and how many mutants a test meets at a time. */
+/** How many tests each mutant meets by itself first. */
+const FIRST = 4;
+
+/** How many tests the mutants that are left meet in each round after that, several of them at a time. */
 const ROUNDS = [
-  { most: 4, together: 1 },
-  { most: 12, together: 3 },
-  { most: 28, together: 5 },
-  { most: 60, together: 8 },
-  { most: 150, together: 12 },
-  { most: Infinity, together: 12 },
+  { count: 10, together: 3 },
+  { count: 30, together: 5 },
+  { count: 100, together: 8 },
+  { count: Infinity, together: 12 },
 ];
+
+/** Tests of much on one page, line for line, which notice most: they come first. */
+const DENSE = /^figure-/;
 
 /** Tests that take longer without a mutant, milliseconds, meet none after the first round. */
 const LONG = 20_000;
@@ -204,44 +208,65 @@ class Meeting {
     return this.#sample.map(({ id }) => id).filter((id) => !this.caught.has(id));
   }
 
+  /** @returns {Promise<Map<string, string>>} */
   async all() {
-    for (const [round, { most, together }] of ROUNDS.entries()) {
-      const met = this.#next(most, round > 0);
-      if (met.size === 0) continue;
-      progress(`${this.#left.length} mutants meet up to ${most} tests, ${together} at a time`);
-      const failed = await this.#run(new Map([...met].map(([test, ids]) => [test, inGroups(ids, together)])));
-      // Which of them it was.
-      /** @type {Map<string, string[][]>} */
-      const suspects = new Map();
-      for (const { test, ids } of failed) suspects.set(test, [...(suspects.get(test) ?? []), ...ids.map((id) => [id])]);
-      if (suspects.size > 0) await this.#run(suspects);
+    progress(`${this.#left.length} mutants meet ${FIRST} tests each`);
+    await this.#meet(this.#ownTests(), 1);
+    for (const { count, together } of ROUNDS) {
+      if (this.#left.length === 0) break;
+      progress(`${this.#left.length} mutants meet ${count === Infinity ? 'all other' : count} tests, ${together} at a time`);
+      await this.#meet(this.#sharedTests(count), together);
     }
     return this.caught;
   }
 
   /**
-   * The mutants that each test meets next.
-   *
-   * @param {number} most
-   * @param {boolean} quick whether long ones are left out
+   * @param {Map<string, string[]>} next the mutants that each test meets
+   * @param {number} together how many at a time
    */
-  #next(most, quick) {
+  async #meet(next, together) {
+    const failed = await this.#run(new Map([...next].map(([test, ids]) => [test, inGroups(ids, together)])));
+    // Which of them it was.
+    /** @type {Map<string, string[][]>} */
+    const suspects = new Map();
+    for (const { test, ids } of failed) suspects.set(test, [...(suspects.get(test) ?? []), ...ids.map((id) => [id])]);
+    if (suspects.size > 0) await this.#run(suspects);
+  }
+
+  /** The most promising tests of each mutant, with the mutants that meet them. */
+  #ownTests() {
     /** @type {Map<string, string[]>} */
     const next = new Map();
     for (const id of this.#left) {
-      const met = /** @type {Set<string>} */ (this.#met.get(id));
-      const tests = [.../** @type {Map<string, number>} */ (this.#promise.get(id))]
-        .filter(([test]) => !met.has(test) && !this.#unsound.has(test))
-        .filter(([test]) => !quick || /** @type {Trial} */ (this.#trials.get(test)).milliseconds < LONG)
-        .map(([test, promise]) => /** @type {const} */ ([test, promise * this.#success(test)]))
-        .sort(([, a], [, b]) => b - a)
-        .slice(0, most - met.size);
-      for (const [test] of tests) {
-        next.set(test, [...(next.get(test) ?? []), id]);
-        met.add(test);
-      }
+      const tests = [...this.#promises(id)].sort(([, a], [, b]) => b - a).slice(0, FIRST);
+      for (const [test] of tests) next.set(test, [...(next.get(test) ?? []), id]);
     }
     return next;
+  }
+
+  /**
+   * The tests that are most promising for all mutants together that are left and have not met them, with these.
+   *
+   * @param {number} count
+   */
+  #sharedTests(count) {
+    /** @type {Map<string, { ids: string[], promise: number }>} */
+    const tests = new Map();
+    for (const id of this.#left) {
+      for (const [test, promise] of this.#promises(id)) {
+        const { milliseconds } = /** @type {Trial} */ (this.#trials.get(test));
+        if (this.#met.get(id)?.has(test) || this.#unsound.has(test) || milliseconds > LONG) continue;
+        const { ids, promise: others } = tests.get(test) ?? { ids: [], promise: 0 };
+        tests.set(test, { ids: [...ids, id], promise: others + promise * this.#success(test) });
+      }
+    }
+    const chosen = [...tests].sort(([, a], [, b]) => b.promise - a.promise).slice(0, count);
+    return new Map(chosen.map(([test, { ids }]) => [test, ids]));
+  }
+
+  /** @param {string} id of a mutant */
+  #promises(id) {
+    return /** @type {Map<string, number>} */ (this.#promise.get(id));
   }
 
   /** The share of mutants that a test has caught so far, as of ten more of which it caught one. @param {string} test */
@@ -267,6 +292,7 @@ class Meeting {
       if (kind === 'unsound') this.#unsound.add(test);
     }
     for (const [test, groups] of runs) {
+      for (const id of groups.flat()) this.#met.get(id)?.add(test);
       const alone = groups.filter(({ length }) => length === 1).length;
       const { met, caught } = this.#record.get(test) ?? { met: 0, caught: 0 };
       const more = notes.filter((note) => note.kind === 'caught' && note.test === test).length;
@@ -277,8 +303,8 @@ class Meeting {
 }
 
 /**
- * How promising the tests are that reach a mutant: those that are quick, and reach what few others do around it, for that is
- * what they are about.
+ * How promising the tests are that reach a mutant: those of much on one page, those that are quick, and those that reach what
+ * few others do around it, for that is what they are about.
  *
  * @param {Mutant} mutant
  * @param {Mutant[]} mutants
@@ -291,8 +317,8 @@ function promises({ id, fileName }, mutants, trials) {
   const around = mutants
     .filter((other) => other.fileName === fileName && Math.abs(Number(other.id) - Number(id)) <= 10)
     .map((other) => ({ id: other.id, weight: rarity(other) }));
-  const promise = (/** @type {Trial} */ { reached, milliseconds }) =>
-    (0.5 + around.reduce((sum, other) => sum + (reached.has(other.id) ? other.weight : 0), 0)) / (1000 + milliseconds);
+  const promise = (/** @type {Trial} */ { test, reached, milliseconds }) =>
+    (DENSE.test(test) ? 20 : 1) * (0.5 + around.reduce((sum, other) => sum + (reached.has(other.id) ? other.weight : 0), 0)) / (1000 + milliseconds);
   return new Map(trials.filter(({ passed, reached }) => passed && reached.has(id)).map((trial) => [trial.test, promise(trial)]));
 }
 

@@ -90,7 +90,7 @@ test('what is given as properties and attributes is taken, refused and reflected
 });
 
 test('what is rendered is what its parts say', async ({ page }) => {
-  const widget = await cloudOn(page, 'samples="150" heading-level="2"', '<span slot="title"> A  <b>name</b>\n</span><span slot="title">of two</span><p slot="caption">Below</p>');
+  const widget = await cloudOn(page, 'samples="150" heading-level="2"', '<span slot="title"> A  <b>name</b></span><span slot="title">of\n two</span><p slot="caption">Below</p>');
   await unfold(widget);
   const lines = /** @type {string[]} */ ([]);
   const see = async (/** @type {string} */ when, /** @type {string[]} */ selectors) => {

@@ -65,7 +65,13 @@ test('work that takes long is done in slices of the time that a frame has for it
     left = 50;
     await note('Fifty, and asked for at once', () => {
       figure.seed = 8;
-      return [figure.stats.n, figure.seed];
+      return [figure.stats.attempts, figure.seed];
+    });
+    left = 50;
+    await note('Fifty, with another wanted, and asked for at once', () => {
+      figure.seed = 9;
+      figure.settings.want({ seed: 10 });
+      return [figure.stats.attempts, figure.seed];
     });
     left = 30;
     await note('A step that takes long', () => {
@@ -76,6 +82,7 @@ test('work that takes long is done in slices of the time that a frame has for it
     left = 0;
     figure.cloud.playing = false;
     await note('Stopped for good', () => figure.settings.stop());
+    await note('Stopped where nothing goes on', () => figure.settings.stop());
     return said;
   });
   expectRecorded('sliced', lines);
@@ -136,6 +143,25 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
     figure.cloud.reseed();
     await rest();
     said.push(`Another seed: ${figure.seed !== seed}`);
+    // What cannot be stopped is told of by nothing but its end.
+    const { now } = performance;
+    let time = now.call(performance);
+    performance.now = () => time;
+    let slices = 40;
+    figure.machine.advance = () => {
+      time += 10;
+      return --slices < 0;
+    };
+    figure.seed = 5;
+    let told = '';
+    while (figure.settings.stale) {
+      await new Promise(requestAnimationFrame);
+      told += figure.shadowRoot.querySelector('.progress')?.textContent ?? '';
+    }
+    said.push(`In silence: ${slices} ${told}`);
+    delete figure.machine.advance;
+    performance.now = now;
+
     // The view eases, but not what is taken along.
     figure.setState({ widget: 'banana-machine', version: 1, shown: 301, playing: false });
     await rest();

@@ -79,6 +79,12 @@ test('what is given as properties and attributes is taken, refused and reflected
     const { kind, settings, reflection } = figure;
     said.push(`observed ${kind.observedAttributes.join(' ')}`, `declared ${Object.keys(settings.declared(settings.present)).join(' ')}`);
     said.push(`needed ${JSON.stringify(reflection.needed())}`, figure.embedCode().replace(/https?:\/\/[^/]+/, ''));
+    // What a widget says of itself, where it says nothing.
+    const base = Object.getPrototypeOf(kind.prototype);
+    note('createMachine', () => base.createMachine());
+    note('read', () => base.read());
+    note('takeaway', () => base.takeaway);
+    said.push(`otherwise ${[typeof base.content(), JSON.stringify(base.announcement()), base.held]}`);
     const descriptors = ['v', 'overlays', 'command', 'marked', 'poses', 'playing'].map((name) => {
       const { configurable, enumerable, get, set } = /** @type {PropertyDescriptor} */ (Object.getOwnPropertyDescriptor(kind.prototype, name));
       return `${name} ${[configurable, enumerable, get !== undefined, set !== undefined]}`;
@@ -130,6 +136,11 @@ test('what is rendered is what its parts say', async ({ page }) => {
     await act(code);
     await see(when, selectors);
   }
+  lines.push(`Rendered for nothing: ${await widget.evaluate((element) => {
+    const figure = /** @type {any} */ (element);
+    figure.typing.forget();
+    return figure.isUpdatePending;
+  })}`);
   lines.push(`class ${await widget.evaluate((element) => /** @type {any} */ (element).shadowRoot.querySelector('.surface').className)}`);
   const failed = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);

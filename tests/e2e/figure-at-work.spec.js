@@ -73,6 +73,11 @@ test('work that takes long is done in slices of the time that a frame has for it
       figure.settings.want({ seed: 10 });
       return [figure.stats.attempts, figure.seed];
     });
+    for (const ways of [['noise', 'alphas'], ['alphas', 'noise']]) {
+      for (const key of ways) figure.settings.want({ [key]: key === 'noise' ? 0.25 : [1, 2, 3, 4, 5, 6] });
+      said.push(`Wanted ${ways}: ${figure.settings.wanted.alphas} ${figure.noise} ${figure.alphas}`);
+    }
+    figure.preset = null;
     left = 30;
     await note('A step that takes long', () => {
       machine.restart();

@@ -58,6 +58,17 @@ test('the address has a part for each figure, by its id or its place, and nothin
     await follow(`#banana-machine:${encodeURIComponent('ä b')}=${text}`);
     await follow(`#x&host/banana-machine.1=${text}`);
     await follow(`#div:host/banana-machine.1=${text}`);
+    // One that is not on the page follows nothing.
+    const [, away] = figures;
+    const { parentNode, nextSibling } = away;
+    away.seed = 77;
+    away.remove();
+    await rest();
+    await follow(`#banana-machine:${encodeURIComponent('ä b')}=${text}&away`);
+    parentNode.insertBefore(away, nextSibling);
+    await away.runtime.hasten();
+    await rest();
+    said.push(`Back: ${away.seed}`);
     await follow('#banana-machine.1=%%%');
     await follow('#banana-machine.1=');
     await follow('#banana-machine.11=abc&banana-machine.2=abc');
@@ -199,10 +210,19 @@ test('a figure takes its ground from what is around it, and paper is light', asy
       await settle();
       note(`${theme} on dark`);
     }
+    // Nothing of a picture is left to a later frame where none comes.
+    const [picture] = figure.pictures;
+    const { draw } = picture;
+    picture.draw = function (/** @type {any[]} */ ...given) {
+      const { atOnce, piecemeal, still } = given[3];
+      said.push(`Drawn: ${[atOnce, piecemeal, still]}`);
+      return draw.apply(this, given);
+    };
     dispatchEvent(new Event('beforeprint'));
     note('On paper');
     dispatchEvent(new Event('afterprint'));
     note('And back');
+    picture.draw = draw;
     // What fades is heard of where it is around the figure, and nothing else.
     let count = 0;
     const { recolour } = figure.stage;

@@ -268,6 +268,13 @@ test('a core that traps is made again three times, and then a sentence says that
       await new Promise((resolve) => setTimeout(resolve));
       /** @type {Element} */ (parentNode).append(element);
     });
+    const brief = /** @type {any} */ (document.createElement('banana-machine'));
+    brief.addEventListener('load', () => void said.push('It is there.'));
+    document.body.prepend(brief);
+    const made = brief.runtime.hasten();
+    brief.remove();
+    await made;
+    said.push(`Gone before it was there: ${brief.machine} ${brief.motion}`);
     await note('Failed of a refusal', () => runtime.attemptOrFail(() => { throw new RangeError('y is 2'); }));
     return said;
   });

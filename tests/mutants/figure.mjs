@@ -4,9 +4,10 @@
 //
 // On the build without a mutant the tests run once, to learn which mutants each of them reaches and how long it takes; that is
 // kept for as long as the sources and the tests are the same. A mutant then meets those that reach it, the most promising
-// first, until one notices it: it fails, passes without the mutant, and fails with it again. Mutants that outlive the first
-// round meet further tests several at a time: where a test passes with all of them, it is taken to pass with each. One that no
-// test reaches is not caught, nor one that outlives all rounds. What became of each is in build/mutants-figure/results.json.
+// first, until one notices it: it fails, passes without the mutant, and fails with it again. A test that twice fails without
+// one tells nothing. Mutants that outlive the first round meet further tests several at a time: where a test passes with all of
+// them, it is taken to pass with each. One that no test reaches is not caught, nor one that outlives all rounds. What became of
+// each is in build/mutants-figure/results.json.
 
 import { createHash } from 'node:crypto';
 import { appendFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
@@ -186,6 +187,8 @@ class Meeting {
   #record = new Map();
   /** Tests that failed without a mutant too. @type {Set<string>} */
   #unsound = new Set();
+  /** Tests that did so once, and passed in a browser of their own. @type {Set<string>} */
+  #doubtful = new Set();
   #process;
   #sample;
   #trials;
@@ -289,8 +292,11 @@ class Meeting {
     appendFileSync(join(OUTPUT, 'all-notes'), notes.map((note) => `${JSON.stringify(note)}\n`).join(''));
     for (const { kind, test, ids } of notes) {
       if (kind === 'caught') this.caught.set(ids[0], test);
-      if (kind === 'unsound') this.#unsound.add(test);
+      if (kind === 'unsound' || (kind === 'doubtful' && this.#doubtful.has(test))) this.#unsound.add(test);
+      if (kind === 'doubtful') this.#doubtful.add(test);
     }
+    // What fails now and then tells nothing, nor has it before.
+    for (const [id, test] of this.caught) if (this.#unsound.has(test)) this.caught.delete(id);
     for (const [test, groups] of runs) {
       for (const id of groups.flat()) this.#met.get(id)?.add(test);
       const alone = groups.filter(({ length }) => length === 1).length;

@@ -173,7 +173,8 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
     figure.v = 1.5;
     const atOnce = figure.toSVG();
     for (let i = 0; i < 60; i++) await new Promise(requestAnimationFrame);
-    said.push(`The same later: ${figure.toSVG() === atOnce}`);
+    const views = figure.pictures.map((/** @type {any} */ { view }) => view.ease(0, false));
+    said.push(`The same later: ${figure.toSVG() === atOnce}, with the views on their way: ${views}`);
     for (const tag of ['map-squeeze', 'odometry-decomposer', 'dead-reckoning']) {
       const other = /** @type {any} */ (document.createElement(tag));
       const opened = new Promise((resolve) => other.addEventListener('load', () => resolve([other.machine.shown, other.playing]), { once: true }));

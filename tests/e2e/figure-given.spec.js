@@ -38,7 +38,7 @@ test('what is given as properties and attributes is taken, refused and reflected
       ['marked', '7'], ['marked', 100], ['marked', -1], ['marked', 1.5], ['marked', 0], ['samples', 50], ['marked', 49], ['samples', 40],
       ['marked', null], ['overlays', ['ellipse', 'command', 'ellipse']], ['overlays', ' linearized\tcommand '], ['overlays', ['stars']],
       ['overlays', 'stars'], ['overlays', 5], ['overlays', null], ['preset', 'hard'], ['preset', 'soft'], ['preset', null],
-      ['theme', 'dark'], ['theme', 'blue'], ['theme', 'x'.repeat(41)], ['theme', null], ['theme', 3], ['theme', {}], ['share', true], ['share', false],
+      ['theme', 'dark'], ['theme', 'blue'], ['theme', 'x'.repeat(41)], ['theme', null], ['theme', 3], ['theme', {}], ['theme', () => 1], ['theme', 1n], ['share', true], ['share', false],
       ['share', ''], ['share', false], ['headingLevel', 3], ['headingLevel', '7'], ['headingLevel', null], ['headingLevel', '2'],
       ['headingLevel', undefined], ['presentation', false],
     ]);

@@ -402,6 +402,15 @@ test.describe('properties', () => {
     expect(await assign(widget, 'alpha4', 0.1)).toBe('');
   });
 
+  test('of the other model are taken right after that is, whatever was set before in the same breath', async ({ page }) => {
+    await show(page, '<banana-machine samples="100"></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    await widget.evaluate((element) => Object.assign(element, { alphas: [1, 2, 3, 4, 5, 6], model: 'odometry', alpha4: 0.25, alpha5: 1 }));
+    expect(await property(widget, 'alphas')).toEqual([0.05, 0.05, 0.05, 0.25]);
+    expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['alpha5 is 1; allowed is none, as the last one at present is alpha4']);
+  });
+
   test('that are no settings leave nothing on the element', async ({ page }) => {
     await show(page, '<banana-machine theme="dark"></banana-machine>');
     const widget = page.locator('banana-machine');

@@ -108,6 +108,19 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   expect(await page.evaluate(() => scrollY)).toBe(700);
 });
 
+test('an anchor by itself is the browser’s business: who has left it is not brought back by a figure', FRESH, async ({ page }) => {
+  await show(page, '<div style="height: 3000px"></div><p id="low">Low</p><div style="height: 3000px"></div>', { fragment: '#low', script: '' });
+  expect(await page.evaluate(() => scrollY)).toBeGreaterThan(2000);
+  await page.evaluate(async () => {
+    scrollTo(0, 0);
+    const figure = document.createElement('banana-machine');
+    document.body.prepend(figure);
+    await import(/** @type {any} */ ('/motion-widgets.js'));
+    await new Promise((resolve) => figure.addEventListener('load', resolve));
+  });
+  expect(await page.evaluate(() => scrollY)).toBe(0);
+});
+
 test('an anchor that is not there is none', FRESH, async ({ page }) => {
   await show(page, '<banana-machine></banana-machine>', { fragment: '#nowhere&theme=a' });
   await ready(page.locator('banana-machine'));

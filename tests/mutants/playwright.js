@@ -1,45 +1,48 @@
 /**
  * What stands in for @playwright/test in the copy of the tests that figure.mjs runs. Without a plan it notes which mutants
- * each test reaches; with one, it runs a test once for each mutant that is planned for it and has not been caught.
+ * each test reaches; with one, it runs a test once for each mutant, or several, that are planned for it and not caught yet.
+ * One that fails with a single mutant runs once more without it, and if it passes then, once more with it: only what fails
+ * both times was noticed, and no accident of a busy machine. What fails without it may have been left so by the failure before:
+ * it has another try in a browser of its own.
  *
  * @module
  */
 
-import { appendFileSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { appendFileSync, readFileSync } from 'node:fs';
 import { test as plain } from '@playwright/test';
 
 export * from '@playwright/test';
 
-const { MUTANTS_PLAN = '', MUTANTS_NOTES = '', MUTANTS_PLACE = '' } = process.env;
+const { MUTANTS_PLAN = '', MUTANTS_NOTES = '' } = process.env;
 
-/** @type {Record<string, { mutants: string[], milliseconds: number }> | undefined} by tests, with the time that they take */
+/** @type {import('./figure.mjs').Plan | undefined} by tests, with the time that they take */
 const plan = MUTANTS_PLAN === '' ? undefined : JSON.parse(readFileSync(MUTANTS_PLAN, 'utf8'));
+
+/**
+ * @typedef {import('@playwright/test').TestInfo} TestInfo
+ * @typedef {'first' | 'without' | 'anew' | 'again'} Turn of a test with its mutants
+ * @typedef {{ test: string, ids: string[], turn: Turn, milliseconds: number }} Run
+ */
 
 const note = (/** @type {object} */ line) => appendFileSync(MUTANTS_NOTES, `${JSON.stringify(line)}\n`);
 
-const isCaught = (/** @type {string} */ mutant) => readFileSync(MUTANTS_NOTES, 'utf8').includes(`"caught":"${mutant}"`);
+/** What a failure tells in each turn. @type {Record<Turn, 'failed' | 'doubtful' | 'unsound' | 'caught'>} */
+const FAILURES = { first: 'failed', without: 'doubtful', anew: 'unsound', again: 'caught' };
 
-const DIST = join(import.meta.dirname, '../../dist');
-/** @type {[string, string][]} */
-const switched = readdirSync(`${DIST}-with-all`, { recursive: true, withFileTypes: true })
-  .filter((entry) => /\.(js|html)$/.test(entry.name))
-  .map((entry) => join(entry.parentPath, entry.name))
-  .map((path) => /** @type {[string, string]} */ ([path.replace('dist-with-all', 'dist'), readFileSync(path, 'utf8')]))
-  .filter(([, text]) => text.includes(MUTANTS_PLACE));
-let active = '';
-
-/** Makes a mutant the active one, wherever a page takes the scripts from. @param {string} mutant */
-function activate(mutant) {
-  if (active === mutant) return;
-  active = mutant;
-  for (const [path, text] of switched) writeFileSync(path, text.replaceAll(MUTANTS_PLACE, mutant));
+/**
+ * @param {'failed' | 'doubtful' | 'sound' | 'unsound' | 'caught'} kind
+ * @param {string[]} ids
+ * @param {string} [test] of any test without it
+ */
+function isNoted(kind, ids, test) {
+  const line = JSON.stringify({ kind, ids, test }).slice(0, -1);
+  return readFileSync(MUTANTS_NOTES, 'utf8').includes(line);
 }
 
 /** Notes which mutants a test reaches. */
 const learning = plain.extend(/** @type {any} */ ({
   reaching: [
-    async (/** @type {any} */ { context }, /** @type {any} */ use, /** @type {import('@playwright/test').TestInfo} */ info) => {
+    async (/** @type {any} */ { context }, /** @type {any} */ use, /** @type {TestInfo} */ info) => {
       const reached = new Set();
       await context.exposeBinding('tellReached', (/** @type {unknown} */ _, /** @type {string[]} */ ids) => ids.forEach((id) => reached.add(id)));
       await context.addInitScript(() => {
@@ -69,28 +72,44 @@ const learning = plain.extend(/** @type {any} */ ({
   ],
 }));
 
-/** Runs a test with the mutant that its title ends in. */
+/** Runs a test with the mutants that it is annotated with. */
 const trying = plain.extend(/** @type {any} */ ({
-  mutant: [
+  turn: [
     // Playwright wants the names of what it needs.
-    async (/** @type {any} */ { baseURL: _ }, /** @type {any} */ use, /** @type {import('@playwright/test').TestInfo} */ info) => {
-      const mutant = mutantOf(info);
-      info.skip(isCaught(mutant));
-      activate(mutant);
-      info.setTimeout(30_000 + 10 * Number(info.annotations.find(({ type }) => type === 'takes')?.description));
+    async (/** @type {any} */ { baseURL: _ }, /** @type {any} */ use, /** @type {TestInfo} */ info) => {
+      const { test, ids, turn, milliseconds } = runOf(info);
+      info.skip(ids.every((id) => isNoted('caught', [id])));
+      if (turn === 'without') info.skip(!isNoted('failed', ids, test));
+      if (turn === 'anew') info.skip(!isNoted('doubtful', ids, test));
+      if (turn === 'again') info.skip(!isNoted('sound', ids, test));
+      info.setTimeout(20_000 + 5 * milliseconds);
       await use();
-      if (info.status !== info.expectedStatus) caught(info, info.error?.message ?? `${info.status}`);
+      if (info.status !== info.expectedStatus) failed(info, info.error?.message ?? `${info.status}`);
+      else if (isWithout(turn) && !isNoted(FAILURES[turn], ids, test)) note({ kind: 'sound', ids, test });
+    },
+    { auto: true },
+  ],
+  mutants: [
+    async (/** @type {any} */ { context }, /** @type {any} */ use, /** @type {TestInfo} */ info) => {
+      const { ids, turn } = runOf(info);
+      const active = isWithout(turn) ? [] : ids.filter((id) => !isNoted('caught', [id]));
+      await context.addInitScript((/** @type {string[]} */ given) => Object.assign(globalThis, { activeMutants: given }), active);
+      await use();
     },
     { auto: true },
   ],
 }));
 
-const mutantOf = (/** @type {import('@playwright/test').TestInfo} */ { title }) => title.slice(title.lastIndexOf('#') + 1);
+const isWithout = (/** @type {Turn} */ turn) => turn === 'without' || turn === 'anew';
 
-/** @param {import('@playwright/test').TestInfo} info @param {string} message */
-function caught(info, message) {
-  const mutant = mutantOf(info);
-  if (!isCaught(mutant)) note({ caught: mutant, test: info.title, message: message.slice(0, 300) });
+/** @param {TestInfo} info @returns {Run} */
+const runOf = (info) => JSON.parse(String(info.annotations.find(({ type }) => type === 'run')?.description));
+
+/** @param {TestInfo} info @param {string} message */
+function failed(info, message) {
+  const { test, ids, turn } = runOf(info);
+  const kind = FAILURES[turn];
+  if (!isNoted(kind, ids, test)) note({ kind, ids, test, message: message.slice(0, 300) });
 }
 
 /**
@@ -105,8 +124,14 @@ function planned(test) {
       const details = given.length > 2 ? given[1] : {};
       const key = `${new Error().stack?.match(/([\w-]+)\.spec\.js/)?.[1]} › ${title}`;
       if (plan === undefined) target(title, { ...details, annotation: { type: 'key', description: key } }, body);
-      const { mutants = [], milliseconds = 0 } = plan?.[key] ?? {};
-      for (const mutant of mutants) target(`${title} #${mutant}`, { ...details, annotation: { type: 'takes', description: `${milliseconds}` } }, attempt(body));
+      const { runs = [], milliseconds = 0 } = plan?.[key] ?? {};
+      for (const ids of runs) {
+        const turns = /** @type {Turn[]} */ (ids.length > 1 ? ['first'] : ['first', 'without', 'anew', 'again']);
+        for (const turn of turns) {
+          const description = JSON.stringify({ test: key, ids, turn, milliseconds });
+          target(`${title} #${ids.join('+')} ${turn}`, { ...details, annotation: { type: 'run', description } }, attempt(body));
+        }
+      }
     },
   });
 }
@@ -118,7 +143,7 @@ function attempted(fixtures) {
 }
 
 /**
- * A test, or what it needs, that ends well where a mutant is caught: after a failed one, Playwright starts a process anew.
+ * A test, or what it needs, that ends well where a mutant is noticed: after a failed one, Playwright starts a process anew.
  *
  * @param {(...given: any[]) => Promise<void>} work
  */
@@ -129,7 +154,8 @@ function attempt(work) {
       await work(fixtures, ...more);
     } catch (error) {
       if (info.status === 'timedOut' || info.status === 'interrupted') throw error;
-      caught(info, String(error instanceof Error ? error.message : error));
+      failed(info, String(error instanceof Error ? error.message : error));
+      if (runOf(info).turn === 'without') throw error;
     }
   };
   // Of the text, Playwright learns which fixtures it needs.

@@ -124,7 +124,7 @@ function settingOf({ key, in: group, field = key, index, of, type }) {
     change: (value, { config }) => {
       const { length } = config[group];
       if (index < length) return { [group]: config[group].with(index, value) };
-      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d+$/, '')}${length}`);
+      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d$/, '')}${length}`);
     },
   };
 }

@@ -19,7 +19,7 @@ function described(value) {
 
 /** The first characters of a text, whole ones: enough to recognize it. @param {string} text */
 function beginning(text) {
-  const first = String(/^.{0,40}/su.exec(text));
+  const first = String(/.{0,40}/su.exec(text));
   return first === text ? text : `${first}…`;
 }
 

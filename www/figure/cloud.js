@@ -106,7 +106,8 @@ export class Cloud extends Part {
     const { samples = present.samples, playing = present.playing } = given;
     truth('state.playing', playing);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
-    const marked = present.marked !== null && present.marked < (playing ? samples : shown) ? present.marked : null;
+    // None is less than any number, and stays none.
+    const marked = present.marked < (playing ? samples : shown) ? present.marked : null;
     return { shown, marked };
   }
 

@@ -146,7 +146,7 @@ export function takeAlong(figure) {
 /**
  * Growth, seed and size of the cloud.
  *
- * @param {Figure} figure
+ * @param {Figure & { cloud: import('./cloud.js').Cloud }} figure
  * @param {readonly number[]} counts the sizes that the slider offers
  */
 export function cloudControls(figure, counts) {
@@ -181,7 +181,7 @@ export function cloudControls(figure, counts) {
       (count) => want(figure, 'samples', count),
       counted,
     )}
-    ${figure.cloud?.buttons(say)}
+    ${figure.cloud.buttons(say)}
   </fieldset>`;
 }
 

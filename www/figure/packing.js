@@ -31,7 +31,7 @@ export async function unpack(text) {
     let size = 0;
     for await (const part of inflated([bytes], 'deflate-raw')) {
       size += part.length;
-      if (size > MAX_BYTES) throw new RangeError('too long');
+      if (size > MAX_BYTES) throw new RangeError();
       parts.push(part);
     }
     return JSON.parse(await new Blob(parts).text());

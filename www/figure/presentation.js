@@ -81,7 +81,6 @@ export class Presentation extends Part {
   async #restore(left) {
     await Promise.allSettled([left, this.host.updateComplete]);
     await new Promise(requestAnimationFrame);
-    if (this.#listening) return;
     scrollTo({ top: this.#scrolled, behavior: 'instant' });
     this.#focus('.to-present');
   }

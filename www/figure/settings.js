@@ -66,7 +66,12 @@ export class Settings extends Part {
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
-  /** Those in effect: a machine's copy of them takes long, and is not asked for where nothing has changed since the last. @returns {Values} */
+  /**
+   * Those in effect, or that the machine has begun with: its copy of them takes long, and is not asked for where nothing has
+   * changed since the last.
+   *
+   * @returns {Values}
+   */
   get present() {
     const { machine, reading } = this.host;
     return this.stale ? machine?.config : reading.config;
@@ -74,7 +79,7 @@ export class Settings extends Part {
 
   /** Those in effect with the changes that are on their way; a machine in the making was made with all before it. @returns {Values} */
   get wanted() {
-    return { ...this.present, ...this.#begun, ...this.#former, ...this.next?.config, ...this.#pending };
+    return { ...this.present, ...this.#former, ...this.next?.config, ...this.#pending };
   }
 
   /** What controls show: what was read of the machine, with the changes that are on their way. @returns {Values} */

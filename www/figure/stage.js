@@ -90,7 +90,7 @@ export class Stage extends Part {
       try {
         this.#sizes?.observe(canvas, { box: 'device-pixel-content-box' });
       } catch {
-        this.#sizes?.observe(canvas);
+        /** @type {ResizeObserver} */ (this.#sizes).observe(canvas);
       }
     }
   }

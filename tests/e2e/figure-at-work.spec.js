@@ -1,0 +1,283 @@
+import { ready, show } from './element-support.js';
+import { expectRecorded } from './figure-contract.js';
+import { STILL, test } from './support.js';
+
+test.use(STILL);
+
+test('work that takes long is done in slices of the time that a frame has for it, with progress', async ({ page }) => {
+  await show(page, '<map-squeeze samples="300"></map-squeeze>');
+  const widget = page.locator('map-squeeze');
+  await ready(widget);
+  const lines = await widget.evaluate(async (element) => {
+    const figure = /** @type {any} */ (element);
+    const said = /** @type {string[]} */ ([]);
+    const root = figure.shadowRoot;
+    // A clock that goes on by ten milliseconds with each slice of work.
+    let time = performance.now();
+    performance.now = () => time;
+    let calls = 0;
+    let left = 0;
+    let told = /** @type {string[]} */ ([]);
+    for (const name of ['input', 'change', 'stats', 'error']) {
+      element.addEventListener(name, (event) => {
+        told.push(name);
+        // The page asks nothing.
+        event.stopPropagation();
+      });
+    }
+    const { machine } = figure;
+    const { advance } = Object.getPrototypeOf(machine);
+    Object.defineProperty(machine, 'progress', { get: () => 1 - left / 100 });
+    machine.advance = (/** @type {number} */ work) => {
+      calls++;
+      time += 10;
+      if (left > 0) left--;
+      return left > 0 ? false : advance.call(machine, work * 1000);
+    };
+    const note = async (/** @type {string} */ what, /** @type {() => unknown} */ act) => {
+      [calls, told] = [0, []];
+      let answer = act();
+      for (let [frame, idle] = [0, 0]; frame < 10 && idle < 3; frame++) {
+        idle = calls || told.length ? 0 : idle + 1;
+        const shown = root.querySelector('.progress');
+        said.push(`${frame === 0 ? what : ` ${frame}`}: ${calls} ${told.join(' ')} | ${figure.settings.stale} ${figure.settings.done.toFixed(2)} ${shown ? shown.textContent.replace(/\s+/g, ' ') : ''} ${shown?.querySelector('progress').value.toFixed(2) ?? ''} | ${root.querySelector('[role=status]')?.textContent} | ${machine.config.seed} ${figure.settings.wanted.seed} ${figure.settings.told.seed} ${machine.shown} ${JSON.stringify(answer) ?? ''}`);
+        [calls, told, answer] = [0, [], undefined];
+        await new Promise(requestAnimationFrame);
+        await figure.updateComplete;
+      }
+    };
+    await note('At rest', () => {});
+    left = 28;
+    await note('Slices by the page', () => void (figure.seed = 5));
+    left = 100;
+    await note('A hundred slices by the reader', () => figure.gesture.decide({ seed: 6 }));
+    await note('What is wanted meanwhile', () => figure.settings.want({ seed: 7 }));
+    await note('A key that is another', () => void root.querySelector('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: 'x', bubbles: true, composed: true })));
+    await note('Escape', () => {
+      const event = new KeyboardEvent('keydown', { key: 'Escape', bubbles: true, composed: true, cancelable: true });
+      let heard = false;
+      document.addEventListener('keydown', () => (heard = true), { once: true });
+      root.querySelector('canvas').dispatchEvent(event);
+      return [heard, event.defaultPrevented];
+    });
+    left = 0;
+    await note('Nothing more to do', () => {});
+    left = 50;
+    await note('Fifty, and asked for at once', () => {
+      figure.seed = 8;
+      return [figure.stats.attempts, figure.seed];
+    });
+    left = 50;
+    await note('Fifty, with another wanted, and asked for at once', () => {
+      figure.seed = 9;
+      figure.settings.want({ seed: 10 });
+      return [figure.stats.attempts, figure.seed];
+    });
+    for (const ways of [['noise', 'alphas'], ['alphas', 'noise']]) {
+      for (const key of ways) figure.settings.want({ [key]: key === 'noise' ? 0.25 : [1, 2, 3, 4, 5, 6] });
+      said.push(`Wanted ${ways}: ${figure.settings.wanted.alphas} ${figure.noise} ${figure.alphas}`);
+    }
+    figure.preset = null;
+    left = 30;
+    await note('A step that takes long', () => {
+      machine.restart();
+      figure.cloud.playing = true;
+      figure.stage.wake();
+    });
+    left = 0;
+    figure.cloud.playing = false;
+    await note('Stopped for good', () => figure.settings.stop());
+    await note('Stopped where nothing goes on', () => figure.settings.stop());
+    return said;
+  });
+  expectRecorded('sliced', lines);
+});
+
+test('a cloud grows before the eyes of a reader who likes that, step by step', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  await show(page, '<main></main>');
+  const lines = await page.evaluate(async () => {
+    const said = /** @type {string[]} */ ([]);
+    const main = /** @type {HTMLElement} */ (document.querySelector('main'));
+    main.innerHTML = '<banana-machine samples="301"></banana-machine>';
+    const figure = /** @type {any} */ (main.firstElementChild);
+    figure.marked = 300;
+    const shown = /** @type {number[]} */ ([]);
+    figure.addEventListener('stats', () => {
+      if (shown.push(figure.machine.shown) === 4) figure.cloud.play();
+    });
+    const note = (/** @type {string} */ what) => {
+      const { cloud } = figure;
+      const { marked, shown: at, playing, samples } = figure.getState() ?? {};
+      const buttons = [...(figure.shadowRoot?.querySelectorAll('.cloud button') ?? [])].map(({ innerText, disabled, title }) => `${innerText}${disabled ? ' (off)' : ''} ${title}`);
+      const { complete, asked, growing, isMarked, markable, index } = figure.machine ? cloud : /** @type {any} */ ({});
+      said.push(`${what}: ${JSON.stringify({ marked, at, playing, samples, complete, asked, growing, isMarked, markable, index })} ${buttons.join('; ')}`);
+    };
+    note('Before');
+    await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
+    note('Loaded');
+    const rest = async () => {
+      for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+    };
+    while (shown.length < 4) await new Promise(requestAnimationFrame);
+    await rest();
+    note('Paused');
+    said.push(`Steps: ${shown.slice(0, 4)}`);
+    figure.cloud.step();
+    await rest();
+    note('A step');
+    figure.setState({ widget: 'banana-machine', version: 1, shown: 298, playing: true });
+    while (figure.playing) await new Promise(requestAnimationFrame);
+    await rest();
+    note('Whole');
+    figure.marked = 300;
+    note('Marked');
+    figure.setState({ widget: 'banana-machine', version: 1, shown: 300, marked: 299 });
+    note('Marked, and less shown');
+    figure.setState({ widget: 'banana-machine', version: 1, shown: 301, marked: null });
+    await rest();
+    said.push(`Status: ${figure.shadowRoot.querySelector('[role=status]').textContent}`);
+    figure.cloud.play();
+    note('Again');
+    figure.cloud.reset();
+    await rest();
+    note('Emptied');
+    figure.cloud.unmark();
+    note('Unmarked');
+    const { seed } = figure;
+    figure.cloud.reseed();
+    await rest();
+    said.push(`Another seed: ${figure.seed !== seed}`);
+    // What cannot be stopped is told of by nothing but its end.
+    const { now } = performance;
+    let time = now.call(performance);
+    performance.now = () => time;
+    let slices = 40;
+    figure.machine.advance = () => {
+      time += 10;
+      return --slices < 0;
+    };
+    figure.seed = 5;
+    let told = '';
+    while (figure.settings.stale) {
+      await new Promise(requestAnimationFrame);
+      told += figure.shadowRoot.querySelector('.progress')?.textContent ?? '';
+    }
+    said.push(`In silence: ${slices} ${told}`);
+    delete figure.machine.advance;
+    performance.now = now;
+
+    // The view eases, but not what is taken along.
+    figure.setState({ widget: 'banana-machine', version: 1, shown: 301, playing: false });
+    await rest();
+    figure.v = 1.5;
+    const atOnce = figure.toSVG();
+    for (let i = 0; i < 60; i++) await new Promise(requestAnimationFrame);
+    const views = figure.pictures.map((/** @type {any} */ { view }) => view.ease(0, false));
+    said.push(`The same later: ${figure.toSVG() === atOnce}, with the views on their way: ${views}`);
+    for (const tag of ['map-squeeze', 'odometry-decomposer', 'dead-reckoning']) {
+      const other = /** @type {any} */ (document.createElement(tag));
+      const opened = new Promise((resolve) => other.addEventListener('load', () => resolve([other.machine.shown, other.playing]), { once: true }));
+      main.prepend(other);
+      said.push(`${tag} opens with ${await opened}`);
+      other.remove();
+    }
+
+    // An element without its cloud on the page any more.
+    figure.remove();
+    await new Promise(requestAnimationFrame);
+    figure.cloud.play();
+    figure.cloud.step();
+    said.push(JSON.stringify([figure.stats, figure.getState().shown, figure.playing, figure.poses]));
+    return said;
+  });
+  expectRecorded('grown', lines);
+});
+
+test('a core that traps is made again three times, and then a sentence says that it cannot run', async ({ page }) => {
+  await show(page, '<banana-machine samples="40" seed="9"></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const lines = await widget.evaluate(async (element) => {
+    const figure = /** @type {any} */ (element);
+    const said = /** @type {string[]} */ ([]);
+    let told = /** @type {string[]} */ ([]);
+    for (const name of ['load', 'error', 'change']) element.addEventListener(name, (event) => void told.push(`${name} ${Reflect.get(event, 'message') ?? ''}`.trim()));
+    const { runtime } = figure;
+    const trap = () => {
+      throw new WebAssembly.RuntimeError('unreachable');
+    };
+    const rest = async () => {
+      for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+      for (let i = 0; i < 50 && !figure.machine && runtime.failure === undefined; i++) await new Promise((resolve) => setTimeout(resolve, 20));
+      for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+    };
+    const note = async (/** @type {string} */ what, /** @type {() => unknown} */ act) => {
+      told = [];
+      const { machine, motion } = figure;
+      let answer;
+      try {
+        answer = JSON.stringify(await act());
+      } catch (error) {
+        answer = `throws ${error}`;
+      }
+      const between = `${figure.machine === undefined} ${figure.seed}`;
+      await rest();
+      const { shadowRoot: root } = figure;
+      said.push(`${what}: ${answer} | ${between} | ${told.join(', ')} | ${[figure.machine === machine, figure.motion === motion, figure.seed, figure.getState()?.shown, runtime.failure, root.querySelector('.failure')?.textContent, root.querySelectorAll('canvas').length].join(' ')}`);
+    };
+    await note('Well', () => runtime.attempt(() => 5));
+    await note('Hastened again', async () => {
+      await runtime.hasten();
+    });
+    await note('Refused', () => runtime.attempt(() => { throw new RangeError('x is 1'); }));
+    await note('Tolerated', () => runtime.tolerate(() => { throw new RangeError('x is 1'); }));
+    await note('Tolerated well', () => runtime.tolerate(() => 5));
+    await note('A trap', () => runtime.attempt(trap));
+    await note('A tolerated trap', () => runtime.tolerate(trap));
+    await note('Traps that are proven wrong', () => {
+      for (let i = 0; i < 2; i++) runtime.attempt(trap);
+      runtime.prove();
+    });
+    await note('A trap in what is wanted, when the page sets something', () => {
+      figure.settings.want({ seed: 4 });
+      figure.machine.begin = trap;
+      figure.v = 0.5;
+    });
+    await note('Three', () => {
+      for (let i = 0; i < 3; i++) runtime.attempt(trap);
+      runtime.prove();
+    });
+    await note('Where none hears', () => runtime.attemptOrFail(() => 7));
+    await note('Gone and back', () => {
+      const { parentNode } = element;
+      element.remove();
+      /** @type {Element} */ (parentNode).append(element);
+    });
+    await note('Four, and no picture between', async () => {
+      runtime.prove = () => {};
+      for (let i = 0; i < 4; i++) {
+        runtime.attemptOrFail(trap);
+        await rest();
+      }
+      delete runtime.prove;
+    });
+    await note('Asked then', () => [figure.stats, figure.getState()?.seed, figure.poses]);
+    await note('Back on the page', async () => {
+      const { parentNode } = element;
+      element.remove();
+      await new Promise((resolve) => setTimeout(resolve));
+      /** @type {Element} */ (parentNode).append(element);
+    });
+    const brief = /** @type {any} */ (document.createElement('banana-machine'));
+    brief.addEventListener('load', () => void said.push('It is there.'));
+    document.body.prepend(brief);
+    const made = brief.runtime.hasten();
+    brief.remove();
+    await made;
+    said.push(`Gone before it was there: ${brief.machine} ${brief.motion}`);
+    await note('Failed of a refusal', () => runtime.attemptOrFail(() => { throw new RangeError('y is 2'); }));
+    return said;
+  });
+  expectRecorded('trapped', lines);
+});

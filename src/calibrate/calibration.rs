@@ -7,7 +7,7 @@ use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Leg, LegLength, cut};
 use super::likelihood::{Evidence, Parameters, Robust, Slope};
 use super::model::{Model, Observation, Uncertainty};
-use super::profile::{Estimate, Fitted};
+use super::profile::{Estimate, Fitted, Search};
 use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic, Which};
 use super::trajectory::Trajectory;
 use super::undetermined::{Undetermined, undetermined};
@@ -123,8 +123,10 @@ pub fn calibrate(
 /// 2. Legs are cut, α's fitted to them, and systematic errors found by least squares with the weights that these α's give; again with
 ///    those errors removed, until they stay.
 /// 3. The α's are fitted with the errors removed that are to be.
-/// 4. Each α's interval, one a step; the bootstrap; the doubts; inflation.
+/// 4. Each α's interval, one a step; a fit to the first half of the log; the bootstrap; the doubts; inflation.
 /// 5. If asked for, legs of each other length, and the intervals of their α's, one a step.
+///
+/// Each fit is a climb, with one of its steps a step.
 #[derive(Clone, Debug)]
 pub struct Calibrating {
     options: Options,
@@ -139,7 +141,10 @@ pub struct Calibrating {
     observations: Vec<Observation>,
     evidence: Evidence,
     best: Option<(Parameters, Slope)>,
+    /// For the next best, while it is under way.
+    search: Option<Search>,
     intervals: Vec<Option<[f64; 2]>>,
+    halves: Option<Halves>,
     /// Of the legs that were asked for, while those of other lengths are fitted.
     asked: Option<Calibration>,
 }
@@ -147,7 +152,11 @@ pub struct Calibrating {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stage {
     Align,
+    /// Cuts legs, without the errors that are known by then.
     Round(usize),
+    RoundFit(usize),
+    /// Cuts legs, without the errors that are to be removed.
+    Remove,
     Fit,
     Interval(usize),
     Judge,
@@ -178,7 +187,9 @@ impl Calibrating {
             observations: Vec::new(),
             evidence: Evidence::new(options.model, options.noise, []),
             best: None,
+            search: None,
             intervals: Vec::new(),
+            halves: None,
             asked: None,
         }
     }
@@ -186,19 +197,29 @@ impl Calibrating {
     /// How much is done, 0 to 1.
     pub fn progress(&self) -> f64 {
         let alphas = self.options.model.alphas();
-        let asked = ROUNDS + 2 + alphas;
+        let asked = ROUNDS + 3 + alphas;
         let steps = asked + if self.options.by_length { FACTORS.len() * (2 + alphas) + 1 } else { 0 };
         let done = match self.stage {
             Stage::Align => return self.alignment.progress() / steps as f64,
-            Stage::Round(round) => 1 + round,
-            Stage::Fit => ROUNDS,
-            Stage::Interval(alpha) => ROUNDS + 1 + alpha,
+            Stage::Round(round) | Stage::RoundFit(round) => 1 + round,
+            Stage::Remove | Stage::Fit => ROUNDS + 1,
+            Stage::Interval(alpha) => ROUNDS + 2 + alpha,
             Stage::Judge => asked - 1,
             Stage::Length(place) => asked + place * (2 + alphas),
             Stage::LengthFit(place) => asked + place * (2 + alphas) + 1,
             Stage::LengthInterval(place, alpha) => asked + place * (2 + alphas) + 2 + alpha,
         };
-        done as f64 / steps as f64
+        // Nobody knows how many steps a climb takes.
+        let climbed = |search: Option<&Search>| {
+            let steps = search.map_or(0, Search::steps) as f64;
+            (1.0 + steps) / (10.0 + steps)
+        };
+        let part = match self.stage {
+            Stage::RoundFit(_) | Stage::Fit | Stage::LengthFit(_) => climbed(self.search.as_ref()),
+            Stage::Judge => climbed(self.halves.as_ref().map(Halves::search)),
+            _ => 0.0,
+        };
+        (done as f64 + part) / steps as f64
     }
 
     /// Goes on by one step; the calibration after the last one.
@@ -218,10 +239,18 @@ impl Calibrating {
             }
             Stage::Round(round) => {
                 self.observe(odometry, reference, self.systematic, [true; ERRORS])?;
-                let stays = self.refine();
-                if stays || round + 1 == ROUNDS { Stage::Fit } else { Stage::Round(round + 1) }
+                Stage::RoundFit(round)
             }
-            Stage::Fit => {
+            Stage::RoundFit(round) => {
+                // Bad legs are set aside here even if the α's are to answer for them.
+                let robust = self.options.robust;
+                if !self.search(if robust == Robust::No { Robust::Estimated } else { robust }) {
+                    return Ok(None);
+                }
+                let stays = self.refine();
+                if stays || round + 1 == ROUNDS { Stage::Remove } else { Stage::Round(round + 1) }
+            }
+            Stage::Remove => {
                 self.removed = Systematic::NONE;
                 for (i, error) in Error::ALL.into_iter().enumerate() {
                     if self.options.remove[i] {
@@ -229,13 +258,17 @@ impl Calibrating {
                     }
                 }
                 self.observe(odometry, reference, self.removed, self.options.remove)?;
-                let fitted = self.fitted(self.options.robust);
-                self.best = Some((fitted.best, fitted.slope));
+                Stage::Fit
+            }
+            Stage::Fit => {
+                if !self.search(self.options.robust) {
+                    return Ok(None);
+                }
                 Stage::Interval(0)
             }
             Stage::Interval(alpha) => {
-                let fitted = self.fitted(self.options.robust);
-                self.intervals.push(fitted.interval(alpha));
+                let interval = self.fitted().interval(alpha);
+                self.intervals.push(interval);
                 if alpha + 1 < self.options.model.alphas() {
                     Stage::Interval(alpha + 1)
                 } else {
@@ -243,7 +276,15 @@ impl Calibrating {
                 }
             }
             Stage::Judge => {
-                let calibration = self.judge();
+                let Options { model, noise, robust, .. } = self.options;
+                let mut halves = self.halves.take().unwrap_or_else(|| {
+                    Halves::new(model, noise, robust, &self.observations, &self.fitted().best)
+                });
+                if !halves.fit() {
+                    self.halves = Some(halves);
+                    return Ok(None);
+                }
+                let calibration = self.judge(&halves);
                 if !self.options.by_length {
                     return Ok(Some(calibration));
                 }
@@ -259,17 +300,18 @@ impl Calibrating {
                 }
             }
             Stage::LengthFit(place) => {
-                let fitted = self.fitted(self.options.robust);
-                self.best = Some((fitted.best, fitted.slope));
+                if !self.search(self.options.robust) {
+                    return Ok(None);
+                }
                 Stage::LengthInterval(place, 0)
             }
             Stage::LengthInterval(place, alpha) => {
-                let interval = self.fitted(self.options.robust).interval(alpha);
+                let interval = self.fitted().interval(alpha);
                 self.intervals.push(interval);
                 if alpha + 1 < self.options.model.alphas() {
                     Stage::LengthInterval(place, alpha + 1)
                 } else {
-                    let (estimate, _) = self.estimate(&self.fitted(self.options.robust));
+                    let (estimate, _) = self.estimate(&self.fitted());
                     self.tell(FACTORS[place], Some(estimate));
                     Stage::Length(place + 1)
                 }
@@ -341,27 +383,34 @@ impl Calibrating {
         }
     }
 
-    fn fitted(&self, robust: Robust) -> Fitted<'_> {
-        let Options { model, .. } = self.options;
+    /// Goes on with the search for the likeliest α's; whether they are found.
+    fn search(&mut self, robust: Robust) -> bool {
+        let mut search = self.search.take().unwrap_or_else(|| {
+            let near = self.best.map(|(near, _)| near);
+            let near = near.filter(|near| near.bad.is_some() == (robust != Robust::No));
+            Search::new(&self.evidence, robust, near.as_ref())
+        });
+        let found = search.step(&self.evidence, self.options.model.alphas());
+        if found {
+            self.best = Some(search.best());
+        } else {
+            self.search = Some(search);
+        }
+        found
+    }
+
+    /// What was found.
+    fn fitted(&self) -> Fitted<'_> {
+        let Options { model, robust, .. } = self.options;
         match self.best {
-            Some(best)
-                if matches!(self.stage, Stage::Interval(_) | Stage::Judge | Stage::LengthInterval(..)) =>
-            {
-                Fitted::at(&self.evidence, model.alphas(), best)
-            }
-            best => {
-                let near =
-                    best.map(|(near, _)| near).filter(|near| near.bad.is_some() == (robust != Robust::No));
-                Fitted::new(&self.evidence, model.alphas(), robust, near.as_ref())
-            }
+            Some(best) => Fitted::at(&self.evidence, model.alphas(), best),
+            None => Fitted::new(&self.evidence, model.alphas(), robust, None),
         }
     }
 
     /// The systematic errors a step better; whether they are as they were.
     fn refine(&mut self) -> bool {
-        // Bad legs are set aside here even if the α's are to answer for them.
-        let robust = if self.options.robust == Robust::No { Robust::Estimated } else { self.options.robust };
-        let Fitted { best, slope, .. } = self.fitted(robust);
+        let best = self.fitted().best;
         let mut squares = LeastSquares::after(self.known);
         let legs = self.legs.iter().zip(&self.observations).zip(self.evidence.each(&best));
         for ((leg, observation), density) in legs {
@@ -373,7 +422,6 @@ impl Calibrating {
                 .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 });
             squares.add(&self.systematic, leg, observation, weights);
         }
-        self.best = Some((best, slope));
         let Step { change, deviations, inverse } = squares.step();
         (self.deviations, self.known) = (deviations, inverse);
         let mut stays = true;
@@ -387,9 +435,9 @@ impl Calibrating {
         stays
     }
 
-    fn judge(&mut self) -> Calibration {
-        let Options { model, noise, robust, seed, .. } = self.options;
-        let fitted = self.fitted(self.options.robust);
+    fn judge(&mut self, halves: &Halves) -> Calibration {
+        let Options { model, noise, seed, .. } = self.options;
+        let fitted = self.fitted();
         let (estimate, undetermined) = self.estimate(&fitted);
         let mut bootstrap = bootstrap::intervals(&fitted, model.alphas(), seed);
         bootstrap
@@ -397,11 +445,10 @@ impl Calibrating {
             .enumerate()
             .for_each(|(k, interval)| *interval = interval.filter(|_| undetermined[k].is_none()));
         let judged = Judged::all(&self.evidence, &fitted.best, &self.observations);
-        let halves = Halves::new(model, noise, robust, &self.observations, &fitted.best);
         let neighbours: Vec<bool> = (0..self.legs.len())
             .map(|i| i > 0 && self.legs[i - 1].times[1] == self.legs[i].times[0])
             .collect();
-        let doubts = doubts(model, noise, &self.observations, &judged, &neighbours, &halves);
+        let doubts = doubts(model, noise, &self.observations, &judged, &neighbours, halves);
         Calibration {
             estimate,
             undetermined,

@@ -2,7 +2,7 @@
 
 use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
 use super::model::{Model, Observation};
-use super::profile::Fitted;
+use super::profile::Search;
 use super::systematic::{Square, sweep};
 use super::trajectory::sort;
 use crate::noise::NoiseKind;
@@ -202,16 +202,21 @@ impl Judged {
 }
 
 /// A fit to the first half of the log, and the second.
+#[derive(Clone, Debug)]
 pub(super) struct Halves {
+    model: Model,
+    noise: NoiseKind,
+    first: Evidence,
+    search: Search,
     best: Parameters,
     /// Of the logarithm of the held-out residuals' variances, in the mean, by what is uncertain of the fit.
     of_fit: f64,
     evidence: Evidence,
     observations: Vec<Observation>,
-    noise: NoiseKind,
 }
 
 impl Halves {
+    /// Before the [`Self::fit`].
     pub fn new(
         model: Model,
         noise: NoiseKind,
@@ -220,13 +225,27 @@ impl Halves {
         near: &Parameters,
     ) -> Self {
         let (fitted, held_out) = observations.split_at(half(observations));
-        let seen = Evidence::new(model, noise, fitted);
-        let fit = Fitted::new(&seen, model.alphas(), robust, Some(near));
+        let first = Evidence::new(model, noise, fitted);
+        let search = Search::new(&first, robust, Some(near));
         let evidence = Evidence::new(model, noise, held_out);
-        let ((mean, _), (_, squares)) =
-            (evidence.log_variances_by(&fit.best), seen.log_variances_by(&fit.best));
-        let of_fit = ((shape(noise).kurtosis - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
-        Self { best: fit.best, of_fit, evidence, observations: held_out.to_vec(), noise }
+        let observations = held_out.to_vec();
+        Self { model, noise, first, search, best: *near, of_fit: UNKNOWN, evidence, observations }
+    }
+
+    pub fn search(&self) -> &Search {
+        &self.search
+    }
+
+    /// Goes on by a few passes; whether the first half is fitted.
+    pub fn fit(&mut self) -> bool {
+        let found = self.search.step(&self.first, self.model.alphas());
+        if found {
+            self.best = self.search.best().0;
+            let [(_, squares), (mean, _)] =
+                [&self.first, &self.evidence].map(|half| half.log_variances_by(&self.best));
+            self.of_fit = ((shape(self.noise).kurtosis - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
+        }
+        found
     }
 
     /// Standardized residuals of the held-out half, its bad legs left out, if the α's are larger by a factor.

@@ -71,6 +71,14 @@ const SWEEPS: usize = 300;
 /// Of the whole: five are usual.
 const STEPS: usize = 60;
 
+/// α's below are none: an error of ten nanometres in a metre is rounding, and of a perfect log ever smaller ones are ever likelier.
+pub(super) const NOTHING: f64 = 1e-16;
+
+/// Whether all of these are.
+pub(super) fn are_nothing(alphas: &Alphas, free: &[usize]) -> bool {
+    free.iter().all(|k| alphas[*k] < NOTHING)
+}
+
 /// A residual is inside of its triangle to begin with by this share of the width of its edge.
 pub(super) const INSIDE: f64 = 0.1;
 
@@ -204,16 +212,26 @@ fn likelier(
     None
 }
 
-/// The parameters under which the legs are likeliest, from `start` on; α's that are not `free` stay as they are.
-pub(super) fn maximize(
-    evidence: &Evidence,
-    start: Parameters,
-    free: &[usize],
-    robust: Robust,
-) -> (Parameters, Slope) {
-    let mut at = start;
-    let mut here = evidence.slope(&at, robust);
-    for _ in 0..STEPS {
+/// The way to the parameters under which the legs are likeliest, one step of a few passes after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Climb {
+    pub at: Parameters,
+    pub here: Slope,
+    steps: usize,
+}
+
+impl Climb {
+    pub fn new(evidence: &Evidence, start: Parameters, robust: Robust) -> Self {
+        Self { at: start, here: evidence.slope(&start, robust), steps: 0 }
+    }
+
+    /// A step by the `free` α's; whether there is another one.
+    pub fn step(&mut self, evidence: &Evidence, free: &[usize], robust: Robust) -> bool {
+        let Self { at, here, .. } = *self;
+        self.steps += 1;
+        if self.steps > STEPS || are_nothing(&at.alphas, free) {
+            return false;
+        }
         let near = Near::new(evidence, at, &here);
         let (mut aim, mut top) = near.maximum(at.alphas, free);
         if at.bad.is_some() && near.edge.legs() > 0 && top.log_likelihood - here.log_likelihood < SETTLED {
@@ -221,7 +239,7 @@ pub(super) fn maximize(
         }
         let promised = top.log_likelihood - here.log_likelihood;
         if here.bad.is_none() && (promised.is_nan() || promised < ENOUGH) {
-            break;
+            return false;
         }
         let bad = here.bad.or(at.bad);
         let least = if bad.is_some() { 0.3 } else { LEAST };
@@ -235,13 +253,9 @@ pub(super) fn maximize(
         // Where bad legs cannot be told from others their least spread is in the way of what they are likely to be.
         let alone = || if promised >= GAINED { step(at.bad, LEAST) } else { None };
         let Some((to, there)) = step(bad, least).or_else(alone) else {
-            break;
+            return false;
         };
-        let gained = there.log_likelihood - here.log_likelihood;
-        (at, here) = (to, there);
-        if gained <= GAINED {
-            break;
-        }
+        (self.at, self.here) = (to, there);
+        there.log_likelihood - here.log_likelihood > GAINED
     }
-    (at, here)
 }

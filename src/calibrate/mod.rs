@@ -6,6 +6,7 @@
 //! has the formulas.
 
 mod bootstrap;
+mod calibrating;
 mod calibration;
 mod clock;
 mod density;
@@ -21,7 +22,8 @@ mod systematic;
 mod trajectory;
 mod undetermined;
 
-pub use calibration::{CalibrateError, Calibrating, Calibration, FEWEST, Options, ReferenceError, calibrate};
+pub use calibrating::Calibrating;
+pub use calibration::{CalibrateError, Calibration, FEWEST, Options, ReferenceError, calibrate};
 pub use doubts::{Doubts, HeldOut, Inflation, Judged, KindDoubts, Verdict};
 pub use leg_lengths::{AtLength, FACTORS};
 pub use legs::{Leg, LegLength, cut};

@@ -2,8 +2,7 @@
 
 use super::doubts::NORMAL_95;
 use super::likelihood::{Alphas, Evidence, Parameters, Robust, Slope};
-use super::maximum::{INSIDE, Near, maximize};
-use crate::noise::NoiseKind;
+use super::maximum::{Climb, INSIDE, NOTHING, Near, are_nothing};
 
 /// What the residuals say of the α's.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +24,9 @@ const HEIGHT: f64 = NORMAL_95;
 
 /// How well an end is found, as a share of that: a thousandth of the interval's length.
 const NEAR: f64 = 1e-3;
+
+/// Values that differ by so small a part of the likeliest one are one: of a perfect log an α may have no more room.
+const ROUNDING: f64 = 1e-12;
 
 /// Steps to an end; each is a pass over all legs. Of many legs one does.
 const STEPS: usize = 40;
@@ -61,36 +63,22 @@ pub(super) struct Fitted<'a> {
     pub free: Vec<usize>,
 }
 
+/// Of so many α's those of which some residual says anything.
+fn free(evidence: &Evidence, count: usize) -> Vec<usize> {
+    (0..count).filter(|k| evidence.told[*k]).collect()
+}
+
 impl<'a> Fitted<'a> {
     /// The maximum, from where another one was if that is known.
     pub fn new(evidence: &'a Evidence, count: usize, robust: Robust, near: Option<&Parameters>) -> Self {
-        let free: Vec<usize> = (0..count).filter(|k| evidence.told[*k]).collect();
-        let warm = near.map(|near| maximize(evidence, *near, &free, robust));
-        let (best, slope) = warm
-            .filter(|(_, slope)| slope.log_likelihood.is_finite())
-            .unwrap_or_else(|| maximize(evidence, Self::beginning(evidence, &free, robust), &free, robust));
-        Self { evidence, best, slope, free }
+        let mut search = Search::new(evidence, robust, near);
+        while !search.step(evidence, count) {}
+        Self::at(evidence, count, search.best())
     }
 
     /// A maximum that is known.
     pub fn at(evidence: &'a Evidence, count: usize, (best, slope): (Parameters, Slope)) -> Self {
-        Self { evidence, best, slope, free: (0..count).filter(|k| evidence.told[*k]).collect() }
-    }
-
-    /// Where to begin: triangular noise where it is likeliest as a normal one, and wide enough.
-    fn beginning(evidence: &Evidence, free: &[usize], robust: Robust) -> Parameters {
-        let normal = evidence.beginning(robust);
-        if evidence.noise == NoiseKind::Normal {
-            return normal;
-        }
-        let (start, _) = maximize(evidence, normal, free, robust);
-        let wider = if robust == Robust::No {
-            evidence.widening(&start.alphas, free, INSIDE * evidence.width())
-        } else {
-            // What is outside to begin with is bad, and stays outside.
-            1.0 + evidence.width()
-        };
-        Parameters { alphas: start.alphas.map(|alpha| alpha * wider), noise: evidence.noise, ..start }
+        Self { evidence, best, slope, free: free(evidence, count) }
     }
 
     /// What is told of it, with the intervals of its α's.
@@ -111,11 +99,70 @@ impl<'a> Fitted<'a> {
         if !self.free.contains(&alpha) {
             return None;
         }
+        // Of a perfect log: there is no maximum to fall from.
+        if are_nothing(&self.best.alphas, &self.free) {
+            return Some([0.0, NOTHING]);
+        }
         let others = self.free.iter().copied().filter(|k| *k != alpha).collect();
         let profile = Profile { fitted: self, alpha, others };
         let about = Near::new(self.evidence, self.best, &self.slope);
         let interval = [profile.end(&about, -1.0), profile.end(&about, 1.0)];
         (interval[0] > 0.0 || interval[1] <= ANYTHING).then_some(interval)
+    }
+}
+
+/// The search for a maximum, one step after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Search {
+    robust: Robust,
+    climb: Climb,
+    /// Whether it began where another maximum is.
+    warm: bool,
+    steps: usize,
+}
+
+impl Search {
+    /// From where another maximum was if that is known.
+    pub fn new(evidence: &Evidence, robust: Robust, near: Option<&Parameters>) -> Self {
+        let start = near.copied().unwrap_or_else(|| evidence.beginning(robust));
+        Self { robust, climb: Climb::new(evidence, start, robust), warm: near.is_some(), steps: 0 }
+    }
+
+    /// Goes on by a few passes; whether it is over.
+    pub fn step(&mut self, evidence: &Evidence, count: usize) -> bool {
+        let Self { robust, ref mut climb, warm, ref mut steps } = *self;
+        *steps += 1;
+        let free = free(evidence, count);
+        if climb.step(evidence, &free, robust) {
+            return false;
+        }
+        let start = if warm && !climb.here.log_likelihood.is_finite() {
+            evidence.beginning(robust)
+        } else if climb.at.noise != evidence.noise {
+            // Triangular noise begins where it is likeliest as a normal one, and wide enough.
+            let alphas = climb.at.alphas;
+            let wider = if robust == Robust::No {
+                evidence.widening(&alphas, &free, INSIDE * evidence.width())
+            } else {
+                // What is outside to begin with is bad, and stays outside.
+                1.0 + evidence.width()
+            };
+            Parameters { alphas: alphas.map(|alpha| alpha * wider), noise: evidence.noise, ..climb.at }
+        } else {
+            return true;
+        };
+        self.climb = Climb::new(evidence, start, robust);
+        self.warm = false;
+        false
+    }
+
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Where it came to.
+    pub fn best(&self) -> (Parameters, Slope) {
+        (self.climb.at, self.climb.here)
     }
 }
 
@@ -255,7 +302,7 @@ impl Bracket {
     }
 
     fn is_near(&self, value: f64, best: f64) -> bool {
-        (value - self.inside[0]).abs() < NEAR * (self.inside[0] - best).abs()
+        (value - self.inside[0]).abs() < (NEAR * (self.inside[0] - best).abs()).max(ROUNDING * best)
     }
 
     /// The false position, or the middle.

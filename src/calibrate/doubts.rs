@@ -77,7 +77,7 @@ pub enum Verdict {
 }
 
 /// What α's that are larger or smaller by a factor would make of the held-out half.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inflation {
     /// From a tenth to ten, evenly by their logarithms.
     pub factors: Vec<f64>,
@@ -189,7 +189,7 @@ impl Judged {
                 of.standardized(observation).iter().filter(|z| z.is_finite()).map(|z| z * z).sum();
             Self { squared_error, ..of }
         };
-        evidence.each(at).zip(observations).map(judged).collect()
+        evidence.each(at, 0..observations.len()).zip(observations).map(judged).collect()
     }
 
     /// r/σ of each residual; NaN of one that is not told, or of which nothing makes it uncertain.
@@ -219,21 +219,23 @@ impl Halves {
     /// Before the [`Self::fit`].
     pub fn new(
         model: Model,
-        noise: NoiseKind,
         robust: Robust,
+        all: &Evidence,
         observations: &[Observation],
         near: &Parameters,
     ) -> Self {
+        let noise = all.noise;
         let (fitted, held_out) = observations.split_at(half(observations));
-        let first = Evidence::new(model, noise, fitted);
+        let of = |half: &[Observation]| {
+            let mut evidence = Evidence::none(model, noise, all.work.clone());
+            half.iter().for_each(|each| evidence.add(each));
+            all.work.add(half.len());
+            evidence
+        };
+        let (first, evidence) = (of(fitted), of(held_out));
         let search = Search::new(&first, robust, Some(near));
-        let evidence = Evidence::new(model, noise, held_out);
         let observations = held_out.to_vec();
         Self { model, noise, first, search, best: *near, of_fit: UNKNOWN, evidence, observations }
-    }
-
-    pub fn search(&self) -> &Search {
-        &self.search
     }
 
     /// Goes on by a few passes; whether the first half is fitted.
@@ -282,16 +284,15 @@ impl Halves {
         }
     }
 
-    pub fn inflation(&self) -> Inflation {
-        let factors: Vec<f64> =
-            (-FACTORS..=FACTORS).map(|k| libm::exp10(f64::from(k) / f64::from(FACTORS))).collect();
-        let at =
-            |factor: &f64| Parameters { alphas: self.best.alphas.map(|alpha| factor * alpha), ..self.best };
-        Inflation {
-            coverage: factors.iter().map(|factor| self.coverage(&self.standardized(&at(factor)))).collect(),
-            log_likelihood: factors.iter().map(|factor| self.log_likelihood(&at(factor))).collect(),
-            factors,
-        }
+    /// By one factor more; whether that was the last one.
+    pub fn inflate(&self, inflation: &mut Inflation) -> bool {
+        let done = inflation.factors.len() as i32;
+        let factor = libm::exp10(f64::from(done - FACTORS) / f64::from(FACTORS));
+        let at = Parameters { alphas: self.best.alphas.map(|alpha| factor * alpha), ..self.best };
+        inflation.factors.push(factor);
+        inflation.coverage.push(self.coverage(&self.standardized(&at)));
+        inflation.log_likelihood.push(self.log_likelihood(&at));
+        done == 2 * FACTORS
     }
 }
 

@@ -108,33 +108,32 @@ const GAINED: f64 = 1e-4;
 
 /// The likelihood near a point: of legs at the edge of their triangle exactly, which are few, of all others the parabola there.
 #[derive(Clone, Debug)]
-pub(super) struct Near<'a> {
-    evidence: &'a Evidence,
+pub(super) struct Near {
     pub at: Parameters,
     rest: Slope,
     edge: Evidence,
+    /// That of the edge of all legs.
+    width: f64,
 }
 
-impl<'a> Near<'a> {
+impl Near {
     /// About a point where the likelihood is that.
-    pub fn new(evidence: &'a Evidence, at: Parameters, here: &Slope) -> Self {
-        let edge = evidence.edge(&at);
-        Self::with_edge(evidence, at, here, edge)
+    pub fn new(evidence: &Evidence, at: Parameters, here: &Slope) -> Self {
+        Self::with_edge(at, here, evidence.edge(&at), evidence.width())
     }
 
     /// Elsewhere, where the same legs are at the edge.
     pub fn moved(&self, at: Parameters, here: &Slope) -> Self {
-        Self::with_edge(self.evidence, at, here, self.edge.clone())
+        Self::with_edge(at, here, self.edge.clone(), self.width)
     }
 
-    fn with_edge(evidence: &'a Evidence, at: Parameters, here: &Slope, edge: Evidence) -> Self {
-        let mut near = Self { evidence, at, rest: *here, edge };
+    fn with_edge(at: Parameters, here: &Slope, edge: Evidence, width: f64) -> Self {
+        let mut near = Self { at, rest: *here, edge, width };
         near.rest = here.plus(&near.of_edge(&at.alphas), -1.0);
         near
     }
 
     fn of_edge(&self, alphas: &Alphas) -> Slope {
-        self.evidence.visit(self.edge.legs());
         self.edge.slope(&Parameters { alphas: *alphas, ..self.at }, Robust::No)
     }
 
@@ -147,7 +146,7 @@ impl<'a> Near<'a> {
         // Residuals outside of their triangles have to be inside first.
         let mut here = self.slope(&at);
         if here.log_likelihood == f64::NEG_INFINITY && self.edge.legs() > 0 {
-            let wider = self.edge.widening(&at, free, INSIDE * self.evidence.width());
+            let wider = self.edge.widening(&at, free, INSIDE * self.width);
             if wider < WIDEST {
                 free.iter().for_each(|k| at[*k] *= wider);
                 here = self.slope(&at);
@@ -178,10 +177,10 @@ impl<'a> Near<'a> {
 
     /// With bad legs every one that is in its triangle or out of it makes a maximum of its own. The likeliest of those nearby.
     fn hop(&self, at: &mut Alphas, here: &mut Slope, free: &[usize]) {
-        for pair in self.evidence.pairs {
+        for pair in self.edge.pairs {
             for share in HOPS {
                 let mut from = *at;
-                pair.iter().for_each(|k| from[*k] *= 1.0 + share * self.evidence.width());
+                pair.iter().for_each(|k| from[*k] *= 1.0 + share * self.width);
                 let (to, there) = self.maximum(from, free);
                 if there.log_likelihood > here.log_likelihood + GAINED {
                     (*at, *here) = (to, there);

@@ -11,6 +11,7 @@ mod calibration;
 mod clock;
 mod density;
 mod doubts;
+mod judging;
 mod leg_lengths;
 mod legs;
 mod likelihood;
@@ -21,6 +22,7 @@ mod profile;
 mod systematic;
 mod trajectory;
 mod undetermined;
+mod work;
 
 pub use calibrating::Calibrating;
 pub use calibration::{CalibrateError, Calibration, FEWEST, Options, ReferenceError, calibrate};

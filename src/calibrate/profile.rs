@@ -96,18 +96,48 @@ impl<'a> Fitted<'a> {
 
     /// The 95 % interval of an α; none where the log does not determine it.
     pub fn interval(&self, alpha: usize) -> Option<[f64; 2]> {
-        if !self.free.contains(&alpha) {
-            return None;
+        let mut ends = Ends::new(self, alpha);
+        loop {
+            if let Some(interval) = ends.step(self) {
+                return interval;
+            }
+        }
+    }
+}
+
+/// The search for the 95 % interval of an α, one step after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Ends {
+    alpha: usize,
+    about: Near,
+    lower: Option<f64>,
+    end: End,
+}
+
+impl Ends {
+    pub fn new(fitted: &Fitted, alpha: usize) -> Self {
+        let about = Near::new(fitted.evidence, fitted.best, &fitted.slope);
+        Self { alpha, about, lower: None, end: End::new(fitted.best.alphas[alpha], -1.0) }
+    }
+
+    /// Goes on by a few passes; the interval after the last step, none where the log does not determine it.
+    pub fn step(&mut self, fitted: &Fitted) -> Option<Option<[f64; 2]>> {
+        let Self { alpha, ref about, lower, ref mut end } = *self;
+        if !fitted.free.contains(&alpha) {
+            return Some(None);
         }
         // Of a perfect log: there is no maximum to fall from.
-        if are_nothing(&self.best.alphas, &self.free) {
-            return Some([0.0, NOTHING]);
+        if are_nothing(&fitted.best.alphas, &fitted.free) {
+            return Some(Some([0.0, NOTHING]));
         }
-        let others = self.free.iter().copied().filter(|k| *k != alpha).collect();
-        let profile = Profile { fitted: self, alpha, others };
-        let about = Near::new(self.evidence, self.best, &self.slope);
-        let interval = [profile.end(&about, -1.0), profile.end(&about, 1.0)];
-        (interval[0] > 0.0 || interval[1] <= ANYTHING).then_some(interval)
+        let others = fitted.free.iter().copied().filter(|k| *k != alpha).collect();
+        let found = Profile { fitted, alpha, others }.step(about, end)?;
+        let Some(lower) = lower else {
+            self.lower = Some(found);
+            self.end = End::new(fitted.best.alphas[alpha], 1.0);
+            return None;
+        };
+        Some((lower > 0.0 || found <= ANYTHING).then_some([lower, found]))
     }
 }
 
@@ -118,20 +148,18 @@ pub(super) struct Search {
     climb: Climb,
     /// Whether it began where another maximum is.
     warm: bool,
-    steps: usize,
 }
 
 impl Search {
     /// From where another maximum was if that is known.
     pub fn new(evidence: &Evidence, robust: Robust, near: Option<&Parameters>) -> Self {
         let start = near.copied().unwrap_or_else(|| evidence.beginning(robust));
-        Self { robust, climb: Climb::new(evidence, start, robust), warm: near.is_some(), steps: 0 }
+        Self { robust, climb: Climb::new(evidence, start, robust), warm: near.is_some() }
     }
 
     /// Goes on by a few passes; whether it is over.
     pub fn step(&mut self, evidence: &Evidence, count: usize) -> bool {
-        let Self { robust, ref mut climb, warm, ref mut steps } = *self;
-        *steps += 1;
+        let Self { robust, ref mut climb, warm } = *self;
         let free = free(evidence, count);
         if climb.step(evidence, &free, robust) {
             return false;
@@ -154,10 +182,6 @@ impl Search {
         self.climb = Climb::new(evidence, start, robust);
         self.warm = false;
         false
-    }
-
-    pub fn steps(&self) -> usize {
-        self.steps
     }
 
     /// Where it came to.
@@ -195,49 +219,50 @@ impl Profile<'_> {
         self.fitted.best.alphas[self.alpha]
     }
 
-    /// The lower end, on side −1, or the upper one, on side 1: where what is near the maximum has it, then what is near that place, until
-    /// it stays. 0 or infinity where the likelihood does not fall enough.
-    fn end(&self, about: &Near, side: f64) -> f64 {
+    /// Goes on by a few passes to an end: where what is near the maximum has it, then what is near that place, until it stays. 0 or infinity
+    /// where the likelihood does not fall enough.
+    fn step(&self, about: &Near, end: &mut End) -> Option<f64> {
         let evidence = self.fitted.evidence;
-        let last = if side < 0.0 { 0.0 } else { f64::INFINITY };
+        let End { side, last, step, ref mut bracket, ref mut moved } = *end;
         if self.best() == last {
-            return last;
+            return Some(last);
         }
-        let mut bracket = Bracket { inside: [self.best(), 0.0], outside: [last, f64::NAN] };
-        let mut moved: Option<Near> = None;
-        for step in 0..STEPS {
-            let near = moved.as_ref().unwrap_or(about);
-            // Every third step halves, so that no end stays for good.
-            let halve = bracket.outside[1] == f64::INFINITY || step % 3 == 2 && bracket.is_closed();
-            let value = if halve { bracket.between(true) } else { self.crossing(near, &bracket, side) };
-            if step > 0 && bracket.is_near(value, self.best()) {
-                return value;
-            }
-            let (alphas, _) = self.beside(near, value);
-            let to = Parameters { alphas, ..about.at };
-            let here = evidence.slope(&to, Robust::No);
-            if !here.log_likelihood.is_finite() {
-                bracket.outside = [value, f64::INFINITY];
-                continue;
-            }
-            let near = if step == 0 { about.moved(to, &here) } else { Near::new(evidence, to, &here) };
-            let (_, top) = near.maximum(alphas, &self.others);
-            let root = self.root(&top);
-            bracket.narrow(value, root);
-            let off = (root / HEIGHT - 1.0).abs();
-            let settled = top.log_likelihood - here.log_likelihood < SLIGHT;
-            if settled && off < NEAR || value == last && root <= HEIGHT || bracket.is_narrow(self.best()) {
-                return value;
-            }
-            if settled && off < CLOSE {
-                return self.crossing(&near, &bracket, side);
-            }
-            if value > FARTHEST {
-                break;
-            }
-            moved = Some(near);
+        let ended = |bracket: &Bracket| Some(if bracket.is_closed() { bracket.inside[0] } else { last });
+        if step == STEPS {
+            return ended(bracket);
         }
-        if bracket.is_closed() { bracket.inside[0] } else { last }
+        end.step += 1;
+        let near = moved.as_ref().unwrap_or(about);
+        // Every third step halves, so that no end stays for good.
+        let halve = bracket.outside[1] == f64::INFINITY || step % 3 == 2 && bracket.is_closed();
+        let value = if halve { bracket.between(true) } else { self.crossing(near, bracket, side) };
+        if step > 0 && bracket.is_near(value, self.best()) {
+            return Some(value);
+        }
+        let (alphas, _) = self.beside(near, value);
+        let to = Parameters { alphas, ..about.at };
+        let here = evidence.slope(&to, Robust::No);
+        if !here.log_likelihood.is_finite() {
+            bracket.outside = [value, f64::INFINITY];
+            return None;
+        }
+        let near = if step == 0 { about.moved(to, &here) } else { Near::new(evidence, to, &here) };
+        let (_, top) = near.maximum(alphas, &self.others);
+        let root = self.root(&top);
+        bracket.narrow(value, root);
+        let off = (root / HEIGHT - 1.0).abs();
+        let settled = top.log_likelihood - here.log_likelihood < SLIGHT;
+        if settled && off < NEAR || value == last && root <= HEIGHT || bracket.is_narrow(self.best()) {
+            return Some(value);
+        }
+        if settled && off < CLOSE {
+            return Some(self.crossing(&near, bracket, side));
+        }
+        if value > FARTHEST {
+            return ended(bracket);
+        }
+        *moved = Some(near);
+        None
     }
 
     /// Where what is near a point falls as far as at the end, or a place on the way there.
@@ -273,6 +298,26 @@ impl Profile<'_> {
             bracket.narrow(value, root);
         }
         bracket.inside[0]
+    }
+}
+
+/// One end of an interval, being sought: the lower one, on side −1, or the upper one, on side 1.
+#[derive(Clone, Debug)]
+struct End {
+    side: f64,
+    /// Where it is if the likelihood does not fall enough.
+    last: f64,
+    step: usize,
+    bracket: Bracket,
+    /// About where the latest step came to.
+    moved: Option<Near>,
+}
+
+impl End {
+    fn new(best: f64, side: f64) -> Self {
+        let last = if side < 0.0 { 0.0 } else { f64::INFINITY };
+        let bracket = Bracket { inside: [best, 0.0], outside: [last, f64::NAN] };
+        Self { side, last, step: 0, bracket, moved: None }
     }
 }
 

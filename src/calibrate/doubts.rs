@@ -2,7 +2,7 @@
 
 use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
 use super::model::{Model, Observation};
-use super::profile::Fitted;
+use super::profile::Search;
 use super::systematic::{Square, sweep};
 use super::trajectory::sort;
 use crate::noise::NoiseKind;
@@ -77,7 +77,7 @@ pub enum Verdict {
 }
 
 /// What α's that are larger or smaller by a factor would make of the held-out half.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inflation {
     /// From a tenth to ten, evenly by their logarithms.
     pub factors: Vec<f64>,
@@ -189,7 +189,7 @@ impl Judged {
                 of.standardized(observation).iter().filter(|z| z.is_finite()).map(|z| z * z).sum();
             Self { squared_error, ..of }
         };
-        evidence.each(at).zip(observations).map(judged).collect()
+        evidence.each(at, 0..observations.len()).zip(observations).map(judged).collect()
     }
 
     /// r/σ of each residual; NaN of one that is not told, or of which nothing makes it uncertain.
@@ -202,31 +202,52 @@ impl Judged {
 }
 
 /// A fit to the first half of the log, and the second.
+#[derive(Clone, Debug)]
 pub(super) struct Halves {
+    model: Model,
+    noise: NoiseKind,
+    first: Evidence,
+    search: Search,
     best: Parameters,
     /// Of the logarithm of the held-out residuals' variances, in the mean, by what is uncertain of the fit.
     of_fit: f64,
     evidence: Evidence,
     observations: Vec<Observation>,
-    noise: NoiseKind,
 }
 
 impl Halves {
+    /// Before the [`Self::fit`].
     pub fn new(
         model: Model,
-        noise: NoiseKind,
         robust: Robust,
+        all: &Evidence,
         observations: &[Observation],
         near: &Parameters,
     ) -> Self {
+        let noise = all.noise;
         let (fitted, held_out) = observations.split_at(half(observations));
-        let seen = Evidence::new(model, noise, fitted);
-        let fit = Fitted::new(&seen, model.alphas(), robust, Some(near));
-        let evidence = Evidence::new(model, noise, held_out);
-        let ((mean, _), (_, squares)) =
-            (evidence.log_variances_by(&fit.best), seen.log_variances_by(&fit.best));
-        let of_fit = ((shape(noise).kurtosis - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
-        Self { best: fit.best, of_fit, evidence, observations: held_out.to_vec(), noise }
+        let of = |half: &[Observation]| {
+            let mut evidence = Evidence::none(model, noise, all.work.clone());
+            half.iter().for_each(|each| evidence.add(each));
+            all.work.add(half.len());
+            evidence
+        };
+        let (first, evidence) = (of(fitted), of(held_out));
+        let search = Search::new(&first, robust, Some(near));
+        let observations = held_out.to_vec();
+        Self { model, noise, first, search, best: *near, of_fit: UNKNOWN, evidence, observations }
+    }
+
+    /// Goes on by a few passes; whether the first half is fitted.
+    pub fn fit(&mut self) -> bool {
+        let found = self.search.step(&self.first, self.model.alphas());
+        if found {
+            self.best = self.search.best().0;
+            let [(_, squares), (mean, _)] =
+                [&self.first, &self.evidence].map(|half| half.log_variances_by(&self.best));
+            self.of_fit = ((shape(self.noise).kurtosis - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
+        }
+        found
     }
 
     /// Standardized residuals of the held-out half, its bad legs left out, if the α's are larger by a factor.
@@ -263,16 +284,15 @@ impl Halves {
         }
     }
 
-    pub fn inflation(&self) -> Inflation {
-        let factors: Vec<f64> =
-            (-FACTORS..=FACTORS).map(|k| libm::exp10(f64::from(k) / f64::from(FACTORS))).collect();
-        let at =
-            |factor: &f64| Parameters { alphas: self.best.alphas.map(|alpha| factor * alpha), ..self.best };
-        Inflation {
-            coverage: factors.iter().map(|factor| self.coverage(&self.standardized(&at(factor)))).collect(),
-            log_likelihood: factors.iter().map(|factor| self.log_likelihood(&at(factor))).collect(),
-            factors,
-        }
+    /// By one factor more; whether that was the last one.
+    pub fn inflate(&self, inflation: &mut Inflation) -> bool {
+        let done = inflation.factors.len() as i32;
+        let factor = libm::exp10(f64::from(done - FACTORS) / f64::from(FACTORS));
+        let at = Parameters { alphas: self.best.alphas.map(|alpha| factor * alpha), ..self.best };
+        inflation.factors.push(factor);
+        inflation.coverage.push(self.coverage(&self.standardized(&at)));
+        inflation.log_likelihood.push(self.log_likelihood(&at));
+        done == 2 * FACTORS
     }
 }
 

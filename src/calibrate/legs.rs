@@ -72,7 +72,7 @@ impl Leg {
 }
 
 /// One end of a leg.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct End {
     /// By the clock of the odometry, s.
     time: f64,
@@ -117,36 +117,64 @@ impl Log<'_> {
 ///
 /// `clock_offset` (s) is how far the reference's clock is ahead of the odometry's.
 pub fn cut(odometry: &Trajectory, reference: &Trajectory, length: LegLength, clock_offset: f64) -> Vec<Leg> {
-    let sparse = reference.usual_step() > SPARSER * odometry.usual_step();
-    let log = Log { odometry, reference, clock_offset, sparse };
-    let mut legs = Vec::new();
-    // The reading with which a leg began, and its end there.
-    let mut began: Option<(f64, SE2, Option<End>)> = None;
-    for (sample, (time, reading)) in odometry.samples().enumerate() {
-        let Some((start_time, start_reading, start)) = began.filter(|_| !odometry.has_gap_before(sample))
-        else {
-            began = Some((time, reading, log.end_at(sample, time, reading)));
-            continue;
-        };
-        if !length.ends(time, &reading, (start_time, start_reading)) {
-            continue;
-        }
-        let end = log.end_at(sample, time, reading);
-        // A reference that has fewer samples than there are legs ends one as soon as it has another.
-        if start.zip(end).is_some_and(|(start, end)| end.time <= start.time) {
-            continue;
-        }
-        began = Some((time, reading, end));
-        let Some((start, end)) = start.zip(end) else { continue };
-        if reference.has_gap(start.time + clock_offset, end.time + clock_offset) {
-            continue;
-        }
-        legs.push(Leg {
-            times: [start.time, end.time],
-            odometry: [start.reading, end.reading],
-            velocities: [start.velocity, end.velocity],
-            reference: [start.truth, end.truth],
-        });
+    let mut cutting = Cutting::new(length, clock_offset);
+    cutting.go_on(odometry, reference, odometry.samples().len());
+    cutting.legs
+}
+
+/// A log being cut, from its first row on.
+#[derive(Clone, Debug)]
+pub(super) struct Cutting {
+    length: LegLength,
+    clock_offset: f64,
+    /// The next sample of the odometry.
+    next: usize,
+    /// The reading with which a leg began, and its end there.
+    began: Option<(f64, SE2, Option<End>)>,
+    pub legs: Vec<Leg>,
+}
+
+impl Cutting {
+    pub fn new(length: LegLength, clock_offset: f64) -> Self {
+        Self { length, clock_offset, next: 0, began: None, legs: Vec::new() }
     }
-    legs
+
+    /// Goes on by so many rows of the odometry; whether all of it is cut.
+    pub fn go_on(&mut self, odometry: &Trajectory, reference: &Trajectory, rows: usize) -> bool {
+        let Self { length, clock_offset, .. } = *self;
+        let sparse = reference.usual_step() > SPARSER * odometry.usual_step();
+        let log = Log { odometry, reference, clock_offset, sparse };
+        let all = odometry.samples().len();
+        let until = all.min(self.next + rows);
+        for sample in self.next..until {
+            let (time, reading) = odometry.sample(sample);
+            let Some((start_time, start_reading, start)) =
+                self.began.filter(|_| !odometry.has_gap_before(sample))
+            else {
+                self.began = Some((time, reading, log.end_at(sample, time, reading)));
+                continue;
+            };
+            if !length.ends(time, &reading, (start_time, start_reading)) {
+                continue;
+            }
+            let end = log.end_at(sample, time, reading);
+            // A reference that has fewer samples than there are legs ends one as soon as it has another.
+            if start.zip(end).is_some_and(|(start, end)| end.time <= start.time) {
+                continue;
+            }
+            self.began = Some((time, reading, end));
+            let Some((start, end)) = start.zip(end) else { continue };
+            if reference.has_gap(start.time + clock_offset, end.time + clock_offset) {
+                continue;
+            }
+            self.legs.push(Leg {
+                times: [start.time, end.time],
+                odometry: [start.reading, end.reading],
+                velocities: [start.velocity, end.velocity],
+                reference: [start.truth, end.truth],
+            });
+        }
+        self.next = until;
+        until == all
+    }
 }

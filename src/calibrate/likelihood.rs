@@ -3,8 +3,9 @@
 use super::density::{Density, LogProduct};
 use super::model::{Model, Observation};
 use super::trajectory::sort;
+use super::work::Work;
 use crate::noise::NoiseKind;
-use std::cell::Cell;
+use std::ops::Range;
 
 /// What the α's are at a point: of as many as there may be, six.
 pub(super) type Alphas = [f64; 6];
@@ -43,8 +44,7 @@ pub struct Evidence {
     /// The α's of which some residual says anything.
     pub(super) told: [bool; 6],
     other_ways: Vec<[f64; 3]>,
-    /// Rows that were gone through.
-    visits: Cell<usize>,
+    pub(super) work: Work,
 }
 
 impl Evidence {
@@ -53,20 +53,19 @@ impl Evidence {
         noise: NoiseKind,
         observations: impl IntoIterator<Item = &'a Observation>,
     ) -> Self {
-        let mut evidence = Self {
-            pairs: model.kinds().map(|kind| kind.alphas),
-            noise,
-            rows: Vec::new(),
-            told: [false; 6],
-            other_ways: Vec::new(),
-            visits: Cell::new(0),
-        };
+        let mut evidence = Self::none(model, noise, Work::default());
         observations.into_iter().for_each(|each| evidence.add(each));
         evidence
     }
 
+    /// Of no legs yet; what it costs to go through them is counted as work.
+    pub(super) fn none(model: Model, noise: NoiseKind, work: Work) -> Self {
+        let pairs = model.kinds().map(|kind| kind.alphas);
+        Self { pairs, noise, rows: Vec::new(), told: [false; 6], other_ways: Vec::new(), work }
+    }
+
     /// A residual that nothing would make uncertain is not told: its variance is 0 under all α's.
-    fn add(&mut self, observation: &Observation) {
+    pub(super) fn add(&mut self, observation: &Observation) {
         let Observation { residuals, coefficients, floors, other_way, .. } = observation;
         let told: [bool; 3] = std::array::from_fn(|k| {
             residuals[k].is_finite() && (coefficients[k] != [0.0; 2] || floors[k] > 0.0)
@@ -90,7 +89,7 @@ impl Evidence {
 
     /// How often all legs were gone through so far; parts of them count as such.
     pub fn passes(&self) -> f64 {
-        self.visits.get() as f64 / self.rows.len() as f64
+        self.work.total() as f64 / self.rows.len() as f64
     }
 
     fn residuals_told(&self) -> usize {
@@ -100,6 +99,7 @@ impl Evidence {
     /// Where to begin, as if noise were normal: of each kind its two α's answer for half of what is there, without the hundredths that
     /// are far from the rest.
     pub(super) fn beginning(&self, robust: Robust) -> Parameters {
+        self.work.add(self.rows.len());
         let mut alphas = [0.0f64; 6];
         let mut spreads = [1.0; 3];
         for (kind, pair) in self.pairs.iter().enumerate() {
@@ -147,7 +147,7 @@ impl Evidence {
     /// By what factor, 1 or more, these α's have to be larger for all residuals to be inside of their triangles by this share of their
     /// length; not finite where no factor is large enough.
     pub(super) fn widening(&self, alphas: &Alphas, widened: &[usize], share: f64) -> f64 {
-        self.visit(self.rows.len());
+        self.work.add(self.rows.len());
         let part = 6.0 * (1.0 - share) * (1.0 - share);
         let (mut others, mut these) = (*alphas, [0.0; 6]);
         for &k in widened {
@@ -169,11 +169,12 @@ impl Evidence {
     /// The legs with a residual so near to the edge of its triangle (in its length) that no parabola has their likelihood;
     /// of normal noise none.
     pub(super) fn edge(&self, at: &Parameters) -> Self {
-        let mut edge = Self { rows: Vec::new(), other_ways: Vec::new(), visits: Cell::new(0), ..*self };
+        let work = self.work.clone();
+        let mut edge = Self { rows: Vec::new(), other_ways: Vec::new(), work, ..*self };
         if at.noise == NoiseKind::Normal {
             return edge;
         }
-        self.visit(self.rows.len());
+        self.work.add(self.rows.len());
         let width = self.width();
         let [least, most] = [1.0 - width, 1.0 + width].map(|ratio| 6.0 * ratio * ratio);
         for row in &self.rows {
@@ -196,6 +197,7 @@ impl Evidence {
 
     /// How far a step may go without any residual leaving its triangle, as a share of it.
     pub(super) fn reach(&self, from: &Alphas, to: &Alphas) -> f64 {
+        self.work.add(self.rows.len());
         let mut reach: f64 = 1.0;
         for row in &self.rows {
             let [before, after] = [from, to].map(|alphas| self.variances(row, alphas));
@@ -212,10 +214,6 @@ impl Evidence {
 
     pub(super) fn legs(&self) -> usize {
         self.rows.len()
-    }
-
-    pub(super) fn visit(&self, rows: usize) {
-        self.visits.set(self.visits.get() + rows);
     }
 
     #[inline(always)]
@@ -249,7 +247,7 @@ impl Evidence {
     /// The logarithm of the likelihood (nats), its derivatives, and what Fisher expects of the second ones. With `robust` also what the
     /// bad legs are likely to be if this is what the others are.
     pub(super) fn slope(&self, at: &Parameters, robust: Robust) -> Slope {
-        self.visit(self.rows.len());
+        self.work.add(self.rows.len());
         let mut logs = LogProduct::EMPTY;
         let (mut exponents, mut gradients, mut informations) = (0.0, [[0.0; 2]; 3], [[0.0; 3]; 3]);
         let mut again = at.bad.filter(|_| robust != Robust::No).map(BadAgain::new);
@@ -292,9 +290,10 @@ impl Evidence {
         slope
     }
 
-    /// Of every leg: its variances, the probability that it is bad, and the derivatives of its logarithm by the α's.
-    pub(super) fn each(&self, at: &Parameters) -> impl Iterator<Item = LegDensity> {
-        self.rows.iter().map(move |row| {
+    /// Of each of these legs: its variances, the probability that it is bad, and the derivatives of its logarithm by the α's.
+    pub(super) fn each(&self, at: &Parameters, legs: Range<usize>) -> impl Iterator<Item = LegDensity> {
+        self.work.add(legs.len());
+        self.rows[legs].iter().map(move |row| {
             let variances = self.variances(row, &at.alphas);
             let (density, bad) = self.density(row, &variances, at);
             let mut gradient = [0.0; 6];
@@ -312,6 +311,7 @@ impl Evidence {
 
     /// By how much the logarithms of the residuals' variances change with each α: in the mean, and Σ of the squares and products.
     pub(super) fn log_variances_by(&self, at: &Parameters) -> (Alphas, [Alphas; 6]) {
+        self.work.add(self.rows.len());
         let (mut count, mut mean, mut squares) = (0.0, [0.0; 6], [[0.0; 6]; 6]);
         for row in &self.rows {
             let variances = self.variances(row, &at.alphas);

@@ -71,6 +71,14 @@ const SWEEPS: usize = 300;
 /// Of the whole: five are usual.
 const STEPS: usize = 60;
 
+/// α's below are none: an error of ten nanometres in a metre is rounding, and of a perfect log ever smaller ones are ever likelier.
+pub(super) const NOTHING: f64 = 1e-16;
+
+/// Whether all of these are.
+pub(super) fn are_nothing(alphas: &Alphas, free: &[usize]) -> bool {
+    free.iter().all(|k| alphas[*k] < NOTHING)
+}
+
 /// A residual is inside of its triangle to begin with by this share of the width of its edge.
 pub(super) const INSIDE: f64 = 0.1;
 
@@ -100,33 +108,32 @@ const GAINED: f64 = 1e-4;
 
 /// The likelihood near a point: of legs at the edge of their triangle exactly, which are few, of all others the parabola there.
 #[derive(Clone, Debug)]
-pub(super) struct Near<'a> {
-    evidence: &'a Evidence,
+pub(super) struct Near {
     pub at: Parameters,
     rest: Slope,
     edge: Evidence,
+    /// That of the edge of all legs.
+    width: f64,
 }
 
-impl<'a> Near<'a> {
+impl Near {
     /// About a point where the likelihood is that.
-    pub fn new(evidence: &'a Evidence, at: Parameters, here: &Slope) -> Self {
-        let edge = evidence.edge(&at);
-        Self::with_edge(evidence, at, here, edge)
+    pub fn new(evidence: &Evidence, at: Parameters, here: &Slope) -> Self {
+        Self::with_edge(at, here, evidence.edge(&at), evidence.width())
     }
 
     /// Elsewhere, where the same legs are at the edge.
     pub fn moved(&self, at: Parameters, here: &Slope) -> Self {
-        Self::with_edge(self.evidence, at, here, self.edge.clone())
+        Self::with_edge(at, here, self.edge.clone(), self.width)
     }
 
-    fn with_edge(evidence: &'a Evidence, at: Parameters, here: &Slope, edge: Evidence) -> Self {
-        let mut near = Self { evidence, at, rest: *here, edge };
+    fn with_edge(at: Parameters, here: &Slope, edge: Evidence, width: f64) -> Self {
+        let mut near = Self { at, rest: *here, edge, width };
         near.rest = here.plus(&near.of_edge(&at.alphas), -1.0);
         near
     }
 
     fn of_edge(&self, alphas: &Alphas) -> Slope {
-        self.evidence.visit(self.edge.legs());
         self.edge.slope(&Parameters { alphas: *alphas, ..self.at }, Robust::No)
     }
 
@@ -139,7 +146,7 @@ impl<'a> Near<'a> {
         // Residuals outside of their triangles have to be inside first.
         let mut here = self.slope(&at);
         if here.log_likelihood == f64::NEG_INFINITY && self.edge.legs() > 0 {
-            let wider = self.edge.widening(&at, free, INSIDE * self.evidence.width());
+            let wider = self.edge.widening(&at, free, INSIDE * self.width);
             if wider < WIDEST {
                 free.iter().for_each(|k| at[*k] *= wider);
                 here = self.slope(&at);
@@ -170,10 +177,10 @@ impl<'a> Near<'a> {
 
     /// With bad legs every one that is in its triangle or out of it makes a maximum of its own. The likeliest of those nearby.
     fn hop(&self, at: &mut Alphas, here: &mut Slope, free: &[usize]) {
-        for pair in self.evidence.pairs {
+        for pair in self.edge.pairs {
             for share in HOPS {
                 let mut from = *at;
-                pair.iter().for_each(|k| from[*k] *= 1.0 + share * self.evidence.width());
+                pair.iter().for_each(|k| from[*k] *= 1.0 + share * self.width);
                 let (to, there) = self.maximum(from, free);
                 if there.log_likelihood > here.log_likelihood + GAINED {
                     (*at, *here) = (to, there);
@@ -204,16 +211,26 @@ fn likelier(
     None
 }
 
-/// The parameters under which the legs are likeliest, from `start` on; α's that are not `free` stay as they are.
-pub(super) fn maximize(
-    evidence: &Evidence,
-    start: Parameters,
-    free: &[usize],
-    robust: Robust,
-) -> (Parameters, Slope) {
-    let mut at = start;
-    let mut here = evidence.slope(&at, robust);
-    for _ in 0..STEPS {
+/// The way to the parameters under which the legs are likeliest, one step of a few passes after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Climb {
+    pub at: Parameters,
+    pub here: Slope,
+    steps: usize,
+}
+
+impl Climb {
+    pub fn new(evidence: &Evidence, start: Parameters, robust: Robust) -> Self {
+        Self { at: start, here: evidence.slope(&start, robust), steps: 0 }
+    }
+
+    /// A step by the `free` α's; whether there is another one.
+    pub fn step(&mut self, evidence: &Evidence, free: &[usize], robust: Robust) -> bool {
+        let Self { at, here, .. } = *self;
+        self.steps += 1;
+        if self.steps > STEPS || are_nothing(&at.alphas, free) {
+            return false;
+        }
         let near = Near::new(evidence, at, &here);
         let (mut aim, mut top) = near.maximum(at.alphas, free);
         if at.bad.is_some() && near.edge.legs() > 0 && top.log_likelihood - here.log_likelihood < SETTLED {
@@ -221,7 +238,7 @@ pub(super) fn maximize(
         }
         let promised = top.log_likelihood - here.log_likelihood;
         if here.bad.is_none() && (promised.is_nan() || promised < ENOUGH) {
-            break;
+            return false;
         }
         let bad = here.bad.or(at.bad);
         let least = if bad.is_some() { 0.3 } else { LEAST };
@@ -235,13 +252,9 @@ pub(super) fn maximize(
         // Where bad legs cannot be told from others their least spread is in the way of what they are likely to be.
         let alone = || if promised >= GAINED { step(at.bad, LEAST) } else { None };
         let Some((to, there)) = step(bad, least).or_else(alone) else {
-            break;
+            return false;
         };
-        let gained = there.log_likelihood - here.log_likelihood;
-        (at, here) = (to, there);
-        if gained <= GAINED {
-            break;
-        }
+        (self.at, self.here) = (to, there);
+        there.log_likelihood - here.log_likelihood > GAINED
     }
-    (at, here)
 }

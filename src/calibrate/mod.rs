@@ -6,10 +6,12 @@
 //! has the formulas.
 
 mod bootstrap;
+mod calibrating;
 mod calibration;
 mod clock;
 mod density;
 mod doubts;
+mod judging;
 mod leg_lengths;
 mod legs;
 mod likelihood;
@@ -20,8 +22,10 @@ mod profile;
 mod systematic;
 mod trajectory;
 mod undetermined;
+mod work;
 
-pub use calibration::{CalibrateError, Calibrating, Calibration, FEWEST, Options, ReferenceError, calibrate};
+pub use calibrating::Calibrating;
+pub use calibration::{CalibrateError, Calibration, FEWEST, Options, ReferenceError, calibrate};
 pub use doubts::{Doubts, HeldOut, Inflation, Judged, KindDoubts, Verdict};
 pub use leg_lengths::{AtLength, FACTORS};
 pub use legs::{Leg, LegLength, cut};

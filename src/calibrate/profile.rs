@@ -2,8 +2,7 @@
 
 use super::doubts::NORMAL_95;
 use super::likelihood::{Alphas, Evidence, Parameters, Robust, Slope};
-use super::maximum::{INSIDE, Near, maximize};
-use crate::noise::NoiseKind;
+use super::maximum::{Climb, INSIDE, NOTHING, Near, are_nothing};
 
 /// What the residuals say of the α's.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +24,9 @@ const HEIGHT: f64 = NORMAL_95;
 
 /// How well an end is found, as a share of that: a thousandth of the interval's length.
 const NEAR: f64 = 1e-3;
+
+/// Values that differ by so small a part of the likeliest one are one: of a perfect log an α may have no more room.
+const ROUNDING: f64 = 1e-12;
 
 /// Steps to an end; each is a pass over all legs. Of many legs one does.
 const STEPS: usize = 40;
@@ -61,36 +63,22 @@ pub(super) struct Fitted<'a> {
     pub free: Vec<usize>,
 }
 
+/// Of so many α's those of which some residual says anything.
+fn free(evidence: &Evidence, count: usize) -> Vec<usize> {
+    (0..count).filter(|k| evidence.told[*k]).collect()
+}
+
 impl<'a> Fitted<'a> {
     /// The maximum, from where another one was if that is known.
     pub fn new(evidence: &'a Evidence, count: usize, robust: Robust, near: Option<&Parameters>) -> Self {
-        let free: Vec<usize> = (0..count).filter(|k| evidence.told[*k]).collect();
-        let warm = near.map(|near| maximize(evidence, *near, &free, robust));
-        let (best, slope) = warm
-            .filter(|(_, slope)| slope.log_likelihood.is_finite())
-            .unwrap_or_else(|| maximize(evidence, Self::beginning(evidence, &free, robust), &free, robust));
-        Self { evidence, best, slope, free }
+        let mut search = Search::new(evidence, robust, near);
+        while !search.step(evidence, count) {}
+        Self::at(evidence, count, search.best())
     }
 
     /// A maximum that is known.
     pub fn at(evidence: &'a Evidence, count: usize, (best, slope): (Parameters, Slope)) -> Self {
-        Self { evidence, best, slope, free: (0..count).filter(|k| evidence.told[*k]).collect() }
-    }
-
-    /// Where to begin: triangular noise where it is likeliest as a normal one, and wide enough.
-    fn beginning(evidence: &Evidence, free: &[usize], robust: Robust) -> Parameters {
-        let normal = evidence.beginning(robust);
-        if evidence.noise == NoiseKind::Normal {
-            return normal;
-        }
-        let (start, _) = maximize(evidence, normal, free, robust);
-        let wider = if robust == Robust::No {
-            evidence.widening(&start.alphas, free, INSIDE * evidence.width())
-        } else {
-            // What is outside to begin with is bad, and stays outside.
-            1.0 + evidence.width()
-        };
-        Parameters { alphas: start.alphas.map(|alpha| alpha * wider), noise: evidence.noise, ..start }
+        Self { evidence, best, slope, free: free(evidence, count) }
     }
 
     /// What is told of it, with the intervals of its α's.
@@ -108,14 +96,97 @@ impl<'a> Fitted<'a> {
 
     /// The 95 % interval of an α; none where the log does not determine it.
     pub fn interval(&self, alpha: usize) -> Option<[f64; 2]> {
-        if !self.free.contains(&alpha) {
-            return None;
+        let mut ends = Ends::new(self, alpha);
+        loop {
+            if let Some(interval) = ends.step(self) {
+                return interval;
+            }
         }
-        let others = self.free.iter().copied().filter(|k| *k != alpha).collect();
-        let profile = Profile { fitted: self, alpha, others };
-        let about = Near::new(self.evidence, self.best, &self.slope);
-        let interval = [profile.end(&about, -1.0), profile.end(&about, 1.0)];
-        (interval[0] > 0.0 || interval[1] <= ANYTHING).then_some(interval)
+    }
+}
+
+/// The search for the 95 % interval of an α, one step after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Ends {
+    alpha: usize,
+    about: Near,
+    lower: Option<f64>,
+    end: End,
+}
+
+impl Ends {
+    pub fn new(fitted: &Fitted, alpha: usize) -> Self {
+        let about = Near::new(fitted.evidence, fitted.best, &fitted.slope);
+        Self { alpha, about, lower: None, end: End::new(fitted.best.alphas[alpha], -1.0) }
+    }
+
+    /// Goes on by a few passes; the interval after the last step, none where the log does not determine it.
+    pub fn step(&mut self, fitted: &Fitted) -> Option<Option<[f64; 2]>> {
+        let Self { alpha, ref about, lower, ref mut end } = *self;
+        if !fitted.free.contains(&alpha) {
+            return Some(None);
+        }
+        // Of a perfect log: there is no maximum to fall from.
+        if are_nothing(&fitted.best.alphas, &fitted.free) {
+            return Some(Some([0.0, NOTHING]));
+        }
+        let others = fitted.free.iter().copied().filter(|k| *k != alpha).collect();
+        let found = Profile { fitted, alpha, others }.step(about, end)?;
+        let Some(lower) = lower else {
+            self.lower = Some(found);
+            self.end = End::new(fitted.best.alphas[alpha], 1.0);
+            return None;
+        };
+        Some((lower > 0.0 || found <= ANYTHING).then_some([lower, found]))
+    }
+}
+
+/// The search for a maximum, one step after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Search {
+    robust: Robust,
+    climb: Climb,
+    /// Whether it began where another maximum is.
+    warm: bool,
+}
+
+impl Search {
+    /// From where another maximum was if that is known.
+    pub fn new(evidence: &Evidence, robust: Robust, near: Option<&Parameters>) -> Self {
+        let start = near.copied().unwrap_or_else(|| evidence.beginning(robust));
+        Self { robust, climb: Climb::new(evidence, start, robust), warm: near.is_some() }
+    }
+
+    /// Goes on by a few passes; whether it is over.
+    pub fn step(&mut self, evidence: &Evidence, count: usize) -> bool {
+        let Self { robust, ref mut climb, warm } = *self;
+        let free = free(evidence, count);
+        if climb.step(evidence, &free, robust) {
+            return false;
+        }
+        let start = if warm && !climb.here.log_likelihood.is_finite() {
+            evidence.beginning(robust)
+        } else if climb.at.noise != evidence.noise {
+            // Triangular noise begins where it is likeliest as a normal one, and wide enough.
+            let alphas = climb.at.alphas;
+            let wider = if robust == Robust::No {
+                evidence.widening(&alphas, &free, INSIDE * evidence.width())
+            } else {
+                // What is outside to begin with is bad, and stays outside.
+                1.0 + evidence.width()
+            };
+            Parameters { alphas: alphas.map(|alpha| alpha * wider), noise: evidence.noise, ..climb.at }
+        } else {
+            return true;
+        };
+        self.climb = Climb::new(evidence, start, robust);
+        self.warm = false;
+        false
+    }
+
+    /// Where it came to.
+    pub fn best(&self) -> (Parameters, Slope) {
+        (self.climb.at, self.climb.here)
     }
 }
 
@@ -148,49 +219,50 @@ impl Profile<'_> {
         self.fitted.best.alphas[self.alpha]
     }
 
-    /// The lower end, on side −1, or the upper one, on side 1: where what is near the maximum has it, then what is near that place, until
-    /// it stays. 0 or infinity where the likelihood does not fall enough.
-    fn end(&self, about: &Near, side: f64) -> f64 {
+    /// Goes on by a few passes to an end: where what is near the maximum has it, then what is near that place, until it stays. 0 or infinity
+    /// where the likelihood does not fall enough.
+    fn step(&self, about: &Near, end: &mut End) -> Option<f64> {
         let evidence = self.fitted.evidence;
-        let last = if side < 0.0 { 0.0 } else { f64::INFINITY };
+        let End { side, last, step, ref mut bracket, ref mut moved } = *end;
         if self.best() == last {
-            return last;
+            return Some(last);
         }
-        let mut bracket = Bracket { inside: [self.best(), 0.0], outside: [last, f64::NAN] };
-        let mut moved: Option<Near> = None;
-        for step in 0..STEPS {
-            let near = moved.as_ref().unwrap_or(about);
-            // Every third step halves, so that no end stays for good.
-            let halve = bracket.outside[1] == f64::INFINITY || step % 3 == 2 && bracket.is_closed();
-            let value = if halve { bracket.between(true) } else { self.crossing(near, &bracket, side) };
-            if step > 0 && bracket.is_near(value, self.best()) {
-                return value;
-            }
-            let (alphas, _) = self.beside(near, value);
-            let to = Parameters { alphas, ..about.at };
-            let here = evidence.slope(&to, Robust::No);
-            if !here.log_likelihood.is_finite() {
-                bracket.outside = [value, f64::INFINITY];
-                continue;
-            }
-            let near = if step == 0 { about.moved(to, &here) } else { Near::new(evidence, to, &here) };
-            let (_, top) = near.maximum(alphas, &self.others);
-            let root = self.root(&top);
-            bracket.narrow(value, root);
-            let off = (root / HEIGHT - 1.0).abs();
-            let settled = top.log_likelihood - here.log_likelihood < SLIGHT;
-            if settled && off < NEAR || value == last && root <= HEIGHT || bracket.is_narrow(self.best()) {
-                return value;
-            }
-            if settled && off < CLOSE {
-                return self.crossing(&near, &bracket, side);
-            }
-            if value > FARTHEST {
-                break;
-            }
-            moved = Some(near);
+        let ended = |bracket: &Bracket| Some(if bracket.is_closed() { bracket.inside[0] } else { last });
+        if step == STEPS {
+            return ended(bracket);
         }
-        if bracket.is_closed() { bracket.inside[0] } else { last }
+        end.step += 1;
+        let near = moved.as_ref().unwrap_or(about);
+        // Every third step halves, so that no end stays for good.
+        let halve = bracket.outside[1] == f64::INFINITY || step % 3 == 2 && bracket.is_closed();
+        let value = if halve { bracket.between(true) } else { self.crossing(near, bracket, side) };
+        if step > 0 && bracket.is_near(value, self.best()) {
+            return Some(value);
+        }
+        let (alphas, _) = self.beside(near, value);
+        let to = Parameters { alphas, ..about.at };
+        let here = evidence.slope(&to, Robust::No);
+        if !here.log_likelihood.is_finite() {
+            bracket.outside = [value, f64::INFINITY];
+            return None;
+        }
+        let near = if step == 0 { about.moved(to, &here) } else { Near::new(evidence, to, &here) };
+        let (_, top) = near.maximum(alphas, &self.others);
+        let root = self.root(&top);
+        bracket.narrow(value, root);
+        let off = (root / HEIGHT - 1.0).abs();
+        let settled = top.log_likelihood - here.log_likelihood < SLIGHT;
+        if settled && off < NEAR || value == last && root <= HEIGHT || bracket.is_narrow(self.best()) {
+            return Some(value);
+        }
+        if settled && off < CLOSE {
+            return Some(self.crossing(&near, bracket, side));
+        }
+        if value > FARTHEST {
+            return ended(bracket);
+        }
+        *moved = Some(near);
+        None
     }
 
     /// Where what is near a point falls as far as at the end, or a place on the way there.
@@ -229,6 +301,26 @@ impl Profile<'_> {
     }
 }
 
+/// One end of an interval, being sought: the lower one, on side −1, or the upper one, on side 1.
+#[derive(Clone, Debug)]
+struct End {
+    side: f64,
+    /// Where it is if the likelihood does not fall enough.
+    last: f64,
+    step: usize,
+    bracket: Bracket,
+    /// About where the latest step came to.
+    moved: Option<Near>,
+}
+
+impl End {
+    fn new(best: f64, side: f64) -> Self {
+        let last = if side < 0.0 { 0.0 } else { f64::INFINITY };
+        let bracket = Bracket { inside: [best, 0.0], outside: [last, f64::NAN] };
+        Self { side, last, step: 0, bracket, moved: None }
+    }
+}
+
 /// Two values with the roots of their falls: one that falls too little, and one that falls too far, NaN if there is none yet.
 #[derive(Clone, Copy, Debug)]
 struct Bracket {
@@ -255,7 +347,7 @@ impl Bracket {
     }
 
     fn is_near(&self, value: f64, best: f64) -> bool {
-        (value - self.inside[0]).abs() < NEAR * (self.inside[0] - best).abs()
+        (value - self.inside[0]).abs() < (NEAR * (self.inside[0] - best).abs()).max(ROUNDING * best)
     }
 
     /// The false position, or the middle.

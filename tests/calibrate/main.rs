@@ -10,4 +10,5 @@ mod passes;
 mod same;
 mod simulated;
 mod sparse;
+mod steps;
 mod undetermined;

@@ -32,6 +32,33 @@ fn a_hundred_thousand_legs_are_fitted_with_intervals_in_few_passes() {
 }
 
 #[test]
+fn a_perfect_log_is_fitted_in_not_many_more() {
+    // Ever smaller α's are ever likelier: two passes halve them down to rounding. Where rounding alone keeps one up, intervals are halved.
+    for model in [
+        Model::Odometry(OdometryRule::Table),
+        Model::Odometry(OdometryRule::Nav2),
+        Model::Odometry(OdometryRule::Omni),
+        Model::Velocity,
+    ] {
+        for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
+            for robust in [Robust::No, Robust::Estimated] {
+                for count in [500, 10_000] {
+                    let simulation = Simulation::of(model, noise, count, 7);
+                    let [odometry, _] = simulation.log();
+                    let observe = |leg| model.observe(leg, &Systematic::NONE, &Uncertainty::default());
+                    let legs = cut(&odometry, &odometry, simulation.legs, 0.0);
+                    let evidence = Evidence::new(model, noise, &legs.iter().map(observe).collect::<Vec<_>>());
+                    let told = fit(&evidence, model.alphas(), robust);
+                    assert!(told.log_likelihood.is_finite());
+                    let passes = evidence.passes();
+                    assert!(passes <= 600.0, "{model:?} {noise:?} {robust:?} {count}: {passes}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn where_a_residual_is_bad_or_not_the_likelier_is_taken() {
     // Without bad legs the robust likelihood is that of all legs as good ones at least: that is one of its points.
     for model in [Model::Odometry(OdometryRule::Nav2), Model::Odometry(OdometryRule::Omni), Model::Velocity] {

@@ -449,6 +449,25 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });
 
+test('while a log is fitted, whoever asks for the picture does not go on with it: nothing keeps the page', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const [before, after] = await widget.evaluate((element) => {
+    const figure = /** @type {AlphaCalibratorElement & { scene: unknown }} */ (element);
+    // A drive of an hour, which takes many frames.
+    const t = Float64Array.from({ length: 100_000 }, (_, row) => row / 25);
+    const of = (/** @type {(t: number) => number} */ coordinate) => t.map(coordinate);
+    const theta = of((time) => Math.sin(time / 3));
+    const poses = { t, x: of((time) => 0.3 * time), y: of((time) => Math.cos(time)), theta };
+    figure.log = { name: 'an hour', odometry: poses, reference: { ...poses, y: of((time) => Math.cos(time) + 0.01 * Math.sin(17 * time)) } };
+    const before = figure.settings.next.progress;
+    for (let asked = 0; asked < 5; asked++) void figure.scene;
+    return [before, figure.settings.next?.progress];
+  });
+  expect(before).toBeLessThan(1);
+  expect(after).toBe(before);
+  await expect(caption(widget)).toHaveText(/of an hour\./);
+});
+
 test('a page gives a log, which is in no state; one that is refused leaves the present one', async ({ page }) => {
   const widget = await openCalibrator(page);
   const before = await stateOf(widget);

@@ -236,8 +236,9 @@ export class FigureElement extends LitElement {
   get fresh() {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     speak(this);
-    // A machine that is still in the making is no change of this one.
-    this.settings.settle(this.settings.next ? 0 : Infinity);
+    // A machine that is still in the making is no change of this one. And whoever went on with it here would tell of progress, and
+    // be asked again by the rendering of that, until it is done.
+    if (!this.settings.next) this.settings.settle();
     if (this.settings.stale) this.refresh();
     return this.reading;
   }

@@ -1,0 +1,447 @@
+//! From a log to parameters, one step after the other.
+
+use super::calibration::{CalibrateError, Calibration, FEWEST, Options};
+use super::clock::Alignment;
+use super::judging::{Judge, Judging};
+use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
+use super::legs::{Cutting, Leg};
+use super::likelihood::{Evidence, Parameters, Robust, Slope};
+use super::model::{Observation, Uncertainty};
+use super::profile::{Ends, Estimate, Fitted, Search};
+use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic};
+use super::trajectory::Trajectory;
+use super::undetermined::{Undetermined, undetermined};
+use super::work::Work;
+use nalgebra::Matrix2;
+
+/// A calibration under way: the same in pieces, so that nobody has to wait for all of it.
+///
+/// 1. Clocks are aligned by the robot's turns.
+/// 2. Legs are cut, α's fitted to them, and systematic errors found by least squares with the weights that these α's give; again with
+///    those errors removed, until they stay.
+/// 3. The α's are fitted with the errors removed that are to be.
+/// 4. Each α's interval; the bootstrap; a fit to the first half of the log; the doubts; inflation.
+/// 5. If asked for, legs of each other length, and the intervals of their α's.
+///
+/// No step is longer than a few passes over the legs: what takes more comes in several.
+#[derive(Clone, Debug)]
+pub struct Calibrating {
+    options: Options,
+    stage: Stage,
+    /// Since the latest part of the progress was done.
+    steps: usize,
+    alignment: Alignment,
+    /// The systematic errors as long as no leg has told any: none but the offset of the clocks.
+    begun: Systematic,
+    systematic: Systematic,
+    deviations: [Option<f64>; ERRORS],
+    /// Of the last round.
+    known: [[f64; ERRORS]; ERRORS],
+    removed: Systematic,
+    cutting: Option<Cutting>,
+    legs: Vec<Leg>,
+    observations: Vec<Observation>,
+    evidence: Evidence,
+    best: Option<(Parameters, Slope)>,
+    /// For the next best, while it is under way.
+    search: Option<Search>,
+    /// The next errors, with how many legs they are of so far.
+    squares: Option<(LeastSquares, usize)>,
+    /// Of the next interval.
+    ends: Option<Ends>,
+    intervals: Vec<Option<[f64; 2]>>,
+    judging: Judging,
+    /// Of the legs that were asked for, while those of other lengths are fitted.
+    asked: Option<Calibration>,
+    work: Work,
+}
+
+/// What legs are cut for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Purpose {
+    /// For the systematic errors, without those that are known by then.
+    Round(usize),
+    /// For the α's, without the errors that are to be removed.
+    Alphas,
+    /// For the α's of the length at this place among [`FACTORS`].
+    Length(usize),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stage {
+    Align,
+    Cut(Purpose),
+    Observe(Purpose),
+    Fit(Purpose),
+    Refine(usize),
+    /// Of the α at this place.
+    Interval(Purpose, usize),
+    Judge,
+}
+
+/// Rounds at most: systematic errors of the usual sizes stay after three or four.
+const ROUNDS: usize = 12;
+
+/// A change that is so small a part of its deviation is none.
+const STAYS: f64 = 0.01;
+
+/// Rows that are cut in a step, and legs that are looked at.
+const ROWS: usize = 40_000;
+const LEGS: usize = 20_000;
+
+/// What cutting or looking at one costs, in legs gone through: its ends are on arcs.
+const ARCS: usize = 8;
+
+impl Calibrating {
+    pub fn new(options: Options) -> Self {
+        let work = Work::default();
+        Self {
+            options,
+            stage: Stage::Align,
+            steps: 0,
+            alignment: Alignment::default(),
+            begun: Systematic::NONE,
+            systematic: Systematic::NONE,
+            deviations: [None; ERRORS],
+            known: [[0.0; ERRORS]; ERRORS],
+            removed: Systematic::NONE,
+            cutting: None,
+            legs: Vec::new(),
+            observations: Vec::new(),
+            evidence: Evidence::none(options.model, options.noise, work.clone()),
+            best: None,
+            search: None,
+            squares: None,
+            ends: None,
+            intervals: Vec::new(),
+            judging: Judging::default(),
+            asked: None,
+            work,
+        }
+    }
+
+    /// How many legs were gone through for the likelihood of their residuals so far, and what else takes so long, but for the
+    /// alignment of the clocks: what it costs, the same on every machine.
+    pub fn work(&self) -> usize {
+        self.work.total()
+    }
+
+    /// How much is done, 0 to 1.
+    pub fn progress(&self) -> f64 {
+        let alphas = self.options.model.alphas();
+        let asked = ROUNDS + 3 + alphas;
+        let all = asked + if self.options.by_length { FACTORS.len() * (2 + alphas) + 1 } else { 0 };
+        let part = if self.stage == Stage::Align {
+            self.alignment.progress()
+        } else {
+            // Nobody knows how many there are.
+            self.steps as f64 / (10.0 + self.steps as f64)
+        };
+        (self.done() as f64 + part) / all as f64
+    }
+
+    /// How many parts are done that progress tells apart.
+    fn done(&self) -> usize {
+        let alphas = self.options.model.alphas();
+        let before = |purpose: Purpose| match purpose {
+            Purpose::Round(round) => 1 + round,
+            Purpose::Alphas => ROUNDS + 1,
+            Purpose::Length(place) => ROUNDS + 3 + alphas + place * (2 + alphas),
+        };
+        match self.stage {
+            Stage::Align => 0,
+            Stage::Cut(purpose) | Stage::Observe(purpose) => before(purpose),
+            Stage::Fit(purpose @ Purpose::Length(_)) => before(purpose) + 1,
+            Stage::Fit(purpose) => before(purpose),
+            Stage::Refine(round) => before(Purpose::Round(round)),
+            Stage::Interval(purpose @ Purpose::Length(_), alpha) => before(purpose) + 2 + alpha,
+            Stage::Interval(purpose, alpha) => before(purpose) + 1 + alpha,
+            Stage::Judge => before(Purpose::Alphas) + 1 + alphas,
+        }
+    }
+
+    /// Goes on by one step; the calibration after the last one.
+    ///
+    /// # Errors
+    /// [`CalibrateError`] where there are too few legs, or the two are not of one drive.
+    pub fn step(
+        &mut self,
+        odometry: &Trajectory,
+        reference: &Trajectory,
+    ) -> Result<Option<Calibration>, CalibrateError> {
+        let before = self.done();
+        let told = self.go_on(odometry, reference);
+        self.steps = if self.done() == before { self.steps + 1 } else { 0 };
+        told
+    }
+
+    fn go_on(
+        &mut self,
+        odometry: &Trajectory,
+        reference: &Trajectory,
+    ) -> Result<Option<Calibration>, CalibrateError> {
+        self.stage = match self.stage {
+            Stage::Align => {
+                let Some(offset) = self.alignment.step(odometry, reference) else { return Ok(None) };
+                self.begun.clock_offset = offset.ok_or(CalibrateError::Apart)?;
+                self.systematic = self.begun;
+                Stage::Cut(Purpose::Round(0))
+            }
+            Stage::Cut(Purpose::Length(place)) if place == FACTORS.len() => return Ok(self.asked.take()),
+            Stage::Cut(Purpose::Length(place)) if FACTORS[place] == ASKED => {
+                if let Some(asked) = &mut self.asked {
+                    let (legs, estimate) = (asked.legs.len(), Some(asked.estimate.clone()));
+                    asked.by_length.push(AtLength { factor: ASKED, legs, estimate });
+                }
+                Stage::Cut(Purpose::Length(place + 1))
+            }
+            Stage::Cut(purpose) => {
+                let Some(enough) = self.cut(odometry, reference, purpose) else { return Ok(None) };
+                match purpose {
+                    _ if enough => Stage::Observe(purpose),
+                    Purpose::Length(place) => {
+                        self.tell(FACTORS[place], None);
+                        Stage::Cut(Purpose::Length(place + 1))
+                    }
+                    _ => return Err(CalibrateError::FewLegs { legs: self.legs.len() }),
+                }
+            }
+            Stage::Observe(purpose) => {
+                if !self.observe(purpose) {
+                    return Ok(None);
+                }
+                Stage::Fit(purpose)
+            }
+            Stage::Fit(purpose) => {
+                // Bad legs are set aside in rounds even if the α's are to answer for them.
+                let robust = match (purpose, self.options.robust) {
+                    (Purpose::Round(_), Robust::No) => Robust::Estimated,
+                    (_, robust) => robust,
+                };
+                if !self.search(robust) {
+                    return Ok(None);
+                }
+                if let Purpose::Round(round) = purpose {
+                    Stage::Refine(round)
+                } else {
+                    Stage::Interval(purpose, 0)
+                }
+            }
+            Stage::Refine(round) => {
+                let Some(stays) = self.refine() else { return Ok(None) };
+                if !stays && round + 1 < ROUNDS {
+                    Stage::Cut(Purpose::Round(round + 1))
+                } else {
+                    self.remove();
+                    Stage::Cut(Purpose::Alphas)
+                }
+            }
+            Stage::Interval(purpose, alpha) => {
+                if !self.interval(alpha) {
+                    return Ok(None);
+                }
+                match purpose {
+                    _ if alpha + 1 < self.options.model.alphas() => Stage::Interval(purpose, alpha + 1),
+                    Purpose::Length(place) => {
+                        let (estimate, _) = self.estimate(&self.fitted());
+                        self.tell(FACTORS[place], Some(estimate));
+                        Stage::Cut(Purpose::Length(place + 1))
+                    }
+                    _ => Stage::Judge,
+                }
+            }
+            Stage::Judge => {
+                let Some(calibration) = self.judge() else { return Ok(None) };
+                if !self.options.by_length {
+                    return Ok(Some(calibration));
+                }
+                self.asked = Some(calibration);
+                Stage::Cut(Purpose::Length(0))
+            }
+        };
+        Ok(None)
+    }
+
+    /// What is taken off the legs.
+    fn without(&self, purpose: Purpose) -> &Systematic {
+        if let Purpose::Round(_) = purpose { &self.systematic } else { &self.removed }
+    }
+
+    /// Goes on with cutting; once that is done, whether there are legs enough.
+    fn cut(&mut self, odometry: &Trajectory, reference: &Trajectory, purpose: Purpose) -> Option<bool> {
+        let Options { model, noise, legs: asked, .. } = self.options;
+        self.legs.clear();
+        let length = match purpose {
+            Purpose::Length(place) => asked.times(FACTORS[place]),
+            _ => Some(asked),
+        };
+        let Some(length) = length else { return Some(false) };
+        let clock_offset = self.without(purpose).clock_offset;
+        let cutting = self.cutting.get_or_insert_with(|| Cutting::new(length, clock_offset));
+        let before = cutting.legs.len();
+        let done = cutting.go_on(odometry, reference, ROWS);
+        self.work.add(ROWS / 4 + ARCS * (cutting.legs.len() - before));
+        if !done {
+            return None;
+        }
+        self.legs = self.cutting.take().map_or_else(Vec::new, |cutting| cutting.legs);
+        self.observations.clear();
+        self.evidence = Evidence::none(model, noise, self.work.clone());
+        if let Purpose::Length(_) = purpose {
+            let (all, kept) = (self.legs.len(), self.legs.len().min(MOST));
+            (0..kept).for_each(|place| self.legs[place] = self.legs[place * all / kept]);
+            self.legs.truncate(kept);
+            (self.best, self.intervals) = (None, Vec::new());
+            return Some(kept >= FEWEST && have_rows(&self.legs, odometry, reference));
+        }
+        Some(self.legs.len() >= FEWEST)
+    }
+
+    /// Goes on with what the legs say; whether all have been asked.
+    fn observe(&mut self, purpose: Purpose) -> bool {
+        let Options { model, reference_error, remove, .. } = self.options;
+        let without = *self.without(purpose);
+        let estimated = if let Purpose::Round(_) = purpose { [true; ERRORS] } else { remove };
+        let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
+        let own = Matrix2::identity() * (2.0 * reference_error.position * reference_error.position);
+        let heading = reference_error.heading * reference_error.heading;
+        let from = self.observations.len();
+        let until = self.legs.len().min(from + LEGS);
+        for leg in &self.legs[from..until] {
+            let bearing = own + without.uncertainty(leg, &deviations);
+            let observation = model.observe(leg, &without, &Uncertainty { place: own, bearing, heading });
+            self.evidence.add(&observation);
+            self.observations.push(observation);
+        }
+        self.work.add(ARCS * (until - from));
+        until == self.legs.len()
+    }
+
+    /// What the legs of another length say.
+    fn tell(&mut self, factor: f64, estimate: Option<Estimate>) {
+        let legs = self.legs.len();
+        if let Some(asked) = &mut self.asked {
+            asked.by_length.push(AtLength { factor, legs, estimate });
+        }
+    }
+
+    /// Goes on with the search for the likeliest α's; whether they are found.
+    fn search(&mut self, robust: Robust) -> bool {
+        let Some(search) = &mut self.search else {
+            let near = self.best.map(|(near, _)| near);
+            let near = near.filter(|near| near.bad.is_some() == (robust != Robust::No));
+            self.search = Some(Search::new(&self.evidence, robust, near.as_ref()));
+            return false;
+        };
+        let found = search.step(&self.evidence, self.options.model.alphas());
+        if found {
+            self.best = self.search.take().map(|search| search.best());
+        }
+        found
+    }
+
+    /// What was found.
+    fn fitted(&self) -> Fitted<'_> {
+        let Options { model, robust, .. } = self.options;
+        match self.best {
+            Some(best) => Fitted::at(&self.evidence, model.alphas(), best),
+            None => Fitted::new(&self.evidence, model.alphas(), robust, None),
+        }
+    }
+
+    /// Goes on with the systematic errors to where they are a step better; whether they are as they were.
+    fn refine(&mut self) -> Option<bool> {
+        let model = self.options.model;
+        let (mut squares, from) = self.squares.take().unwrap_or((LeastSquares::after(self.known), 0));
+        let until = self.legs.len().min(from + LEGS);
+        let best = self.fitted().best;
+        let densities = self.evidence.each(&best, from..until);
+        let legs = self.legs[from..until].iter().zip(&self.observations[from..until]);
+        for ((leg, observation), density) in legs.zip(densities) {
+            let variances = density.variances.map(|variance| variance.unwrap_or(0.0));
+            let weights = model
+                .first_order_variances(observation, variances)
+                .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 });
+            squares.add(&self.systematic, leg, observation, weights);
+        }
+        self.work.add(ARCS * (until - from));
+        if until < self.legs.len() {
+            self.squares = Some((squares, until));
+            return None;
+        }
+        let Step { change, deviations, inverse } = squares.step();
+        (self.deviations, self.known) = (deviations, inverse);
+        let mut stays = true;
+        for (i, error) in Error::ALL.into_iter().enumerate() {
+            let Some(deviation) = deviations[i] else {
+                // Whatever an earlier round made of it.
+                self.systematic.set(error, self.begun.get(error));
+                continue;
+            };
+            let most = 4.0 * error.largest_deviation();
+            let change = change[i].max(-most).min(most);
+            self.systematic.set(error, self.systematic.get(error) + change);
+            stays &= change.abs() <= STAYS * deviation;
+        }
+        Some(stays)
+    }
+
+    /// Sets what is to be removed.
+    fn remove(&mut self) {
+        for (i, error) in Error::ALL.into_iter().enumerate() {
+            if self.options.remove[i] {
+                self.removed.set(error, self.systematic.get(error));
+            }
+        }
+    }
+
+    /// Goes on with the interval of an α; whether it is there.
+    fn interval(&mut self, alpha: usize) -> bool {
+        let before = self.ends.take();
+        let fitted = self.fitted();
+        let mut ends = before.unwrap_or_else(|| Ends::new(&fitted, alpha));
+        let found = ends.step(&fitted);
+        self.ends = found.is_none().then_some(ends);
+        self.intervals.extend(found);
+        found.is_some()
+    }
+
+    /// Goes on with what there is to say besides; all of it once that is done.
+    fn judge(&mut self) -> Option<Calibration> {
+        let mut judging = std::mem::take(&mut self.judging);
+        let Self { options, legs, observations, removed, .. } = &*self;
+        let all_said = judging.step(&self.fitted(), Judge { options, legs, observations, removed });
+        if !all_said {
+            self.judging = judging;
+            return None;
+        }
+        let (estimate, undetermined) = self.estimate(&self.fitted());
+        let mut bootstrap = judging.bootstrap?;
+        for (interval, reason) in bootstrap.iter_mut().zip(&undetermined) {
+            *interval = interval.filter(|_| reason.is_none());
+        }
+        Some(Calibration {
+            estimate,
+            undetermined,
+            bootstrap,
+            systematic: self.systematic,
+            deviations: self.deviations,
+            removed: self.removed,
+            doubts: judging.doubts?,
+            inflation: judging.inflation,
+            judged: judging.judged?,
+            legs: std::mem::take(&mut self.legs),
+            observations: std::mem::take(&mut self.observations),
+            by_length: Vec::new(),
+        })
+    }
+
+    /// The α's that are determined, and why the others are not.
+    fn estimate(&self, fitted: &Fitted) -> (Estimate, Vec<Option<Undetermined>>) {
+        let reasons = undetermined(fitted, self.options.model, &self.observations, &self.intervals);
+        let told = |(interval, reason): (&Option<[f64; 2]>, &Option<Undetermined>)| {
+            interval.filter(|_| reason.is_none())
+        };
+        (fitted.estimate(self.intervals.iter().zip(&reasons).map(told).collect()), reasons)
+    }
+}

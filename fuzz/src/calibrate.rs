@@ -17,8 +17,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 const PARTS: usize = 6;
 const ROWS: usize = 64;
 
-/// Steps of a calibration at most, with room.
-const STEPS: usize = 250;
+/// Steps of a calibration at most, with room: each is a pass over the legs or less, and what is searched for takes sixty at most.
+const STEPS: usize = 4000;
 
 const MODELS: [Model; 5] = [
     Model::Odometry(OdometryRule::Table),

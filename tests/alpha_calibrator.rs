@@ -29,9 +29,8 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
     })
 }
 
-/// Of 40 intervals 38 hold on average, and fewer than 33 once in three hundred times. The α's of five hundred legs, of which the errors
-/// were removed that they say themselves, are a few hundredths too small: of 200 logs 177, 192, 181 and 188 held them, which fewer than
-/// 30 of 40 has once in a hundred times.
+/// Of 40 intervals 38 hold on average, and fewer than 33 once in three hundred times: also of the α's of five hundred legs, of which the
+/// errors were removed that they say themselves.
 #[test]
 fn the_simulated_log_is_what_it_is_said_to_be() {
     let mut counts = [0; 10];
@@ -43,8 +42,7 @@ fn the_simulated_log_is_what_it_is_said_to_be() {
         let outliers = machine.calibration().estimate.outliers.expect("robust");
         assert!(outliers > 0.0 && outliers < 0.06, "seed {seed}: {outliers}");
     }
-    let [alphas, errors] = [&counts[..4], &counts[4..]];
-    assert!(alphas.iter().all(|count| *count >= 30) && errors.iter().all(|count| *count >= 33), "{counts:?}");
+    assert!(counts.iter().all(|count| *count >= 33), "{counts:?}");
 }
 
 /// What everybody sees first holds all that is true.

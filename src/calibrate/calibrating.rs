@@ -8,10 +8,12 @@ use super::legs::{Cutting, Leg};
 use super::likelihood::{Evidence, Parameters, Robust, Slope};
 use super::model::{Observation, Uncertainty};
 use super::profile::{Ends, Estimate, Fitted, Search};
+use super::stages::{Purpose, ROUNDS, Stage, parts};
 use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic};
 use super::trajectory::Trajectory;
 use super::undetermined::{Undetermined, undetermined};
 use super::work::Work;
+use crate::noise::NoiseKind;
 use nalgebra::Matrix2;
 
 /// A calibration under way: the same in pieces, so that nobody has to wait for all of it.
@@ -55,32 +57,6 @@ pub struct Calibrating {
     asked: Option<Calibration>,
     work: Work,
 }
-
-/// What legs are cut for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Purpose {
-    /// For the systematic errors, without those that are known by then.
-    Round(usize),
-    /// For the α's, without the errors that are to be removed.
-    Alphas,
-    /// For the α's of the length at this place among [`FACTORS`].
-    Length(usize),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Stage {
-    Align,
-    Cut(Purpose),
-    Observe(Purpose),
-    Fit(Purpose),
-    Refine(usize),
-    /// Of the α at this place.
-    Interval(Purpose, usize),
-    Judge,
-}
-
-/// Rounds at most: systematic errors of the usual sizes stay after three or four.
-const ROUNDS: usize = 12;
 
 /// A change that is so small a part of its deviation is none.
 const STAYS: f64 = 0.01;
@@ -128,36 +104,18 @@ impl Calibrating {
 
     /// How much is done, 0 to 1.
     pub fn progress(&self) -> f64 {
-        let alphas = self.options.model.alphas();
-        let asked = ROUNDS + 3 + alphas;
-        let all = asked + if self.options.by_length { FACTORS.len() * (2 + alphas) + 1 } else { 0 };
+        let Options { model, by_length, .. } = self.options;
         let part = if self.stage == Stage::Align {
             self.alignment.progress()
         } else {
             // Nobody knows how many there are.
             self.steps as f64 / (10.0 + self.steps as f64)
         };
-        (self.done() as f64 + part) / all as f64
+        (self.done() as f64 + part) / parts(model.alphas(), by_length) as f64
     }
 
-    /// How many parts are done that progress tells apart.
     fn done(&self) -> usize {
-        let alphas = self.options.model.alphas();
-        let before = |purpose: Purpose| match purpose {
-            Purpose::Round(round) => 1 + round,
-            Purpose::Alphas => ROUNDS + 1,
-            Purpose::Length(place) => ROUNDS + 3 + alphas + place * (2 + alphas),
-        };
-        match self.stage {
-            Stage::Align => 0,
-            Stage::Cut(purpose) | Stage::Observe(purpose) => before(purpose),
-            Stage::Fit(purpose @ Purpose::Length(_)) => before(purpose) + 1,
-            Stage::Fit(purpose) => before(purpose),
-            Stage::Refine(round) => before(Purpose::Round(round)),
-            Stage::Interval(purpose @ Purpose::Length(_), alpha) => before(purpose) + 2 + alpha,
-            Stage::Interval(purpose, alpha) => before(purpose) + 1 + alpha,
-            Stage::Judge => before(Purpose::Alphas) + 1 + alphas,
-        }
+        self.stage.done(self.options.model.alphas())
     }
 
     /// Goes on by one step; the calibration after the last one.
@@ -298,8 +256,11 @@ impl Calibrating {
     }
 
     /// Goes on with what the legs say; whether all have been asked.
+    ///
+    /// What is removed was fitted to the same residuals and took a share of their variances, which they get back. Not of triangular
+    /// noise: that has an end, and what was within would be taken past it.
     fn observe(&mut self, purpose: Purpose) -> bool {
-        let Options { model, reference_error, remove, .. } = self.options;
+        let Options { model, noise, reference_error, remove, .. } = self.options;
         let without = *self.without(purpose);
         let estimated = if let Purpose::Round(_) = purpose { [true; ERRORS] } else { remove };
         let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
@@ -307,12 +268,22 @@ impl Calibrating {
         let heading = reference_error.heading * reference_error.heading;
         let from = self.observations.len();
         let until = self.legs.len().min(from + LEGS);
-        for leg in &self.legs[from..until] {
+        let legs = &self.legs[from..until];
+        let observe = |leg: &Leg| {
             let bearing = own + without.uncertainty(leg, &deviations);
-            let observation = model.observe(leg, &without, &Uncertainty { place: own, bearing, heading });
-            self.evidence.add(&observation);
-            self.observations.push(observation);
+            model.observe(leg, &without, &Uncertainty { place: own, bearing, heading })
+        };
+        let mut observations: Vec<Observation> = legs.iter().map(observe).collect();
+        if let (NoiseKind::Normal, Some((best, _))) = (noise, &self.best) {
+            let evidence = Evidence::new(model, noise, &observations);
+            let densities = evidence.each(best, 0..legs.len());
+            for ((leg, observation), density) in legs.iter().zip(&mut observations).zip(densities) {
+                let weights = model.weights(observation, &density);
+                observation.free_of(without.leverages(leg, observation, weights, &self.known, &estimated));
+            }
         }
+        observations.iter().for_each(|observation| self.evidence.add(observation));
+        self.observations.append(&mut observations);
         self.work.add(ARCS * (until - from));
         until == self.legs.len()
     }
@@ -358,11 +329,7 @@ impl Calibrating {
         let densities = self.evidence.each(&best, from..until);
         let legs = self.legs[from..until].iter().zip(&self.observations[from..until]);
         for ((leg, observation), density) in legs.zip(densities) {
-            let variances = density.variances.map(|variance| variance.unwrap_or(0.0));
-            let weights = model
-                .first_order_variances(observation, variances)
-                .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 });
-            squares.add(&self.systematic, leg, observation, weights);
+            squares.add(&self.systematic, leg, observation, model.weights(observation, &density));
         }
         self.work.add(ARCS * (until - from));
         if until < self.legs.len() {

@@ -19,6 +19,7 @@ mod maximum;
 mod mismatch;
 mod model;
 mod profile;
+mod stages;
 mod systematic;
 mod trajectory;
 mod undetermined;

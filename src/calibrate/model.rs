@@ -2,6 +2,7 @@
 //! that.
 
 use super::legs::Leg;
+use super::likelihood::LegDensity;
 use super::systematic::Systematic;
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
@@ -40,6 +41,7 @@ const DRIVEN: [Kind; 3] = [kind("v", 0, 1), kind("omega", 2, 3), kind("gamma", 4
 /// one of them has NaN there, and nothing in its variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation {
+    /// In a [`Calibration`](super::Calibration) of normal noise as large as if no systematic error had been fitted to them.
     pub residuals: [f64; 3],
     /// The same with directions as they are to first order, across the drive over its length: where the robot hardly went anywhere,
     /// the direction itself is that of the smallest systematic error.
@@ -56,6 +58,16 @@ pub struct Observation {
     pub expected: SE2,
     /// How the residuals change with the base's motion: rows of kinds, columns x, y, θ.
     pub slopes: Matrix3<f64>,
+}
+
+impl Observation {
+    /// With residuals as large as if nothing had been fitted to them, where that took these `shares` of their variances, each below 1.
+    pub(super) fn free_of(&mut self, shares: [f64; 3]) {
+        let times = shares.map(|share| 1.0 / (1.0 - share).sqrt());
+        for residuals in std::iter::once(&mut self.residuals).chain(&mut self.other_way) {
+            residuals.iter_mut().zip(times).for_each(|(residual, times)| *residual *= times);
+        }
+    }
 }
 
 /// How well it is known where a leg really ended, seen from its beginning.
@@ -136,9 +148,16 @@ impl Model {
 }
 
 impl Model {
+    /// The weights of [`Observation::first_order`]: 1 over their variances, less of a leg that may be bad.
+    pub(super) fn weights(self, observation: &Observation, density: &LegDensity) -> [f64; 3] {
+        let variances = density.variances.map(|variance| variance.unwrap_or(0.0));
+        self.first_order_variances(observation, variances)
+            .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 })
+    }
+
     /// The variances of [`Observation::first_order`], where those of its residuals are these: what is across the drive over the length
     /// that was read varies with the length that was driven too, E\[t̂²\] = t² + σ².
-    pub(super) fn first_order_variances(self, observation: &Observation, variances: [f64; 3]) -> [f64; 3] {
+    fn first_order_variances(self, observation: &Observation, variances: [f64; 3]) -> [f64; 3] {
         let (length, direction) = match self {
             Self::Odometry(OdometryRule::Omni) => return variances,
             Self::Odometry(_) => (1, 0),

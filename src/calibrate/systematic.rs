@@ -133,6 +133,29 @@ impl Systematic {
         observation.slopes * self.motion_slopes(leg, &observation.expected)
     }
 
+    /// Of each residual of a leg the share of its variance that the errors which were `removed` took with them, for they were found
+    /// by it too: its leverage, h = w J(Σ JᵀWJ)⁻¹Jᵀ, less that of the errors that were found and left.
+    pub(super) fn leverages(
+        &self,
+        leg: &Leg,
+        observation: &Observation,
+        weights: [f64; 3],
+        known: &Square,
+        removed: &Which,
+    ) -> [f64; 3] {
+        let slopes = self.slopes(leg, observation);
+        let leverage = |kind: usize, of: Which| {
+            let slope = |i: usize| if of[i] { slopes[(kind, i)] } else { 0.0 };
+            let pairs = (0..ERRORS).flat_map(|i| (0..ERRORS).map(move |j| [i, j]));
+            weights[kind] * pairs.map(|[i, j]| slope(i) * known[i][j] * slope(j)).sum::<f64>()
+        };
+        std::array::from_fn(|kind| {
+            let share = leverage(kind, [true; ERRORS]) - leverage(kind, removed.map(|removed| !removed));
+            // Not a number of a residual that is not told.
+            if share > 0.0 { share.min(MOST_LEVERAGE) } else { 0.0 }
+        })
+    }
+
     /// How the motion that the reference saw, less the one that was read, changes.
     fn motion_slopes(&self, leg: &Leg, read: &SE2) -> SMatrix<f64, 3, ERRORS> {
         let [start, end] = leg.velocities;

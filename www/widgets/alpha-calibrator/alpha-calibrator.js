@@ -19,7 +19,7 @@ import { FOLD, LogOpener, ownLog } from './open.js';
 import { LegPicture, WayPicture } from './pictures.js';
 import { Plate } from './plate.js';
 import { legOf, readingOf } from './reading.js';
-import { alphaTable, alphaTexts, systematicTable } from './readouts.js';
+import { alphaTable, alphaTexts, systematicTable, systematicTexts } from './readouts.js';
 import { attributes, declared, looks, own, room, vocabulary } from './settings.js';
 import { calibratorStyles } from './styles.js';
 import { captionOf, legText, longestCaption, wayText } from './words.js';
@@ -184,7 +184,7 @@ export class AlphaCalibratorElement extends FigureElement {
     const kinds = this.reading.stats.doubts.kinds.map(({ name }) => name);
     return {
       title: this.lettering.name,
-      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName)].join(' '),
+      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), ...systematicTexts(this.reading)].join(' '),
       settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',

@@ -78,6 +78,8 @@ export const de = {
       turnScale: 'Maßstab, Drehung',
     },
     unknown: 'nicht bestimmt',
+    removed: (errors) => `Systematisch, und entfernt: ${errors}.`,
+    left: (errors) => `Systematisch, und den α überlassen: ${errors}.`,
   },
   leg: {
     name: 'Etappe',

@@ -77,6 +77,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
       turnScale: 'scale of turning',
     },
     unknown: 'not determined',
+    removed: (errors) => `Systematic, and removed: ${errors}.`,
+    left: (errors) => `Systematic, and left to the α’s: ${errors}.`,
   },
   leg: {
     name: 'Leg',

@@ -1,4 +1,4 @@
-/** The Alpha Calibrator to take along: the way, the α's with their intervals, why they are these, and the verdict. */
+/** The Alpha Calibrator to take along: the way, the α's with their intervals, why they are these, what was removed, and the verdict. */
 
 import { words } from '../../messages/registry.js';
 import { brushOn } from '../../scene/canvas.js';
@@ -8,7 +8,7 @@ import { View } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';
 import { panelsOf } from './doubts.js';
 import { WayPicture } from './pictures.js';
-import { alphaTexts } from './readouts.js';
+import { alphaTexts, systematicTexts } from './readouts.js';
 import { captionOf } from './words.js';
 
 /**
@@ -18,8 +18,8 @@ import { captionOf } from './words.js';
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
 
-/** Pixels of the view: the way at the left, the α's beside it; below them the panels, and the verdict in two lines. */
-const [WIDTH, HEIGHT] = [720, 610];
+/** Pixels of the view: the way at the left, the α's beside it; below them the panels, and six lines. */
+const [WIDTH, HEIGHT] = [720, 686];
 const WAY = { width: 430, height: 344 };
 const PANEL = { width: WIDTH / 3, height: 210 };
 
@@ -60,7 +60,8 @@ export class Plate extends Picture {
     const beside = WAY.width + 20;
     let y = 2;
     for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = write(context, text, beside, y, WIDTH - beside) + LINE / 3;
-    write(context, captionOf(reading, logName), 2, WAY.height + PANEL.height + LINE, WIDTH - 2);
+    y = WAY.height + PANEL.height + LINE;
+    for (const text of [captionOf(reading, logName), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
     panelsOf(this.#figure).forEach(({ plot }, i) =>
       within(brush, this.#panel, i * PANEL.width, WAY.height + LINE / 2, PANEL, (own) => drawPlot(own, plot)));
     return false;

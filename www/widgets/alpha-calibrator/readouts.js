@@ -121,12 +121,30 @@ function whisker({ at, decades }, value, interval, truth) {
   </svg>`;
 }
 
+/** Of what is systematic. @param {number} value */
+const digits = (value) => fixed(value, 3);
+
+/**
+ * What is systematic as two texts: what was removed, and what the α's answer for.
+ *
+ * @param {Reading} reading
+ */
+export function systematicTexts({ stats: { systematic } }) {
+  const say = words.calibrator.systematic;
+  const told = (/** @type {boolean} */ removed) =>
+    SYSTEMATIC.filter((key) => systematic[key].removed === removed).flatMap((key) => {
+      const { values, halves } = digitsOf(systematic[key]);
+      return values.length ? [`${say.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
+    });
+  const [removed, left] = [told(true), told(false)];
+  return [...(removed.length ? [say.removed(removed.join('; '))] : []), ...(left.length ? [say.left(left.join('; '))] : [])];
+}
+
 /** What is systematic, each with a box that says whether it is removed. @param {Figure} figure */
 export function systematicTable(figure) {
   const { stats: { systematic }, truth } = figure.reading;
   const say = words.calibrator.systematic;
   const told = figure.settings.told;
-  const digits = (/** @type {number} */ value) => fixed(value, 3);
   return html`<table class="systematic" part="table">
     <caption>${truth ? say.captionTrue : say.caption}</caption>
     <thead class="visually-hidden">
@@ -137,14 +155,12 @@ export function systematicTable(figure) {
     </thead>
     <tbody>
       ${SYSTEMATIC.map((key) => {
-        const { value, interval } = systematic[key];
-        const values = [value].flat().filter((each) => each !== null);
+        const { values, halves } = digitsOf(systematic[key]);
         const box = toggle({ label: say.names[key], checked: told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
         if (values.length === 0) return html`<tr><th scope="row">${box}</th><td colspan="3">${say.unknown}</td></tr>`;
-        const halves = intervalsOf(interval).map(([low, high]) => digits((high - low) / 2));
         return html`<tr>
           <th scope="row">${box}</th>
-          <td>${lines(values.map(digits))}</td>
+          <td>${lines(values)}</td>
           <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
           ${truth ? html`<td class="muted">${lines([truth[key]].flat().map(digits))}</td>` : nothing}
         </tr>`;
@@ -157,12 +173,14 @@ export function systematicTable(figure) {
 const lines = (texts) => texts.map((text) => html`<div>${text}</div>`);
 
 /**
- * Intervals in a list: there is one of most errors, and two of a lever arm.
+ * What is printed of an error, as far as it is determined: its values, two of a lever arm, and half the width of the interval of each.
  *
- * @param {Interval | (Interval | null)[] | null} interval
- * @returns {Interval[]}
+ * @param {{ value: number | null | (number | null)[], interval: Interval | (Interval | null)[] | null }} error
  */
-function intervalsOf(interval) {
-  if (typeof interval?.[0] === 'number') return [/** @type {Interval} */ (interval)];
-  return /** @type {Interval[]} */ ((interval ?? []).filter((each) => each !== null));
+function digitsOf({ value, interval }) {
+  const intervals = typeof interval?.[0] === 'number' ? [/** @type {Interval} */ (interval)] : /** @type {(Interval | null)[]} */ (interval ?? []);
+  return {
+    values: [value].flat().flatMap((each) => (each === null ? [] : [digits(each)])),
+    halves: intervals.flatMap((each) => (each ? [digits((each[1] - each[0]) / 2)] : [])),
+  };
 }

@@ -551,7 +551,7 @@ test('α’s of other lengths of legs are fitted where they are asked for, and d
 
 test('an α that a log does not tell from 0 is no result of 0', async ({ page }) => {
   // Few legs: what turning adds is not seen beside what driving does.
-  const widget = await openCalibrator(page, 'model="velocity" distance="3" angle="1.5"');
+  const widget = await openCalibrator(page, 'model="velocity" distance="3" angle="1.5" bylength');
   const { alphas, intervals } = await stats(widget);
   const zeros = alphas.flatMap((alpha, i) => (alpha !== null && alpha < 0.01 * (intervals[i]?.[1] ?? 0) ? [i] : []));
   expect(zeros.length).toBeGreaterThan(0);
@@ -571,6 +571,9 @@ test('an α that a log does not tell from 0 is no result of 0', async ({ page })
   }
   const drive = ['drive straight on and in bends, some fifty legs of each', 'drive tight bends, some fifty legs'];
   expect([...told].sort()).toEqual(zeros.map((i) => `α${i + 1} is not told from 0; to tell it, ${drive[i % 2]}`));
+  const lengths = fold(widget, 'Other lengths');
+  await lengths.locator('summary').click();
+  for (const i of zeros) await expect(lengths.locator('svg.plot').nth(i)).toHaveAttribute('aria-label', /≤ [\d.]+ at (3\.00|1\.50),/);
 });
 
 test('of an α that a log does not determine it says why, and what to drive', async ({ page }) => {

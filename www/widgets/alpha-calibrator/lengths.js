@@ -6,6 +6,7 @@ import { words } from '../../messages/registry.js';
 import { NOTHING, typed } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { driverOf } from './lines.js';
+import { toldOf } from './readouts.js';
 import { SIMULATED } from './settings.js';
 import { alphaName, significantly } from './words.js';
 
@@ -38,7 +39,7 @@ function lengthPlot(config, byLength, index) {
   const driver = driverOf(config.model, index);
   const lasts = config.duration > 0;
   const asked = lasts ? config.duration : driver === 'turn' ? config.angle : config.distance;
-  const told = byLength.map(({ factor, alphas, intervals }) => ({ x: factor * asked, y: alphas[index] ?? NaN, ends: intervals[index] ?? undefined }));
+  const told = byLength.map(({ factor, alphas, intervals }) => ({ x: factor * asked, y: alphas[index] ?? NaN, ends: intervals[index] }));
   const there = told.flatMap(({ y, ends }) => [y, ...(ends ?? [])]).filter((value) => value > 0 && value < Infinity).map(Math.log10);
   const to = there.length ? Math.ceil(Math.max(...there)) : 0;
   // An interval from 0 has no end on such an axis, and one that is nearly so leaves it.
@@ -47,13 +48,13 @@ function lengthPlot(config, byLength, index) {
   const fitted = byLength.find(({ factor }) => factor === 1)?.alphas[index] ?? null;
   const ends = [shortest, last];
   return plot({
-    label: say.label(String(index + 1), told.map(({ x, y }) => say.at(Number.isNaN(y) ? NOTHING : significantly(y), significantly(x))).join(', ')),
+    label: say.label(String(index + 1), told.map(({ x, y, ends }) => say.at(Number.isNaN(y) ? NOTHING : toldOf(y, ends), significantly(x))).join(', ')),
     x: { name: say[lasts ? 'time' : driver], from: shortest, to: last, logarithmic: true },
     y: { name: `α${alphaName(index)}`, from: 10 ** from, to: 10 ** to, logarithmic: true },
     curves: !fitted ? [] : [
       { name: say.square, role: 'truth', dash: '1 3', x: ends, y: [fitted, fitted] },
       { name: say.linear, role: 'prior', dash: '7 4', x: ends, y: ends.map((x) => (fitted * asked) / x) },
     ],
-    points: told.map((point) => ({ role: /** @type {const} */ ('prediction'), error: 0, ...point })),
+    points: told.map(({ ends, ...point }) => ({ role: /** @type {const} */ ('prediction'), error: 0, ends: ends ?? undefined, ...point })),
   });
 }

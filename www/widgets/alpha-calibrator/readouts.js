@@ -54,7 +54,7 @@ export function alphaTable(reading) {
 }
 
 /** An α, or the most that it may be. @param {number} alpha @param {Interval | null} interval */
-const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${interval ? significant(interval[1], 2) : NOTHING}` : significantly(alpha));
+export const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${interval ? significant(interval[1], 2) : NOTHING}` : significantly(alpha));
 
 /** Why an α is not determined, and what to drive. @param {Reading} reading @param {number} index */
 function lackOf({ stats: { undetermined }, config: { model } }, index) {

@@ -7,7 +7,7 @@
 
 /**
  * @typedef {import('../../www/types.d.ts').Motion} Motion
- * @typedef {number | boolean | null | ArrayLike<unknown> | object} Told
+ * @typedef {number | boolean | string | null | ArrayLike<unknown> | object} Told
  * @typedef {{ preset?: string, map?: string, bounds?: number[], settings: Record<string, any> }} Configuration
  * @typedef {object} Configurations as configurations.json has them
  * @property {{ columns: number, rows: number }} picture
@@ -193,12 +193,13 @@ const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, at) => {
 
 /**
  * @param {Told} value
- * @param {number[]} numbers that it is added to: of a list its length and its items, of an object its values in their
- *   order, NaN where there is nothing
+ * @param {number[]} numbers that it is added to: of a list its length and its items, of a word those of its letters, of an
+ *   object its values in their order, NaN where there is nothing
  */
 function tell(value, numbers) {
   if (value === null) numbers.push(NaN);
   else if (typeof value === 'number' || typeof value === 'boolean') numbers.push(Number(value));
+  else if (typeof value === 'string') tell(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), numbers);
   else if (typeof value !== 'object') throw new TypeError(`${typeof value} is nothing to be told.`);
   else if ('length' in value) {
     numbers.push(value.length);

@@ -162,3 +162,35 @@ for (const name of Object.keys(STATES)) {
     });
   }
 }
+
+for (const name of RESERVED) {
+  test(`as much room is kept for ${name} before its script has come`, FRESH, async ({ page }) => {
+    await show(page, '', {
+      head: '<style>body { margin: 0; font: 16px serif }</style>',
+      script: '<script type="module" src="/external.js"></script>',
+    });
+    let come = () => {};
+    const coming = new Promise((resolve) => (come = () => resolve(undefined)));
+    await page.route('**/chunks/**', async (route) => {
+      await coming;
+      await route.continue();
+    });
+    await page.evaluate((tag) => document.body.append(document.createElement(tag)), name);
+    const widget = page.locator(name);
+    const heights = async () => {
+      const all = [];
+      for (const width of [320, 700, 1280]) {
+        await page.setViewportSize({ width, height: 900 });
+        await frames(page);
+        all.push((await boxOf(widget)).height);
+      }
+      return all;
+    };
+    const before = await heights();
+    expect(await widget.evaluate((element) => element.matches(':defined'))).toBe(false);
+    expect(Math.min(...before)).toBeGreaterThan(300);
+    come();
+    await ready(widget);
+    expect(await heights()).toEqual(before);
+  });
+}

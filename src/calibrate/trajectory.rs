@@ -64,8 +64,12 @@ impl Trajectory {
     /// # Errors
     /// [`TrajectoryError`] at the first sample that is not finite or not later than the one before.
     pub fn new(samples: impl IntoIterator<Item = (f64, SE2)>) -> Result<Self, TrajectoryError> {
-        let (mut times, mut poses) = (Vec::new(), Vec::<SE2>::new());
-        for (sample, (time, pose)) in samples.into_iter().enumerate() {
+        let samples = samples.into_iter();
+        // Of a long log, to grow takes longer than all the rest.
+        let (known, _) = samples.size_hint();
+        let (mut times, mut poses) = (Vec::with_capacity(known), Vec::with_capacity(known));
+        for (sample, (time, pose)) in samples.enumerate() {
+            let pose: SE2 = pose;
             let error = |fault| Err(TrajectoryError { sample, fault });
             if ![time, pose.x(), pose.y(), pose.theta()].iter().all(|number| number.is_finite()) {
                 return error(TrajectoryFault::NotFinite);
@@ -207,25 +211,28 @@ impl Trajectory {
 }
 
 /// The one in the middle of positive numbers, as if they were sorted; 0 of none. Positive numbers are in the order of their bits, so
-/// that it is found by one byte of these after the other, from the first: to sort an hour's steps takes longer than a frame has.
+/// that it is found by a quarter of these after the other, from the first: to sort an hour's steps takes longer.
 fn middle(numbers: impl ExactSizeIterator<Item = f64> + Clone) -> f64 {
-    let (mut found, mut place) = (0_u64, numbers.len() / 2);
+    const QUARTER: u32 = u64::BITS / 4;
     if numbers.len() == 0 {
         return 0.0;
     }
-    for shift in (0..u64::BITS).step_by(8).rev() {
-        let mut counts = [0_usize; 256];
+    let (mut found, mut place) = (0, numbers.len() / 2);
+    let mut counts = vec![0; 1 << QUARTER];
+    for quarter in (0..4).rev() {
+        counts.fill(0);
         for bits in numbers.clone().map(f64::to_bits) {
-            if bits >> shift >> 8 == found {
-                counts[(bits >> shift) as usize & 255] += 1;
+            let begins = bits >> (quarter * QUARTER);
+            if begins >> QUARTER == found {
+                counts[usize::from(begins as u16)] += 1;
             }
         }
-        let mut byte = 0;
-        while place >= counts[byte] {
-            place -= counts[byte];
-            byte += 1;
+        let mut digit = 0;
+        while place >= counts[digit] {
+            place -= counts[digit];
+            digit += 1;
         }
-        found = found << 8 | byte as u64;
+        found = found << QUARTER | digit as u64;
     }
     f64::from_bits(found)
 }

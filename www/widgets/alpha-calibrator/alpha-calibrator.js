@@ -154,7 +154,8 @@ export class AlphaCalibratorElement extends FigureElement {
     const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
     orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
     settings.work(this.#entering(machine, log, arrived), machine);
-    settings.settle(end - performance.now());
+    const left = end - performance.now();
+    if (left > 0) settings.settle(left);
   }
 
   /**

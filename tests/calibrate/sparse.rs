@@ -8,6 +8,7 @@ use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::{NoiseKind, Variance};
 use nalgebra::Vector3;
+use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -127,5 +128,29 @@ fn a_leg_ends_where_the_sparser_one_has_a_sample() {
         let [read, seen] = [thinned(&odometry, first, odd), thinned(&reference, 0, 1)];
         let legs = cut(&read, &seen, length, 5.01);
         assert!(legs.len() > 500 && legs.iter().all(|leg| leg.times.iter().all(|time| has(&read, *time))));
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_usual_step_is_in_the_middle_of_all_when_they_are_sorted(
+        steps in prop::collection::vec(
+            prop_oneof![1e-6_f64..1e6, Just(0.01), 0.01_f64..0.0101, (1_u64..9).prop_map(f64::from_bits)],
+            0..200,
+        ),
+    ) {
+        let mut times = vec![0.0];
+        for step in steps {
+            let next = times[times.len() - 1] + step;
+            if next > times[times.len() - 1] {
+                times.push(next);
+            }
+        }
+        let mut sorted: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let expected = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let trajectory = Trajectory::new(times.into_iter().map(|time| (time, SE2::identity())));
+        let told = trajectory.expect("times that rise").usual_step();
+        prop_assert_eq!(told.to_bits(), expected.to_bits());
     }
 }

@@ -343,6 +343,32 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });
 
+test('where to read a log takes as long as a frame has, nothing is fitted before the next', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const steps = await widget.evaluate((element) => {
+    const calibrator = /** @type {AlphaCalibratorElement} */ (element);
+    const { prototype } = calibrator.machine.constructor;
+    const { beginLog, advance } = prototype;
+    let count = 0;
+    prototype.beginLog = function (/** @type {any[]} */ ...log) {
+      const end = performance.now() + 30;
+      while (performance.now() < end);
+      return beginLog.apply(this, log);
+    };
+    prototype.advance = function (/** @type {number} */ work) {
+      count += 1;
+      return advance.call(this, work);
+    };
+    const t = Float64Array.from({ length: 2000 }, (_, i) => i / 20);
+    const poses = { t, x: t.map((time) => time / 2), y: t.map(() => 0), theta: t.map(Math.sin) };
+    calibrator.log = { name: 'long.csv', odometry: poses, reference: poses };
+    Object.assign(prototype, { beginLog, advance });
+    return count;
+  });
+  expect(steps).toBe(0);
+  await expect(caption(widget)).toHaveText(/of long\.csv\./);
+});
+
 /** A table of the example's. @param {'odometry' | 'reference'} name */
 const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
 

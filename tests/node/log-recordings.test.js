@@ -10,7 +10,7 @@ import { onDisk } from '../../www/cli/disk.js';
 import { log as german } from '../../www/widgets/alpha-calibrator/log/de.js';
 import { MAX_CHUNK, decompressors } from '../../www/widgets/alpha-calibrator/log/decompress.js';
 import { unlz4 } from '../../www/widgets/alpha-calibrator/log/lz4.js';
-import { LogError, isRecording, readLog, topicsOf, usualTopics } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { LogError, isRecording, logsOf, readLog, topicsOf, usualTopics } from '../../www/widgets/alpha-calibrator/log/read.js';
 import { lz4, odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { generator } from '../random.js';
 
@@ -118,6 +118,50 @@ for (const [what, options] of FORMS) {
     close((await read('/tf', { frames: { parent: 'odom', child: 'base_footprint' } })).x, (i) => i / 100);
   });
 }
+
+test('two logs of a recording that is gone through once are those that are read one after the other', async () => {
+  const choices = [{ topic: '/odom' }, { topic: '/tf', frames: { parent: 'map', child: 'base_link' } }, { topic: '/cmd_vel' }];
+  for (const [what, options] of FORMS) {
+    const source = file(await recordingOf(drive(), options));
+    const apart = [];
+    for (const choice of choices) apart.push(await readLog(source, choice));
+    assert.deepEqual(await logsOf(source, choices), apart, what);
+  }
+});
+
+test('of what is wrong with two topics, that of the first is told, whichever is found first', async () => {
+  const source = file(await recordingOf(drive()));
+  // Found before the first message, with the first of the topic, and after the last.
+  const wrong = [{ topic: '/od' }, { topic: '/chatter' }, { topic: '/tf' }];
+  for (const one of wrong) {
+    const expected = await sentenceOf(readLog(source, one));
+    for (const other of [...wrong, { topic: '/odom' }]) assert.equal(await sentenceOf(logsOf(source, [one, other])), expected);
+    assert.equal(await sentenceOf(logsOf(source, [{ topic: '/odom' }, one])), expected);
+  }
+});
+
+test('of a recording every byte is read once for two logs, and not in small pieces', async () => {
+  const long = Array.from({ length: 5000 }, (_, i) => [
+    { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: at(i), message: odometry(at(i), i / 100, 0, 0) },
+    { topic: '/mocap/pose', type: 'geometry_msgs/msg/PoseStamped', t: at(i), message: { header: { stamp: stampOf(at(i)), frame_id: 'map' }, pose: poseOf(i / 100, 0, 0) } },
+  ]).flat();
+  for (const [what, options] of FORMS) {
+    const bytes = await recordingOf(long, { ...options, chunkSize: 100_000 });
+    let [read, pieces] = [0, 0];
+    const source = {
+      name: 'run.mcap',
+      size: bytes.length,
+      slice(/** @type {number} */ from, /** @type {number} */ to) {
+        read += to - from;
+        pieces += 1;
+        return new Blob([bytes.subarray(from, to)]);
+      },
+    };
+    await logsOf(source, [{ topic: '/odom' }, { topic: '/mocap/pose' }]);
+    assert.ok(read < 1.05 * bytes.length + 10_000, `${what}: ${read} of ${bytes.length} bytes`);
+    assert.ok(pieces < 12 + bytes.length / 2 ** 20, `${what}: ${pieces} pieces of ${bytes.length} bytes`);
+  }
+});
 
 test('what is decompressed is what the libraries of MCAP make of it', async () => {
   const [own, theirs] = await Promise.all([decompressors({ file: '' }), loadDecompressHandlers()]);

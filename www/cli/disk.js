@@ -26,7 +26,7 @@ export async function onDisk(path) {
         async arrayBuffer() {
           const bytes = new Uint8Array(Math.max(to - from, 0));
           const { bytesRead } = await file.read(bytes, 0, bytes.length, from);
-          return bytes.buffer.slice(0, bytesRead);
+          return bytesRead === bytes.length ? bytes.buffer : bytes.buffer.slice(0, bytesRead);
         },
       }),
       close: () => file.close(),

@@ -1,13 +1,14 @@
 /** The command: reads logs, has the core calibrate, and says what came out. */
 
 import { log as words } from '../widgets/alpha-calibrator/log/en.js';
-import { isRecording, readLog, tell, together, topicsOf, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
+import { isRecording, logsOf, readLog, tell, together, topicsOf, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
 import { LogError, cut, listed } from '../widgets/alpha-calibrator/log/refusal.js';
 import { onDisk } from './disk.js';
 import { HELP, UsageError, optionsOf, refusalOf } from './options.js';
 import { jsonOf, textOf } from './report.js';
 
 /**
+ * @import { Choice, Topic } from '../widgets/alpha-calibrator/log/read.js'
  * @import { Log } from '../widgets/alpha-calibrator/log/rows.js'
  * @import { Asked, Part } from './options.js'
  *
@@ -33,7 +34,7 @@ export async function run(args, { load, print, complain, now = new Date() }) {
       print(HELP);
       return WELL;
     }
-    const logs = together(await read(asked.odometry, 'odometry', asked), await read(asked.reference, 'reference', asked));
+    const logs = together(...(await read(asked)));
     const motion = await load();
     const calibration = calibrate(motion, asked, logs);
     const told = [logs.odometry, logs.reference].map((log) => ({ name: log.name, found: tell(log, words.found) }));
@@ -63,37 +64,104 @@ function calibrate(motion, { fit, deviations }, { odometry, reference }) {
 }
 
 /**
+ * @typedef {'odometry' | 'reference'} Role
+ *
+ * @param {Asked} asked
+ * @returns {Promise<[odometry: Log, reference: Log]>}
+ */
+async function read(asked) {
+  const both = asked.odometry.path === asked.reference.path && (await readBoth(asked));
+  return both || [await readOne(asked.odometry, 'odometry', asked), await readOne(asked.reference, 'reference', asked)];
+}
+
+/**
+ * @param {Asked} asked of one file
+ * @returns {Promise<[Log, Log] | undefined>} nothing where it is no recording
+ */
+function readBoth(asked) {
+  return withSource(asked.odometry.path, async (source) => {
+    if (source.size === 0 || !(await isRecording(source))) return undefined;
+    const topics = once(() => topicsOf(source));
+    const odometry = await choiceOf(asked.odometry, 'odometry', asked, source, topics);
+    let reference;
+    try {
+      reference = await choiceOf(asked.reference, 'reference', asked, source, topics);
+    } catch (error) {
+      // What is wrong with the odometry is told first.
+      await logsOf(source, [odometry]);
+      throw error;
+    }
+    return /** @type {[Log, Log]} */ (await logsOf(source, [odometry, reference]));
+  });
+}
+
+/**
  * @param {Part} part
- * @param {'odometry' | 'reference'} role
+ * @param {Role} role
  * @param {Asked} asked
  * @returns {Promise<Log>}
  */
-async function read({ path, topic, frames }, role, { fit, odometry, reference }) {
+function readOne(part, role, asked) {
+  return withSource(part.path, async (source) => {
+    if (source.size === 0 || !(await isRecording(source))) {
+      if (part.topic !== undefined) throw new UsageError(`${source.name} is no recording and has no topic ${cut(part.topic)}; expected is an MCAP file.`);
+      if (asked.odometry.path === asked.reference.path) throw new UsageError(`${source.name} is both odometry and reference; expected are two tables, or an MCAP file.`);
+      return readLog(source, { kind: kindOf(role, asked) });
+    }
+    return readLog(source, await choiceOf(part, role, asked, source, () => topicsOf(source)));
+  });
+}
+
+/**
+ * @template Result
+ * @param {string} path
+ * @param {(source: Awaited<ReturnType<typeof onDisk>>) => Promise<Result>} work
+ */
+async function withSource(path, work) {
   const source = await onDisk(path);
   try {
-    const kind = role === 'reference' ? 'poses' : fit.model === 'velocity' ? 'commands' : undefined;
-    if (source.size === 0 || !(await isRecording(source))) {
-      if (topic !== undefined) throw new UsageError(`${source.name} is no recording and has no topic ${cut(topic)}; expected is an MCAP file.`);
-      if (odometry.path === reference.path) throw new UsageError(`${source.name} is both odometry and reference; expected are two tables, or an MCAP file.`);
-      return await readLog(source, { kind });
-    }
-    return await readLog(source, { topic: topic ?? (await usualTopic(source, role, kind)), frames, kind });
+    return await work(source);
   } finally {
     await source.close();
   }
 }
 
+/** @param {Role} role @param {Asked} asked */
+const kindOf = (role, { fit }) => (role === 'reference' ? 'poses' : fit.model === 'velocity' ? 'commands' : undefined);
+
 /**
- * @param {import('../widgets/alpha-calibrator/log/refusal.js').Source} source
- * @param {'odometry' | 'reference'} role
+ * What of a recording is to be read.
+ *
+ * @param {Part} part
+ * @param {Role} role
+ * @param {Asked} asked
+ * @param {{ name: string }} source
+ * @param {() => Promise<Topic[]>} topics
+ * @returns {Promise<Choice>}
+ */
+async function choiceOf({ topic, frames }, role, asked, { name }, topics) {
+  const kind = kindOf(role, asked);
+  return { topic: topic ?? usualTopic(name, await topics(), role, kind), frames, kind };
+}
+
+/**
+ * @param {string} file
+ * @param {Topic[]} topics
+ * @param {Role} role
  * @param {'poses' | 'commands' | undefined} kind
  */
-async function usualTopic(source, role, kind) {
-  const topics = await topicsOf(source);
+function usualTopic(file, topics, role, kind) {
   const useful = topics.filter(({ kind, count }) => kind !== null && count > 1);
-  const described = (/** @type {typeof topics} */ some) => listed(some.map(({ name, type }) => `${name} (${type.replace(/^.*\//, '')})`));
-  if (useful.length === 0) throw new LogError({ file: source.name }, (say) => say.noTopics(described(topics)));
+  const described = (/** @type {Topic[]} */ some) => listed(some.map(({ name, type }) => `${name} (${type.replace(/^.*\//, '')})`));
+  if (useful.length === 0) throw new LogError({ file }, (say) => say.noTopics(described(topics)));
   const usual = usualTopics(topics)[kind === 'commands' ? 'commands' : role];
-  if (usual === null) throw new LogError({ file: source.name }, (say) => say.choose(role, described(useful)));
+  if (usual === null) throw new LogError({ file }, (say) => say.choose(role, described(useful)));
   return usual;
+}
+
+/** @template Result @param {() => Result} work @returns {() => Result} that does it when first asked, and once */
+function once(work) {
+  /** @type {{ result: Result } | undefined} */
+  let done;
+  return () => (done ??= { result: work() }).result;
 }

@@ -149,10 +149,13 @@ export class AlphaCalibratorElement extends FigureElement {
   #enter(log, arrived = () => this.reflection.tell()) {
     const { motion, settings } = this;
     if (!motion) return;
+    // To read a long log takes as long as a frame has.
+    const end = performance.now() + LONGEST_WORK;
     const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
     orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
     settings.work(this.#entering(machine, log, arrived), machine);
-    settings.settle(LONGEST_WORK);
+    const left = end - performance.now();
+    if (left > 0) settings.settle(left);
   }
 
   /**

@@ -17,6 +17,9 @@ import { deviations } from './controls.js';
 /** What the names of files may end in. */
 const EXTENSIONS = ['.csv', '.txt', '.tum', '.mcap'];
 
+/** Milliseconds between two looks at how much of a log has been read: to show it takes some of them. */
+const BETWEEN = 100;
+
 /** The fold that says which log is there and why another was refused. */
 export const FOLD = 'log-fold';
 
@@ -102,14 +105,17 @@ export class LogOpener extends Part {
     const { files, topics, odometry, reference, frames } = /** @type {Chosen} */ (this.chosen);
     const half = (/** @type {number} */ from) => ({ ...watching, onProgress: (/** @type {number} */ share) => watching.onProgress(from + share / 2) });
     const topic = (/** @type {string} */ name, /** @type {string} */ its) => {
-      if (topics.length === 0) return {};
       const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
       return { topic: name, ...(holdsTransforms(topics, name) && { frames: { parent, child } }) };
     };
-    const logs = reader.together(
-      await reader.readLog(files[0], { ...topic(odometry, frames.odometry), ...half(0) }),
-      await reader.readLog(files.at(-1) ?? files[0], { ...topic(reference, frames.reference), ...(topics.length ? {} : { kind: 'poses' }), ...half(0.5) }),
-    );
+    const both = [topic(odometry, frames.odometry), topic(reference, frames.reference)];
+    const [first, second] = topics.length
+      ? await reader.logsOf(files[0], both, watching)
+      : [await reader.readLog(files[0], half(0)), await reader.readLog(files[1], { kind: 'poses', ...half(0.5) })];
+    // Each of these takes about as long as a frame has.
+    await reader.turn();
+    const logs = reader.together(first, second);
+    await reader.turn();
     watching.signal.throwIfAborted();
     const name = [...new Set(files.map((file) => file.name))].join(', ');
     this.host.open({ name, odometry: logs.odometry.data, reference: /** @type {Poses} */ (logs.reference.data) });
@@ -122,8 +128,11 @@ export class LogOpener extends Part {
     this.#stopping.abort();
     const stopping = (this.#stopping = new AbortController());
     this.#complaint = undefined;
+    let shown = -Infinity;
     const onProgress = (/** @type {number} */ share) => {
-      if (stopping.signal.aborted) return;
+      const now = performance.now();
+      if (stopping.signal.aborted || now - shown < BETWEEN) return;
+      shown = now;
       this.share = share;
       this.host.requestUpdate();
     };

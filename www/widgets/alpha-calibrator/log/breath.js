@@ -12,6 +12,17 @@ const SLICE = 12;
 /** Rows or messages between two looks at the clock. */
 export const ROWS_A_LOOK = 2048;
 
+/** Others have their turn. A timer would not wait for them alone: of several in a row, browsers have each last four milliseconds. */
+export const turn = () =>
+  new Promise((go) => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => {
+      port1.close();
+      go(undefined);
+    };
+    port2.postMessage(null);
+  });
+
 /**
  * @param {Watching} watching
  * @returns {(share: number) => Promise<void>} to be awaited every now and then: lets others have their turn when it is time
@@ -22,7 +33,7 @@ export function breathing({ onProgress, signal }) {
     signal?.throwIfAborted();
     if (performance.now() - last < SLICE) return;
     onProgress?.(share);
-    await new Promise((go) => setTimeout(go));
+    await turn();
     signal?.throwIfAborted();
     last = performance.now();
   };

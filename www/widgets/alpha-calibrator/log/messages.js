@@ -32,24 +32,30 @@ export const KINDS = {
 };
 
 const part = (/** @type {string} */ type, /** @type {string} */ name) => ({ type, name, isComplex: true });
-const number = (/** @type {string} */ name) => ({ type: 'float64', name });
+const numbers = (/** @type {string[]} */ ...names) => names.map((name) => ({ type: 'float64', name }));
 const text = (/** @type {string} */ name) => ({ type: 'string', name });
+const stamp = { type: 'time', name: 'stamp' };
+
+/** A text that nobody reads: its bytes come after their number, as those of an array, and to decode it takes as long as all the rest. */
+const unread = (/** @type {string} */ name) => ({ type: 'uint8', name, isArray: true });
+
+/** The numbers of a pose, and those of a twist. */
+const [POSE, TWIST] = [numbers('x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'), numbers('vx', 'vy', 'vz', 'wx', 'wy', 'wz')];
 
 /**
  * Their fields, in order. A recording says them too, and anything else it likes; they have been the same in all of ROS 2.
- * What comes after these, covariances and the like, is not read.
+ * What comes after these, covariances and the like, is not read. Parts that are always there are written out: in the bytes nothing is
+ * between them.
  */
 const DEFINITIONS = Object.entries({
-  Header: [{ type: 'time', name: 'stamp' }, text('frame')],
-  Vector: ['x', 'y', 'z'].map(number),
-  Quaternion: ['x', 'y', 'z', 'w'].map(number),
-  Pose: [part('Vector', 'position'), part('Quaternion', 'orientation')],
-  Odometry: [part('Header', 'header'), text('child'), part('Pose', 'pose')],
-  PoseStamped: [part('Header', 'header'), part('Pose', 'pose')],
-  Twist: [part('Vector', 'linear'), part('Vector', 'angular')],
-  TwistStamped: [part('Header', 'header'), part('Twist', 'twist')],
+  Odometry: [stamp, unread('frame'), unread('child'), ...POSE],
+  PoseStamped: [stamp, unread('frame'), ...POSE],
+  Twist: TWIST,
+  TwistStamped: [stamp, unread('frame'), ...TWIST],
+  Vector: numbers('x', 'y', 'z'),
+  Quaternion: numbers('x', 'y', 'z', 'w'),
   Transform: [part('Vector', 'translation'), part('Quaternion', 'rotation')],
-  TransformStamped: [part('Header', 'header'), text('child'), part('Transform', 'transform')],
+  TransformStamped: [stamp, text('frame'), text('child'), part('Transform', 'transform')],
   TFMessage: [{ ...part('TransformStamped', 'transforms'), isArray: true }],
 }).map(([name, definitions]) => ({ name, definitions }));
 
@@ -68,14 +74,13 @@ export function poseReader(type) {
   const reader = readerOf(type);
   if (KINDS[type].kind === 'commands') {
     return (data) => {
-      const message = reader.readMessage(data);
-      const { linear, angular } = message.twist ?? message;
-      return { stamp: message.header?.stamp, a: linear.x, b: angular.z, c: 0, isRotation: true };
+      const { stamp, vx, wz } = reader.readMessage(data);
+      return { stamp, a: vx, b: wz, c: 0, isRotation: true };
     };
   }
   return (data) => {
-    const { header, pose } = reader.readMessage(data);
-    return { stamp: header.stamp, ...planar(pose.position, pose.orientation) };
+    const { stamp, x, y, qx, qy, qz, qw } = reader.readMessage(data);
+    return { stamp, a: x, b: y, c: headingOf(qx, qy, qz, qw), isRotation: isRotation(qx, qy, qz, qw) };
   };
 }
 
@@ -99,10 +104,10 @@ export const bare = (name) => name.replace(/^\/+/, '');
 export function edgeReader() {
   const reader = readerOf('tf2_msgs/msg/TFMessage');
   return (data) =>
-    reader.readMessage(data).transforms.map((/** @type {any} */ { header, child, transform }) => ({
-      parent: bare(header.frame),
+    reader.readMessage(data).transforms.map((/** @type {any} */ { stamp, frame, child, transform }) => ({
+      parent: bare(frame),
       child: bare(child),
-      stamp: header.stamp,
+      stamp,
       transform,
     }));
 }

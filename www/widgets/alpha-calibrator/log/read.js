@@ -1,5 +1,6 @@
 /** Logs of robots: poses or commands with times, of CSV, TUM and MCAP files. */
 
+import { turn } from './breath.js';
 import { withoutHeld } from './held.js';
 import { LogError, bytesOf } from './refusal.js';
 import { readTable } from './table.js';
@@ -21,7 +22,7 @@ import { readTable } from './table.js';
  * @property {{ parent: string, child: string }} [frames] of a topic of transforms
  */
 
-export { LogError };
+export { LogError, turn };
 
 /** The first bytes of every recording. */
 const MAGIC = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
@@ -50,8 +51,21 @@ export async function topicsOf(source, watching = {}) {
 export async function readLog(source, { kind, topic, frames, ...watching } = {}) {
   if (source.size === 0) throw new LogError({ file: source.name }, (say) => say.empty);
   if (!(await isRecording(source))) return readTable(source, kind, watching);
+  const [log] = await logsOf(source, [{ kind, topic, frames }], watching);
+  return log;
+}
+
+/**
+ * Several logs of a recording, which is gone through once.
+ *
+ * @param {Source} source a recording
+ * @param {Choice[]} choices
+ * @param {Watching} [watching]
+ * @returns {Promise<Log[]>} one a choice; rejects as `readLog` of the first that is refused
+ */
+export async function logsOf(source, choices, watching = {}) {
   const { readRecording } = await import('./recording.js');
-  return readRecording(source, { kind, topic: topic ?? '', frames }, watching);
+  return readRecording(source, choices, watching);
 }
 
 /** Names that recorders give to odometry, to commands, and to what is better. */

@@ -15,4 +15,4 @@ pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MAX_WORK, MapCon
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
 pub use occupancy::{Cell, Coded, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown};
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, Shade, Shades, read_pgm};
-pub use reading::{Colours, MapError, MapReading};
+pub use reading::{MapError, MapReading};

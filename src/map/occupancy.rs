@@ -155,9 +155,9 @@ impl OccupancyGrid {
         let Image { width, height, ref pixels } = *image;
         let mut grid = Self::blank(width, height, resolution, origin);
         if let Some(first) = pixels.clone().into_iter().next() {
-            let mut drawing = Drawing::new(&grid, interpretation, first);
+            let mut drawing = Drawing::new(interpretation, first);
             drawing.draw(&mut grid, pixels.clone());
-            if drawing.again(&grid) {
+            if drawing.again() {
                 drawing.draw(&mut grid, pixels.clone());
             }
         }
@@ -323,32 +323,23 @@ pub struct Drawing<P> {
     /// Whether some pixel was not opaque.
     transparent: bool,
     /// An image has few kinds of pixels: of each byte the latest that has it, and the cell that it becomes.
-    known: [(P, u8); 256],
-    /// The next cell, and how many are left of its row.
+    known: Box<[(P, u8); 256]>,
+    /// The next cell, and how many are left of its row; none before the first.
     at: usize,
     left: usize,
 }
 
 impl<P: Coded> Drawing<P> {
-    /// Of images like that of a pixel, which is one of them or opaque.
-    pub fn new(grid: &OccupancyGrid, interpretation: &Interpretation, like: P) -> Self {
-        let mut drawing = Self {
+    /// `like` is one of the pixels or opaque.
+    pub fn new(interpretation: &Interpretation, like: P) -> Self {
+        Self {
             interpretation: *interpretation,
             four_colours: false,
             transparent: false,
-            known: [(like, Cell::Free as u8); 256],
+            known: Box::new([(like, Cell::Free as u8); 256]),
             at: 0,
             left: 0,
-        };
-        drawing.begin(grid);
-        drawing
-    }
-
-    fn begin(&mut self, grid: &OccupancyGrid) {
-        // The first row of an image is its highest, the first of a grid its lowest.
-        (self.at, self.left) = (grid.cells.len().saturating_sub(grid.width), grid.width);
-        let like = self.known[0].0;
-        self.known = [(like, self.code(like)); 256];
+        }
     }
 
     fn code(&mut self, pixel: P) -> u8 {
@@ -362,6 +353,12 @@ impl<P: Coded> Drawing<P> {
 
     /// The next pixels, row by row from the top.
     pub fn draw(&mut self, grid: &mut OccupancyGrid, pixels: impl IntoIterator<Item = P>) {
+        if self.left == 0 {
+            // The first row of an image is its highest, the first of a grid its lowest.
+            (self.at, self.left) = (grid.cells.len().saturating_sub(grid.width), grid.width);
+            let like = self.known[0].0;
+            *self.known = [(like, self.code(like)); 256];
+        }
         let (mut at, mut left) = (self.at, self.left);
         pixels.into_iter().for_each(|pixel| {
             let place = usize::from(pixel.byte());
@@ -380,11 +377,10 @@ impl<P: Coded> Drawing<P> {
     }
 
     /// Whether all pixels are to come once more, as opacity counts in an image like this one.
-    pub fn again(&mut self, grid: &OccupancyGrid) -> bool {
+    pub fn again(&mut self) -> bool {
         let again = self.transparent && !self.four_colours && self.interpretation.mode == Mode::Trinary;
         if again {
-            self.four_colours = true;
-            self.begin(grid);
+            (self.four_colours, self.left) = (true, 0);
         }
         again
     }

@@ -103,6 +103,9 @@ impl Raster {
     pub fn read(&mut self, bytes: &[u8], place: &mut [u16]) -> Result<usize, PgmError> {
         let count = self.left.min(place.len());
         let values = &mut place[..count];
+        if count == 0 {
+            return Ok(count);
+        }
         if self.is_plain {
             let mut reader = Reader { bytes, at: self.at, line: self.line };
             for value in values {

@@ -40,24 +40,37 @@ impl fmt::Display for MapError {
 
 impl std::error::Error for MapError {}
 
-/// A pixel as images have it: red, green, blue and opacity, from 0 to 255.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Colours(pub [u8; 4]);
+/// A pixel as an image has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Raw {
+    Shade(Shade),
+    /// Red, green, blue and opacity, from 0 to 255.
+    Colours([u8; 4]),
+}
 
-impl From<Colours> for Pixel {
-    fn from(Colours(colours): Colours) -> Self {
-        let [red, green, blue, opacity] = colours.map(f32::from);
-        Self { shade: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
+impl From<Raw> for Pixel {
+    fn from(raw: Raw) -> Self {
+        match raw {
+            Raw::Shade(shade) => shade.into(),
+            Raw::Colours(colours) => {
+                let [red, green, blue, opacity] = colours.map(f32::from);
+                Self { shade: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
+            }
+        }
     }
 }
 
-impl Coded for Colours {
+impl Coded for Raw {
     #[inline]
     fn byte(self) -> u8 {
-        let [red, green, blue, _] = self.0;
-        red.wrapping_add(green).wrapping_add(blue)
+        match self {
+            Self::Shade(shade) => shade.byte(),
+            Self::Colours([red, green, blue, _]) => red.wrapping_add(green).wrapping_add(blue),
+        }
     }
 }
+
+const OPAQUE: Raw = Raw::Colours([0, 0, 0, u8::MAX]);
 
 /// Pixels that are looked at in the time that a distance takes, where they are no numbers in a text.
 const PIXELS: usize = 8;
@@ -67,16 +80,18 @@ const PIXELS: usize = 8;
 pub struct MapReading {
     /// Its bytes, until all are read.
     image: Vec<u8>,
-    pixels: Pixels,
+    source: Source,
+    drawing: Drawing<Raw>,
     grid: OccupancyGrid,
     outlining: Outlining,
 }
 
+/// Where in the bytes of an image its pixels are.
 #[derive(Clone, Debug)]
-enum Pixels {
-    Shades(Raster, Drawing<Shade>),
-    /// With the next of them.
-    Colours(usize, Drawing<Colours>),
+enum Source {
+    Pgm(Raster),
+    /// Four bytes a pixel; the next of them.
+    Colours(usize),
 }
 
 impl MapReading {
@@ -91,9 +106,8 @@ impl MapReading {
         origin: SE2,
     ) -> Result<Self, MapError> {
         let Image { width, height, pixels: raster } = Raster::begin(&file)?;
-        let grid = OccupancyGrid::blank(width, height, resolution, origin);
-        let drawing = Drawing::new(&grid, interpretation, raster.shade(0));
-        Ok(Self::new(file, Pixels::Shades(raster, drawing), grid))
+        let image = Image { width, height, pixels: file };
+        Ok(Self::new(image, Source::Pgm(raster), interpretation, resolution, origin))
     }
 
     /// Begins with red, green, blue and opacity of each pixel.
@@ -103,14 +117,19 @@ impl MapReading {
         resolution: f64,
         origin: SE2,
     ) -> Self {
-        let Image { width, height, pixels } = image;
-        let grid = OccupancyGrid::blank(width, height, resolution, origin);
-        let drawing = Drawing::new(&grid, interpretation, Colours([0, 0, 0, u8::MAX]));
-        Self::new(pixels, Pixels::Colours(0, drawing), grid)
+        Self::new(image, Source::Colours(0), interpretation, resolution, origin)
     }
 
-    fn new(image: Vec<u8>, pixels: Pixels, grid: OccupancyGrid) -> Self {
-        Self { image, pixels, grid, outlining: Outlining::default() }
+    fn new(
+        Image { width, height, pixels: image }: Image<Vec<u8>>,
+        source: Source,
+        interpretation: &Interpretation,
+        resolution: f64,
+        origin: SE2,
+    ) -> Self {
+        let grid = OccupancyGrid::blank(width, height, resolution, origin);
+        let drawing = Drawing::new(interpretation, OPAQUE);
+        Self { image, source, drawing, grid, outlining: Outlining::default() }
     }
 
     /// Goes on as far as `work` allows (about that many distances computed); whether all is done. What is unknown may be
@@ -132,39 +151,45 @@ impl MapReading {
 
     /// Makes cells of pixels; whether all is done.
     fn draw(&mut self, work: &mut usize) -> Result<bool, PgmError> {
-        let Self { image, pixels, grid, .. } = self;
-        match pixels {
-            Pixels::Shades(raster, drawing) => {
-                let mut values = [0; MANY];
-                while raster.left() > 0 && *work > 0 {
+        let Self { image, source, drawing, grid, .. } = self;
+        let (mut values, mut pixels) = ([0; MANY], [OPAQUE; MANY]);
+        while *work > 0 {
+            let (count, cost) = match source {
+                Source::Pgm(raster) => {
                     let count = raster.read(image, &mut values)?;
-                    drawing.draw(grid, values[..count].iter().map(|value| raster.shade(*value)));
-                    *work = work.saturating_sub(if raster.is_plain { MANY } else { MANY / PIXELS });
-                }
-                Ok(raster.left() == 0)
-            }
-            Pixels::Colours(next, drawing) => {
-                let colours = image.as_chunks().0;
-                while *next < colours.len() && *work > 0 {
-                    let some = colours[*next..].iter().take(MANY);
-                    *next += some.len();
-                    drawing.draw(grid, some.map(|colours| Colours(*colours)));
-                    *work = work.saturating_sub(MANY / PIXELS);
-                    if *next == colours.len() && drawing.again(grid) {
-                        *next = 0;
+                    for (pixel, value) in pixels.iter_mut().zip(&values) {
+                        *pixel = Raw::Shade(raster.shade(*value));
                     }
+                    (count, if raster.is_plain { MANY } else { MANY / PIXELS })
                 }
-                Ok(*next >= colours.len())
+                Source::Colours(next) => {
+                    let colours = image.as_chunks().0.get(*next..).unwrap_or_default();
+                    pixels
+                        .iter_mut()
+                        .zip(colours)
+                        .for_each(|(pixel, colours)| *pixel = Raw::Colours(*colours));
+                    let count = colours.len().min(MANY);
+                    *next += count;
+                    (count, MANY / PIXELS)
+                }
+            };
+            drawing.draw(grid, pixels[..count].iter().copied());
+            *work = work.saturating_sub(cost);
+            if count == 0 {
+                if !drawing.again() {
+                    return Ok(true);
+                }
+                *source = Source::Colours(0);
             }
         }
+        Ok(false)
     }
 
-    /// The plan; what is left to do is done.
+    /// The plan, once all is done.
     ///
     /// # Errors
-    /// As [`MapReading::advance`], and where the grid is too large or too small.
-    pub fn finish(mut self, unknown: Unknown) -> Result<FloorPlan, MapError> {
-        while !self.advance(unknown, &mut { usize::MAX })? {}
+    /// [`MapError`] where the grid is too large or too small.
+    pub fn finish(self) -> Result<FloorPlan, MapError> {
         let walls = self.outlining.finish(&self.grid);
         Ok(FloorPlan::outlined(self.grid, walls)?)
     }
@@ -172,11 +197,11 @@ impl MapReading {
     /// How much is done, from 0 to 1.
     pub fn done(&self) -> f64 {
         let [columns, rows] = self.grid.size();
-        let count = (columns * rows) as f64;
-        let drawn = match &self.pixels {
-            Pixels::Shades(raster, _) => 1.0 - raster.left() as f64 / count,
-            Pixels::Colours(next, _) => *next as f64 / count,
+        let count = columns * rows;
+        let drawn = match &self.source {
+            Source::Pgm(raster) => count - raster.left(),
+            Source::Colours(next) => *next,
         };
-        0.5 * (drawn + self.outlining.done(&self.grid))
+        0.5 * (drawn as f64 / count as f64 + self.outlining.done(&self.grid))
     }
 }

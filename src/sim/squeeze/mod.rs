@@ -196,9 +196,11 @@ impl MapSqueeze {
     /// As [`MapSqueeze::set_grid`], of an image.
     ///
     /// # Errors
-    /// As [`MapReading::finish`]; nothing has changed then.
+    /// As [`MapReading::advance`] and [`MapReading::finish`]; the map is the former one then.
     pub fn set_map(&mut self, reading: MapReading) -> Result<(), MapError> {
-        self.set_plan(reading.finish(self.settings.unknown)?);
+        self.begin_map(reading);
+        while !self.read(&mut { usize::MAX })? {}
+        self.finish();
         Ok(())
     }
 
@@ -273,22 +275,24 @@ impl MapSqueeze {
         self.draws.extend_to(self.settings.samples);
     }
 
-    /// Reads the map, looks at it, where that is a new one, and goes on with what was begun, as far as `work` allows (about that
+    /// Reads a map, looks at it, where that is a new one, and goes on with what was begun, as far as `work` allows (about that
     /// many distances computed); whether all is done.
     ///
     /// # Errors
-    /// As [`MapSqueeze::set_map`], which nobody could say before; the map is not read any more, and nothing has changed.
+    /// As [`MapSqueeze::set_map`], which nobody could say before.
     pub fn advance(&mut self, mut work: usize) -> Result<bool, MapError> {
-        if let Some(mut reading) = self.reading.take() {
-            let unknown = self.settings.unknown;
-            if !reading.advance(unknown, &mut work)? {
-                self.reading = Some(reading);
-                return Ok(false);
-            }
-            let plan = reading.finish(unknown)?;
-            self.renew(Some(plan), self.settings).map_err(|_| MapError::NoMemory)?;
+        Ok(self.read(&mut work)? && self.go_on(work))
+    }
+
+    /// Whether no map is to be read any more.
+    fn read(&mut self, work: &mut usize) -> Result<bool, MapError> {
+        let Some(mut reading) = self.reading.take() else { return Ok(true) };
+        if !reading.advance(self.settings.unknown, work)? {
+            self.reading = Some(reading);
+            return Ok(false);
         }
-        Ok(self.go_on(work))
+        self.renew(Some(reading.finish()?), self.settings).map_err(|_| MapError::NoMemory)?;
+        Ok(true)
     }
 
     /// [`MapSqueeze::advance`] in the present map.

@@ -173,13 +173,13 @@ impl MapReading {
                     (count, MANY / PIXELS)
                 }
             };
-            drawing.draw(grid, pixels[..count].iter().copied());
-            *work = work.saturating_sub(cost);
-            if count == 0 {
-                if !drawing.again() {
-                    return Ok(true);
-                }
+            if count > 0 {
+                drawing.draw(grid, pixels[..count].iter().copied());
+                *work = work.saturating_sub(cost);
+            } else if drawing.again() {
                 *source = Source::Colours(0);
+            } else {
+                return Ok(true);
             }
         }
         Ok(false)

@@ -32,7 +32,7 @@ const STROKED = 200_000;
 const A_WALL = 40;
 
 /** Cells of a picture that are counted and drawn in a frame: ten milliseconds' work, before the engine has compiled it. */
-const COUNTED = 500_000;
+const COUNTED = 1_000_000;
 
 /** Walls whose ends are nearer to each other than this look the same, pixels of the view. */
 const ALIKE = 0.25;
@@ -144,7 +144,8 @@ export class WallLayer {
     if (isRight(complete)) coming = undefined;
     else {
       if (!isRight(coming)) coming = new Mask(grid, grid[kind], colour, side);
-      coming?.grow(piecemeal ? COUNTED : Infinity);
+      // One after the other.
+      if (kind === 'unknown' || !this.#masks.unknown?.coming) coming?.grow(piecemeal ? COUNTED : Infinity);
       if (coming?.complete) [complete, coming] = [coming, undefined];
     }
     this.#masks[kind] = { complete, coming };

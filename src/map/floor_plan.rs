@@ -143,6 +143,11 @@ impl FloorPlan {
     /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
     pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
         let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManyWalls)?;
+        Self::outlined(grid, walls)
+    }
+
+    /// The plan of a grid with these outlines.
+    pub(super) fn outlined(grid: OccupancyGrid, walls: Vec<Segment>) -> Result<Self, FloorPlanError> {
         let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
         for [x, y] in grid.corners() {
             bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];

@@ -1,5 +1,6 @@
 //! Occupancy grids as ROS `map_server` stores them.
 
+use super::outlining::Outlining;
 use crate::geom::arc::Departure;
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -112,7 +113,7 @@ impl Interpretation {
 pub const RESOLUTION: RangeInclusive<f64> = 1e-3..=100.0;
 
 /// Cells that are compared at once.
-const MANY: usize = size_of::<u128>();
+pub const MANY: usize = size_of::<u128>();
 
 /// Each of them 1.
 const ONES: u128 = u128::from_ne_bytes([1; MANY]);
@@ -152,43 +153,20 @@ impl OccupancyGrid {
         origin: SE2,
     ) -> Self {
         let Image { width, height, ref pixels } = *image;
-        let mut cells = vec![Cell::Free as u8; width * height];
-        // Into cells at once: the pixels of a large image take several times their memory.
-        let mut fill = |first: P, four_colours: bool| {
-            let mut transparent = false;
-            let mut code_of = |pixel: P| {
-                let mut pixel = pixel.into();
-                transparent |= pixel.opacity < 1.0;
-                if four_colours {
-                    pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
-                }
-                interpretation.cell(pixel) as u8
-            };
-            // An image has few kinds of pixels: of each byte, the latest that has it.
-            let mut known = [(first, code_of(first)); 256];
-            // The first row of an image is its highest, the first of a grid its lowest.
-            let (mut at, mut left) = (cells.len().saturating_sub(width), width);
-            pixels.clone().into_iter().for_each(|pixel| {
-                let (like, code) = &mut known[usize::from(pixel.byte())];
-                if *like != pixel {
-                    (*like, *code) = (pixel, code_of(pixel));
-                }
-                if let Some(cell) = cells.get_mut(at) {
-                    *cell = *code;
-                }
-                (at, left) = (at + 1, left.wrapping_sub(1));
-                if left == 0 {
-                    (at, left) = (at.wrapping_sub(2 * width), width);
-                }
-            });
-            transparent
-        };
-        if let Some(first) = pixels.clone().into_iter().next()
-            && fill(first, false)
-            && interpretation.mode == Mode::Trinary
-        {
-            fill(first, true);
+        let mut grid = Self::blank(width, height, resolution, origin);
+        if let Some(first) = pixels.clone().into_iter().next() {
+            let mut drawing = Drawing::new(interpretation, first);
+            drawing.draw(&mut grid, pixels.clone());
+            if drawing.again() {
+                drawing.draw(&mut grid, pixels.clone());
+            }
         }
+        grid
+    }
+
+    /// One of free cells.
+    pub(super) fn blank(width: usize, height: usize, resolution: f64, origin: SE2) -> Self {
+        let cells = vec![Cell::Free as u8; width * height];
         let (to_local, unknown) = (Departure::new(origin.inverse()), Unknown::default());
         Self { width, height, resolution, origin, to_local, cells, unknown }
     }
@@ -197,6 +175,11 @@ impl OccupancyGrid {
     #[must_use]
     pub fn with_unknown(self, unknown: Unknown) -> Self {
         Self { unknown, ..self }
+    }
+
+    /// Makes the unknown cells this; whether they were something else.
+    pub(super) fn change_unknown(&mut self, unknown: Unknown) -> bool {
+        std::mem::replace(&mut self.unknown, unknown) != unknown
     }
 
     /// Columns and rows.
@@ -296,12 +279,12 @@ impl OccupancyGrid {
         self.cells.iter().map(|code| self.blocks(*code))
     }
 
-    fn blocks(&self, code: u8) -> bool {
+    pub(super) fn blocks(&self, code: u8) -> bool {
         code == Cell::Occupied as u8 || (code == Cell::Unknown as u8 && self.unknown == Unknown::Blocked)
     }
 
     /// [`OccupancyGrid::blocks`] of many, 1 in their bytes where it is so.
-    fn many_blocked(&self, codes: [u8; MANY]) -> u128 {
+    pub(super) fn many_blocked(&self, codes: [u8; MANY]) -> u128 {
         let codes = u128::from_ne_bytes(codes);
         match self.unknown {
             Unknown::Free => marked(codes, Cell::Occupied),
@@ -310,7 +293,7 @@ impl OccupancyGrid {
     }
 
     /// The cells of a row, counted from the bottom; none of a row off the grid.
-    fn row(&self, row: usize) -> &[u8] {
+    pub(super) fn row(&self, row: usize) -> &[u8] {
         let from = row.saturating_mul(self.width).min(self.cells.len());
         &self.cells[from..(from + self.width).min(self.cells.len())]
     }
@@ -321,59 +304,84 @@ impl OccupancyGrid {
     /// # Errors
     /// So many there are at least, where there are more than `most`.
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
-        let (mut sides, mut upright) = (Vec::new(), Vec::new());
-        // Between cells on either side of a grid line there is an outline where just one is in the way. Row by row, as the cells lie
-        // in memory: of each grid line between columns, where its present outline began.
-        let mut began = vec![None; self.width + 1];
-        let mut below: &[u8] = &[];
-        for row in 0..=self.height {
-            let here = self.row(row);
-            let at = |cells: &[u8], column: usize| cells.get(column).is_some_and(|code| self.blocks(*code));
-            let (mut column, mut from, mut left) = (0, None, false);
-            while column <= self.width {
-                // Many cells that are as below them begin no outline and end none, nor does the line before them: outside of an
-                // outline along the rows, the cell there is as below it too.
-                let next = |cells: &[u8]| Some(self.many_blocked(*cells.get(column..)?.first_chunk()?));
-                if from.is_none() && next(here).is_some_and(|codes| next(below) == Some(codes)) {
-                    column += MANY;
-                    left = at(here, column - 1);
-                    continue;
-                }
-                let [blocked, was] = [here, below].map(|cells| at(cells, column));
-                if (was != blocked) != from.is_some() {
-                    match from.take() {
-                        Some(from) => sides.push(self.side([from, row], [column, row])),
-                        None => from = Some(column),
-                    }
-                }
-                if (left != blocked) != began[column].is_some() {
-                    match began[column].take() {
-                        Some(began) => upright.push([column, began, row]),
-                        None => began[column] = Some(row),
-                    }
-                }
-                left = blocked;
-                column += 1;
-            }
-            below = here;
-            if sides.len() + upright.len() > most {
-                return Err(most + 1);
-            }
-        }
-        // In the order of the grid lines, those of each as they are.
-        let mut places = vec![0; self.width + 2];
-        upright.iter().for_each(|[column, ..]| places[column + 1] += 1);
-        (0..=self.width).for_each(|column| places[column + 1] += places[column]);
-        let first = sides.len();
-        sides.resize(first + upright.len(), Segment { from: [0.0; 2], to: [0.0; 2] });
-        for [column, from, to] in upright {
-            sides[first + places[column]] = self.side([column, from], [column, to]);
-            places[column] += 1;
-        }
-        Ok(sides)
+        let mut outlining = Outlining::default();
+        while !outlining.advance(self, most, &mut { usize::MAX })? {}
+        Ok(outlining.finish(self))
     }
 
-    fn side(&self, from: [usize; 2], to: [usize; 2]) -> Segment {
+    pub(super) fn side(&self, from: [usize; 2], to: [usize; 2]) -> Segment {
         Segment { from: self.corner(from[0], from[1]), to: self.corner(to[0], to[1]) }
+    }
+}
+
+/// How the pixels of an image become the cells of a grid, as many at a time as there are.
+#[derive(Clone, Debug)]
+pub struct Drawing<P> {
+    interpretation: Interpretation,
+    /// Whether opacity counts as a fourth colour.
+    four_colours: bool,
+    /// Whether some pixel was not opaque.
+    transparent: bool,
+    /// An image has few kinds of pixels: of each byte the latest that has it, and the cell that it becomes.
+    known: Box<[(P, u8); 256]>,
+    /// The next cell, and how many are left of its row; none before the first.
+    at: usize,
+    left: usize,
+}
+
+impl<P: Coded> Drawing<P> {
+    /// `like` is one of the pixels or opaque.
+    pub fn new(interpretation: &Interpretation, like: P) -> Self {
+        Self {
+            interpretation: *interpretation,
+            four_colours: false,
+            transparent: false,
+            known: Box::new([(like, Cell::Free as u8); 256]),
+            at: 0,
+            left: 0,
+        }
+    }
+
+    fn code(&mut self, pixel: P) -> u8 {
+        let mut pixel = pixel.into();
+        self.transparent |= pixel.opacity < 1.0;
+        if self.four_colours {
+            pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
+        }
+        self.interpretation.cell(pixel) as u8
+    }
+
+    /// The next pixels, row by row from the top.
+    pub fn draw(&mut self, grid: &mut OccupancyGrid, pixels: impl IntoIterator<Item = P>) {
+        if self.left == 0 {
+            // The first row of an image is its highest, the first of a grid its lowest.
+            (self.at, self.left) = (grid.cells.len().saturating_sub(grid.width), grid.width);
+            let like = self.known[0].0;
+            *self.known = [(like, self.code(like)); 256];
+        }
+        let (mut at, mut left) = (self.at, self.left);
+        pixels.into_iter().for_each(|pixel| {
+            let place = usize::from(pixel.byte());
+            if self.known[place].0 != pixel {
+                self.known[place] = (pixel, self.code(pixel));
+            }
+            if let Some(cell) = grid.cells.get_mut(at) {
+                *cell = self.known[place].1;
+            }
+            (at, left) = (at + 1, left.wrapping_sub(1));
+            if left == 0 {
+                (at, left) = (at.wrapping_sub(2 * grid.width), grid.width);
+            }
+        });
+        (self.at, self.left) = (at, left);
+    }
+
+    /// Whether all pixels are to come once more, as opacity counts in an image like this one.
+    pub fn again(&mut self) -> bool {
+        let again = self.transparent && !self.four_colours && self.interpretation.mode == Mode::Trinary;
+        if again {
+            (self.four_colours, self.left) = (true, 0);
+        }
+        again
     }
 }

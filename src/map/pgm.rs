@@ -2,7 +2,6 @@
 
 use super::occupancy::{Coded, Image, Pixel};
 use std::fmt;
-use std::slice::{ChunksExact, Iter};
 
 /// Why bytes are not a PGM image.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,35 +38,100 @@ const QUOTED: usize = 20;
 /// # Errors
 /// [`PgmError`] with the line of the header, or the line where plain pixels end.
 pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
-    let mut reader = Reader { bytes, at: 0, line: 1 };
-    let plain = match reader.token() {
-        b"P5" => false,
-        b"P2" => true,
-        token => return Err(reader.error("the magic number", token, "P5 or P2".to_owned())),
-    };
-    let width = reader.number("the width", 1, MAX_PIXELS)?;
-    let height = reader.number("the height", 1, MAX_PIXELS / width)?;
-    let greatest = reader.number("the greatest value", 1, 65_535)?;
-    let count = width * height;
-    let raster = if plain {
-        let first = reader.clone();
-        for _ in 0..count {
-            reader.number("a pixel", 0, greatest)?;
-        }
-        Raster::Plain(first)
-    } else {
-        let size = if greatest < 256 { 1 } else { 2 };
-        // One white space character ends the header.
-        let raster = bytes.get(reader.at + 1..).unwrap_or_default();
-        let Some(raster) = raster.get(..count * size) else {
-            let allowed = format!("{} for {width} × {height} pixels", count * size);
-            let (field, line, value) =
-                ("the length of the raster in bytes", reader.line, raster.len().to_string());
-            return Err(PgmError { field, line, value, allowed });
+    let Image { width, height, pixels: raster } = Raster::begin(bytes)?;
+    let mut looked_at = raster.clone();
+    while looked_at.is_plain && looked_at.read(bytes, &mut [0; MANY])? > 0 {}
+    Ok(Image { width, height, pixels: Shades { bytes, raster } })
+}
+
+/// Pixels that are read at once.
+pub const MANY: usize = 256;
+
+/// Where in the bytes of a file its pixels are, row by row from the top, and how far they were read.
+#[derive(Clone, Debug)]
+pub struct Raster {
+    left: usize,
+    greatest: usize,
+    /// Whether they are numbers, of which nobody knows before they are read that they are as they should be.
+    pub is_plain: bool,
+    at: usize,
+    line: usize,
+}
+
+impl Raster {
+    /// Reads the header of a file.
+    pub fn begin(bytes: &[u8]) -> Result<Image<Self>, PgmError> {
+        let mut reader = Reader { bytes, at: 0, line: 1 };
+        let is_plain = match reader.token() {
+            b"P5" => false,
+            b"P2" => true,
+            token => return Err(reader.error("the magic number", token, "P5 or P2".to_owned())),
         };
-        if size == 1 { Raster::Bytes(raster.iter()) } else { Raster::Words(raster.chunks_exact(size)) }
-    };
-    Ok(Image { width, height, pixels: Shades { left: count, greatest, raster } })
+        let width = reader.number("the width", 1, MAX_PIXELS)?;
+        let height = reader.number("the height", 1, MAX_PIXELS / width)?;
+        let greatest = reader.number("the greatest value", 1, 65_535)?;
+        let left = width * height;
+        let Reader { mut at, line, .. } = reader;
+        let mut raster = Self { left, greatest, is_plain, at, line };
+        if !is_plain {
+            // One white space character ends the header.
+            at += 1;
+            let (there, wanted) = (bytes.len().saturating_sub(at), left * raster.size());
+            if there < wanted {
+                let allowed = format!("{wanted} for {width} × {height} pixels");
+                let (field, value) = ("the length of the raster in bytes", there.to_string());
+                return Err(PgmError { field, line, value, allowed });
+            }
+            raster.at = at;
+        }
+        Ok(Image { width, height, pixels: raster })
+    }
+
+    /// Bytes of a pixel that is none of a plain file.
+    fn size(&self) -> usize {
+        if self.greatest < 256 { 1 } else { 2 }
+    }
+
+    /// Pixels that are still to be read.
+    pub fn left(&self) -> usize {
+        self.left
+    }
+
+    /// Reads as many values as there are, and as there is place for, of the same bytes; how many. What kind of raster it is,
+    /// is asked once.
+    #[inline(never)]
+    pub fn read(&mut self, bytes: &[u8], place: &mut [u16]) -> Result<usize, PgmError> {
+        let count = self.left.min(place.len());
+        let values = &mut place[..count];
+        if count == 0 {
+            return Ok(count);
+        }
+        if self.is_plain {
+            let mut reader = Reader { bytes, at: self.at, line: self.line };
+            for value in values {
+                *value = reader.number("a pixel", 0, self.greatest)? as u16;
+            }
+            (self.at, self.line) = (reader.at, reader.line);
+        } else {
+            let size = self.size();
+            let raster = &bytes[self.at..][..count * size];
+            self.at += raster.len();
+            if size == 1 {
+                values.iter_mut().zip(raster).for_each(|(value, byte)| *value = u16::from(*byte));
+            } else {
+                // The higher one first.
+                let pairs = raster.as_chunks().0;
+                values.iter_mut().zip(pairs).for_each(|(value, pair)| *value = u16::from_be_bytes(*pair));
+            }
+        }
+        self.left -= count;
+        Ok(count)
+    }
+
+    pub fn shade(&self, value: u16) -> Shade {
+        let greatest = self.greatest as u16;
+        Shade { value: value.min(greatest), greatest }
+    }
 }
 
 /// A pixel of a PGM image: a value from 0 (black) to the greatest (white).
@@ -94,46 +158,9 @@ impl Coded for Shade {
 /// times the memory of the file.
 #[derive(Clone, Debug)]
 pub struct Shades<'a> {
-    left: usize,
-    greatest: usize,
-    raster: Raster<'a>,
-}
-
-#[derive(Clone, Debug)]
-enum Raster<'a> {
+    bytes: &'a [u8],
     /// All numbers in it are as they should be.
-    Plain(Reader<'a>),
-    Bytes(Iter<'a, u8>),
-    /// Two bytes a pixel, the higher one first.
-    Words(ChunksExact<'a, u8>),
-}
-
-impl Shades<'_> {
-    /// Reads as many values as there are, and as there is place for; how many. What kind of raster it is, is asked once.
-    #[inline(never)]
-    fn read(&mut self, place: &mut [u16]) -> usize {
-        let count = self.left.min(place.len());
-        let values = &mut place[..count];
-        match &mut self.raster {
-            Raster::Plain(reader) => values.iter_mut().for_each(|value| {
-                let number = reader.usual_number().or_else(|| number(reader.token()));
-                *value = number.unwrap_or_default() as u16;
-            }),
-            Raster::Bytes(bytes) => {
-                values.iter_mut().zip(bytes).for_each(|(value, byte)| *value = u16::from(*byte));
-            }
-            Raster::Words(words) => values.iter_mut().zip(words).for_each(|(value, bytes)| {
-                *value = bytes.iter().fold(0, |value, byte| value << 8 | u16::from(*byte));
-            }),
-        }
-        self.left -= count;
-        count
-    }
-
-    fn shade(&self, value: u16) -> Shade {
-        let greatest = self.greatest as u16;
-        Shade { value: value.min(greatest), greatest }
-    }
+    raster: Raster,
 }
 
 impl Iterator for Shades<'_> {
@@ -141,25 +168,23 @@ impl Iterator for Shades<'_> {
 
     fn next(&mut self) -> Option<Shade> {
         let mut value = [0];
-        (self.read(&mut value) > 0).then(|| self.shade(value[0]))
+        let count = self.raster.read(self.bytes, &mut value).unwrap_or_default();
+        (count > 0).then(|| self.raster.shade(value[0]))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.left, Some(self.left))
+        (self.raster.left, Some(self.raster.left))
     }
 
     #[inline]
     fn fold<B, F: FnMut(B, Shade) -> B>(mut self, first: B, mut f: F) -> B {
-        let (mut result, mut values) = (first, [0; 256]);
-        loop {
-            let count = self.read(&mut values);
-            if count == 0 {
-                return result;
-            }
+        let (mut result, mut values) = (first, [0; MANY]);
+        while let count @ 1.. = self.raster.read(self.bytes, &mut values).unwrap_or_default() {
             for value in &values[..count] {
-                result = f(result, self.shade(*value));
+                result = f(result, self.raster.shade(*value));
             }
         }
+        result
     }
 }
 

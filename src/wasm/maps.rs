@@ -1,13 +1,14 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, boolean, bytes, doubles, in_range, item, length, numbers, printed, type_error, whole, word,
+    Fields, boolean, bytes, doubles, in_range, item, length, no_memory, numbers, printed, type_error, whole,
+    word,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
-    Coded, FloorPlan, FloorPlanError, Image, Interpretation, MAX_BYTES, MAX_PIXELS, Mode, OccupancyGrid,
-    Pixel, RESOLUTION, read_pgm,
+    FloorPlan, FloorPlanError, Image, Interpretation, MAX_BYTES, MAX_PIXELS, MapError, MapReading, Mode,
+    RESOLUTION,
 };
 use crate::sim::settings::{QUANTITY, Words};
 use js_sys::{ArrayBuffer, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
@@ -22,6 +23,16 @@ impl Words for Mode {
 impl From<FloorPlanError> for JsValue {
     fn from(error: FloorPlanError) -> Self {
         RangeError::new(&error.message(printed)).into()
+    }
+}
+
+impl From<MapError> for JsValue {
+    fn from(error: MapError) -> Self {
+        match error {
+            MapError::Image(error) => RangeError::new(&error.to_string()).into(),
+            MapError::Plan(error) => error.into(),
+            MapError::NoMemory => no_memory("samples"),
+        }
     }
 }
 
@@ -56,9 +67,9 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     Ok(FloorPlan::new(segments.collect::<Result<_, JsValue>>()?, bounds)?)
 }
 
-/// The grid that `map_server` would make of an image, a PGM file or pixels, and what its YAML file says of it, the
-/// defaults where it says nothing.
-pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
+/// The map that `map_server` would make of an image, a PGM file or pixels, and what its YAML file says of it, the defaults
+/// where it says nothing. What is to be read of the image is still to be looked at.
+pub fn read_map(description: &JsValue, image: &JsValue) -> Result<MapReading, JsValue> {
     let fields = Fields::open("description", "", description)?;
     let resolution = in_range("resolution", &fields.value("resolution")?, &RESOLUTION)?;
     let origin: [f64; 3] = numbers("origin", &fields.value("origin")?)?;
@@ -84,32 +95,9 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let [x, y, yaw] = origin;
     let origin = SE2::new(x, y, yaw);
     if image.is_instance_of::<Uint8Array>() {
-        let file = read_file(image)?;
-        let image = read_pgm(&file).map_err(|error| RangeError::new(&error.to_string()))?;
-        return Ok(OccupancyGrid::new(&image, &interpretation, resolution, origin));
+        return Ok(MapReading::of_pgm(read_file(image)?, &interpretation, resolution, origin)?);
     }
-    let Image { width, height, pixels } = read_pixels(image.unchecked_ref())?;
-    let pixels = pixels.as_chunks().0.iter().map(|colours| Colours(*colours));
-    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
-}
-
-/// Red, green, blue and opacity.
-#[derive(Clone, Copy, PartialEq)]
-struct Colours([u8; 4]);
-
-impl From<Colours> for Pixel {
-    fn from(Colours(colours): Colours) -> Self {
-        let [red, green, blue, opacity] = colours.map(f32::from);
-        Self { shade: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
-    }
-}
-
-impl Coded for Colours {
-    #[inline]
-    fn byte(self) -> u8 {
-        let [red, green, blue, _] = self.0;
-        red.wrapping_add(green).wrapping_add(blue)
-    }
+    Ok(MapReading::of_colours(read_pixels(image.unchecked_ref())?, &interpretation, resolution, origin))
 }
 
 /// The bytes of a PGM file.

@@ -125,17 +125,17 @@ impl JsMapSqueeze {
         Ok(self.0.with(move |machine| machine.begin(settings))?)
     }
 
-    /// Looks at the map, where that is a new one, and works on what was begun, for computing about as many distances;
-    /// whether all is done.
+    /// Reads the map and looks at it, where that is a new one, and works on what was begun, for computing about as many
+    /// distances; whether all is done.
     pub fn advance(
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] distances: &JsValue,
     ) -> Result<bool, JsValue> {
         let distances = work("distances", distances)?;
-        Ok(self.0.with(move |machine| machine.advance(distances)))
+        Ok(self.0.with(move |machine| machine.advance(distances))?)
     }
 
-    /// How much is done of looking at the map or, after that, of the samples; from 0 to 1.
+    /// How much is done of reading a map, of looking at it or, after that, of the samples; from 0 to 1.
     #[wasm_bindgen(getter)]
     pub fn progress(&self) -> f64 {
         self.0.with(|machine| machine.progress())
@@ -208,8 +208,22 @@ impl JsMapSqueeze {
         #[wasm_bindgen(unchecked_param_type = "Uint8Array | Pick<ImageData, 'width' | 'height' | 'data'>")]
         image: &JsValue,
     ) -> Result<(), JsValue> {
-        let grid = read_map(description, image)?;
-        Ok(self.0.with(move |machine| machine.set_grid(grid))?)
+        let reading = read_map(description, image)?;
+        Ok(self.0.with(move |machine| machine.set_map(reading))?)
+    }
+
+    /// As `setGrid`, in slices like `begin`. Until the image is read, the map is the former one; what is wrong with it and
+    /// could not be said before is thrown by `advance`, and the map stays.
+    #[wasm_bindgen(js_name = beginGrid)]
+    pub fn begin_grid(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "unknown")] description: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array | Pick<ImageData, 'width' | 'height' | 'data'>")]
+        image: &JsValue,
+    ) -> Result<(), JsValue> {
+        let reading = read_map(description, image)?;
+        self.0.with(move |machine| machine.begin_map(reading));
+        Ok(())
     }
 
     /// A start in the open: in the middle of the largest square that is known to be free, heading where the way is known

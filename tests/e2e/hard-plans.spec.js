@@ -2,7 +2,7 @@
 
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { openSqueeze, squeezed } from './squeeze-support.js';
+import { openSqueeze, pgm, squeezed, unfold, yaml } from './squeeze-support.js';
 import { FRESH, STILL, boxOf, frames, pictureOf, test } from './support.js';
 
 /**
@@ -320,4 +320,112 @@ test('what is said of the work is in sight, moves nothing and is accessible', as
     expect(await boxOf(widget)).toEqual(before);
     await expectAccessible(page);
   });
+});
+
+/**
+ * Drops a plain image of 4096² pixels, made in the page, with what describes it, and lets it be.
+ *
+ * @param {Locator} widget
+ * @param {string} last its last pixel
+ */
+function dropHall(widget, last) {
+  return widget.evaluate((element, end) => {
+    const side = 4096;
+    const row = (/** @type {string} */ shade) => `${`${shade} `.repeat(side - 1)}0\n`;
+    const image = ['P2\n4096 4096\n255\n', row('0'), ...Array(side - 2).fill(row('254')), row('0').replace(/0\n$/, `${end}\n`)];
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File(image, 'hall.pgm'));
+    dataTransfer.items.add(new File(['image: hall.pgm\nresolution: 0.01\norigin: [0, 0, 0]\n'], 'hall.yaml'));
+    element.shadowRoot?.querySelector('.stage')?.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, composed: true, cancelable: true }));
+  }, last);
+}
+
+/**
+ * How many frames there are until the reader is told of a map or of a refusal, and during how many the work is told of.
+ *
+ * @param {Locator} widget
+ * @param {string} told the part of the fold that says it
+ */
+function framesUntil(widget, told) {
+  return widget.evaluate(async (element, [selector]) => {
+    const said = () => element.shadowRoot?.querySelector(selector)?.textContent ?? '';
+    for (const before = said(), count = { all: 0, told: 0 }; ; count.all++) {
+      if (said() !== before) return count;
+      if (element.shadowRoot?.querySelector('progress')) count.told++;
+      await new Promise(requestAnimationFrame);
+    }
+  }, [told]);
+}
+
+test('a plain image of the largest size is read in slices, and the page goes on', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const fold = await unfold(widget, 'A map of your own');
+  await dropHall(widget, '0');
+  const { all, told } = await framesUntil(widget, '.own-map .present');
+  // A frame has 25 ms for it.
+  expect(all).toBeGreaterThan(10);
+  expect(told).toBeGreaterThan(5);
+  await expect(fold.locator('.present')).toContainText('hall.yaml: 41.0 m × 41.0 m');
+  const { bounds, walls, startFree, stats, config } = await squeezed(widget);
+  expect(bounds.map((bound) => Number(bound.toFixed(9)))).toEqual([0, 0, 40.96, 40.96]);
+  expect([walls.length, startFree, stats.attempts]).toEqual([4 * 8, true, config.samples]);
+});
+
+test('one that is broken at its end is refused late, and the present map stays', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const fold = await unfold(widget, 'A map of your own');
+  const before = await squeezed(widget);
+  const picture = await pictureOf(widget.locator('canvas.plane'));
+  await dropHall(widget, 'five');
+  expect((await framesUntil(widget, '.own-map .note')).all).toBeGreaterThan(5);
+  await expect(fold.locator('.note')).toHaveText('hall.pgm, line 4099: a pixel is "five"; allowed is a whole number from 0 to 255.');
+  await expect(fold.locator('.note')).toBeInViewport();
+  await expect(progress(widget)).toHaveCount(0);
+  await expect(fold.locator('.present')).toContainText('The apartment');
+  expect(await squeezed(widget)).toEqual(before);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(picture);
+  await widget.getByRole('button', { name: 'Open corridor' }).click();
+  await expect.poll(async () => (await squeezed(widget)).config.start.y).toBe(4.4);
+});
+
+test('of maps that are dropped one after the other the last one is there, and nothing is left of the others', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const fold = await unfold(widget, 'A map of your own');
+  const made = await widget.evaluateHandle((element) => {
+    const { MapSqueeze } = /** @type {MapSqueezeElement} */ (element).motion;
+    const { empty, prototype } = MapSqueeze;
+    const { free } = prototype;
+    const count = { made: 0, freed: 0, begun: 0 };
+    MapSqueeze.empty = (...given) => (count.made++, empty.apply(MapSqueeze, given));
+    prototype.free = function () {
+      count.freed++;
+      free.call(this);
+    };
+    const { beginGrid } = prototype;
+    prototype.beginGrid = function (...given) {
+      count.begun++;
+      beginGrid.apply(this, given);
+    };
+    return count;
+  });
+  await dropHall(widget, 'five');
+  await expect.poll(() => made.evaluate(({ begun }) => begun)).toBe(1);
+  const room = [yaml('room.yaml', { image: 'room.pgm', resolution: 0.05, origin: '[0, 0, 0]' }), pgm('room.pgm', 60, 40, (column) => column === 0)];
+  await widget.getByLabel('Map files').setInputFiles(room);
+  await expect(fold.locator('.present')).toContainText('room.yaml');
+  await expect(fold.locator('.note')).toBeHidden();
+  // That of the apartment is freed too.
+  expect(await made.jsonValue()).toEqual({ made: 2, freed: 2, begun: 2 });
+
+  // Whoever goes has what they dropped when they return.
+  await dropHall(widget, '0');
+  await expect.poll(() => made.evaluate(({ begun }) => begun)).toBe(3);
+  await widget.evaluate(async (element) => {
+    const { parentElement } = element;
+    element.remove();
+    await new Promise(requestAnimationFrame);
+    parentElement?.prepend(element);
+  });
+  await expect.poll(() => widget.evaluate((element) => /** @type {Element} */ (element).map?.name)).toBe('hall.yaml');
+  expect(await made.jsonValue()).toMatchObject({ made: 3, freed: 4 });
 });

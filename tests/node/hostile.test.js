@@ -23,7 +23,7 @@ const METHODS = {
     nearest: ['plane', 0, 0, 1, 1], density: ['plane', ...RECTANGLE], picture: ['plane', ...RECTANGLE, new Uint8Array(4 * 256)],
   },
   MapSqueeze: {
-    configure: [{}], begin: [{}], advance: [1e6], stop: [], setPlan: [PLAN], setGrid: [DESCRIPTION, PGM], grow: [0], beginToGrow: [0], restart: [], path: [0], trial: ['endpoint', 1, 1],
+    configure: [{}], begin: [{}], advance: [1e6], stop: [], setPlan: [PLAN], setGrid: [DESCRIPTION, PGM], beginGrid: [DESCRIPTION, PGM], grow: [0], beginToGrow: [0], restart: [], path: [0], trial: ['endpoint', 1, 1],
     picture: [...RECTANGLE, new Uint8Array(3 * 4 * 256)], nearest: [0, 0, 1],
   },
 };

@@ -1,6 +1,7 @@
 // Map files as a reader hands them over, and what becomes of them.
 
 import { load } from '../../dist/core.js';
+import { advancing } from '../../www/figure/settings.js';
 import { de } from '../../www/widgets/map-squeeze/de.js';
 import { en } from '../../www/widgets/map-squeeze/en.js';
 import { MapFileError, readMapFiles } from '../../www/widgets/map-squeeze/maps/files.js';
@@ -26,9 +27,17 @@ export function description(fields) {
  */
 export async function opened(...files) {
   const machine = new motion.MapSqueeze({ samples: 1 });
-  const map = await readMapFiles(files);
-  map.apply(machine);
+  enter(await readMapFiles(files), machine);
   return machine;
+}
+
+/**
+ * @param {import('../../www/widgets/map-squeeze/maps/files.js').OwnMap} map
+ * @param {import('../../www/types.d.ts').MapSqueeze} machine
+ */
+function enter(map, machine) {
+  const job = map.apply(machine, advancing(machine));
+  while (!job.next().done);
 }
 
 /** Where maps are tried that nobody asks of afterwards. */
@@ -42,7 +51,7 @@ const machine = new motion.MapSqueeze({ samples: 1 });
  */
 export async function refusalOf(files, language = 'en') {
   try {
-    (await readMapFiles(files)).apply(machine);
+    enter(await readMapFiles(files), machine);
   } catch (error) {
     if (error instanceof MapFileError) return error.sentence({ en, de }[language].refused);
     throw error;

@@ -441,8 +441,44 @@ test('a malformed map is explained by field and line, and the present one stays'
     ['walls', { ...YAML, resolution: 0.05 }, imageData(640, 320, Array.from({ length: 640 * 320 }, (_, i) => (i % 2 || Math.floor(i / 640) % 2 ? 255 : 0)))],
   ];
   refused(machine, wrong.map(([field, description, image]) => [field, () => machine.setGrid(description, image)]));
+  const inSlices = (/** @type {any} */ description, /** @type {any} */ image) => {
+    machine.beginGrid(description, image);
+    while (!machine.advance(50));
+  };
+  refused(machine, wrong.map(([field, description, image]) => [field, () => inSlices(description, image)]));
   machine.setGrid(YAML, PGM);
   assert.equal(machine.plan.walls.length, 16);
+});
+
+test('a large map is read in slices: the last one that is begun, unless it is given up', () => {
+  const side = 1024;
+  const plain = new TextEncoder().encode(`P2 ${side} ${side} 255\n${'254 '.repeat(side ** 2 - side)}${'0 '.repeat(side)}`);
+  const told = (/** @type {typeof machine} */ { stats, poses, verdicts, config, plan, grid }) => ({ stats, poses, verdicts, config, plan, grid });
+  const whole = new MapSqueeze({ samples: 50 });
+  const machine = new MapSqueeze({ samples: 50 });
+  const before = told(machine);
+  whole.setGrid({ resolution: 0.01, origin: [0, 0, 0] }, plain);
+  const slices = () => {
+    let count = 1;
+    for (; !machine.advance(50_000); count++) assert.ok(machine.progress > 0 && machine.progress <= 1);
+    return count;
+  };
+
+  machine.beginGrid({ resolution: 0.01, origin: [0, 0, 0] }, plain);
+  for (let i = 0; i < 10; i++) assert.equal(machine.advance(50_000), false);
+  assert.deepEqual(told(machine), before);
+  machine.stop();
+  assert.equal(slices(), 1, 'nothing is left to do');
+  assert.deepEqual(told(machine), before);
+
+  machine.beginGrid(YAML, PGM);
+  const bytes = plain.slice();
+  machine.beginGrid({ resolution: 0.01, origin: [0, 0, 0] }, bytes);
+  bytes.fill(0);
+  // A pixel of a plain image counts as much as a distance.
+  assert.ok(slices() > side ** 2 / 50_000);
+  assert.deepEqual(told(machine), told(whole));
+  for (const each of [machine, whole]) each.free();
 });
 
 test('unknown cells are free or blocked, as the reader chooses', () => {

@@ -209,7 +209,7 @@ export function orFree(machine, work) {
  *
  * @param {unknown} error
  */
-function isTrap(error) {
+export function isTrap(error) {
   return typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 }
 

@@ -31,7 +31,7 @@ const WALLS_A_STROKE = 500;
 const STROKED = 200_000;
 const A_WALL = 40;
 
-/** Cells of a picture that are counted in a frame: ten milliseconds' work, before the engine has compiled it. */
+/** Cells of a picture that are counted and drawn in a frame: ten milliseconds' work, before the engine has compiled it. */
 const COUNTED = 1_000_000;
 
 /** Walls whose ends are nearer to each other than this look the same, pixels of the view. */
@@ -144,8 +144,9 @@ export class WallLayer {
     if (isRight(complete)) coming = undefined;
     else {
       if (!isRight(coming)) coming = new Mask(grid, grid[kind], colour, side);
-      coming?.grow(piecemeal ? COUNTED : Infinity);
-      if (coming?.canvas) [complete, coming] = [coming, undefined];
+      // One after the other.
+      if (kind === 'unknown' || !this.#masks.unknown?.coming) coming?.grow(piecemeal ? COUNTED : Infinity);
+      if (coming?.complete) [complete, coming] = [coming, undefined];
     }
     this.#masks[kind] = { complete, coming };
     return complete;
@@ -201,17 +202,12 @@ export class WallLayer {
 
 /** A picture of some cells: a pixel for a square of them, the lowest row first, as opaque as many of them are. */
 class Mask {
-  /** Once all cells are counted. @type {OffscreenCanvas | undefined} */
   canvas;
   colour;
   side;
   #cells;
   #columns;
-  #width;
-  #height;
-  /** How many cells each pixel has. */
-  #counts;
-  /** The first row that is not counted yet. */
+  /** The first row of pixels that is not drawn yet. */
   #row = 0;
 
   /**
@@ -225,33 +221,40 @@ class Mask {
     this.side = side;
     this.#cells = cells;
     this.#columns = columns;
-    this.#width = Math.ceil(columns / side);
-    this.#height = Math.ceil(rows / side);
-    this.#counts = new Uint32Array(this.#width * this.#height);
+    this.canvas = new OffscreenCanvas(Math.ceil(columns / side), Math.ceil(rows / side));
   }
 
-  /** Counts up to so many cells, by rows, and makes the picture once that is done. @param {number} most */
+  /** Whether all of it is drawn. */
+  get complete() {
+    return this.#row === this.canvas.height;
+  }
+
+  /** Counts up to so many cells, by rows of pixels, and draws these. @param {number} most */
   grow(most) {
-    const [cells, counts, columns, side] = [this.#cells, this.#counts, this.#columns, this.side];
-    const last = Math.min(cells.length, (this.#row + Math.max(1, Math.floor(most / columns))) * columns);
-    for (; this.#row * columns < last; this.#row++) {
-      const end = (this.#row + 1) * columns;
-      let pixel = this.#width * Math.floor(this.#row / side);
-      for (let i = this.#row * columns; i < end; pixel++) {
-        let count = 0;
-        for (const next = Math.min(i + side, end); i < next; i++) count += cells[i];
-        counts[pixel] += count;
+    const [cells, columns, side] = [this.#cells, this.#columns, this.side];
+    const { width, height } = this.canvas;
+    const rows = Math.min(height - this.#row, Math.max(1, Math.floor(most / (columns * side))));
+    const image = new ImageData(width, rows);
+    const pixels = new Uint32Array(image.data.buffer);
+    const [colour] = new Uint32Array(Uint8Array.of(...channels(this.colour), 0).buffer);
+    const opacity = 255 / side ** 2;
+    const counts = new Uint32Array(width);
+    for (let row = 0; row < rows; row++) {
+      counts.fill(0);
+      const from = (this.#row + row) * side * columns;
+      const last = Math.min(from + side * columns, cells.length);
+      for (let end = from + columns; end <= last; end += columns) {
+        for (let i = end - columns, pixel = 0; i < end; pixel++) {
+          let count = 0;
+          for (const next = Math.min(i + side, end); i < next; i++) count += cells[i];
+          counts[pixel] += count;
+        }
       }
+      // The highest byte, as every machine has them that runs WebAssembly.
+      for (let i = 0; i < width; i++) pixels[row * width + i] = colour | (Math.round(opacity * counts[i]) << 24);
     }
-    if (last === cells.length) this.#paint();
-  }
-
-  #paint() {
-    const image = new ImageData(this.#width, this.#height);
-    new Uint32Array(image.data.buffer).fill(new Uint32Array(Uint8Array.of(...channels(this.colour), 0).buffer)[0]);
-    this.#counts.forEach((count, i) => (image.data[4 * i + 3] = (255 * count) / this.side ** 2));
-    this.canvas = new OffscreenCanvas(this.#width, this.#height);
-    hiddenContext(this.canvas).putImageData(image, 0, 0);
+    hiddenContext(this.canvas).putImageData(image, 0, this.#row);
+    this.#row += rows;
   }
 }
 
@@ -282,7 +285,6 @@ function hatch(context, { width, height }, colour) {
  * @param {Mask} mask
  */
 function fillCells(context, view, grid, { canvas, side }) {
-  if (!canvas) return;
   const [x, y, yaw] = grid.origin;
   const [along, up] = [grid.resolution * Math.cos(yaw), grid.resolution * Math.sin(yaw)];
   /** Where a corner of a cell is drawn. */

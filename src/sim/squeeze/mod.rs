@@ -16,7 +16,8 @@ use super::settings::{Allowed, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
 use crate::map::{
-    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MAX_WORK, MapConditioned, OccupancyGrid, Sampler, Wedged,
+    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MAX_WORK, MapConditioned, MapError, MapReading,
+    OccupancyGrid, Sampler, Wedged,
 };
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
@@ -91,6 +92,8 @@ pub const MAX_TRIAL: u64 = 100_000;
 #[derive(Clone, Debug)]
 pub struct MapSqueeze {
     plan: FloorPlan,
+    /// The map that is to take its place.
+    reading: Option<MapReading>,
     settings: Settings,
     draws: Draws,
     shown: Shown,
@@ -151,6 +154,7 @@ impl MapSqueeze {
     pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut machine = Self {
             plan: FloorPlan::apartment(),
+            reading: None,
             settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
             shown: Shown::default(),
@@ -173,6 +177,7 @@ impl MapSqueeze {
 
     /// Puts the robot into another map, where it stands and with the luck it has.
     pub fn set_plan(&mut self, plan: FloorPlan) {
+        self.reading = None;
         self.plan = plan;
         let goal = self.goal_of(self.settings.samples);
         self.restart();
@@ -186,6 +191,23 @@ impl MapSqueeze {
     pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
         self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
         Ok(())
+    }
+
+    /// As [`MapSqueeze::set_grid`], of an image.
+    ///
+    /// # Errors
+    /// As [`MapReading::advance`] and [`MapReading::finish`]; the map is the former one then.
+    pub fn set_map(&mut self, reading: MapReading) -> Result<(), MapError> {
+        self.begin_map(reading);
+        while !self.read(&mut { usize::MAX })? {}
+        self.finish();
+        Ok(())
+    }
+
+    /// As [`MapSqueeze::set_map`], in slices: [`MapSqueeze::advance`] is to be called until it says true. Until it is read, all
+    /// else is about the present map. It takes the place of another one that is being read.
+    pub fn begin_map(&mut self, reading: MapReading) {
+        self.reading = Some(reading);
     }
 
     /// How many attempts to show when there are `samples` from now on.
@@ -223,6 +245,11 @@ impl MapSqueeze {
                 allowed: "free, as the cells of this map would have more than 100000 sides",
             },
         })?;
+        self.renew(plan, settings)
+    }
+
+    /// Begins anew with these settings, in another plan where there is one.
+    fn renew(&mut self, plan: Option<FloorPlan>, settings: Settings) -> Result<(), SettingsError> {
         let attempts = std::mem::take(&mut self.spare);
         let mut shown = Shown { attempts, goal: self.goal_of(settings.samples), ..Shown::default() };
         let no_memory = |_| SettingsError::no_memory(settings.samples);
@@ -248,9 +275,28 @@ impl MapSqueeze {
         self.draws.extend_to(self.settings.samples);
     }
 
-    /// Looks at the map, where that is a new one, and goes on with what was begun, as far as `work` allows (about that many
-    /// distances computed); whether all is done.
-    pub fn advance(&mut self, mut work: usize) -> bool {
+    /// Reads a map, looks at it, where that is a new one, and goes on with what was begun, as far as `work` allows (about that
+    /// many distances computed); whether all is done.
+    ///
+    /// # Errors
+    /// As [`MapSqueeze::set_map`], which nobody could say before.
+    pub fn advance(&mut self, mut work: usize) -> Result<bool, MapError> {
+        Ok(self.read(&mut work)? && self.go_on(work))
+    }
+
+    /// Whether no map is to be read any more.
+    fn read(&mut self, work: &mut usize) -> Result<bool, MapError> {
+        let Some(mut reading) = self.reading.take() else { return Ok(true) };
+        if !reading.advance(self.settings.unknown, work)? {
+            self.reading = Some(reading);
+            return Ok(false);
+        }
+        self.renew(Some(reading.finish()?), self.settings).map_err(|_| MapError::NoMemory)?;
+        Ok(true)
+    }
+
+    /// [`MapSqueeze::advance`] in the present map.
+    fn go_on(&mut self, mut work: usize) -> bool {
         if !self.plan.prepare(&mut work) {
             return false;
         }
@@ -282,12 +328,15 @@ impl MapSqueeze {
 
     /// Makes all attempts that there are to be. Where there are none, nobody looks at the map.
     fn finish(&mut self) {
-        while self.shown.goal > 0 && !self.advance(usize::MAX) {}
+        while self.shown.goal > 0 && !self.go_on(usize::MAX) {}
         self.former = None;
     }
 
-    /// How much is done of looking at the map or, after that, of the attempts; from 0 to 1.
+    /// How much is done of reading a map, of looking at it or, after that, of the attempts; from 0 to 1.
     pub fn progress(&self) -> f64 {
+        if let Some(reading) = &self.reading {
+            return reading.done();
+        }
         let Shown { attempts, goal, .. } = &self.shown;
         let prepared = self.plan.prepared();
         if prepared < 1.0 { prepared } else { attempts.len() as f64 / (*goal).max(1) as f64 }
@@ -295,6 +344,7 @@ impl MapSqueeze {
 
     /// Gives up what was begun: all is as it was before, but for a map that was looked at in part.
     pub fn stop(&mut self) {
+        self.reading = None;
         let Some(Former { plan, settings, shown }) = self.former.take() else {
             self.shown.goal = self.shown.attempts.len();
             return;

@@ -6,7 +6,7 @@ import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
-import { orFree } from '../../figure/runtime.js';
+import { isTrap, orFree } from '../../figure/runtime.js';
 import { LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
@@ -24,6 +24,7 @@ import { squeezeStyles } from './styles.js';
 import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
 
 /**
+ * @import { Job } from '../../figure/settings.js'
  * @import { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts'
  * @import { OwnMap } from './maps/files.js'
  * @import { Reading } from './reading.js'
@@ -164,7 +165,7 @@ export class MapSqueezeElement extends FigureElement {
         this.#leave();
         this.#findRoom();
       } else {
-        this.#enter({ name: given.name ?? '', apply: (machine) => applyMap(machine, given) }, () => this.reflection.tell());
+        this.#enter(mapOf(given), () => this.reflection.tell(), (error) => this.runtime.report(error));
         this.#given = this.settings.next;
       }
       this.reflection.tell();
@@ -226,7 +227,7 @@ export class MapSqueezeElement extends FigureElement {
   /** The reader wants to go back to their map, as they left it. */
   returnToMap() {
     const left = this.#left;
-    if (left) this.open({ name: left.map.name ?? '', start: left.start, apply: (machine) => applyMap(machine, left.map) });
+    if (left) this.open({ ...mapOf(left.map), start: left.start });
   }
 
   /** The reader wants the robot in a map of their own. @param {OwnMap & { start?: Pose }} map */
@@ -235,7 +236,7 @@ export class MapSqueezeElement extends FigureElement {
     this.runtime.attempt(() => this.#enter(map, () => {
       this.gesture.step();
       this.gesture.commit();
-    }));
+    }, (error) => this.#opener.refuse(error)));
     this.stage.wake();
   }
 
@@ -257,28 +258,45 @@ export class MapSqueezeElement extends FigureElement {
    *
    * @param {OwnMap & { start?: Pose }} map with the place in it, where that is known
    * @param {() => void} arrived is called when it is there
+   * @param {(error: unknown) => void} refuse is called where it is refused later than here
    */
-  #enter(map, arrived) {
+  #enter(map, arrived, refuse) {
     const { motion, settings } = this;
     if (!motion) return;
-    // To read a large map takes as long as a frame has.
+    // To take over a large file takes as long as a frame has.
     const end = performance.now() + LONGEST_WORK;
-    const machine = orFree(motion.MapSqueeze.empty(), (made) => {
-      made.configure(settings.declared(settings.wanted));
-      map.apply(made);
+    const machine = motion.MapSqueeze.empty();
+    const reading = map.apply(machine, advancing(machine));
+    orFree(machine, () => {
+      machine.configure(settings.declared(settings.wanted));
+      reading.next();
     });
-    settings.work(this.#entering(machine, map, arrived), machine);
+    const entering = this.#entering(machine, reading, map, arrived);
+    let later = false;
+    const job = (function* () {
+      try {
+        yield* entering;
+      } catch (error) {
+        if (!later || settings.next !== machine || isTrap(error)) throw error;
+        settings.abandon();
+        settings.show();
+        refuse(error);
+      }
+    })();
+    settings.work(job, machine);
     settings.settle(end - performance.now());
+    later = true;
   }
 
   /**
    * @param {Machine} machine in another map
+   * @param {Job} reading of that map
    * @param {OwnMap & { start?: Pose }} map
    * @param {() => void} arrived
-   * @returns {import('../../figure/settings.js').Job}
+   * @returns {Job}
    */
-  *#entering(machine, { name, start }, arrived) {
-    yield* advancing(machine);
+  *#entering(machine, reading, { name, start }, arrived) {
+    yield* reading;
     yield 1;
     const { grid } = machine;
     yield 1;
@@ -360,5 +378,15 @@ export class MapSqueezeElement extends FigureElement {
     `;
   }
 }
+
+/** What is there as data. @param {MapData} map @returns {OwnMap} */
+const mapOf = (map) => ({
+  name: map.name ?? '',
+  *apply(machine, rest) {
+    applyMap(machine, map, 'beginGrid');
+    yield 0;
+    yield* rest;
+  },
+});
 
 define('map-squeeze', MapSqueezeElement);

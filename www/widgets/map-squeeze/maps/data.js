@@ -65,9 +65,10 @@ export function inOneList(walls) {
  *
  * @param {MapSqueeze} machine
  * @param {unknown} data to be MapData
+ * @param {'setGrid' | 'beginGrid'} [put] how a grid gets in: at once, or in slices
  * @throws {TypeError | RangeError} with the machine's present map left as it is
  */
-export function applyMap(machine, data) {
+export function applyMap(machine, data, put = 'setGrid') {
   const isGrid = typeof data === 'object' && data !== null && 'occupied' in data;
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
@@ -89,7 +90,7 @@ export function applyMap(machine, data) {
   for (let at = 0; at < count; at += columns) {
     image.set(cells.subarray(at, at + columns), image.length - columns - at);
   }
-  machine.setGrid({ resolution: map.resolution, origin: map.origin, negate: 1 }, image);
+  machine[put]({ resolution: map.resolution, origin: map.origin, negate: 1 }, image);
 }
 
 /**

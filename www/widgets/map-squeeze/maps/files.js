@@ -4,14 +4,15 @@ import { LONGEST_SIDE } from '../../../scene/canvas.js';
 import { limits } from '../../../settings.js';
 
 /**
+ * @import { Job } from '../../../figure/settings.js'
  * @import { MapSqueeze } from '../../../types.d.ts'
  *
  * @typedef {import('../../../messages/registry.js').Messages['squeeze']['refused']} Refused
  *
  * @typedef {object} OwnMap
  * @property {string} name
- * @property {(machine: MapSqueeze) => void} apply puts it into a machine; throws a MapFileError, with
- *   the machine's present map left as it is
+ * @property {(machine: MapSqueeze, rest: Job) => Job} apply puts it into a machine, in slices: with the first it begins, and goes
+ *   on with what the machine does then; any may throw a MapFileError, with the machine's present map left as it is
  */
 
 /** One sentence that names the file, the line or field, and what was expected. */
@@ -119,8 +120,8 @@ export async function readPlan(name, text) {
   const plan = await planOf(name, text);
   return {
     name,
-    apply: (machine) =>
-      retold(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
+    apply: (machine, rest) =>
+      retold(name, rest, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
   };
 }
 
@@ -190,10 +191,11 @@ async function readGrid(file, images) {
     : await readPng(image);
   return {
     name: file.name,
-    apply: (machine) =>
+    apply: (machine, rest) =>
       retold(
         file.name,
-        () => machine.setGrid(description, pixels),
+        rest,
+        () => machine.beginGrid(description, pixels),
         (say, name, reason) => gridComplaint(say, name, quoted(image.name), reason),
       ),
   };
@@ -245,12 +247,16 @@ function gridComplaint(say, description, image, reason) {
 
 /**
  * @param {string} name of the file that holds the map
- * @param {() => void} apply what the core may refuse: it names a field and what is allowed
+ * @param {Job} rest
+ * @param {() => void} begin what the core may refuse, as well as the rest: it names a field and what is allowed
  * @param {(say: Refused, file: string, reason: string) => string} sentence
+ * @returns {Job}
  */
-function retold(name, apply, sentence) {
+function* retold(name, rest, begin, sentence) {
   try {
-    apply();
+    begin();
+    yield 0;
+    yield* rest;
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
     const reason = error.message.replace(' is undefined;', ' is missing;');

@@ -46,14 +46,18 @@ export class MapOpener extends Part {
       const map = await find(await import('./files.js'));
       if (reading === this.#reading) this.host.open(map);
     } catch (error) {
-      if (reading !== this.#reading) return;
-      const { message, sentence } = /** @type {Error & Partial<import('./files.js').MapFileError>} */ (error);
-      this.#complaint = () => {
-        const { refused } = words.squeeze;
-        return sentence ? sentence(refused) : refused.cannot(message);
-      };
-      this.host.requestUpdate();
-      await this.dropped.showRefusal();
+      if (reading === this.#reading) this.refuse(error);
     }
+  }
+
+  /** Says why a map was refused. @param {unknown} error */
+  async refuse(error) {
+    const { message, sentence } = /** @type {Error & Partial<import('./files.js').MapFileError>} */ (error);
+    this.#complaint = () => {
+      const { refused } = words.squeeze;
+      return sentence ? sentence(refused) : refused.cannot(message);
+    };
+    this.host.requestUpdate();
+    await this.dropped.showRefusal();
   }
 }

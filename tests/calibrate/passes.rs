@@ -5,16 +5,19 @@ use motion::NoiseKind;
 use motion::calibrate::{Evidence, Model, Robust, Systematic, Uncertainty, cut, fit};
 use motion::models::OdometryRule;
 
+/// Beluga's costs what Nav2's does.
+const COSTS: [Model; 4] = [
+    Model::Odometry(OdometryRule::Table),
+    Model::Odometry(OdometryRule::Nav2),
+    Model::Odometry(OdometryRule::Omni),
+    Model::Velocity,
+];
+
 #[test]
 fn a_hundred_thousand_legs_are_fitted_with_intervals_in_few_passes() {
     // The maximum in five or ten and each end of an interval in one or two, of twelve at most; triangular noise is first fitted as a
     // normal one, and for it the legs at the edge are looked for.
-    for model in [
-        Model::Odometry(OdometryRule::Table),
-        Model::Odometry(OdometryRule::Nav2),
-        Model::Odometry(OdometryRule::Omni),
-        Model::Velocity,
-    ] {
+    for model in COSTS {
         for (noise, most) in [(NoiseKind::Normal, 30.0), (NoiseKind::Triangular, 60.0)] {
             for (robust, jumps) in [(Robust::No, 0.0), (Robust::Estimated, 0.0), (Robust::Estimated, 0.01)] {
                 let simulation = Simulation { jumps, ..Simulation::of(model, noise, 100_000, 7) };
@@ -34,12 +37,7 @@ fn a_hundred_thousand_legs_are_fitted_with_intervals_in_few_passes() {
 #[test]
 fn a_perfect_log_is_fitted_in_not_many_more() {
     // Ever smaller α's are ever likelier: two passes halve them down to rounding. Where rounding alone keeps one up, intervals are halved.
-    for model in [
-        Model::Odometry(OdometryRule::Table),
-        Model::Odometry(OdometryRule::Nav2),
-        Model::Odometry(OdometryRule::Omni),
-        Model::Velocity,
-    ] {
+    for model in COSTS {
         for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
             for robust in [Robust::No, Robust::Estimated] {
                 for count in [500, 10_000] {

@@ -1,0 +1,177 @@
+import { spawnSync } from 'node:child_process';
+import { expect } from '@playwright/test';
+import { recordingOf, transform } from '../mcap.js';
+import { caption, choose, example, fold, openCalibrator, recordingWith, rows, settled, stats, tablesOf } from './calibrator-support.js';
+import { heard, stateOf } from './element-support.js';
+import { STILL, test, unfold } from './support.js';
+
+/** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
+
+test.use(STILL);
+
+test('two tables of the reader’s own take the place of the simulated log, and leave it again', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const tables = await tablesOf(widget);
+  await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
+  await expect(caption(widget)).toHaveText(/^\d+ legs of odom\.csv, truth\.csv\./);
+  await settled(widget);
+  expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
+  await expect(fold(widget, 'Your log').locator('.present')).toHaveText('The log at present: odom.csv, truth.csv.');
+  await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('where to read a log takes as long as a frame has, nothing is fitted before the next', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const steps = await widget.evaluate((element) => {
+    const calibrator = /** @type {AlphaCalibratorElement} */ (element);
+    const { prototype } = calibrator.machine.constructor;
+    const { beginLog, advance } = prototype;
+    let count = 0;
+    prototype.beginLog = function (/** @type {any[]} */ ...log) {
+      const end = performance.now() + 30;
+      while (performance.now() < end);
+      return beginLog.apply(this, log);
+    };
+    prototype.advance = function (/** @type {number} */ work) {
+      count += 1;
+      return advance.call(this, work);
+    };
+    const t = Float64Array.from({ length: 2000 }, (_, i) => i / 20);
+    const poses = { t, x: t.map((time) => time / 2), y: t.map(() => 0), theta: t.map(Math.sin) };
+    calibrator.log = { name: 'long.csv', odometry: poses, reference: poses };
+    Object.assign(prototype, { beginLog, advance });
+    return count;
+  });
+  expect(steps).toBe(0);
+  await expect(caption(widget)).toHaveText(/of long\.csv\./);
+});
+
+for (const [attributes, options, legs] of /** @type {[string, string, object][]} */ ([
+  ['', '', { distance: 0.25, angle: 0.2 }],
+  ['duration="0.8" positiondeviation="0.004" headingdeviation="0.003"', '--duration 0.8 --position-deviation 0.004 --heading-deviation 0.003', { duration: 0.8 }],
+])) test(`of the same log it says the same as the command line, to the last bit: ${options}`, async ({ page }) => {
+  const widget = await openCalibrator(page, `robust="false" seed="0" bylength ${attributes}`);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv\./);
+  await settled(widget);
+  const shown = await widget.evaluate((element) => {
+    const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
+    return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
+  });
+  const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
+  const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, ...options.split(' ').filter(Boolean), '--json'], { encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28 });
+  const { date, fit, logs, start, ...printed } = JSON.parse(stdout);
+  expect([fit, start, logs.length, typeof date]).toEqual([{ legs, byLength: true }, 9, 2, 'string']);
+  expect(JSON.parse(shown)).toEqual(printed);
+});
+
+test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv\./);
+  await settled(widget);
+  const { alphas } = await stats(widget);
+  for (const topics of [['/mocap/pose'], ['/mocap/pose', '/slam/pose']]) {
+    const name = `run-${topics.length}.mcap`;
+    const buffer = await recordingWith(topics);
+    await widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
+    if (topics.length > 1) await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
+    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}\\.`));
+    await settled(widget);
+    const read = await stats(widget);
+    // Quaternions round the headings.
+    alphas.forEach((alpha, i) => expect(Number(read.alphas[i]) / Number(alpha)).toBeCloseTo(1, 3));
+  }
+});
+
+test('of transforms the reader says which frames are meant', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
+    rows(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
+  const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link')];
+  const buffer = await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  await fold(widget, 'Your log').locator('summary').click();
+  await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
+  await widget.getByLabel('Odometry', { exact: true }).selectOption('/tf');
+  await widget.getByLabel('Reference', { exact: true }).selectOption('/tf');
+  await expect(widget.getByRole('alert')).toHaveText(/no transforms lead from odom to base_link; expected are frames that are connected, of .*base_footprint/);
+  const frames = widget.getByLabel('Odometry: Frames');
+  await frames.fill('odom, base_footprint');
+  await frames.press('Enter');
+  await expect(caption(widget)).toHaveText(/of tf\.mcap\./);
+});
+
+test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  const alert = widget.getByRole('alert');
+  await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
+  await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
+  await choose(widget, { 'a.csv': '1', 'b.csv': '1', 'c.csv': '1' });
+  await expect(alert).toHaveText(/3 were given; expected are two tables/);
+  await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
+  await expect(alert).toHaveText(/1 was given; expected are two tables/);
+  expect(await stateOf(widget)).toEqual(before);
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('while a log is fitted, whoever asks for the picture does not go on with it: nothing keeps the page', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const [before, after] = await widget.evaluate((element) => {
+    const figure = /** @type {AlphaCalibratorElement & { scene: unknown }} */ (element);
+    // A drive of an hour, which takes many frames.
+    const t = Float64Array.from({ length: 100_000 }, (_, row) => row / 25);
+    const of = (/** @type {(t: number) => number} */ coordinate) => t.map(coordinate);
+    const theta = of((time) => Math.sin(time / 3));
+    const poses = { t, x: of((time) => 0.3 * time), y: of((time) => Math.cos(time)), theta };
+    figure.log = { name: 'an hour', odometry: poses, reference: { ...poses, y: of((time) => Math.cos(time) + 0.01 * Math.sin(17 * time)) } };
+    const before = figure.settings.next.progress;
+    for (let asked = 0; asked < 5; asked++) void figure.scene;
+    return [before, figure.settings.next?.progress];
+  });
+  expect(before).toBeLessThan(1);
+  expect(after).toBe(before);
+  await expect(caption(widget)).toHaveText(/of an hour\./);
+});
+
+test('a page gives a log, which is in no state; one that is refused leaves the present one', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  const [name, count, refused] = await widget.evaluate(async (element) => {
+    const figure = /** @type {AlphaCalibratorElement} */ (element);
+    const { legs } = figure.machine;
+    const t = Array.from({ length: legs.count }, (_, leg) => leg);
+    const column = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => t.map((leg) => poses[6 * leg + at]);
+    const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0), y: column(all, 1), theta: column(all, 2) });
+    const given = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
+    figure.log = given;
+    await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
+    let refused = '';
+    figure.addEventListener('error', (event) => { refused = /** @type {ErrorEvent} */ (event).message; event.preventDefault(); }, { once: true });
+    figure.log = { ...given, odometry: { ...given.odometry, t: t.with(3, 1) } };
+    return [figure.log?.name, figure.machine.count, refused];
+  });
+  expect(name).toBe('of the page');
+  expect(Number(count)).toBeGreaterThan(100);
+  expect(refused).toMatch(/^odometry: sample 3 is not later than the one before/);
+  expect(await stateOf(widget)).toEqual(before);
+});
+
+test('a log without legs says so, and trouble with it is no failure', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.evaluate((element) => {
+    const still = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
+    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: still, reference: still };
+  });
+  await settled(widget);
+  await unfold(widget);
+  await expect(caption(widget)).toHaveText(/^Fewer than eight legs:/);
+  await expect(rows(widget).first()).toHaveText(/—/);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /none is looked at\.$/);
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'There is no leg to look at.');
+  await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
+  await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
+  expect(await heard(page, ['error'])).toEqual([]);
+});

@@ -1,0 +1,78 @@
+/**
+ * What the tests of the Alpha Calibrator share: the element on its page, its parts, and logs.
+ *
+ * @module
+ */
+
+import { readFileSync } from 'node:fs';
+import { expect } from '@playwright/test';
+import { odometry, poseOf, recordingOf, stampOf } from '../mcap.js';
+import { ready, show } from './element-support.js';
+import { frames } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('../../www/types.d.ts').AlphaCalibrator} Machine
+ * @typedef {HTMLElement & { machine: Machine, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any }} AlphaCalibratorElement
+ */
+
+/**
+ * The element on a page of its own, with its log fitted.
+ *
+ * @param {Page} page
+ * @param {string} [attributes]
+ */
+export async function openCalibrator(page, attributes = '') {
+  await show(page, `<main><h1>Bare</h1><alpha-calibrator heading-level="2" ${attributes}></alpha-calibrator></main>`, {
+    script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
+  });
+  const widget = page.locator('alpha-calibrator');
+  await ready(widget);
+  await expect(widget.locator('.folds')).toBeVisible();
+  await settled(widget);
+  return widget;
+}
+
+/** Waits until all is fitted and shown. @param {Locator} widget */
+export async function settled(widget) {
+  await expect.poll(() => widget.evaluate((element) => {
+    const { machine, settings } = /** @type {AlphaCalibratorElement} */ (element);
+    return machine !== undefined && !settings.stale && !settings.next && machine.progress === 1;
+  })).toBe(true);
+  await frames(widget.page());
+}
+
+export const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption] > span');
+export const rows = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
+export const fold = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('details[part=fold]', { has: widget.page().locator('summary', { hasText: name }) });
+export const stats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
+
+/** Rows of two tables of the simulated drive, as a reader's files have them. @param {Locator} widget @param {(row: number) => boolean} [keep] */
+export const tablesOf = (widget, keep = () => true) =>
+  widget.evaluate((element, kept) => {
+    const { legs } = /** @type {AlphaCalibratorElement} */ (element).machine;
+    const rows = Array.from({ length: legs.count }, (_, leg) => leg).filter((leg) => kept[leg]);
+    const table = (/** @type {Float64Array} */ poses) =>
+      ['t,x,y,yaw', ...rows.map((leg) => [legs.times[2 * leg], ...poses.subarray(6 * leg, 6 * leg + 3)].join(','))].join('\n');
+    return { odometry: table(legs.odometry), reference: table(legs.reference) };
+  }, Array.from({ length: 2000 }, (_, row) => keep(row)));
+
+/** @param {Locator} widget @param {Record<string, string>} files */
+export async function choose(widget, files) {
+  await fold(widget, 'Your log').evaluate((details) => void (/** @type {HTMLDetailsElement} */ (details).open = true));
+  await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
+}
+
+/** A table of the example's. @param {'odometry' | 'reference'} name */
+export const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
+
+/** The example as a recording, in which a third topic may be the reference too. @param {string[]} topics */
+export async function recordingWith(topics) {
+  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const reference = topics.flatMap((topic) => rows('reference').map(([t, x, y, yaw]) => ({
+    topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
+  })));
+  const wheels = rows('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
+  return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+}

@@ -3,11 +3,13 @@
 mod driver;
 mod picture;
 mod settings;
+mod tally;
 
 pub use super::noise_level::alphas_of_noise;
 pub use driver::{ACCEPTED, Attempt, END_FREE, PATH_FREE};
 pub use picture::{KINDS, Kind};
 pub use settings::*;
+pub use tally::{Stats, Tally};
 
 use super::cloud::draws::Draws;
 use super::cloud::picture::Ramp;
@@ -26,64 +28,7 @@ use picture::Picture;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
-
-/// Counts over the attempts shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
-    /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
-    pub draws: usize,
-    pub wall_tests: usize,
-    pub accepted: usize,
-    /// Accepted although the way there was blocked.
-    pub through_wall: usize,
-}
-
-impl Tally {
-    /// The share of accepted draws: of an attempt of k parts, k draws are accepted.
-    pub fn acceptance_rate(&self, steps: u32) -> f64 {
-        share(self.accepted * steps as usize, self.draws)
-    }
-
-    pub fn through_wall_rate(&self) -> f64 {
-        share(self.through_wall, self.accepted)
-    }
-
-    /// The 95 % interval of the share through a wall (Wilson, 1927): right also for shares of 0 and 1.
-    pub fn through_wall_interval(&self) -> [f64; 2] {
-        let (n, p) = (self.accepted as f64, self.through_wall_rate());
-        // The normal quantile of 97.5 %.
-        let z = NoiseKind::Normal.quantile(0.475);
-        let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
-        let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-        // At shares of 0 and 1 the interval ends there, which rounding would miss.
-        let low = if self.through_wall == 0 { 0.0 } else { (middle - half) / scale };
-        let high = if self.through_wall == self.accepted { 1.0 } else { (middle + half) / scale };
-        if n > 0.0 { [low, high] } else { [0.0, 1.0] }
-    }
-}
-
-fn share(part: usize, all: usize) -> f64 {
-    part as f64 / all as f64
-}
-
-/// What the attempts shown say. Shares of nothing are NaN.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
-pub struct Stats {
-    pub attempts: usize,
-    /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
-    pub drawn: usize,
-    pub accepted: usize,
-    pub acceptance_rate: f64,
-    pub through_wall: usize,
-    pub through_wall_rate: f64,
-    /// 95 %.
-    pub through_wall_interval: [f64; 2],
-    pub draws_per_accepted: f64,
-    pub wall_tests_per_accepted: f64,
-    /// Whether the machine stopped short of its samples.
-    pub gave_up: bool,
-}
+use tally::share;
 
 /// Accepted samples of a trial, times parts: enough to time, few enough not to freeze a page.
 pub const MAX_TRIAL: u64 = 100_000;

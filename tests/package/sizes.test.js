@@ -37,7 +37,7 @@ test('what a page loads does not grow', () => {
     within(tag, paths, 1000 * page);
     within(`module of ${tag}`, paths.filter((path) => path.endsWith('.wasm')), 1000 * module);
   }
-  within('scripts of all widgets', loadedByAll().filter((path) => path.endsWith('.js')), 115_000);
+  within('scripts of all widgets', loadedByAll().filter((path) => path.endsWith('.js')), 114_000);
   within('module', ['dist/motion.wasm'], 1000 * LIMITS.module);
   within('bundle', ['dist/motion-widgets.js'], 1000 * LIMITS.bundle);
   within('module for notebooks', ['dist/anywidget.js'], 1000 * LIMITS.notebook);

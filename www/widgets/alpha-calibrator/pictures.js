@@ -1,7 +1,8 @@
 /** The Alpha Calibrator's two pictures: the way of the robot, and one leg of it from where that began. */
 
 import { words } from '../../messages/registry.js';
-import { clipped, drawAxes, drawDots, drawMark, drawOutlines } from '../../scene/draw.js';
+import { clipped, drawAxes } from '../../scene/axes.js';
+import { drawDots, drawMark, drawOutlines } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { channels } from '../../ui/theme.js';

@@ -1,8 +1,8 @@
 /** The Alpha Calibrator to take along: the way, the α's with their intervals, why they are these, what was removed, and the verdict. */
 
 import { words } from '../../messages/registry.js';
+import { clipped, drawAxes } from '../../scene/axes.js';
 import { brushOn } from '../../scene/canvas.js';
-import { clipped, drawAxes } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';

@@ -1,7 +1,8 @@
 /** Arc Anatomy's picture: the commanded arc, the arc that leads to the robot, and what they are constructed of. */
 
 import { words } from '../../messages/registry.js';
-import { clipped, drawAxes, drawOutlines, drawRobot } from '../../scene/draw.js';
+import { clipped, drawAxes } from '../../scene/axes.js';
+import { drawOutlines, drawRobot } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { clamp } from '../../ui/clamp.js';

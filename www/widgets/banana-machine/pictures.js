@@ -1,10 +1,9 @@
 /** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
 import { words } from '../../messages/registry.js';
+import { clipped, drawAxes } from '../../scene/axes.js';
 import {
-  clipped,
   densityRamp,
-  drawAxes,
   drawDots,
   drawHeap,
   drawMark,

@@ -1,7 +1,8 @@
 /** Dead Reckoning's two pictures: the floor with the path, and the step that is looked at in exponential coordinates. */
 
 import { words } from '../../messages/registry.js';
-import { clipped, drawAxes, drawDots, drawMark, drawOutlines, drawRobot, trace } from '../../scene/draw.js';
+import { clipped, drawAxes } from '../../scene/axes.js';
+import { drawDots, drawMark, drawOutlines, drawRobot, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { COMMAND_DASH } from '../shared/command.js';

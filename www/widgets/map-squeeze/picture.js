@@ -1,7 +1,8 @@
 /** Map Squeeze's picture: walls, the robot with its command, and what became of every draw. */
 
 import { words } from '../../messages/registry.js';
-import { clipped, densityRamp, drawAxes, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
+import { clipped, drawAxes } from '../../scene/axes.js';
+import { densityRamp, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer } from '../../scene/walls.js';
@@ -278,7 +279,7 @@ function knownCorners({ columns, unknown, resolution, origin: [x, y, yaw] }) {
  *
  * @param {Brush} brush
  * @param {Scene} scene
- * @returns {import('../../scene/draw.js').KeyEntry[]}
+ * @returns {import('../../scene/axes.js').KeyEntry[]}
  */
 function keyOf({ context, palette }, { config, sorted }) {
   /** @typedef {(x: number, y: number) => void} Shape */

@@ -1,7 +1,8 @@
 /** The Odometry Decomposer's two pictures: the three legs in the frame of the odometry, and the same in the world. */
 
 import { words } from '../../messages/registry.js';
-import { clipped, drawAxes, drawDots, drawMark } from '../../scene/draw.js';
+import { clipped, drawAxes } from '../../scene/axes.js';
+import { drawDots, drawMark } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { fixed } from '../../ui/format.js';

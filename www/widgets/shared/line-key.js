@@ -4,7 +4,7 @@
  * @param {import('../../scene/canvas.js').Brush} brush
  * @param {string} name
  * @param {{ colour: string, width: number, dash: number[] }} style
- * @returns {import('../../scene/draw.js').KeyEntry}
+ * @returns {import('../../scene/axes.js').KeyEntry}
  */
 export function lineKey({ context }, name, { colour, width, dash }) {
   return {

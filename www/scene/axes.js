@@ -1,0 +1,147 @@
+/** What surrounds a picture: axes with their ticks and names, a key, and the edge of what is inside. */
+
+import { ticks } from 'd3-array';
+import { powerOfTen, tick } from '../ui/format.js';
+
+/** @import { Brush } from './canvas.js' */
+
+/** Ticks nearer to each other are told as multiples of a power of ten: their zeros have no room beside the axis. */
+const NEAREST_TICKS = 9e-4;
+
+/** Least distances between two ticks, CSS pixels. */
+const TICK_SPACING = { x: 60, y: 48 };
+
+/** Gap between entries of a key, width of a sample in one, and from line to line: shares of the size of its type. */
+const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
+
+/**
+ * Hairline axes with ticks at the left and the bottom, a faint grid, and above it the name of what runs upwards and a key.
+ *
+ * @param {Brush} brush
+ * @param {{ x: string, y: string }} names with their units in brackets
+ * @param {KeyEntry[]} key the most important first: as many as there is room for, in as many lines as the view keeps free
+ */
+export function drawAxes(brush, names, key) {
+  const { context, view, palette, font } = brush;
+  const { left, right, top, bottom } = view.frame;
+  const { xMin, xMax, yMin, yMax } = view.extent;
+  context.font = font;
+  context.lineWidth = 1;
+  context.strokeStyle = palette.rule;
+  context.fillStyle = palette.muted;
+
+  const xTicks = ticksOf(xMin, xMax, (right - left) / TICK_SPACING.x);
+  // The axis has its name where its last tick would be.
+  const xName = names.x.replace('(', `(${xTicks.unit}`);
+  const free = right - context.measureText(xName).width - 10;
+  context.textAlign = 'center';
+  context.textBaseline = 'top';
+  for (const value of xTicks.values) {
+    const x = Math.round(view.toPixelX(value)) + 0.5;
+    line(context, [x, top, x, bottom], 0.5);
+    const text = xTicks.text(value);
+    if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
+  }
+  const yTicks = ticksOf(yMin, yMax, (bottom - top) / TICK_SPACING.y);
+  context.textAlign = 'right';
+  context.textBaseline = 'middle';
+  for (const value of yTicks.values) {
+    const y = Math.round(view.toPixelY(value)) + 0.5;
+    line(context, [left, y, right, y], 0.5);
+    context.fillText(yTicks.text(value), left - 6, y);
+  }
+
+  line(context, [left, bottom + 0.5, right, bottom + 0.5], 1);
+  line(context, [left - 0.5, top, left - 0.5, bottom], 1);
+  context.font = `italic ${font}`;
+  context.textAlign = 'right';
+  context.textBaseline = 'top';
+  context.fillText(xName, right, bottom + 6);
+  context.textAlign = 'left';
+  const yName = names.y.replace('(', `(${yTicks.unit}`);
+  drawKey(brush, yName, key);
+}
+
+/**
+ * @typedef {object} KeyEntry
+ * @property {string} name
+ * @property {(x: number, y: number, width: number) => void} draw a sample, from its left to its right in the middle of the line; CSS pixels
+ *
+ * @param {Brush} brush
+ * @param {string} before the name that it begins after
+ * @param {KeyEntry[]} entries
+ */
+function drawKey({ context, view, palette, font }, before, entries) {
+  const size = parseFloat(font);
+  const [width, line] = [KEY.sample * size, KEY.line * size];
+  let y = view.frame.top - 22;
+  const [begin, last] = [2 + context.measureText(before).width, Math.floor(y / line)];
+  context.font = font;
+  let [x, row] = [begin, 0];
+  const placed = [];
+  for (const entry of entries) {
+    const length = (KEY.gap + KEY.space) * size + width + context.measureText(entry.name).width;
+    // A line of its own begins without a gap.
+    if (x + length > view.width && row < last) [x, row] = [2 - KEY.gap * size, row + 1];
+    if (x + length > view.width) break;
+    placed.push({ ...entry, from: x + KEY.gap * size, row });
+    x += length;
+  }
+  // The last line stands next to the picture.
+  y -= row * line;
+  context.font = `italic ${font}`;
+  context.fillText(before, 2, y);
+  context.font = font;
+  context.fillStyle = palette.ink;
+  for (const { name, draw, from, row } of placed) {
+    context.fillText(name, from + width + KEY.space * size, y + row * line);
+    draw(from, y + row * line + size / 2, width);
+  }
+}
+
+/**
+ * @param {number} from
+ * @param {number} to
+ * @param {number} count of ticks, about
+ */
+function ticksOf(from, to, count) {
+  const values = ticks(from, to, Math.max(2, Math.floor(count)));
+  const step = values.length > 1 ? values[1] - values[0] : 1;
+  const exponent = step < NEAREST_TICKS ? Math.floor(Math.log10(step) + 1e-9) : 0;
+  return {
+    values,
+    /** What stands before the unit of the axis. */
+    unit: exponent < 0 ? `${powerOfTen(exponent)} ` : '',
+    text: (/** @type {number} */ value) => tick(value / 10 ** exponent, step / 10 ** exponent),
+  };
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[]} ends
+ * @param {number} alpha
+ */
+function line(context, [x1, y1, x2, y2], alpha) {
+  context.globalAlpha = alpha;
+  context.beginPath();
+  context.moveTo(x1, y1);
+  context.lineTo(x2, y2);
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+/**
+ * Confines what `paint` draws to the inside of the axes.
+ *
+ * @param {Brush} brush
+ * @param {() => void} paint
+ */
+export function clipped({ context, view }, paint) {
+  const { left, right, top, bottom } = view.frame;
+  context.save();
+  context.beginPath();
+  context.rect(left, top, right - left, bottom - top);
+  context.clip();
+  paint();
+  context.restore();
+}

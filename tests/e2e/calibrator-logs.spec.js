@@ -110,9 +110,9 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
   await choose(widget, { 'a.csv': '1', 'b.csv': '1', 'c.csv': '1' });
-  await expect(alert).toHaveText(/3 were given; expected are two tables/);
+  await expect(alert).toHaveText(/3 files given; expected are two tables/);
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
-  await expect(alert).toHaveText(/1 was given; expected are two tables/);
+  await expect(alert).toHaveText(/The log is refused: 1 file given; expected are two tables at once/);
   expect(await stateOf(widget)).toEqual(before);
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });

@@ -201,7 +201,7 @@ for (const width of [375, 1280]) {
       expect(drawn.texts.filter((text) => text?.startsWith('slope'))).toEqual(driver === 'turn' ? ['slope α₁', 'slope α₄', 'slope α₁'] : ['slope α₂', 'slope α₃', 'slope α₂']);
       // In the key, and on the floor.
       expect([drawn.unbegun, drawn.bands, drawn.dotted]).toEqual([0, 3, 2]);
-      expect(drawn.size[0] / drawn.size[1]).toBeCloseTo(720 / 686, 1);
+      expect(drawn.size[0] / drawn.size[1]).toBeCloseTo(720 / 712, 1);
       drawn.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * drawn.size[i])).toBeLessThanOrEqual(1));
     }
   });

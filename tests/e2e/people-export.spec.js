@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { presets } from '../../www/settings.js';
-import { assign, ready, show } from './element-support.js';
+import { ALL, assign, ready, show } from './element-support.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
 import { STILL, boxOf, frames, numberIn, open, openWhole, readout, state, test } from './support.js';
 
@@ -183,6 +183,23 @@ test('SVG has the turns of the odometry model as arcs of their angles', async ({
   // Coordinates are printed to a tenth or a hundredth of a pixel, of some 26.
   for (const [i, turn] of [rot1, rot2].entries()) expect(Math.abs(angles[i] - turn)).toBeLessThan(0.01);
 });
+
+// In two others, names of angles and of distances have the colours of these.
+for (const name of ALL.filter((each) => each !== 'arc-anatomy' && each !== 'odometry-decomposer')) {
+  test(`no word of ${name} has the colour of what it stands beside`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const { colours, allowed } = await widget.evaluate((element) => {
+      const figure = /** @type {Figure & { stage: { palette: Record<string, string> } }} */ (element);
+      const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
+      const { ink, muted } = figure.stage.palette;
+      return { colours: [...root.querySelectorAll('text')].map((text) => text.getAttribute('fill')), allowed: [ink, muted] };
+    });
+    expect(colours.length).toBeGreaterThan(4);
+    expect(colours.filter((colour) => !allowed.includes(colour ?? ''))).toEqual([]);
+  });
+}
 
 test('the picture on screen stays as it is when it is exported', async ({ page }) => {
   const widget = await openWhole(page);

@@ -92,8 +92,8 @@ function drawKey({ context, view, palette, font }, before, entries) {
   context.font = `italic ${font}`;
   context.fillText(before, 2, y);
   context.font = font;
-  context.fillStyle = palette.ink;
   for (const { name, draw, from, row } of placed) {
+    context.fillStyle = palette.ink;
     context.fillText(name, from + width + KEY.space * size, y + row * line);
     draw(from, y + row * line + size / 2, width);
   }

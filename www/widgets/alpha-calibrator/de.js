@@ -168,7 +168,7 @@ export const de = {
     present: (name) => `Diese Aufzeichnung: ${name}.`,
     reading: 'Wird gelesen',
     refused: (message) => `Die Aufzeichnung wird abgelehnt: ${message}`,
-    two: (count) => `Dateien: ${count} ${count === 1 ? 'wurde' : 'wurden'} gegeben; erwartet werden zwei Tabellen, der Odometrie und der Referenz, oder eine Aufnahme.`,
+    two: (count) => `${count} ${count === 1 ? 'Datei wurde' : 'Dateien wurden'} gegeben; erwartet werden zwei Tabellen zugleich, der Odometrie und der Referenz, oder eine Aufnahme.`,
   },
   nav2: {
     title: 'Für Nav2',

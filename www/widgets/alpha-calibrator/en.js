@@ -167,7 +167,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     present: (name) => `The log at present: ${name}.`,
     reading: 'Reading',
     refused: (message) => `The log is refused: ${message}`,
-    two: (count) => `Files: ${count} ${count === 1 ? 'was' : 'were'} given; expected are two tables, of odometry and of the reference, or one recording.`,
+    two: (count) => `${count} ${count === 1 ? 'file' : 'files'} given; expected are two tables at once, of odometry and of the reference, or one recording.`,
   },
   nav2: {
     title: 'For Nav2',

@@ -19,9 +19,9 @@ import { captionOf } from './words.js';
  */
 
 /** Pixels of the view: the way at the left, the α's beside it; below them the panels, and six lines. */
-const [WIDTH, HEIGHT] = [720, 686];
+const [WIDTH, HEIGHT] = [720, 712];
 const WAY = { width: 430, height: 344 };
-const PANEL = { width: WIDTH / 3, height: 210 };
+const PANEL = { width: WIDTH / 3, height: 236 };
 
 /** From line to line. */
 const LINE = 18;

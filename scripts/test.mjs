@@ -4,6 +4,7 @@
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
+import { stripVTControlCharacters } from 'node:util';
 import { testRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
@@ -11,7 +12,13 @@ import { filesOf } from './bundle.mjs';
 import { Missing, ROOT, inOnePiece, once, progress, run, runAsScript } from './process.mjs';
 import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
 
-/** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
+/**
+ * @typedef {object} Tally
+ * @property {number} passed
+ * @property {number} failed
+ * @property {number} skipped
+ * @property {string[]} [complaints] of tests that failed, be it once: which, and why
+ */
 /** @typedef {{ name: string, ok: boolean, seconds: number, tally?: Tally, note?: string }} Outcome */
 /** @typedef {() => Promise<{ ok: boolean, output: string, timedOut: boolean }>} Job */
 /**
@@ -264,12 +271,46 @@ function tapTally(output) {
   return { passed: last('pass'), failed: last('fail') + last('cancelled'), skipped: last('skipped') + last('todo') };
 }
 
+/**
+ * Browser tests that may pass at their second try alone. They wait for what a browser does when it pleases: of some nine hundred,
+ * one a run is chance; more are a defect, of the figures or of the tests.
+ */
+const UNSTEADY = 1;
+
+/** Characters of an error in the summary: what was expected and what was there, without what follows. */
+const ERROR = 1500;
+
+/**
+ * @typedef {object} Suite of Playwright's report
+ * @property {Suite[]} [suites]
+ * @property {{ title: string, file: string, line: number, tests: { status: string, results: { errors: { message: string }[] }[] }[] }[]} [specs]
+ */
+
 /** @returns {Tally} */
 function playwrightTally() {
   const report = at('test-results/e2e.json');
   if (!existsSync(report)) return { passed: 0, failed: 0, skipped: 0 };
-  const { stats } = JSON.parse(readFileSync(report, 'utf8'));
-  return { passed: stats.expected, failed: stats.unexpected + stats.flaky, skipped: stats.skipped };
+  const { stats, suites } = /** @type {{ stats: Record<string, number>, suites: Suite[] }} */ (JSON.parse(readFileSync(report, 'utf8')));
+  const complaints = suites.flatMap(complaintsOf);
+  const steady = stats.flaky <= UNSTEADY;
+  return {
+    passed: stats.expected + (steady ? stats.flaky : 0),
+    failed: stats.unexpected + (steady ? 0 : stats.flaky),
+    skipped: stats.skipped,
+    complaints,
+  };
+}
+
+/** @param {Suite} suite @returns {string[]} */
+function complaintsOf({ suites = [], specs = [] }) {
+  const own = specs.flatMap(({ title, file, line, tests }) => tests
+    .filter(({ status }) => status === 'unexpected' || status === 'flaky')
+    .map(({ status, results }) => {
+      const error = results.flatMap(({ errors }) => errors)[0]?.message ?? 'no error is told';
+      const once = status === 'flaky' ? 'passed at the second try' : 'failed twice';
+      return `${file}:${line} ${title}: ${once}\n${stripVTControlCharacters(error).slice(0, ERROR)}`;
+    }));
+  return [...own, ...suites.flatMap(complaintsOf)];
 }
 
 /**
@@ -290,6 +331,7 @@ function summarize(outcomes) {
     // A check that fails without a failed test to show for it counts as one.
     failed += ok ? 0 : Math.max(1, tally?.failed ?? 0);
   }
+  for (const complaint of outcomes.flatMap(({ tally }) => tally?.complaints ?? [])) console.log(`\n${complaint}`);
   console.log(`\n${passed} passed, ${failed} failed`);
   return failed === 0;
 }

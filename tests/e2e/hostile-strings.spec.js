@@ -2,7 +2,7 @@
 
 import { expect } from '@playwright/test';
 import { ALL, heard, ready, show } from './element-support.js';
-import { STILL, frames, test } from './support.js';
+import { STILL, frames, test, unfolded } from './support.js';
 
 /** @typedef {import('./element-support.js').AnyElement} AnyElement */
 
@@ -64,6 +64,7 @@ test('a map of any name has the figure, the picture and the data of any other', 
   const widget = page.locator('map-squeeze');
   await ready(widget);
   await widget.evaluate((element) => element.shadowRoot?.querySelectorAll('details').forEach((fold) => (fold.open = true)));
+  await unfolded(widget);
   /** @param {string} name */
   const taken = async (name) => {
     await widget.evaluate((element, name) => {
@@ -90,10 +91,13 @@ test('a map of any name has the figure, the picture and the data of any other', 
 });
 
 test('a file of any name is refused in a sentence that quotes it', async ({ page }) => {
+  test.slow();
   await show(page, '<map-squeeze></map-squeeze>');
   const widget = page.locator('map-squeeze');
   await ready(widget);
   await widget.locator('#map-fold summary').click();
+  await expect(widget.locator('#map-fold')).toHaveAttribute('open');
+  await unfolded(widget);
   /** @type {unknown} */
   let plain;
   for (const name of ['room', ...STRINGS]) {

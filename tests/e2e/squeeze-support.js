@@ -6,7 +6,7 @@
 
 import { expect } from '@playwright/test';
 import { pngOf } from '../png.js';
-import { frames } from './support.js';
+import { frames, unfolded } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -43,6 +43,7 @@ export async function openSqueeze(page) {
 export async function unfold(widget, name) {
   const fold = widget.locator('details').filter({ has: widget.page().locator('summary', { hasText: name }) });
   if ((await fold.getAttribute('open')) === null) await fold.locator('summary').click();
+  await unfolded(widget);
   return fold;
 }
 

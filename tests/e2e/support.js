@@ -78,8 +78,16 @@ export async function unfold(widget) {
   const closed = widget.locator('details[part=fold]:not([open]) > summary');
   for (let left = await closed.count(); left > 0; left--) await closed.first().click();
   await expect(widget.locator('details[part=fold]:not([open])')).toHaveCount(0);
+  await unfolded(widget);
   await frames(widget.page());
 }
+
+/**
+ * Waits for what is in the folds that are open: it is made after a task of the browser's has told of them.
+ *
+ * @param {Locator} widget
+ */
+export const unfolded = (widget) => expect(widget.locator('details[part=fold][open] > .folded:empty')).toHaveCount(0);
 
 /**
  * The field of a slider's value.

@@ -6,5 +6,6 @@ export default {
   testDir: '../e2e',
   outputDir: '../../test-results',
   webServer: undefined,
+  retries: 0,
   use: { ...base.use, actionTimeout: 10_000 },
 };

@@ -99,6 +99,14 @@ impl NoiseKind {
         }
     }
 
+    /// E[ε⁴]/E[ε²]²: of a Gaussian 3, of the triangle 12/5.
+    pub fn kurtosis(self) -> f64 {
+        match self {
+            Self::Normal => 3.0,
+            Self::Triangular => 2.4,
+        }
+    }
+
     /// [`NoiseKind::quantile`] in place, to the same bits.
     pub(crate) fn quantiles(self, fours: &mut [f64x4]) {
         match self {

@@ -137,6 +137,27 @@ fn panels_are_means_of_squared_residuals() {
     assert!((0..8).map(off).sum::<f64>() < 26.1, "χ² of 8 is above that once in a thousand times");
 }
 
+/// Where the model is true no more of the bins are beyond two and three of their bars than normal errors would be, also of those that
+/// one leg of much turn decides: bars by how squares scatter alone would leave out 1.7 % at three, six times as many.
+#[test]
+fn the_bars_of_panels_hold_their_lines() {
+    let [mut bins, mut beyond, mut far] = [0; 3];
+    for seed in 0..SEEDS {
+        let machine = machine(Settings { seed, ..Settings::default() });
+        for panel in [Driver::Way, Driver::Turn].into_iter().flat_map(|driver| machine.panels(driver)) {
+            let slope = panel.slope.expect("the log turns and drives");
+            for ((x, y), error) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
+                let off = ((y - slope * x) / error).abs();
+                bins += 1;
+                beyond += usize::from(off > 2.0);
+                far += usize::from(off > 3.0);
+            }
+        }
+    }
+    let share = |count: usize| count as f64 / bins as f64;
+    assert!(share(beyond) < 0.0455 && share(far) < 0.0027, "{beyond} and {far} of {bins}");
+}
+
 #[test]
 fn a_leg_is_seen_from_where_it_began() {
     let machine = machine(Settings { inflation: 4.0, ..Settings::default() });

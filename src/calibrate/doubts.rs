@@ -64,10 +64,10 @@ pub enum Verdict {
     Unrelated,
     /// Legs are much longer than was asked, because one of the logs has few samples: the α's are those of longer legs.
     LongLegs,
+    /// Neighbouring legs have something in common: they err alike, or, where no tails explain it, opposite.
+    Correlated,
     /// Residuals are far out more often than the noise explains.
     HeavyTails,
-    /// Neighbouring legs have something in common.
-    Correlated,
     /// Held-out residuals are outside of their intervals more often than they should be.
     Overconfident,
     /// They are inside more often.
@@ -112,7 +112,6 @@ const SLIGHT_COVERAGE: f64 = 0.01;
 struct Shape {
     /// 95 % are within.
     end: f64,
-    kurtosis: f64,
     /// By how much the share within changes with the logarithm of the variance.
     slope: f64,
 }
@@ -123,15 +122,13 @@ pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 fn shape(noise: NoiseKind) -> Shape {
     match noise {
         // With c its end: c · φ(c).
-        NoiseKind::Normal => Shape {
-            end: NORMAL_95,
-            kurtosis: 3.0,
-            slope: NORMAL_95 * libm::exp(-0.5 * NORMAL_95 * NORMAL_95) / ROOT_TAU,
-        },
+        NoiseKind::Normal => {
+            Shape { end: NORMAL_95, slope: NORMAL_95 * libm::exp(-0.5 * NORMAL_95 * NORMAL_95) / ROOT_TAU }
+        }
         // √6 (1 − √0.05); with u = √0.05, the density there is 2u/√6 on both sides, half of it for the root of the variance.
         NoiseKind::Triangular => {
             let rest = 0.05f64.sqrt();
-            Shape { end: 6.0f64.sqrt() * (1.0 - rest), kurtosis: 2.4, slope: (1.0 - rest) * rest }
+            Shape { end: 6.0f64.sqrt() * (1.0 - rest), slope: (1.0 - rest) * rest }
         }
     }
 }
@@ -245,7 +242,7 @@ impl Halves {
             self.best = self.search.best().0;
             let [(_, squares), (mean, _)] =
                 [&self.first, &self.evidence].map(|half| half.log_variances_by(&self.best));
-            self.of_fit = ((shape(self.noise).kurtosis - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
+            self.of_fit = ((self.noise.kurtosis() - 1.0) * variance_of(&mean, &squares)).min(UNKNOWN);
         }
         found
     }
@@ -269,7 +266,7 @@ impl Halves {
     fn held_out(&self) -> HeldOut {
         let standardized = self.standardized(&self.best);
         let (count, of_fit) = (standardized.len() as f64, self.of_fit);
-        let Shape { kurtosis, slope, .. } = shape(self.noise);
+        let slope = shape(self.noise).slope;
         let about = |middle: f64, variance: f64, most: f64| {
             let off = NORMAL_95 * variance.sqrt();
             [(middle - off).max(0.0), (middle + off).min(most)]
@@ -279,7 +276,7 @@ impl Halves {
             coverage: self.coverage(&standardized),
             coverage_interval: about(0.95, 0.95 * 0.05 / count + slope * slope * of_fit, 1.0),
             squared_error: standardized.iter().map(|z| z * z).sum::<f64>() / count,
-            squared_error_interval: about(1.0, (kurtosis - 1.0) / count + of_fit, f64::INFINITY),
+            squared_error_interval: about(1.0, (self.noise.kurtosis() - 1.0) / count + of_fit, f64::INFINITY),
             log_likelihood: self.log_likelihood(&self.best),
         }
     }
@@ -390,21 +387,22 @@ fn verdict(
     held_out: &HeldOut,
     noise: NoiseKind,
 ) -> Verdict {
-    let Shape { kurtosis, .. } = shape(noise);
     // Of three kinds one is beyond two deviations by chance in every seventh log, beyond three in every hundredth.
     let tails = |kind: &KindDoubts| {
-        kind.kurtosis - kurtosis > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
+        kind.kurtosis - noise.kurtosis() > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
     };
-    let correlated = |(kind, shared): (&KindDoubts, f64)| {
-        let most = SLIGHT_CORRELATION.max(1.5 * kind.autocorrelation_limit);
-        kind.autocorrelation > most || kind.autocorrelation < shared - most
-    };
+    let most = |kind: &KindDoubts| SLIGHT_CORRELATION.max(1.5 * kind.autocorrelation_limit);
+    let alike = |kind: &KindDoubts| kind.autocorrelation > most(kind);
+    let opposite = |(kind, shared): (&KindDoubts, f64)| kind.autocorrelation < shared - most(kind);
     let HeldOut { count, coverage, coverage_interval: [from, to], .. } = *held_out;
     match () {
         // Legs that tell nothing are none.
         _ if legs < FEW || count < FEW / 2 => Verdict::FewLegs,
+        // What is systematic makes tails too, for it is large on some legs and small on others, but no tail makes neighbours alike. A
+        // reference that jumps makes them opposite, and then the tails are what to mend.
+        _ if kinds.iter().any(alike) => Verdict::Correlated,
         _ if kinds.iter().any(tails) => Verdict::HeavyTails,
-        _ if kinds.iter().zip(shared).any(correlated) => Verdict::Correlated,
+        _ if kinds.iter().zip(shared).any(opposite) => Verdict::Correlated,
         _ if coverage < from.min(0.95 - SLIGHT_COVERAGE) => Verdict::Overconfident,
         _ if coverage > to.max(0.95 + SLIGHT_COVERAGE) => Verdict::Lazy,
         _ => Verdict::Fits,

@@ -195,8 +195,9 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(getter, unchecked_return_type = "Omit<Calibration, 'legs'>")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
         let (summary, remove, gaps) = self.0.with(|machine| {
-            let Log { odometry, reference, .. } = machine.log();
-            (machine.summary(), machine.shown_settings().removed(), [odometry.gaps(), reference.gaps()])
+            let gaps =
+                machine.log().map(|Log { odometry, reference, .. }| [odometry.gaps(), reference.gaps()]);
+            (machine.summary(), machine.shown_settings().removed(), gaps.unwrap_or_default())
         });
         calibration_to_js(&summary, remove, gaps, None)
     }

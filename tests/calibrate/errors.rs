@@ -95,6 +95,9 @@ fn what_is_not_removed_is_in_the_alphas() {
     // Told it is in both.
     assert_eq!(with.interval_of(Error::MountYaw), without.interval_of(Error::MountYaw));
     assert_eq!(with.removed, Systematic::NONE);
+    // It makes tails, and it is not them that are to be mended.
+    assert!(with.doubts.kinds[0].kurtosis > 10.0, "{:?}", with.doubts.kinds[0]);
+    assert_eq!(with.doubts.verdict, Verdict::Correlated);
 }
 
 /// The share of a variance that a fit takes is its leverage, and all leverages together are as many as the errors that were fitted: to

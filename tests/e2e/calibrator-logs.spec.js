@@ -17,6 +17,12 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await settled(widget);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(fold(widget, 'Your log').locator('.present')).toHaveText('The log at present: odom.csv, truth.csv.');
+  // Their names say which is which, whatever the reader does.
+  const hint = widget.getByText('it is called as odometry is, and truth.csv is not: are the two the other way round?');
+  await expect(hint).toHaveCount(0);
+  await widget.getByRole('button', { name: 'The other way round' }).click();
+  await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv\./);
+  await expect(hint).toBeVisible();
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });
@@ -113,8 +119,63 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await expect(alert).toHaveText(/3 files given; expected are two tables/);
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/The log is refused: 1 file given; expected are two tables at once/);
+  // What is called a recording, or is one of something else.
+  await choose(widget, { 'notes.mcap': 'no recording' });
+  await expect(alert).toHaveText(/^notes\.mcap: the recording is damaged/);
+  const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});
+  await widget.locator('#log-files').setInputFiles({ name: 'words.mcap', mimeType: 'application/octet-stream', buffer });
+  await expect(alert).toHaveText(/^words\.mcap: the topics are \/rosout \(Log\); expected is one of type nav_msgs\/msg\/Odometry/);
   expect(await stateOf(widget)).toEqual(before);
   await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('who stops the reading of a log is told that all is as it was', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  await fold(widget, 'Your log').locator('summary').click();
+  await widget.evaluate(async (element) => {
+    const root = /** @type {ShadowRoot} */ (element.shadowRoot);
+    const input = /** @type {HTMLInputElement} */ (root.querySelector('#log-files'));
+    const table = ['t,x,y,yaw', ...Array.from({ length: 200_000 }, (_, row) => `${row / 20},0,0,0`)].join('\n');
+    const { files, items } = new DataTransfer();
+    for (const name of ['odom.csv', 'truth.csv']) items.add(new File([table], name));
+    input.files = files;
+    input.dispatchEvent(new Event('change'));
+    const button = () => [...root.querySelectorAll('button')].find(({ textContent }) => textContent?.trim() === 'Stop');
+    while (!button()) await new Promise(requestAnimationFrame);
+    button()?.click();
+  });
+  await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
+  await expect(widget.locator('.own-log progress')).toHaveCount(0);
+  expect(await stateOf(widget)).toEqual(before);
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('what is read never goes back, also of a recording that is read twice', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await fold(widget, 'Your log').locator('summary').click();
+  // Each look at the clock is so much later that all progress is shown.
+  await page.evaluate(() => {
+    let now = performance.now();
+    performance.now = () => (now += 200);
+  });
+  const told = await page.evaluateHandle(() => {
+    const told = /** @type {number[]} */ ([]);
+    const { set } = /** @type {{ set: (this: HTMLProgressElement, share: number) => void }} */ (Object.getOwnPropertyDescriptor(HTMLProgressElement.prototype, 'value'));
+    Object.defineProperty(HTMLProgressElement.prototype, 'value', {
+      set(share) {
+        if (this.ariaLabel === 'Reading') told.push(share);
+        set.call(this, share);
+      },
+    });
+    return told;
+  });
+  const buffer = await recordingWith(['/mocap/pose', '/a', '/b', '/c', '/d', '/e'], { index: false });
+  await widget.locator('#log-files').setInputFiles({ name: 'run.mcap', mimeType: 'application/octet-stream', buffer });
+  await expect(caption(widget)).toHaveText(/of run\.mcap\./);
+  const shares = await told.jsonValue();
+  expect(shares.length).toBeGreaterThan(3);
+  expect(shares).toEqual(shares.toSorted((one, other) => one - other));
 });
 
 test('while a log is fitted, whoever asks for the picture does not go on with it: nothing keeps the page', async ({ page }) => {

@@ -67,12 +67,17 @@ export async function choose(widget, files) {
 /** A table of the example's. @param {'odometry' | 'reference'} name */
 export const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
 
-/** The example as a recording, in which a third topic may be the reference too. @param {string[]} topics */
-export async function recordingWith(topics) {
+/**
+ * The example as a recording, in which a third topic may be the reference too.
+ *
+ * @param {string[]} topics
+ * @param {Parameters<typeof recordingOf>[1]} [options]
+ */
+export async function recordingWith(topics, options = { compression: 'zstd', chunkSize: 100_000 }) {
   const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const reference = topics.flatMap((topic) => rows('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
   const wheels = rows('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
-  return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), options);
 }

@@ -179,6 +179,44 @@ test('every slider takes the least and the greatest value of the core', async ({
   }
 });
 
+test('what is typed before the picture of the former value is there is not lost, and what is not typed is not taken', async ({ page }) => {
+  const widget = await widgetOf(page, 'banana-machine');
+  const field = valueField(widget, 'alpha1');
+  const set = (/** @type {number} */ value) => widget.evaluate(async (element, value) => {
+    /** @type {any} */ (element).alpha1 = value;
+    await /** @type {import('lit').LitElement} */ (element).updateComplete;
+  }, value);
+  await field.focus();
+  await page.keyboard.type('0.1');
+  await set(0.15);
+  await frames(page);
+  await expect(field).toHaveValue('0.1');
+  await page.keyboard.type('2');
+  await page.keyboard.press('Enter');
+  expect(await property(widget, 'alpha1')).toBe(0.12);
+  // Escape leads back to the value that is there now.
+  await field.focus();
+  await page.keyboard.type('9');
+  await set(0.17);
+  await frames(page);
+  await page.keyboard.press('Escape');
+  await expect(field).toHaveValue('0.170');
+  expect(await property(widget, 'alpha1')).toBe(0.17);
+  // A value that changes under a field in which nobody has typed is shown, and stays what it is to its last digit.
+  await field.focus();
+  await set(0.123456);
+  await expect(field).toHaveValue('0.123');
+  await heard(page);
+  await page.keyboard.press('Enter');
+  await expect(widget.locator('#alpha1')).toBeFocused();
+  expect(await property(widget, 'alpha1')).toBe(0.123456);
+  expect(await heard(page)).toEqual([]);
+  for (const value of [0.15, 0.17]) {
+    await set(value);
+    await expect(field).toHaveValue(`${value}0`);
+  }
+});
+
 test('German has a decimal comma, and takes a point too', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   await page.addScriptTag({ type: 'module', url: '/de.js' });

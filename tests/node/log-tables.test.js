@@ -160,6 +160,14 @@ test('two logs get one start', async () => {
   assert.equal(tell(other.reference, german.found).length, tell(both.reference, german.found).length + 1);
 });
 
+test('two tables that are called the other way round are told to be', async () => {
+  const called = (/** @type {string} */ name) => readLog(new File(['t,x,y,yaw\n0,0,0,0\n9,0,0,0'], name));
+  const lines = async (/** @type {string} */ odometry, /** @type {string} */ reference) =>
+    tell(together(await called(odometry), await called(reference)).reference, english.found).slice(1);
+  assert.deepEqual(await lines('truth.csv', 'wheels.csv'), ['it is called as odometry is, and truth.csv is not: are the two the other way round?']);
+  for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'odom-by-slam.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await lines(one, other), [], one);
+});
+
 test('a reference that has lost the robot is left out while the odometry moves on, and one that stands with it is not', async () => {
   const poses = (/** @type {(i: number) => number} */ x) => read(['t,x,y,yaw', ...Array.from({ length: 400 }, (_, i) => [i / 20, x(i), 0, 0].join(','))].join('\n'));
   const drives = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;

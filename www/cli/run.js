@@ -1,8 +1,8 @@
 /** The command: reads logs, has the core calibrate, and says what came out. */
 
 import { log as words } from '../widgets/alpha-calibrator/log/en.js';
-import { isRecording, logsOf, readLog, tell, together, topicsOf, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
-import { LogError, cut, listed } from '../widgets/alpha-calibrator/log/refusal.js';
+import { described, isRecording, logsOf, readLog, tell, together, topicsOf, usefulTopics, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
+import { LogError, cut } from '../widgets/alpha-calibrator/log/refusal.js';
 import { onDisk } from './disk.js';
 import { HELP, UsageError, optionsOf, refusalOf } from './options.js';
 import { jsonOf, textOf } from './report.js';
@@ -151,9 +151,7 @@ async function choiceOf({ topic, frames }, role, asked, { name }, topics) {
  * @param {'poses' | 'commands' | undefined} kind
  */
 function usualTopic(file, topics, role, kind) {
-  const useful = topics.filter(({ kind, count }) => kind !== null && count > 1);
-  const described = (/** @type {Topic[]} */ some) => listed(some.map(({ name, type }) => `${name} (${type.replace(/^.*\//, '')})`));
-  if (useful.length === 0) throw new LogError({ file }, (say) => say.noTopics(described(topics)));
+  const useful = usefulTopics(file, topics);
   const usual = usualTopics(topics)[kind === 'commands' ? 'commands' : role];
   if (usual === null) throw new LogError({ file }, (say) => say.choose(role, described(useful)));
   return usual;

@@ -1,6 +1,7 @@
 /** A slider with its label, its value, which can be typed too, and one line that says what it does to the picture. */
 
-import { css, html, nothing } from 'lit';
+import { css, html, noChange, nothing } from 'lit';
+import { Directive, directive } from 'lit/directive.js';
 import { live } from 'lit/directives/live.js';
 import { inputOf, longest } from './controls.js';
 import { finger } from './finger.js';
@@ -273,6 +274,29 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
   />`;
 }
 
+/** What a field shows while nobody types in it: a picture that takes long is drawn after the reader has gone on. */
+const untilTyped = directive(
+  class extends Directive {
+    /** @param {string} shown */
+    render(shown) {
+      return shown;
+    }
+
+    /**
+     * @param {import('lit').PropertyPart} part
+     * @param {[string]} of
+     */
+    update({ element }, [shown]) {
+      const input = /** @type {HTMLInputElement} */ (element);
+      const isHere = input.matches(':focus');
+      if (isHere && input.value !== input.defaultValue) return noChange;
+      if (input.value !== shown) input.value = shown;
+      if (isHere) input.defaultValue = shown;
+      return noChange;
+    }
+  },
+);
+
 /**
  * The value of a slider as a field to type into.
  *
@@ -290,7 +314,7 @@ function field({ id, name, keys, type, forget }, shown) {
   };
   const key = (/** @type {KeyboardEvent} */ event) => {
     const input = inputOf(event);
-    if (event.key === 'Escape') input.value = input.defaultValue;
+    if (event.key === 'Escape') input.value = input.defaultValue = shown;
     else if (event.key !== 'Enter') return;
     // Escape does nothing else here.
     event.preventDefault();
@@ -308,7 +332,7 @@ function field({ id, name, keys, type, forget }, shown) {
     aria-label=${name ?? nothing}
     aria-labelledby=${name ? nothing : `${id}-name`}
     aria-describedby="${id}-effect"
-    .value=${shown}
+    .value=${untilTyped(shown)}
     @focus=${(/** @type {Event} */ event) => {
       const input = inputOf(event);
       input.defaultValue = input.value;

@@ -70,11 +70,21 @@ pub struct AlphaCalibrator {
     fits: u32,
 }
 
-/// What a log is, and whether it is the simulated one.
+/// Where a log is from.
 #[derive(Clone, Debug)]
-struct Source {
-    log: Arc<Log>,
-    simulated: bool,
+enum Source {
+    /// Of this seed; made when it is needed first, which takes as long as a frame has.
+    Simulated(u64, Option<Arc<Log>>),
+    Own(Arc<Log>),
+}
+
+impl Source {
+    fn made(&mut self) -> &Log {
+        match self {
+            Self::Simulated(seed, log) => log.get_or_insert_with(|| Arc::new(example::example(*seed))),
+            Self::Own(log) => log,
+        }
+    }
 }
 
 /// What is fitted to which log, and under which settings.
@@ -89,7 +99,8 @@ struct Shown {
 #[derive(Clone, Debug)]
 struct Fitting {
     source: Source,
-    calibrating: Calibrating,
+    /// None until the log is there.
+    calibrating: Option<Calibrating>,
 }
 
 impl AlphaCalibrator {
@@ -109,10 +120,11 @@ impl AlphaCalibrator {
     /// As [`AlphaCalibrator::new`].
     pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
-        let source = Source { log: Arc::new(example::example(settings.seed)), simulated: true };
+        let source = Source::Simulated(settings.seed, None);
         let shown = Shown { settings, source: source.clone(), calibration: nothing(&settings) };
-        let next = Some(Fitting::new(source, &settings));
-        Ok(Self { settings, shown, next, fits: 0 })
+        let mut machine = Self { settings, shown, next: None, fits: 0 };
+        machine.fit(source);
+        Ok(machine)
     }
 
     pub fn settings(&self) -> &Settings {
@@ -138,10 +150,12 @@ impl AlphaCalibrator {
         settings.check()?;
         let before = std::mem::replace(&mut self.settings, settings);
         if !before.fits_as(&settings) {
-            let mut source = self.latest().clone();
-            if source.simulated && settings.seed != before.seed {
-                source.log = Arc::new(example::example(settings.seed));
-            }
+            let source = match self.latest() {
+                Source::Simulated(seed, _) if *seed != settings.seed => {
+                    Source::Simulated(settings.seed, None)
+                }
+                same => same.clone(),
+            };
             self.fit(source);
         }
         if self.next.is_none() {
@@ -152,7 +166,7 @@ impl AlphaCalibrator {
 
     /// Begins with another log, as [`AlphaCalibrator::begin`] with other settings.
     pub fn begin_log(&mut self, log: Log) {
-        self.fit(Source { log: Arc::new(log), simulated: false });
+        self.fit(Source::Own(Arc::new(log)));
     }
 
     /// Puts another log in the place of the present one.
@@ -162,7 +176,7 @@ impl AlphaCalibrator {
     }
 
     fn fit(&mut self, source: Source) {
-        self.next = Some(Fitting::new(source, &self.settings));
+        self.next = Some(Fitting { source, calibrating: None });
     }
 
     /// The log of what was begun last, whether that is complete or not.
@@ -173,7 +187,12 @@ impl AlphaCalibrator {
     /// Goes on with what was begun by one step; whether all is done. A log of too few legs has a calibration without any.
     pub fn advance(&mut self) -> bool {
         let Some(Fitting { source, calibrating }) = &mut self.next else { return true };
-        let step = calibrating.step(&source.log.odometry, &source.log.reference);
+        let log = source.made();
+        let Some(calibrating) = calibrating else {
+            *calibrating = Some(Calibrating::new(options(&self.settings, log)));
+            return false;
+        };
+        let step = calibrating.step(&log.odometry, &log.reference);
         let Some(calibration) = step.unwrap_or_else(|_| Some(nothing(&self.settings))) else { return false };
         let source = source.clone();
         self.shown = Shown { settings: self.settings, source, calibration };
@@ -193,7 +212,8 @@ impl AlphaCalibrator {
 
     /// How much is done of what was begun, from 0 to 1.
     pub fn progress(&self) -> f64 {
-        self.next.as_ref().map_or(1.0, |next| next.calibrating.progress())
+        let Some(next) = &self.next else { return 1.0 };
+        next.calibrating.as_ref().map_or(0.0, Calibrating::progress)
     }
 
     /// Gives up what was begun: settings and figures are the former ones.
@@ -242,14 +262,17 @@ impl AlphaCalibrator {
         &self.shown.settings
     }
 
-    /// The log that it is fitted to.
-    pub fn log(&self) -> &Log {
-        &self.shown.source.log
+    /// The log that it is fitted to; None before anything is.
+    pub fn log(&self) -> Option<&Log> {
+        match &self.shown.source {
+            Source::Simulated(_, log) => log.as_deref(),
+            Source::Own(log) => Some(log),
+        }
     }
 
     /// The true values, where the log is simulated; the α's belong to the legs and to the rule that it was simulated with.
     pub fn truth(&self) -> Option<Truth> {
-        self.shown.source.simulated.then_some(Truth {
+        matches!(self.shown.source, Source::Simulated(..)).then_some(Truth {
             alphas: example::ALPHAS,
             clock_offset: example::CLOCK_OFFSET,
             mount_yaw: example::MOUNT_YAW,
@@ -265,7 +288,8 @@ impl AlphaCalibrator {
 
     /// Squared residuals against what drives them.
     pub fn panels(&self, driver: Driver) -> [Panel; 3] {
-        panels(self.shown.settings.model(), self.calibration(), driver)
+        let Settings { noise, .. } = self.shown.settings;
+        panels(self.shown.settings.model(), noise, self.calibration(), driver)
     }
 
     /// One leg from its beginning; None where there is no such leg.
@@ -320,13 +344,6 @@ impl AlphaCalibrator {
         near.filter(|(_, distance)| *distance < radius)
             .min_by(|(_, one), (_, other)| one.total_cmp(other))
             .map(|(index, _)| index)
-    }
-}
-
-impl Fitting {
-    fn new(source: Source, settings: &Settings) -> Self {
-        let calibrating = Calibrating::new(options(settings, &source.log));
-        Self { source, calibrating }
     }
 }
 

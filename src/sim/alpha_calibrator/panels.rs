@@ -2,6 +2,7 @@
 
 use crate::calibrate::{Calibration, Model, sort};
 use crate::models::OdometryRule;
+use crate::noise::NoiseKind;
 use crate::sim::settings::Words;
 
 /// What a variance is made of: in each, one α is for the turn and one for the way.
@@ -30,7 +31,8 @@ const LEAST: usize = 5;
 pub struct Panel {
     /// The α that is the slope, from 0.
     pub alpha: usize,
-    /// Means of the bins: of what drives it, of the squares, and the standard errors of these.
+    /// Means of the bins: of what drives it, of the squares, and the standard errors of these: by how they scatter or by what the
+    /// model says of it, the larger. Of a bin in which one leg may be further out than all others, the scatter alone says too little.
     pub x: Vec<f64>,
     pub y: Vec<f64>,
     pub error: Vec<f64>,
@@ -49,17 +51,17 @@ fn way_first(model: Model, kind: usize) -> bool {
 }
 
 /// A panel for each of the three noises.
-pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel; 3] {
-    [0, 1, 2].map(|kind| panel(model, calibration, kind, driver))
+pub fn panels(model: Model, noise: NoiseKind, calibration: &Calibration, driver: Driver) -> [Panel; 3] {
+    [0, 1, 2].map(|kind| panel(model, noise, calibration, kind, driver))
 }
 
-fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
+fn panel(model: Model, noise: NoiseKind, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
     let Calibration { estimate, observations, judged, .. } = calibration;
     let own = usize::from(way_first(model, kind) != (driver == Driver::Way));
     let pair = model.kinds()[kind].alphas;
     let known = |alpha: usize| Some(estimate.alphas[alpha]).filter(|alpha| !alpha.is_nan());
     let other = known(pair[1 - own]).unwrap_or(0.0);
-    let points: Vec<[f64; 3]> = observations
+    let points: Vec<[f64; 4]> = observations
         .iter()
         .zip(judged)
         .filter(|(observation, _)| !observation.residuals[kind].is_nan())
@@ -67,7 +69,9 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
             let coefficients = observation.coefficients[kind];
             let answered = other * coefficients[1 - own] + observation.floors[kind];
             let square = observation.residuals[kind] * observation.residuals[kind];
-            [coefficients[own], square - answered, 1.0 - judged.bad]
+            // The variance of a square of variance v: (κ − 1) v².
+            let variance = (noise.kurtosis() - 1.0) * judged.deviations[kind].powi(4);
+            [coefficients[own], square - answered, 1.0 - judged.bad, variance]
         })
         .collect();
     let alpha = pair[own];
@@ -85,18 +89,19 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
     let mut after = f64::NEG_INFINITY;
     for bin in along.chunks(size) {
         let up_to = bin[bin.len() - 1];
-        let bin: Vec<&[f64; 3]> =
+        let bin: Vec<&[f64; 4]> =
             points.iter().filter(|point| point[0] > after && point[0] <= up_to).collect();
         after = up_to;
         let sum =
-            |value: &dyn Fn(&[f64; 3]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
+            |value: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
         let total = sum(&|_| 1.0);
         let [x, y] = [sum(&|point| point[0]) / total, sum(&|point| point[1]) / total];
-        let spread = sum(&|point| (point[1] - y) * (point[1] - y)) / total;
+        let spread = sum(&|point| (point[1] - y) * (point[1] - y)) / (total * (total - 1.0));
+        let modelled = sum(&|point| point[2] * point[3]) / (total * total);
         if bin.len() >= LEAST && total > 1.0 {
             panel.x.push(x);
             panel.y.push(y);
-            panel.error.push((spread / (total - 1.0)).sqrt());
+            panel.error.push(spread.max(modelled).sqrt());
         }
     }
     panel

@@ -12,6 +12,7 @@ import { deviations } from './controls.js';
  * @typedef {import('./log/rows.js').Poses} Poses
  * @typedef {import('./log/read.js').Topic} Topic
  * @typedef {typeof import('./log/read.js')} Reader
+ * @typedef {{ onProgress: (share: number) => void, signal: AbortSignal }} Watched
  */
 
 /** What the names of files may end in. */
@@ -31,6 +32,9 @@ const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
  *
  * @typedef {{ files: File[], topics: Topic[], odometry: string, reference: string, frames: typeof FRAMES }} Chosen
  */
+
+/** Of a part of what is watched. @param {Watched} watching @param {number} from @param {number} to @returns {Watched} */
+const partOf = ({ onProgress, signal }, from, to) => ({ signal, onProgress: (share) => onProgress(from + share * (to - from)) });
 
 /** @extends {Part<Figure>} */
 export class LogOpener extends Part {
@@ -58,14 +62,16 @@ export class LogOpener extends Part {
 
   /** Back to the simulated log. */
   leave() {
-    this.stop();
-    this.chosen = this.#complaint = this.#found = undefined;
+    this.#stopping.abort();
+    this.share = this.chosen = this.#complaint = this.#found = undefined;
     this.host.open(null);
   }
 
+  /** The reader does not want to wait. */
   stop() {
     this.#stopping.abort();
     this.share = undefined;
+    this.#complaint = () => words.progress.stopped;
     this.host.requestUpdate();
   }
 
@@ -76,11 +82,13 @@ export class LogOpener extends Part {
     this.#attempt(async (reader, watching) => {
       if (files.length > 2) throw new Error(words.calibrator.own.two(files.length));
       const recording = files.length === 1;
-      if (recording && !(await reader.isRecording(files[0]))) throw new Error(words.calibrator.own.two(1));
-      const topics = recording ? await reader.topicsOf(files[0], watching) : [];
+      const [{ name }] = files;
+      // What is called a recording is refused as one.
+      if (recording && !(/\.mcap$/i.test(name) || (await reader.isRecording(files[0])))) throw new Error(words.calibrator.own.two(1));
+      // To find the topics a recording without an index is read as a whole, and then once more.
+      const topics = recording ? reader.usefulTopics(name, await reader.topicsOf(files[0], partOf(watching, 0, 0.5))) : [];
       const usual = reader.usualTopics(topics);
-      // Of two files, the one that is called so is the odometry.
-      const [first, second] = /odom|wheel|cmd/i.test(files.at(-1)?.name ?? '') ? [...files].reverse() : files;
+      const [first, second] = reader.areSwapped(name, files.at(-1)?.name ?? '') ? [...files].reverse() : files;
       this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '', frames: FRAMES };
       if (recording && !(usual.odometry && usual.reference)) return;
       await this.#read(reader, watching);
@@ -99,19 +107,18 @@ export class LogOpener extends Part {
 
   /**
    * @param {Reader} reader
-   * @param {{ onProgress: (share: number) => void, signal: AbortSignal }} watching
+   * @param {Watched} watching
    */
   async #read(reader, watching) {
     const { files, topics, odometry, reference, frames } = /** @type {Chosen} */ (this.chosen);
-    const half = (/** @type {number} */ from) => ({ ...watching, onProgress: (/** @type {number} */ share) => watching.onProgress(from + share / 2) });
     const topic = (/** @type {string} */ name, /** @type {string} */ its) => {
       const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
       return { topic: name, ...(holdsTransforms(topics, name) && { frames: { parent, child } }) };
     };
     const both = [topic(odometry, frames.odometry), topic(reference, frames.reference)];
     const [first, second] = topics.length
-      ? await reader.logsOf(files[0], both, watching)
-      : [await reader.readLog(files[0], half(0)), await reader.readLog(files[1], { kind: 'poses', ...half(0.5) })];
+      ? await reader.logsOf(files[0], both, partOf(watching, this.share ?? 0, 1))
+      : [await reader.readLog(files[0], partOf(watching, 0, 0.5)), await reader.readLog(files[1], { kind: 'poses', ...partOf(watching, 0.5, 1) })];
     // Each of these takes about as long as a frame has.
     await reader.turn();
     const logs = reader.together(first, second);
@@ -123,7 +130,7 @@ export class LogOpener extends Part {
     this.#found = () => [logs.odometry, logs.reference].flatMap((log) => [`${log.name}: ${reader.tell(log, say().found).join(' ')}`]);
   }
 
-  /** @param {(reader: Reader, watching: { onProgress: (share: number) => void, signal: AbortSignal }) => Promise<void>} work */
+  /** @param {(reader: Reader, watching: Watched) => Promise<void>} work */
   async #attempt(work) {
     this.#stopping.abort();
     const stopping = (this.#stopping = new AbortController());
@@ -198,7 +205,7 @@ function whichIsWhich(opener, { files, topics, frames, ...chosen }) {
       ${say[role]}
       <select aria-label=${say[role]} @change=${(/** @type {Event} */ event) => opener.change({ [role]: /** @type {HTMLSelectElement} */ (event.target).value })}>
         <option value="" ?selected=${chosen[role] === ''}></option>
-        ${topics.filter(({ kind }) => kind !== null).map(({ name, count }) => html`<option value=${name} ?selected=${name === chosen[role]}>${name} (${count})</option>`)}
+        ${topics.map(({ name, count }) => html`<option value=${name} ?selected=${name === chosen[role]}>${name} (${count})</option>`)}
       </select>
     </label>
     ${holdsTransforms(topics, chosen[role])

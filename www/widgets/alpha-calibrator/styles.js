@@ -3,6 +3,7 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
+import { fileStyles } from '../shared/files.js';
 
 const own = css`
   canvas {
@@ -46,6 +47,8 @@ const own = css`
     font-size: 0.9em;
     line-height: 1.1;
     text-align: left;
+    width: fit-content;
+    background: var(--paper);
   }
 
   .alphas svg {
@@ -300,4 +303,4 @@ const own = css`
   }
 `;
 
-export const calibratorStyles = [...layoutStyles, plotStyles, own];
+export const calibratorStyles = [...layoutStyles, plotStyles, fileStyles, own];

@@ -2,6 +2,7 @@
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
+import { fileStyles } from '../shared/files.js';
 import { besideStyles, poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
@@ -126,18 +127,6 @@ const own = css`
     display: block;
   }
 
-  input[type='file'] {
-    max-width: 100%;
-    margin: 0.3em 0 0.6em;
-    min-height: 2em;
-    color: inherit;
-    font: inherit;
-  }
-
-  ::file-selector-button {
-    margin-right: 0.6em;
-  }
-
   textarea {
     box-sizing: border-box;
     display: block;
@@ -156,4 +145,4 @@ const own = css`
   }
 `;
 
-export const squeezeStyles = [...layoutStyles, besideStyles, poseHandleStyles, own];
+export const squeezeStyles = [...layoutStyles, besideStyles, poseHandleStyles, fileStyles, own];

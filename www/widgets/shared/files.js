@@ -1,9 +1,20 @@
 /** How files get into a figure: chosen, or dropped on it. What becomes of them is said in a fold. */
 
-import { html } from 'lit';
+import { css, html } from 'lit';
 import { inputOf } from '../../ui/controls.js';
 
 /** @typedef {import('../../figure/figure.js').Figure} Figure */
+
+/** What browsers say beside the button is that there is no file, whatever the figure has taken: it is not shown. */
+export const fileStyles = css`
+  input[type='file'] {
+    max-width: 100%;
+    margin: 0.3em 0 0.6em;
+    min-height: 2em;
+    color: transparent;
+    font: inherit;
+  }
+`;
 
 export class FileDrop {
   #host;

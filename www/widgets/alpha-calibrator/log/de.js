@@ -80,6 +80,7 @@ export const log = {
     unit: (unit) => `Zeiten in ${unit}, nach ihrer Größe`,
     degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
     cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
+    swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,
     apart: (name, one, other) =>
       `ihre Zeiten (${one}) und die von ${name} (${other}) haben nichts gemeinsam: die Uhren werden danach gestellt, wie der Roboter sich gedreht hat`,
   },

@@ -91,6 +91,7 @@ export const log = {
     unit: (/** @type {string} */ unit) => `times in ${unit}, by their size`,
     degrees: 'headings in degrees, by the name of the column',
     cutShort: 'the file ends in the middle of a row or record',
+    swapped: (/** @type {string} */ odometry) => `it is called as odometry is, and ${odometry} is not: are the two the other way round?`,
     apart: (/** @type {string} */ name, /** @type {string} */ one, /** @type {string} */ other) =>
       `its times (${one}) and those of ${name} (${other}) have nothing in common: the clocks are aligned by how the robot turned`,
   },

@@ -2,7 +2,7 @@
 
 import { turn } from './breath.js';
 import { withoutHeld } from './held.js';
-import { LogError, bytesOf } from './refusal.js';
+import { LogError, bytesOf, listed } from './refusal.js';
 import { readTable } from './table.js';
 
 /**
@@ -68,6 +68,28 @@ export async function logsOf(source, choices, watching = {}) {
   return readRecording(source, choices, watching);
 }
 
+/** Topics with their types, as a sentence names them. @param {Topic[]} topics */
+export const described = (topics) => listed(topics.map(({ name, type }) => `${name} (${type.replace(/^.*\//, '')})`));
+
+/**
+ * Those that hold something for which there is a use.
+ *
+ * @param {string} file
+ * @param {Topic[]} topics
+ * @throws {LogError} where there are none
+ */
+export function usefulTopics(file, topics) {
+  const useful = topics.filter(({ kind, count }) => kind !== null && count > 1);
+  if (useful.length === 0) throw new LogError({ file }, (say) => say.noTopics(described(topics)));
+  return useful;
+}
+
+/** Whether two tables are called as if the second were the odometry, and not the first. @param {string} first @param {string} second */
+export const areSwapped = (first, second) => CALLED_ODOMETRY.test(second) && !CALLED_ODOMETRY.test(first);
+
+/** What is in the names of files of odometry. */
+const CALLED_ODOMETRY = /odom|wheel|cmd/i;
+
 /** Names that recorders give to odometry, to commands, and to what is better. */
 const [ODOMETRY, COMMANDS, REFERENCE] = [/(^|\/)odom(etry)?$/i, /(^|\/)cmd_vel$/i, /truth|gt|mocap|vicon|optitrack|qualisys|vrpn|reference|station|slam|amcl/i];
 
@@ -105,8 +127,9 @@ export function together(odometry, reference) {
   const isApart = one[0] > other[other.length - 1] || other[0] > one[one.length - 1];
   const reliable = withoutHeld(second, first);
   if (reliable.data.t.length < 2) throw new LogError({ file: reference.name }, (say) => say.held);
+  const isSwapped = reliable.how.format !== 'mcap' && areSwapped(odometry.name, reference.name);
   /** @type {Log['how']} */
-  const how = { ...reliable.how, ...(isApart ? { apart: [odometry.name, span(reference), span(odometry)] } : {}) };
+  const how = { ...reliable.how, ...(isSwapped && { swapped: odometry.name }), ...(isApart ? { apart: [odometry.name, span(reference), span(odometry)] } : {}) };
   return { odometry: first, reference: { ...reliable, how }, start };
 }
 
@@ -153,6 +176,7 @@ export function tell({ data: { t }, start, how, found }, say) {
     ...(gaps.count ? [say.gaps(gaps.count, start + gaps.t, gaps.longest)] : []),
     ...(jumps.count ? [say.jumps(jumps.count, start + jumps.t)] : []),
     ...(how.cutShort ? [say.cutShort] : []),
+    ...(how.swapped ? [say.swapped(how.swapped)] : []),
     ...(how.apart ? [say.apart(...how.apart)] : []),
   ];
 }

@@ -22,6 +22,7 @@ import { LogError } from './refusal.js';
  * @property {boolean} cutShort whether the file ends in the middle of a row or record
  * @property {[string, string, string]} [apart] of a reference that has no time in common with the odometry: the name of that, and the
  *   times of both
+ * @property {string} [swapped] of a reference that is called as odometry is: the name of what is taken for that
  *
  * @typedef {object} Found
  * @property {number} rows

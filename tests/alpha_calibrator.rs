@@ -77,6 +77,25 @@ fn legs_end_after_a_duration_where_one_is_set() {
     assert!(machine.legs().len() < before.len() / 2);
 }
 
+/// Of long legs there are few, and the likelihood is no parabola; it falls on both sides of its maximum all the same.
+#[test]
+fn an_interval_has_room_on_both_sides_of_its_value() {
+    for duration in [1.0, 2.0, 2.5, 3.0, 4.0] {
+        for seed in 0..10 {
+            for robust in [false, true] {
+                let machine = machine(Settings { duration, robust, seed, ..Settings::default() });
+                let estimate = &machine.calibration().estimate;
+                for (alpha, interval) in estimate.alphas.iter().zip(&estimate.intervals) {
+                    let Some([from, to]) = interval else { continue };
+                    let told =
+                        format!("{duration} s, seed {seed}, robust {robust}: {alpha} in {from} to {to}");
+                    assert!(*to > 1.05 * alpha && (*from < 0.97 * alpha || *alpha == 0.0), "{told}");
+                }
+            }
+        }
+    }
+}
+
 /// What is set of the reference's own error counts as if the log had said it, and takes its place where that does.
 #[test]
 fn the_references_own_error_is_set_or_said_by_the_log() {

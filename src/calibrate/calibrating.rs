@@ -9,11 +9,11 @@ use super::likelihood::{Evidence, Parameters, Robust, Slope};
 use super::model::{Observation, Uncertainty};
 use super::profile::{Ends, Estimate, Fitted, Search};
 use super::stages::{Purpose, ROUNDS, Stage, parts};
-use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic};
+use super::systematic::{ERRORS, Error, LeastSquares, MOST_LEVERAGE, Step, Systematic};
 use super::trajectory::Trajectory;
 use super::undetermined::{Undetermined, undetermined};
 use super::work::Work;
-use crate::noise::NoiseKind;
+use crate::geom::se2::wrap_angle;
 use nalgebra::Matrix2;
 
 /// A calibration under way: the same in pieces, so that nobody has to wait for all of it.
@@ -155,6 +155,9 @@ impl Calibrating {
             }
             Stage::Cut(purpose) => {
                 let Some(enough) = self.cut(odometry, reference, purpose) else { return Ok(None) };
+                if purpose == Purpose::Round(0) {
+                    self.systematic.mount_yaw = Systematic::far_mount_yaw(&self.legs);
+                }
                 match purpose {
                     _ if enough => Stage::Observe(purpose),
                     Purpose::Length(place) => {
@@ -257,8 +260,7 @@ impl Calibrating {
 
     /// Goes on with what the legs say; whether all have been asked.
     ///
-    /// What is removed was fitted to the same residuals and took a share of their variances, which they get back. Not of triangular
-    /// noise: that has an end, and what was within would be taken past it.
+    /// What is removed was fitted to the same residuals and took a share of their variances, which they get back.
     fn observe(&mut self, purpose: Purpose) -> bool {
         let Options { model, noise, reference_error, remove, .. } = self.options;
         let without = *self.without(purpose);
@@ -274,13 +276,17 @@ impl Calibrating {
             model.observe(leg, &without, &Uncertainty { place: own, bearing, heading })
         };
         let mut observations: Vec<Observation> = legs.iter().map(observe).collect();
-        if let (NoiseKind::Normal, Some((best, _))) = (noise, &self.best) {
-            let evidence = Evidence::new(model, noise, &observations);
-            let densities = evidence.each(best, 0..legs.len());
-            for ((leg, observation), density) in legs.iter().zip(&mut observations).zip(densities) {
-                let weights = model.weights(observation, &density);
-                observation.free_of(without.leverages(leg, observation, weights, &self.known, &estimated));
-            }
+        let evidence = Evidence::new(model, noise, &observations);
+        // Of legs of other lengths there are no α's yet, and the shares are not known; they are less than a hundredth.
+        let best = self.best.as_ref().map(|(best, _)| best);
+        let mut densities = best.map(|best| evidence.each(best, 0..legs.len()));
+        for (leg, observation) in legs.iter().zip(&mut observations) {
+            let unknown = without.unknown(leg, observation, &self.known, &estimated);
+            let density = densities.as_mut().and_then(Iterator::next);
+            let weights = density.map_or([0.0; 3], |density| model.weights(observation, &density));
+            // What a leg took of its variances: its leverages.
+            let shares = std::array::from_fn(|k| (weights[k] * unknown[k]).min(MOST_LEVERAGE));
+            observation.free_of(noise, shares, unknown);
         }
         observations.iter().for_each(|observation| self.evidence.add(observation));
         self.observations.append(&mut observations);
@@ -348,6 +354,7 @@ impl Calibrating {
             let most = 4.0 * error.largest_deviation();
             let change = change[i].max(-most).min(most);
             self.systematic.set(error, self.systematic.get(error) + change);
+            self.systematic.mount_yaw = wrap_angle(self.systematic.mount_yaw);
             stays &= change.abs() <= STAYS * deviation;
         }
         Some(stays)

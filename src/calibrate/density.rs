@@ -1,7 +1,6 @@
 //! How likely the three residuals of a leg are, and which variances would make them likelier.
 
-use super::likelihood::ROOT_6;
-use crate::noise::NoiseKind;
+use super::likelihood::{ROOT_6, ROOT_TAU};
 
 /// The density of a leg's residuals: `factor` · exp(`exponent`), so that neither is too small for a double.
 #[derive(Clone, Copy, Debug)]
@@ -28,41 +27,44 @@ impl Density {
         }
     }
 
-    /// Π (c − |r|)/c² with c = √(6v), without its powers of 6: of a residual that is not told r is 0 and v is 1. At the ends of its support its information is
-    /// infinite: for that stands minus the second derivative itself, or 0 in the middle, where that is negative.
+    /// Π (c − |r|)/c² with c = √(6v), without its powers of 6; and where a residual is off by something else too, whose standard
+    /// deviation is `blur`, of the sum of both: (R(r + c) − 2R(r) + R(r − c))/c², R(y) being the mean of (y + blur · N(0, 1))₊. The sharp end of a
+    /// triangle would have one residual, off by what no motion has done, decide on the variance.
+    ///
+    /// Its information is infinite at the ends of a sharp support: for that stands minus the second derivative itself, or 0 in the middle,
+    /// where that is negative. A residual with neither variance nor blur is one that is not told, or it has no density.
     #[inline(always)]
-    pub fn triangular(sizes: &[f64; 3], variances: &[f64; 3]) -> Self {
-        let ends = variances.map(|variance| (6.0 * variance).sqrt());
-        let left: [f64; 3] = std::array::from_fn(|k| ends[k] - sizes[k]);
-        if !left.iter().all(|left| *left > 0.0) {
-            return Self { factor: 0.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
+    pub fn triangular(sizes: &[f64; 3], blurs: &[f64; 3], variances: &[f64; 3], told: &[bool; 3]) -> Self {
+        let mut density = Self { factor: 1.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
+        for k in (0..3).filter(|k| told[*k]) {
+            let (size, blur, variance) = (sizes[k], blurs[k], variances[k]);
+            if blur > BLUNT * variance.sqrt() {
+                let precision = 1.0 / (variance + blur * blur);
+                let share = size * size * precision;
+                density.factor *= precision.sqrt() * (ROOT_6 / ROOT_TAU);
+                density.exponent -= 0.5 * share;
+                density.by_variance[k] = 0.5 * precision * (share - 1.0);
+                density.information[k] = 0.5 * precision * precision;
+                continue;
+            }
+            let (precision, end) = (1.0 / variance, (6.0 * variance).sqrt());
+            let [value, slope, bend] = triangle(size / end, blur / end);
+            if !(value > 0.0) {
+                return Self { factor: 0.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
+            }
+            let [slope, bend] = [slope / value, bend / value];
+            density.factor *= value * end * precision / ROOT_6;
+            density.by_variance[k] = 0.5 * precision * (slope - 2.0);
+            density.information[k] =
+                0.25 * (slope * slope + slope - 4.0 - bend).max(0.0) * (precision * precision);
         }
-        let precisions = variances.map(|variance| 1.0 / variance);
-        // By the part of the half triangle that is left outside of the residual.
-        let inverse: [f64; 3] = std::array::from_fn(|k| ends[k] / left[k]);
-        Self {
-            factor: (0..3).map(|k| left[k] * precisions[k] / ROOT_6).product(),
-            exponent: 0.0,
-            by_variance: std::array::from_fn(|k| 0.5 * precisions[k] * (inverse[k] - 2.0)),
-            information: std::array::from_fn(|k| {
-                let bend = inverse[k] * (inverse[k] + 1.0) - 4.0;
-                0.25 * bend.max(0.0) * (precisions[k] * precisions[k])
-            }),
-        }
-    }
-
-    #[inline(always)]
-    pub fn of(noise: NoiseKind, sizes: &[f64; 3], variances: &[f64; 3]) -> Self {
-        match noise {
-            NoiseKind::Normal => Self::normal(sizes, variances),
-            NoiseKind::Triangular => Self::triangular(sizes, variances),
-        }
+        density
     }
 
     /// With that of other residuals under the same variances. Rare, and long code in few places.
     #[inline(never)]
-    pub fn or_of(&self, noise: NoiseKind, sizes: &[f64; 3], variances: &[f64; 3]) -> Self {
-        self.or(&Self::of(noise, sizes, variances)).0
+    pub fn or_of(&self, other: impl FnOnce() -> Self) -> Self {
+        self.or(&other()).0
     }
 
     #[inline(always)]
@@ -93,6 +95,36 @@ impl Density {
         };
         (sum, part)
     }
+}
+
+/// By so many deviations of the triangle a normal error hides it: what is left of its kurtosis is −0.6/(1 + 25²)², and the sum is normal.
+const BLUNT: f64 = 25.0;
+
+/// So many deviations away from a corner there is nothing of what a blur has made of it: 10⁻¹⁶.
+const ROUND: f64 = 8.0;
+
+/// The triangle from −1 to 1, blurred, at u ≥ 0: n = R(u + 1) − 2R(u) + R(u − 1), and its first two derivatives by the end where that is 1.
+#[inline(always)]
+fn triangle(u: f64, blur: f64) -> [f64; 3] {
+    let round = ROUND * blur;
+    if u > round && u < 1.0 - round { [1.0 - u, 1.0, 0.0] } else { rounded_triangle(u, blur) }
+}
+
+#[inline(never)]
+fn rounded_triangle(u: f64, blur: f64) -> [f64; 3] {
+    if blur == 0.0 {
+        return [(1.0 - u).max(0.0), 1.0, 0.0];
+    }
+    // At so many deviations from a corner: the density, the probability beyond, and the mean of what is beyond.
+    let corner = |z: f64| {
+        let density = libm::exp(-0.5 * z * z) / ROOT_TAU;
+        let beyond = 0.5 * libm::erfc(z * std::f64::consts::FRAC_1_SQRT_2);
+        [density, beyond, density - z * beyond]
+    };
+    let [left, middle, right] = [u + 1.0, u, (u - 1.0).abs()].map(|distance| corner(distance / blur));
+    let value = (1.0 - u).max(0.0) + blur * (left[2] - 2.0 * middle[2] + right[2]);
+    let slope = if u < 1.0 { 1.0 - left[1] - right[1] } else { right[1] - left[1] };
+    [value, slope, (left[0] + right[0]) / blur]
 }
 
 /// The logarithm of a product of very many numbers, with one logarithm: their exponents are whole numbers, and the product of

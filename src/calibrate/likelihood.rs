@@ -30,9 +30,31 @@ struct Row {
     coefficients: [[f64; 2]; 3],
     /// 1 of a residual that is not told, of which nothing then depends.
     floors: [f64; 3],
+    /// The standard deviations of what is not the wheels' noise.
+    blurs: [f64; 3],
     told: [bool; 3],
     /// Its place among the squares by the other way; none where it is past their end.
     other_way: u32,
+}
+
+impl Row {
+    /// How large a residual is without what else there is of it: further away its density is below the smallest double.
+    #[inline(always)]
+    fn least_size(&self, kind: usize) -> f64 {
+        (self.sizes[kind] - FARTHEST * self.blurs[kind]).max(0.0)
+    }
+
+    #[inline(always)]
+    fn density(&self, noise: NoiseKind, sizes: &[f64; 3], variances: &[f64; 3]) -> Density {
+        match noise {
+            NoiseKind::Normal => Density::normal(sizes, variances),
+            NoiseKind::Triangular => {
+                // Which alone are triangular.
+                let of_wheels = std::array::from_fn(|k| (variances[k] - self.floors[k]).max(0.0));
+                Density::triangular(sizes, &self.blurs, &of_wheels, &self.told)
+            }
+        }
+    }
 }
 
 /// What all legs say.
@@ -66,7 +88,7 @@ impl Evidence {
 
     /// A residual that nothing would make uncertain is not told: its variance is 0 under all α's.
     pub(super) fn add(&mut self, observation: &Observation) {
-        let Observation { residuals, coefficients, floors, other_way, .. } = observation;
+        let Observation { residuals, coefficients, floors, unknown, other_way, .. } = observation;
         let told: [bool; 3] = std::array::from_fn(|k| {
             residuals[k].is_finite() && (coefficients[k] != [0.0; 2] || floors[k] > 0.0)
         });
@@ -76,6 +98,7 @@ impl Evidence {
             sizes: size(residuals),
             coefficients: std::array::from_fn(|k| if told[k] { coefficients[k] } else { [0.0; 2] }),
             floors: std::array::from_fn(|k| if told[k] { floors[k] } else { 1.0 }),
+            blurs: std::array::from_fn(|k| if told[k] { (floors[k] + unknown[k]).sqrt() } else { 0.0 }),
             told,
             other_way: if other_way.is_some() { self.other_ways.len() as u32 } else { u32::MAX },
         });
@@ -157,7 +180,8 @@ impl Evidence {
         for row in &self.rows {
             let (fixed, widened) = (self.variances(row, &others), self.variances(row, &these));
             for k in 0..3 {
-                let missing = row.sizes[k] * row.sizes[k] / part - fixed[k];
+                let size = row.least_size(k);
+                let missing = size * size / part - fixed[k];
                 if missing > factor * (widened[k] - row.floors[k]) {
                     factor = missing / (widened[k] - row.floors[k]);
                 }
@@ -182,8 +206,10 @@ impl Evidence {
             let other_way = self.other_ways.get(row.other_way as usize);
             let near = |sizes: &[f64; 3]| {
                 (0..3).any(|k| {
-                    let square = sizes[k] * sizes[k];
-                    square > least * variances[k] && square < most * variances[k]
+                    let near = NEAR * row.blurs[k];
+                    let [nearest, farthest] = [sizes[k] - near, sizes[k] + near];
+                    farthest * farthest > least * variances[k]
+                        && nearest.max(0.0) * nearest < most * variances[k]
                 })
             };
             if near(&row.sizes) || other_way.is_some_and(near) {
@@ -202,7 +228,7 @@ impl Evidence {
         for row in &self.rows {
             let [before, after] = [from, to].map(|alphas| self.variances(row, alphas));
             for k in 0..3 {
-                let square = row.sizes[k] * row.sizes[k];
+                let square = row.least_size(k) * row.least_size(k);
                 let [left, then] = [6.0 * before[k] - square, 6.0 * after[k] - square];
                 if left > 0.0 && left + reach * (then - left) < 0.0 {
                     reach = left / (left - then);
@@ -228,9 +254,9 @@ impl Evidence {
     /// The density of a row, and the probability that it is bad.
     #[inline(always)]
     fn density(&self, row: &Row, variances: &[f64; 3], at: &Parameters) -> (Density, f64) {
-        let mut density = Density::of(at.noise, &row.sizes, variances);
+        let mut density = row.density(at.noise, &row.sizes, variances);
         if let Some(sizes) = self.other_ways.get(row.other_way as usize) {
-            density = density.or_of(at.noise, sizes, variances);
+            density = density.or_of(|| row.density(at.noise, sizes, variances));
         }
         let Some(Bad { share, spreads }) = &at.bad else { return (density, 0.0) };
         let wider: [f64; 3] =
@@ -387,6 +413,12 @@ const FAR: f64 = 8.0 / 0.454_936;
 
 /// A bad leg is at least three times as uncertain as others usually are, or it could not be told from them.
 const LEAST_SPREAD: f64 = 8.0;
+
+/// Deviations at which a normal density is about 10⁻²⁰⁰.
+const FARTHEST: f64 = 30.0;
+
+/// Deviations within which the rounded end of a triangle is no parabola.
+const NEAR: f64 = 3.0;
 
 /// √6.
 pub(super) const ROOT_6: f64 = 2.449_489_742_783_178;

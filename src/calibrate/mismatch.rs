@@ -25,18 +25,25 @@ pub(super) fn mismatch(
     removed: &Systematic,
     length: LegLength,
 ) -> Option<Verdict> {
-    let follows = |least: f64, way: fn(&SE2) -> f64| {
+    let follows = |least: f64, size: fn(&SE2) -> f64, between: fn(&SE2, &SE2) -> f64| {
         let (mut read, mut off) = (Vec::new(), Vec::new());
         for (leg, observation) in legs.iter().zip(observations) {
-            let [expected, moved] = [way(&observation.expected), way(&removed.motion(leg))];
-            if expected.abs() > least {
-                read.push(expected.abs());
-                off.push((moved - expected).abs());
+            let expected = &observation.expected;
+            if size(expected) > least {
+                read.push(size(expected));
+                off.push(between(&removed.motion(leg), expected));
             }
         }
         read.len() < FEWEST || median(&mut off) < LOST * median(&mut read)
     };
-    if !follows(TURNS, SE2::theta) || !follows(DRIVES, |motion| libm::hypot(motion.x(), motion.y())) {
+    let turns =
+        follows(TURNS, |motion| motion.theta().abs(), |one, other| (one.theta() - other.theta()).abs());
+    let drives = follows(
+        DRIVES,
+        |motion| libm::hypot(motion.x(), motion.y()),
+        |one, other| libm::hypot(one.x() - other.x(), one.y() - other.y()),
+    );
+    if !turns || !drives {
         return Some(Verdict::Unrelated);
     }
     let mut lengths: Vec<f64> = legs.iter().map(|leg| length.share_of(leg)).collect();

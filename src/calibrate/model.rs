@@ -8,6 +8,7 @@ use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::geom::sinc::sinc;
 use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
+use crate::noise::NoiseKind;
 use nalgebra::{Matrix2, Matrix3, RowVector3, Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -52,6 +53,9 @@ pub struct Observation {
     pub coefficients: [[f64; 2]; 3],
     /// The part of each variance that is the reference's own error.
     pub floors: [f64; 3],
+    /// Variances that the residuals have besides, because the systematic errors that were removed are known no better. In a
+    /// [`Calibration`](super::Calibration) of triangular noise alone: normal residuals have it in their size.
+    pub unknown: [f64; 3],
     /// What the model says of the leg: rot1, trans, rot2 (rad, m, rad); or v, ω, Δt (m/s, rad/s, s).
     pub reading: [f64; 3],
     /// The motion that the model expects.
@@ -62,8 +66,16 @@ pub struct Observation {
 
 impl Observation {
     /// With residuals as large as if nothing had been fitted to them, where that took these `shares` of their variances, each below 1.
-    pub(super) fn free_of(&mut self, shares: [f64; 3]) {
-        let times = shares.map(|share| 1.0 / (1.0 - share).sqrt());
+    /// Normal ones are as large as they would be in the mean. Triangular ones have an end, past which that might take them: of what
+    /// was fitted their own part is taken back, r(1 − h), and the rest, which other legs have decided, is `unknown`.
+    pub(super) fn free_of(&mut self, noise: NoiseKind, shares: [f64; 3], unknown: [f64; 3]) {
+        let times = match noise {
+            NoiseKind::Normal => shares.map(|share| 1.0 / (1.0 - share).sqrt()),
+            NoiseKind::Triangular => shares.map(|share| 1.0 / (1.0 - share)),
+        };
+        if noise == NoiseKind::Triangular {
+            self.unknown = std::array::from_fn(|k| unknown[k] * times[k]);
+        }
         for residuals in std::iter::once(&mut self.residuals).chain(&mut self.other_way) {
             residuals.iter_mut().zip(times).for_each(|(residual, times)| *residual *= times);
         }
@@ -202,6 +214,7 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
             residuals,
             first_order: residuals,
             other_way: None,
+            unknown: [0.0; 3],
             coefficients: [[0.0; 2], along, [first[0] + second[0], first[1] + second[1]]],
             floors: [0.0, place, 2.0 * error.heading],
             reading,
@@ -223,6 +236,7 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
         residuals,
         first_order: [off, residuals[1], wrap_angle(turned - off)],
         other_way,
+        unknown: [0.0; 3],
         coefficients: [first, along, second],
         floors: [bearing_error, place, bearing_error],
         reading,
@@ -246,6 +260,7 @@ fn slid(expected: &SE2, motion: &SE2, error: &Uncertainty) -> Observation {
         residuals,
         first_order: residuals,
         other_way: None,
+        unknown: [0.0; 3],
         coefficients: [
             [alone[0].rot2.0, alone[1].rot2.0],
             [alone[2].trans.0, alone[3].trans.0],
@@ -284,6 +299,7 @@ fn driven(dt: f64, read: &SE2, motion: &SE2, error: &Uncertainty) -> Observation
             residuals,
             first_order: residuals,
             other_way: None,
+            unknown: [0.0; 3],
             coefficients: [[v2, omega2], [0.0; 2], [0.0; 2]],
             floors: [place * per_time, 0.0, 0.0],
             reading: [v, omega, dt],
@@ -303,6 +319,7 @@ fn driven(dt: f64, read: &SE2, motion: &SE2, error: &Uncertainty) -> Observation
         first_order: [v_off, off / dt, wrap_angle(motion.theta() - turn - off) / dt],
         residuals: [v_off, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat],
         other_way: None,
+        unknown: [0.0; 3],
         coefficients: [[v2, omega2]; 3],
         floors: [place, 4.0 * (bearing_error + error.heading), 4.0 * bearing_error + 2.0 * error.heading]
             .map(|floor| floor * per_time),

@@ -235,15 +235,22 @@ impl Profile<'_> {
         let near = moved.as_ref().unwrap_or(about);
         // Every third step halves, so that no end stays for good.
         let halve = bracket.outside[1] == f64::INFINITY || step % 3 == 2 && bracket.is_closed();
-        let value = if halve { bracket.between(true) } else { self.crossing(near, bracket, side) };
+        let mut value = if halve { bracket.between(true) } else { self.crossing(near, bracket, side) };
         if step > 0 && bracket.is_near(value, self.best()) {
-            return Some(value);
+            if bracket.inside[0] != self.best() {
+                return Some(value);
+            }
+            // By what is near a point far away, all falls too far but the maximum itself.
+            *moved = None;
+            value = bracket.between(true);
         }
+        let near = moved.as_ref().unwrap_or(about);
         let (alphas, _) = self.beside(near, value);
         let to = Parameters { alphas, ..about.at };
         let here = evidence.slope(&to, Robust::No);
         if !here.log_likelihood.is_finite() {
             bracket.outside = [value, f64::INFINITY];
+            *moved = None;
             return None;
         }
         let near = if step == 0 { about.moved(to, &here) } else { Near::new(evidence, to, &here) };

@@ -111,6 +111,7 @@ fn intervals_are_those_of_the_likelihood() {
         residuals: [square.sqrt(), f64::NAN, f64::NAN],
         first_order: [square.sqrt(), f64::NAN, f64::NAN],
         other_way: None,
+        unknown: [0.0; 3],
         coefficients: [[2.0, 0.0], [0.0; 2], [0.0; 2]],
         floors: [0.0; 3],
         reading: [0.0; 3],

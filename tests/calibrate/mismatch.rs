@@ -41,7 +41,14 @@ fn a_reference_of_another_drive_or_in_other_units_is_told() {
     let degrees = edited(&reference, |(_, (t, pose))| {
         Some((t, SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())))
     });
-    for (name, strange) in [("another", &of_another), ("millimetres", &millimetres), ("degrees", &degrees)] {
+    let mirrored =
+        edited(&reference, |(_, (t, pose))| Some((t, SE2::new(-pose.x(), pose.y(), pose.theta()))));
+    for (name, strange) in [
+        ("another", &of_another),
+        ("millimetres", &millimetres),
+        ("degrees", &degrees),
+        ("mirrored", &mirrored),
+    ] {
         let verdict = told(&odometry, strange, ReferenceError::default()).doubts.verdict;
         assert_eq!(verdict, Verdict::Unrelated, "{name}");
     }

@@ -94,7 +94,7 @@ export const de = {
     title: 'Warum diese α',
     against: 'Über dem Quadrat',
     drivers: { turn: 'der Drehung', way: 'des Weges' },
-    caption: 'Quadrierte Residuen in Klassen aus gleich vielen Etappen, ohne den Anteil des anderen *α*. Sie wachsen mit dem, was sie treibt, und die Steigung ist das *α*; das Band ist sein Intervall.',
+    caption: 'Quadrierte Residuen in Klassen aus gleich vielen Etappen, ohne den Anteil des anderen *α*. Sie wachsen mit dem, was sie treibt, und die Steigung ist das *α*; das Band ist sein Intervall, Balken sind Standardfehler.',
     kinds: { rot1: 'erste Drehung', trans: 'Fahrt', rot2: 'zweite Drehung', strafe: 'Gleiten', v: 'v̂', omega: 'ω̂', gamma: 'γ̂' },
     turn: 'Drehung (rad²)',
     way: 'Weg (m²)',

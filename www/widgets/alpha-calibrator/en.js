@@ -93,7 +93,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     title: 'Why these α’s',
     against: 'Against the square of the',
     drivers: { turn: 'turn', way: 'way' },
-    caption: 'Squared residuals in bins of as many legs, less what the other *α* answers for. They rise with what drives them, and the slope is the *α*; the band is its interval.',
+    caption: 'Squared residuals in bins of as many legs, less what the other *α* answers for. They rise with what drives them, and the slope is the *α*; the band is its interval, and bars are standard errors.',
     kinds: { rot1: 'first rotation', trans: 'drive', rot2: 'second rotation', strafe: 'strafe', v: 'v̂', omega: 'ω̂', gamma: 'γ̂' },
     turn: 'turn (rad²)',
     way: 'way (m²)',

@@ -266,14 +266,17 @@ impl Calibrating {
         let without = *self.without(purpose);
         let estimated = if let Purpose::Round(_) = purpose { [true; ERRORS] } else { remove };
         let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
-        let own = Matrix2::identity() * (2.0 * reference_error.position * reference_error.position);
-        let heading = reference_error.heading * reference_error.heading;
+        let [place, heading] =
+            [reference_error.position, reference_error.heading].map(|deviation| deviation * deviation);
         let from = self.observations.len();
         let until = self.legs.len().min(from + LEGS);
         let legs = &self.legs[from..until];
         let observe = |leg: &Leg| {
+            let [from, to] = leg.averaged;
+            let own = Matrix2::identity() * (place * (from + to));
             let bearing = own + without.uncertainty(leg, &deviations);
-            model.observe(leg, &without, &Uncertainty { place: own, bearing, heading })
+            let headings = [from * heading, to * heading];
+            model.observe(leg, &without, &Uncertainty { place: own, bearing, headings })
         };
         let mut observations: Vec<Observation> = legs.iter().map(observe).collect();
         let evidence = Evidence::new(model, noise, &observations);

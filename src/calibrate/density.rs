@@ -32,11 +32,33 @@ impl Density {
     /// triangle would have one residual, off by what no motion has done, decide on the variance.
     ///
     /// Its information is infinite at the ends of a sharp support: for that stands minus the second derivative itself, or 0 in the middle,
-    /// where that is negative. A residual with neither variance nor blur is one that is not told, or it has no density.
+    /// where that is negative. Of a residual that is not told r is 0 and v is 1.
     #[inline(always)]
-    pub fn triangular(sizes: &[f64; 3], blurs: &[f64; 3], variances: &[f64; 3], told: &[bool; 3]) -> Self {
+    pub fn triangular(sizes: &[f64; 3], blurs: &[f64; 3], variances: &[f64; 3]) -> Self {
+        let ends = variances.map(|variance| (6.0 * variance).sqrt());
+        let left: [f64; 3] = std::array::from_fn(|k| ends[k] - sizes[k]);
+        // Away from the corners, as nearly all are, a blur makes no difference.
+        if !(0..3).all(|k| left[k] > ROUND * blurs[k] && sizes[k] >= ROUND * blurs[k]) {
+            return Self::blurred(sizes, blurs, variances);
+        }
+        let precisions = variances.map(|variance| 1.0 / variance);
+        // By the part of the half triangle that is left outside of the residual.
+        let inverse: [f64; 3] = std::array::from_fn(|k| ends[k] / left[k]);
+        Self {
+            factor: (0..3).map(|k| left[k] * precisions[k] / ROOT_6).product(),
+            exponent: 0.0,
+            by_variance: std::array::from_fn(|k| 0.5 * precisions[k] * (inverse[k] - 2.0)),
+            information: std::array::from_fn(|k| {
+                let bend = inverse[k] * (inverse[k] + 1.0) - 4.0;
+                0.25 * bend.max(0.0) * (precisions[k] * precisions[k])
+            }),
+        }
+    }
+
+    #[inline(never)]
+    fn blurred(sizes: &[f64; 3], blurs: &[f64; 3], variances: &[f64; 3]) -> Self {
         let mut density = Self { factor: 1.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
-        for k in (0..3).filter(|k| told[*k]) {
+        for k in 0..3 {
             let (size, blur, variance) = (sizes[k], blurs[k], variances[k]);
             if blur > BLUNT * variance.sqrt() {
                 let precision = 1.0 / (variance + blur * blur);
@@ -49,7 +71,7 @@ impl Density {
             }
             let (precision, end) = (1.0 / variance, (6.0 * variance).sqrt());
             let [value, slope, bend] = triangle(size / end, blur / end);
-            if !(value > 0.0) {
+            if value.is_nan() || value <= 0.0 {
                 return Self { factor: 0.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
             }
             let [slope, bend] = [slope / value, bend / value];
@@ -100,23 +122,20 @@ impl Density {
 /// By so many deviations of the triangle a normal error hides it: what is left of its kurtosis is −0.6/(1 + 25²)², and the sum is normal.
 const BLUNT: f64 = 25.0;
 
-/// So many deviations away from a corner there is nothing of what a blur has made of it: 10⁻¹⁶.
-const ROUND: f64 = 8.0;
+/// So many deviations away from a corner there is nothing of what a blur has made of it: a share of 10⁻⁹ of the blur.
+const ROUND: f64 = 5.7;
 
 /// The triangle from −1 to 1, blurred, at u ≥ 0: n = R(u + 1) − 2R(u) + R(u − 1), and its first two derivatives by the end where that is 1.
-#[inline(always)]
 fn triangle(u: f64, blur: f64) -> [f64; 3] {
-    let round = ROUND * blur;
-    if u > round && u < 1.0 - round { [1.0 - u, 1.0, 0.0] } else { rounded_triangle(u, blur) }
-}
-
-#[inline(never)]
-fn rounded_triangle(u: f64, blur: f64) -> [f64; 3] {
     if blur == 0.0 {
-        return [(1.0 - u).max(0.0), 1.0, 0.0];
+        return [1.0 - u, 1.0, 0.0];
     }
     // At so many deviations from a corner: the density, the probability beyond, and the mean of what is beyond.
     let corner = |z: f64| {
+        // Outside, what is beyond each of them is all that there is.
+        if u < 1.0 && z > ROUND {
+            return [0.0; 3];
+        }
         let density = libm::exp(-0.5 * z * z) / ROOT_TAU;
         let beyond = 0.5 * libm::erfc(z * std::f64::consts::FRAC_1_SQRT_2);
         [density, beyond, density - z * beyond]

@@ -62,6 +62,8 @@ pub struct Leg {
     pub velocities: [Vector3<f64>; 2],
     /// Both ends in the reference’s.
     pub reference: [SE2; 2],
+    /// How much of the variance of a sample of the reference there is at both ends: all at one, half in the middle between two.
+    pub(super) averaged: [f64; 2],
 }
 
 impl Leg {
@@ -79,6 +81,7 @@ struct End {
     reading: SE2,
     velocity: Vector3<f64>,
     truth: SE2,
+    averaged: f64,
 }
 
 /// A reference with steps that are longer than the odometry's by more than this is the sparser one.
@@ -99,12 +102,13 @@ impl Log<'_> {
         let Self { odometry, reference, clock_offset, sparse } = *self;
         if !sparse {
             let truth = reference.pose_at(time + clock_offset)?;
-            return Some(End { time, reading, velocity: odometry.velocity(sample), truth });
+            let averaged = reference.averaged_at(time + clock_offset);
+            return Some(End { time, reading, velocity: odometry.velocity(sample), truth, averaged });
         }
         let (seen, truth) = reference.sample(reference.nearest(time + clock_offset)?);
         let time = seen - clock_offset;
         let velocity = odometry.velocity(odometry.nearest(time)?);
-        Some(End { time, reading: odometry.pose_at(time)?, velocity, truth })
+        Some(End { time, reading: odometry.pose_at(time)?, velocity, truth, averaged: 1.0 })
     }
 }
 
@@ -172,6 +176,7 @@ impl Cutting {
                 odometry: [start.reading, end.reading],
                 velocities: [start.velocity, end.velocity],
                 reference: [start.truth, end.truth],
+                averaged: [start.averaged, end.averaged],
             });
         }
         self.next = until;

@@ -50,8 +50,10 @@ impl Row {
             NoiseKind::Normal => Density::normal(sizes, variances),
             NoiseKind::Triangular => {
                 // Which alone are triangular.
-                let of_wheels = std::array::from_fn(|k| (variances[k] - self.floors[k]).max(0.0));
-                Density::triangular(sizes, &self.blurs, &of_wheels, &self.told)
+                let of_wheels = std::array::from_fn(|k| {
+                    if self.told[k] { (variances[k] - self.floors[k]).max(0.0) } else { 1.0 }
+                });
+                Density::triangular(sizes, &self.blurs, &of_wheels)
             }
         }
     }

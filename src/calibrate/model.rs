@@ -90,11 +90,16 @@ pub struct Uncertainty {
     /// The same for its direction, with what is left uncertain of clock and lever arm: of a leg that hardly leads anywhere the direction
     /// is theirs. What they are off by along the way was fitted to the same residuals, and makes these smaller, not greater.
     pub bearing: Matrix2<f64>,
-    /// The variance of a heading, rad², independent at either end.
-    pub heading: f64,
+    /// The variances of the headings at both ends, rad², independent.
+    pub headings: [f64; 2],
 }
 
 impl Uncertainty {
+    /// The variance of a turn, rad².
+    fn of_turn(&self) -> f64 {
+        self.headings[0] + self.headings[1]
+    }
+
     /// The variance along a direction, m².
     fn along(&self, direction: f64) -> f64 {
         variance_along(&self.place, direction)
@@ -216,7 +221,7 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
             other_way: None,
             unknown: [0.0; 3],
             coefficients: [[0.0; 2], along, [first[0] + second[0], first[1] + second[1]]],
-            floors: [0.0, place, 2.0 * error.heading],
+            floors: [0.0, place, error.of_turn()],
             reading,
             expected: *expected,
             slopes: Matrix3::from_rows(&[RowVector3::zeros(), drive, RowVector3::new(0.0, 0.0, 1.0)]),
@@ -231,7 +236,7 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
     let other_way = (rule == OdometryRule::Table && rot1.abs() > FRAC_PI_2).then_some(other);
     let across = RowVector3::new(-sin, cos, 0.0) / trans;
     let off = across.x * motion.x() + across.y * motion.y();
-    let bearing_error = error.heading + error.of_bearing(bearing, distance);
+    let bearing_error = error.headings[0] + error.of_bearing(bearing, distance);
     Observation {
         residuals,
         first_order: [off, residuals[1], wrap_angle(turned - off)],
@@ -267,9 +272,9 @@ fn slid(expected: &SE2, motion: &SE2, error: &Uncertainty) -> Observation {
             [alone[4].strafe.0, alone[3].strafe.0],
         ],
         floors: [
-            2.0 * error.heading,
+            error.of_turn(),
             error.along(rot1),
-            error.along(rot1 + FRAC_PI_2) + trans * trans * error.heading,
+            error.along(rot1 + FRAC_PI_2) + trans * trans * error.headings[0],
         ],
         reading: [rot1, trans, rot2],
         expected: *expected,
@@ -321,7 +326,7 @@ fn driven(dt: f64, read: &SE2, motion: &SE2, error: &Uncertainty) -> Observation
         other_way: None,
         unknown: [0.0; 3],
         coefficients: [[v2, omega2]; 3],
-        floors: [place, 4.0 * (bearing_error + error.heading), 4.0 * bearing_error + 2.0 * error.heading]
+        floors: [place, 4.0 * (bearing_error + error.headings[0]), 4.0 * bearing_error + error.of_turn()]
             .map(|floor| floor * per_time),
         reading: [v, omega, dt],
         expected,

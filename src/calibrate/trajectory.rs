@@ -208,6 +208,15 @@ impl Trajectory {
         let way = pose.boxminus(&self.poses[before]);
         Some(self.poses[before].boxplus(way * share))
     }
+
+    /// How much of the variance of a sample's own error [`Trajectory::pose_at`] has, where the samples are independent: (1 − s)² + s² at the
+    /// share s of the way from one to the next.
+    pub(super) fn averaged_at(&self, time: f64) -> f64 {
+        let after = self.times.partition_point(|each| *each < time);
+        let (Some(at), Some(before)) = (self.times.get(after), after.checked_sub(1)) else { return 1.0 };
+        let share = (time - self.times[before]) / (at - self.times[before]);
+        (1.0 - share) * (1.0 - share) + share * share
+    }
 }
 
 /// The one in the middle of positive numbers, as if they were sorted; 0 of none. Positive numbers are in the order of their bits, so

@@ -229,6 +229,11 @@ test('German has a decimal comma, and takes a point too', async ({ page }) => {
     expect(await property(widget, 'alpha1')).toBe(value);
   }
   await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
+  // Of robots there are whole ones: a point before three digits is no decimal one.
+  await widget.locator('#samples').focus();
+  await page.keyboard.type('20.000');
+  await page.keyboard.press('Enter');
+  expect(await property(widget, 'samples')).toBe(20_000);
   await expect(help(widget, 'alpha1')).toContainText('Der Regler endet bei 0,200');
 });
 

@@ -74,7 +74,7 @@ function typeable(figure, key, symbol, row, take = row.input, print = row.show) 
     effect: end === undefined ? row.effect : words.sliderEnds(print(end)),
     keys: min < 0 ? 'text' : whole ? 'numeric' : 'decimal',
     type: (text) => {
-      const number = numberIn(text, unit);
+      const number = numberIn(text, unit, whole);
       if (number >= min && number <= max && (!whole || Number.isInteger(number))) {
         take(number);
         row.commit();

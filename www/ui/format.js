@@ -61,14 +61,16 @@ export function typed(value, decimals) {
  *
  * @param {string} text "−0,301", "1.5 m/s", "2 000", "2,000"
  * @param {string} [unit] that may follow it
+ * @param {boolean} [whole] whether only whole numbers are meant
  * @returns {number} NaN where it is none
  */
-export function numberIn(text, unit = '') {
+export function numberIn(text, unit = '', whole = false) {
   const plain = text.replace(/\s/g, '').replace(MINUS, '-');
   const bare = unit && plain.endsWith(unit) ? plain.slice(0, -unit.length) : plain;
   const [, decimal] = fixed(0.5, 1);
-  // In English a comma stands between whole groups of three, or nowhere.
-  const ungrouped = decimal === '.' && /^-?[1-9]\d{0,2}(,\d{3})+$/.test(bare) ? bare.replaceAll(',', '') : bare;
+  // In English a comma stands between whole groups of three, or nowhere; where it is for decimals a point may, if there are none.
+  const groups = decimal === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : whole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
+  const ungrouped = groups && groups.test(bare) ? bare.replace(/[,.]/g, '') : bare;
   return bare === '' ? NaN : Number(ungrouped.replace(decimal, '.'));
 }
 

@@ -83,6 +83,10 @@ fn panel(model: Model, noise: NoiseKind, calibration: &Calibration, kind: usize,
         slope: known(alpha),
         interval: estimate.intervals[alpha],
     };
+    // Of legs that hardly turn there is nothing to see against the turn.
+    if panel.slope.is_none() {
+        return panel;
+    }
     let mut along: Vec<f64> = points.iter().map(|point| point[0]).collect();
     sort(&mut along);
     let size = points.len().div_ceil(BINS).max(LEAST);

@@ -292,6 +292,9 @@ fn sum(sums: &mut Sums<QUANTITIES>, [a, l, h]: [f64x4; 3]) {
     add(&mut sums.block, terms);
 }
 
+/// From so many robots on their own kurtosis tells how well their variance is known.
+const FEW: f64 = 30.0;
+
 fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
     let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
     let mean = Vector3::new(a, l, h);
@@ -304,8 +307,10 @@ fn measured(sums: &[f64; QUANTITIES], n: f64) -> Measured {
         let m2 = products[(i, i)];
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
-        // Not by `f64::max`, which takes NaN for the lesser.
-        (no_less_than_none(kurtosis - 1.0) / n).sqrt()
+        let own = no_less_than_none(kurtosis - 1.0) / n;
+        // A few have no kurtosis to speak of, two always 1: as of normal ones then, at least. Not by `f64::max`, which takes NaN for the lesser.
+        let least = if n < FEW { 2.0 / (n - 1.0) } else { 0.0 };
+        if own < least { least.sqrt() } else { own.sqrt() }
     });
     Measured { mean, cov: products * (n / (n - 1.0)), relative_error }
 }

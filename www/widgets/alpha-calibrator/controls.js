@@ -37,7 +37,7 @@ export function legControls(figure) {
         input: take,
         commit: () => figure.gesture.commit(),
         type: (text) => {
-          const number = numberIn(text);
+          const number = numberIn(text, '', true);
           if (Number.isInteger(number) && number >= 1 && number <= legs.count) {
             take(number);
             figure.gesture.commit();
@@ -53,7 +53,7 @@ export function legControls(figure) {
 }
 
 /** How far the leg is off. @param {Figure} figure @returns {Parameters<typeof readoutList>[0]} */
-function saidOf({ reading: { legs }, chosen, scene: { leg } }) {
+function saidOf({ reading: { legs, stats }, chosen, scene: { leg } }) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;
@@ -61,7 +61,8 @@ function saidOf({ reading: { legs }, chosen, scene: { leg } }) {
   return [
     [say.off, `${fixed(off, 3)} m`, '0.000 m'],
     [say.squared(String(told)), fixed(squared, 1), '0000.0'],
-    [say.bad, percent(bad), percent(0.999)],
+    // Where no leg is taken for bad, nobody knows whether this one is.
+    [say.bad, percent(stats.outliers === null ? NaN : bad), percent(0.999)],
   ];
 }
 

@@ -83,7 +83,7 @@ export const de = {
   },
   leg: {
     name: 'Etappe',
-    symbol: 'Etappe',
+    symbol: 'Nr.',
     worst: 'Nächste schlechte',
     worstTitle: 'Die zehn Etappen mit den größten quadratischen Fehlern haben im Bild einen Ring',
     off: 'daneben',

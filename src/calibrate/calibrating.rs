@@ -1,11 +1,12 @@
 //! From a log to parameters, one step after the other.
 
+use super::bad::Robust;
 use super::calibration::{CalibrateError, Calibration, FEWEST, Options};
 use super::clock::Alignment;
 use super::judging::{Judge, Judging};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Cutting, Leg};
-use super::likelihood::{Evidence, Parameters, Robust, Slope};
+use super::likelihood::{Evidence, Parameters, Slope};
 use super::model::{Observation, Uncertainty};
 use super::profile::{Ends, Estimate, Fitted, Search};
 use super::stages::{Purpose, ROUNDS, Stage, parts};

@@ -1,10 +1,10 @@
 //! What is asked of a log, and what it says.
 
+use super::bad::Robust;
 use super::calibrating::Calibrating;
 use super::doubts::{Doubts, Inflation, Judged, NORMAL_95};
 use super::leg_lengths::AtLength;
 use super::legs::{Leg, LegLength};
-use super::likelihood::Robust;
 use super::model::{Model, Observation};
 use super::profile::Estimate;
 use super::systematic::{ERRORS, Error, Systematic, Which};

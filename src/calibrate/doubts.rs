@@ -1,6 +1,7 @@
 //! Whether the model is any good: what the residuals say against it.
 
-use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU, Robust};
+use super::bad::Robust;
+use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU};
 use super::model::{Model, Observation};
 use super::profile::Search;
 use super::systematic::{Square, sweep};

@@ -1,5 +1,6 @@
 //! The likelihood of variances that are sums, v = c + Σ αₖ fₖ, each α 0 or more; and where it is largest.
 
+use super::bad::{Bad, BadAgain, Robust};
 use super::density::{Density, LogProduct};
 use super::model::{Model, Observation};
 use super::trajectory::sort;
@@ -9,18 +10,6 @@ use std::ops::Range;
 
 /// What the α's are at a point: of as many as there may be, six.
 pub(super) type Alphas = [f64; 6];
-
-/// Whether some legs are bad, as where a reference jumps: off by more than any motion explains.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Robust {
-    /// None is.
-    #[default]
-    No,
-    /// This share of them is, 0 < share < 1.
-    Stated(f64),
-    /// As many as makes the log likeliest.
-    Estimated,
-}
 
 /// A leg's part of the likelihood.
 #[derive(Clone, Copy, Debug)]
@@ -294,7 +283,7 @@ impl Evidence {
                 informations[kind][2] += g * g * information;
             }
             if let Some(again) = &mut again {
-                again.add(row, &variances, part);
+                again.add(&row.told, &row.sizes, &variances, part);
             }
         }
         let constant = match at.noise {
@@ -356,65 +345,12 @@ impl Evidence {
     }
 }
 
-/// Bad legs as they are likeliest under some α's, by a step of expectation and maximization.
-struct BadAgain {
-    bad: Bad,
-    /// The first derivative of the log-likelihood by the share, and minus the second one.
-    share: [f64; 2],
-    spread: [[f64; 2]; 3],
-    usual: [[f64; 2]; 3],
-}
-
-impl BadAgain {
-    fn new(bad: Bad) -> Self {
-        Self { bad, share: [0.0; 2], spread: [[0.0; 2]; 3], usual: [[0.0; 2]; 3] }
-    }
-
-    /// A leg that is bad with this probability.
-    #[inline(always)]
-    fn add(&mut self, row: &Row, variances: &[f64; 3], part: f64) {
-        let by_share = (part - self.bad.share) / (self.bad.share * (1.0 - self.bad.share));
-        self.share[0] += by_share;
-        self.share[1] += by_share * by_share;
-        for k in (0..3).filter(|k| row.told[*k]) {
-            // A step of scoring: of u = v + w by w.
-            let precision = 1.0 / (variances[k] + self.bad.spreads[k]);
-            let square = row.sizes[k] * row.sizes[k];
-            self.spread[k][0] += part * precision * (square * precision - 1.0);
-            self.spread[k][1] += part * precision * precision;
-            self.usual[k][0] += (1.0 - part) * variances[k];
-            self.usual[k][1] += 1.0 - part;
-        }
-    }
-
-    fn likeliest(self, robust: Robust) -> Bad {
-        let Self { bad, share, spread, usual } = self;
-        let share = match robust {
-            // Concave: the step is too long only towards none.
-            Robust::Estimated if share[1] > 0.0 => {
-                (bad.share + share[0] / share[1]).max(0.01 * bad.share).clamp(1e-9, 0.5)
-            }
-            _ => bad.share,
-        };
-        let spreads = std::array::from_fn(|k| {
-            let step = if spread[k][1] > 0.0 { spread[k][0] / spread[k][1] } else { 0.0 };
-            let least = if usual[k][1] > 0.0 { LEAST_SPREAD * usual[k][0] / usual[k][1] } else { 0.0 };
-            // Not by more than tenfold at once: far from the maximum the step is too long.
-            (bad.spreads[k] + step).max(0.1 * bad.spreads[k]).min(10.0 * bad.spreads[k]).max(least)
-        });
-        Bad { share, spreads }
-    }
-}
-
 /// √(2π).
 pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_5;
 
 /// A residual's square is far from the rest beyond this many medians of them: of a normal distribution one in 25,000 is, of a
 /// mixture of straight legs and turns a few in a hundred are.
 const FAR: f64 = 8.0 / 0.454_936;
-
-/// A bad leg is at least three times as uncertain as others usually are, or it could not be told from them.
-const LEAST_SPREAD: f64 = 8.0;
 
 /// Deviations at which a normal density is about 10⁻²⁰⁰.
 const FARTHEST: f64 = 30.0;
@@ -438,25 +374,6 @@ pub(super) struct Parameters {
     pub bad: Option<Bad>,
     /// What noise is taken for.
     pub noise: NoiseKind,
-}
-
-/// The legs that are off by more than any motion explains: how many there are, and the variance of each kind that they have
-/// besides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bad {
-    pub share: f64,
-    pub spreads: [f64; 3],
-}
-
-impl Bad {
-    /// A part of the way to another.
-    pub fn toward(&self, to: &Self, share: f64) -> Self {
-        let between = |a: f64, b: f64| a + share * (b - a);
-        Self {
-            share: between(self.share, to.share),
-            spreads: std::array::from_fn(|k| between(self.spreads[k], to.spreads[k])),
-        }
-    }
 }
 
 /// What the parameters make of a leg.

@@ -1,6 +1,7 @@
 //! Where a likelihood is largest, by few passes over all legs.
 
-use super::likelihood::{Alphas, Bad, Evidence, Parameters, Robust, Slope};
+use super::bad::{Bad, Robust};
+use super::likelihood::{Alphas, Evidence, Parameters, Slope};
 
 impl Slope {
     /// What is known of an α when all others are estimated with it: the inverse of its variance, were the likelihood a

@@ -5,6 +5,7 @@
 //! [`Systematic`] is found by least squares, and the α's are those under which the residuals are likeliest. `doc/calibration.md`
 //! has the formulas.
 
+mod bad;
 mod bootstrap;
 mod calibrating;
 mod calibration;
@@ -25,12 +26,13 @@ mod trajectory;
 mod undetermined;
 mod work;
 
+pub use bad::Robust;
 pub use calibrating::Calibrating;
 pub use calibration::{CalibrateError, Calibration, FEWEST, Options, ReferenceError, calibrate};
 pub use doubts::{Doubts, HeldOut, Inflation, Judged, KindDoubts, Verdict};
 pub use leg_lengths::{AtLength, FACTORS};
 pub use legs::{Leg, LegLength, cut};
-pub use likelihood::{Evidence, Robust};
+pub use likelihood::Evidence;
 pub use model::{Kind, Model, Observation, Uncertainty};
 pub use profile::{Estimate, fit};
 pub use systematic::{ERRORS, Error, Systematic, Which};

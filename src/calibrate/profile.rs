@@ -1,7 +1,8 @@
 //! The likeliest α's, and how well they are known.
 
+use super::bad::Robust;
 use super::doubts::NORMAL_95;
-use super::likelihood::{Alphas, Evidence, Parameters, Robust, Slope};
+use super::likelihood::{Alphas, Evidence, Parameters, Slope};
 use super::maximum::{Climb, INSIDE, NOTHING, Near, are_nothing};
 
 /// What the residuals say of the α's.

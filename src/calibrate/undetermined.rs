@@ -1,6 +1,7 @@
 //! Why a log does not determine an α, and so what to drive that it does.
 
-use super::likelihood::{Parameters, Robust};
+use super::bad::Robust;
+use super::likelihood::Parameters;
 use super::model::{Model, Observation};
 use super::profile::Fitted;
 use crate::noise::NoiseKind;

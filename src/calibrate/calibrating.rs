@@ -6,11 +6,11 @@ use super::clock::Alignment;
 use super::judging::{Judge, Judging};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Cutting, Leg};
-use super::likelihood::{Evidence, Parameters, Slope};
+use super::likelihood::{Evidence, LegDensity, Parameters, Slope};
 use super::model::{Observation, Uncertainty};
 use super::profile::{Ends, Estimate, Fitted, Search};
 use super::stages::{Purpose, ROUNDS, Stage, parts};
-use super::systematic::{ERRORS, Error, LeastSquares, MOST_LEVERAGE, Step, Systematic};
+use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic};
 use super::trajectory::Trajectory;
 use super::undetermined::{Undetermined, undetermined};
 use super::work::Work;
@@ -261,7 +261,7 @@ impl Calibrating {
 
     /// Goes on with what the legs say; whether all have been asked.
     ///
-    /// What is removed was fitted to the same residuals and took a share of their variances, which they get back.
+    /// What is removed was fitted to the same residuals, each of which is told as the others would have it.
     fn observe(&mut self, purpose: Purpose) -> bool {
         let Options { model, noise, reference_error, remove, .. } = self.options;
         let without = *self.without(purpose);
@@ -277,20 +277,21 @@ impl Calibrating {
             let own = Matrix2::identity() * (place * (from + to));
             let bearing = own + without.uncertainty(leg, &deviations);
             let headings = [from * heading, to * heading];
-            model.observe(leg, &without, &Uncertainty { place: own, bearing, headings })
+            let mut observation =
+                model.observe(leg, &without, &Uncertainty { place: own, bearing, headings });
+            let own = without.own_share(leg, &deviations);
+            observation.coefficients = observation.coefficients.map(|pair| pair.map(|each| own * each));
+            observation
         };
         let mut observations: Vec<Observation> = legs.iter().map(observe).collect();
         let evidence = Evidence::new(model, noise, &observations);
-        // Of legs of other lengths there are no α's yet, and the shares are not known; they are less than a hundredth.
-        let best = self.best.as_ref().map(|(best, _)| best);
-        let mut densities = best.map(|best| evidence.each(best, 0..legs.len()));
-        for (leg, observation) in legs.iter().zip(&mut observations) {
-            let unknown = without.unknown(leg, observation, &self.known, &estimated);
-            let density = densities.as_mut().and_then(Iterator::next);
-            let weights = density.map_or([0.0; 3], |density| model.weights(observation, &density));
-            // What a leg took of its variances: its leverages.
-            let shares = std::array::from_fn(|k| (weights[k] * unknown[k]).min(MOST_LEVERAGE));
-            observation.free_of(noise, shares, unknown);
+        // In the first round nothing was fitted to them yet, and legs of other lengths are not those to which it was.
+        if let Some((best, _)) = &self.best {
+            let densities: Vec<LegDensity> = evidence.each(best, 0..legs.len()).collect();
+            for ((leg, observation), density) in legs.iter().zip(&mut observations).zip(densities) {
+                let unknown = without.unknown(leg, observation, &self.known, &estimated);
+                observation.by_the_others(&unknown, model.weights(observation, &density));
+            }
         }
         observations.iter().for_each(|observation| self.evidence.add(observation));
         self.observations.append(&mut observations);
@@ -394,10 +395,11 @@ impl Calibrating {
             return None;
         }
         let (estimate, undetermined) = self.estimate(&self.fitted());
-        let mut bootstrap = judging.bootstrap?;
-        for (interval, reason) in bootstrap.iter_mut().zip(&undetermined) {
-            *interval = interval.filter(|_| reason.is_none());
-        }
+        let stretched = |(alpha, longer): (usize, &f64)| {
+            let (best, [from, to]) = (estimate.alphas[alpha], estimate.intervals[alpha]?);
+            Some([(best - longer * (best - from)).max(0.0), best + longer * (to - best)])
+        };
+        let bootstrap = judging.longer?.iter().enumerate().map(stretched).collect();
         Some(Calibration {
             estimate,
             undetermined,

@@ -43,7 +43,7 @@ pub struct Calibration {
     pub estimate: Estimate,
     /// Of each α why the log does not determine it; None where it does.
     pub undetermined: Vec<Option<Undetermined>>,
-    /// 95 % intervals that do not take legs for independent: [`super::bootstrap`].
+    /// 95 % intervals that do not take legs for independent, never shorter than the estimate's: stretched by a block bootstrap.
     pub bootstrap: Vec<Option<[f64; 2]>>,
     /// The systematic errors, all estimated together.
     pub systematic: Systematic,

@@ -106,6 +106,10 @@ const SLIGHT_CORRELATION: f64 = 0.1;
 /// So much kurtosis more than the noise has does no harm, however sure it is.
 const SLIGHT_KURTOSIS: f64 = 0.5;
 
+/// So many times as far from the middle as 19 of 20 logs a share has to be for a verdict: beyond that one of seventy is by chance, and with what
+/// the other verdicts have one of twenty is anything but `Fits`.
+const BEYOND: f64 = 1.25;
+
 /// So many more or fewer of the residuals inside than should be do no harm: 94 of 100 in place of 95.
 const SLIGHT_COVERAGE: f64 = 0.01;
 
@@ -404,8 +408,8 @@ fn verdict(
         _ if kinds.iter().any(alike) => Verdict::Correlated,
         _ if kinds.iter().any(tails) => Verdict::HeavyTails,
         _ if kinds.iter().zip(shared).any(opposite) => Verdict::Correlated,
-        _ if coverage < from.min(0.95 - SLIGHT_COVERAGE) => Verdict::Overconfident,
-        _ if coverage > to.max(0.95 + SLIGHT_COVERAGE) => Verdict::Lazy,
+        _ if coverage < 0.95 - (BEYOND * (0.95 - from)).max(SLIGHT_COVERAGE) => Verdict::Overconfident,
+        _ if coverage > 0.95 + (BEYOND * (to - 0.95)).max(SLIGHT_COVERAGE) => Verdict::Lazy,
         _ => Verdict::Fits,
     }
 }

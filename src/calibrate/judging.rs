@@ -13,8 +13,8 @@ use super::systematic::Systematic;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Judging {
     drawing: Option<Bootstrap>,
-    /// 95 % intervals by the bootstrap, once they are there.
-    pub bootstrap: Option<Vec<Option<[f64; 2]>>>,
+    /// By how much longer the bootstrap has each α's interval, once it is known.
+    pub longer: Option<Vec<f64>>,
     halves: Option<Halves>,
     halved: bool,
     /// Of each leg.
@@ -42,9 +42,9 @@ impl Judging {
     pub fn step(&mut self, fitted: &Fitted, of: Judge) -> bool {
         let Judge { options: &Options { model, noise, robust, seed, legs: length, .. }, legs, .. } = of;
         let (observations, work) = (of.observations, &fitted.evidence.work);
-        if self.bootstrap.is_none() {
+        if self.longer.is_none() {
             let drawing = self.drawing.get_or_insert_with(|| Bootstrap::new(fitted, model.alphas(), seed));
-            self.bootstrap = drawing.step(fitted);
+            self.longer = drawing.step(fitted);
             return false;
         }
         let Some(halves) = &mut self.halves else {

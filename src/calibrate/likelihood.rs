@@ -88,7 +88,7 @@ impl Evidence {
         self.rows.push(Row {
             sizes: size(residuals),
             coefficients: std::array::from_fn(|k| if told[k] { coefficients[k] } else { [0.0; 2] }),
-            floors: std::array::from_fn(|k| if told[k] { floors[k] } else { 1.0 }),
+            floors: std::array::from_fn(|k| if told[k] { floors[k] + unknown[k] } else { 1.0 }),
             blurs: std::array::from_fn(|k| if told[k] { (floors[k] + unknown[k]).sqrt() } else { 0.0 }),
             told,
             other_way: if other_way.is_some() { self.other_ways.len() as u32 } else { u32::MAX },

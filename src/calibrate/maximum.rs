@@ -7,18 +7,30 @@ impl Slope {
     /// What is known of an α when all others are estimated with it: the inverse of its variance, were the likelihood a
     /// parabola.
     pub fn information_of(&self, alpha: usize, free: &[usize]) -> f64 {
+        self.efficient(alpha, free).1
+    }
+
+    /// The part of an α's gradient that the others cannot answer for (its efficient score): the sum of all with these factors. And its
+    /// variance, which is [`Self::information_of`] the α.
+    pub fn efficient(&self, alpha: usize, free: &[usize]) -> (Alphas, f64) {
         let mut left = self.information;
+        let mut factors: [Alphas; 6] =
+            std::array::from_fn(|k| std::array::from_fn(|l| f64::from(u8::from(k == l))));
         // The Schur complement, one variable out after the other.
         for out in free.iter().copied().filter(|other| *other != alpha) {
-            let row = left[out];
+            let (row, factors_of_row) = (left[out], factors[out]);
             if row[out] > 0.0 {
-                for each in &mut left {
+                for (each, factors) in left.iter_mut().zip(&mut factors) {
                     let factor = each[out] / row[out];
                     each.iter_mut().zip(row).for_each(|(entry, of_row)| *entry -= factor * of_row);
+                    factors
+                        .iter_mut()
+                        .zip(factors_of_row)
+                        .for_each(|(entry, of_row)| *entry -= factor * of_row);
                 }
             }
         }
-        left[alpha][alpha]
+        (factors[alpha], left[alpha][alpha])
     }
 
     /// The maximum of the parabola at `from` with this `gradient` over all `free` α's that are 0 or more, the others as they are in

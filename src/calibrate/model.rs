@@ -3,12 +3,11 @@
 
 use super::legs::Leg;
 use super::likelihood::LegDensity;
-use super::systematic::Systematic;
+use super::systematic::{MOST_LEVERAGE, Systematic};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::geom::sinc::sinc;
 use crate::models::{LegVariances, OdomDelta, OdometryRule, RuleAlphas, SPIN_BELOW};
-use crate::noise::NoiseKind;
 use nalgebra::{Matrix2, Matrix3, RowVector3, Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -42,7 +41,7 @@ const DRIVEN: [Kind; 3] = [kind("v", 0, 1), kind("omega", 2, 3), kind("gamma", 4
 /// one of them has NaN there, and nothing in its variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation {
-    /// In a [`Calibration`](super::Calibration) of normal noise as large as if no systematic error had been fitted to them.
+    /// In a [`Calibration`](super::Calibration) without the systematic errors as all other legs tell them.
     pub residuals: [f64; 3],
     /// The same with directions as they are to first order, across the drive over its length: where the robot hardly went anywhere,
     /// the direction itself is that of the smallest systematic error.
@@ -53,8 +52,8 @@ pub struct Observation {
     pub coefficients: [[f64; 2]; 3],
     /// The part of each variance that is the reference's own error.
     pub floors: [f64; 3],
-    /// Variances that the residuals have besides, because the systematic errors that were removed are known no better. In a
-    /// [`Calibration`](super::Calibration) of triangular noise alone: normal residuals have it in their size.
+    /// Variances that the residuals have besides, because the other legs know the systematic errors that were removed no better. Of
+    /// the noise's kinds it is normal.
     pub unknown: [f64; 3],
     /// What the model says of the leg: rot1, trans, rot2 (rad, m, rad); or v, ω, Δt (m/s, rad/s, s).
     pub reading: [f64; 3],
@@ -65,19 +64,29 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// With residuals as large as if nothing had been fitted to them, where that took these `shares` of their variances, each below 1.
-    /// Normal ones are as large as they would be in the mean. Triangular ones have an end, past which that might take them: of what
-    /// was fitted their own part is taken back, r(1 − h), and the rest, which other legs have decided, is `unknown`.
-    pub(super) fn free_of(&mut self, noise: NoiseKind, shares: [f64; 3], unknown: [f64; 3]) {
-        let times = match noise {
-            NoiseKind::Normal => shares.map(|share| 1.0 / (1.0 - share).sqrt()),
-            NoiseKind::Triangular => shares.map(|share| 1.0 / (1.0 - share)),
-        };
-        if noise == NoiseKind::Triangular {
-            self.unknown = std::array::from_fn(|k| unknown[k] * times[k]);
+    /// With residuals as they would be had this leg not been among those that told the errors which were removed. A fit draws itself to
+    /// what it is fitted to; of the residuals r that it leaves, with weights W and S the covariance that those errors, as all legs know
+    /// them, give them (`unknown`), the others alone would leave (1 − S W)⁻¹ r, and know them by (1 − S W)⁻¹ S.
+    pub(super) fn by_the_others(&mut self, unknown: &Matrix3<f64>, weights: [f64; 3]) {
+        let shares = unknown * Matrix3::from_diagonal(&weights.into());
+        let most = (MOST_LEVERAGE / shares.trace()).min(1.0);
+        // Its eigenvalues are between 0 and nine tenths, unless the leg is not of this world.
+        let Some(back) = (Matrix3::identity() - shares * most).try_inverse() else { return };
+        let known = (back * unknown).diagonal();
+        if !known.iter().all(|variance| variance.is_finite()) {
+            return;
         }
+        self.unknown = known.into();
         for residuals in std::iter::once(&mut self.residuals).chain(&mut self.other_way) {
-            residuals.iter_mut().zip(times).for_each(|(residual, times)| *residual *= times);
+            // What is not told has no part in it.
+            let told =
+                Vector3::from(residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual }));
+            let freed = back * told;
+            for (residual, freed) in
+                residuals.iter_mut().zip(&freed).filter(|(residual, _)| !residual.is_nan())
+            {
+                *residual = *freed;
+            }
         }
     }
 }
@@ -165,9 +174,13 @@ impl Model {
 }
 
 impl Model {
-    /// The weights of [`Observation::first_order`]: 1 over their variances, less of a leg that may be bad.
+    /// The weights of [`Observation::first_order`]: 1 over their variances, by what the systematic errors do not add; less of a leg that
+    /// may be bad.
     pub(super) fn weights(self, observation: &Observation, density: &LegDensity) -> [f64; 3] {
-        let variances = density.variances.map(|variance| variance.unwrap_or(0.0));
+        let variances = std::array::from_fn(|k| {
+            let own = |all: f64| (all - observation.unknown[k]).max((1.0 - MOST_LEVERAGE) * all);
+            density.variances[k].map_or(0.0, own)
+        });
         self.first_order_variances(observation, variances)
             .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 })
     }

@@ -3,7 +3,7 @@
 use super::legs::Leg;
 use super::model::{Observation, turn_slope};
 use crate::geom::se2::SE2;
-use nalgebra::{Matrix2, SMatrix, Vector3};
+use nalgebra::{Matrix2, Matrix3, SMatrix, Vector3};
 
 /// What the reference says of the odometry, apart from noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,6 +143,14 @@ impl Systematic {
             .sum()
     }
 
+    /// How much of the variance of its noise a leg has because the clock is not known better than by its deviation: noise comes on the way,
+    /// and a clock that is off by a share s of the leg's time takes that share of a neighbour's for as much of its own, (1 − s)² + s² in all.
+    pub(super) fn own_share(&self, leg: &Leg, deviations: &[Option<f64>; ERRORS]) -> f64 {
+        let deviation = deviations[Error::ClockOffset as usize].unwrap_or(0.0) / leg.duration();
+        // The mean over a normal s; of a clock of which no more is known than a leg's time, none.
+        (1.0 - 2.0 * MEAN_SIZE * deviation + 2.0 * deviation * deviation).min(1.0)
+    }
+
     /// How the residuals of a leg change with each of [`Error::ALL`], of a leg that went as was read.
     ///
     /// It is taken at what was read, not at what the reference saw: it then has nothing of the leg's noise, and what is found is
@@ -151,26 +159,19 @@ impl Systematic {
         observation.slopes * self.motion_slopes(leg, &observation.expected)
     }
 
-    /// The variance that each residual of a leg has by the errors that were `removed` and are known no better, J(Σ JᵀWJ)⁻¹Jᵀ, less that
-    /// of the errors that were found and left.
+    /// The covariance that the residuals of a leg have because the errors that were `removed` are known no better, J(Σ JᵀWJ)⁻¹Jᵀ.
     pub(super) fn unknown(
         &self,
         leg: &Leg,
         observation: &Observation,
         known: &Square,
         removed: &Which,
-    ) -> [f64; 3] {
-        let slopes = self.slopes(leg, observation);
-        let variance = |kind: usize, of: Which| {
-            let slope = |i: usize| if of[i] { slopes[(kind, i)] } else { 0.0 };
-            let pairs = (0..ERRORS).flat_map(|i| (0..ERRORS).map(move |j| [i, j]));
-            pairs.map(|[i, j]| slope(i) * known[i][j] * slope(j)).sum::<f64>()
-        };
-        std::array::from_fn(|kind| {
-            let unknown = variance(kind, [true; ERRORS]) - variance(kind, removed.map(|removed| !removed));
-            // Not a number of a residual that is not told.
-            if unknown > 0.0 { unknown } else { 0.0 }
-        })
+    ) -> Matrix3<f64> {
+        let mut slopes = self.slopes(leg, observation);
+        for (mut column, _) in slopes.column_iter_mut().zip(removed).filter(|(_, removed)| !**removed) {
+            column.fill(0.0);
+        }
+        slopes * SMatrix::from(*known) * slopes.transpose()
     }
 
     /// How the motion that the reference saw, less the one that was read, changes.
@@ -226,6 +227,9 @@ pub(super) struct LeastSquares {
 
 /// What a leg adds to what is known is at most nine tenths of that.
 pub(super) const MOST_LEVERAGE: f64 = 0.9;
+
+/// √(2/π), the mean size of a normal number by its deviation.
+const MEAN_SIZE: f64 = 0.797_884_560_802_865_4;
 
 /// From so many rad steps may not lead back to the yaw of a mount: directions go round.
 const FAR_YAW: f64 = 0.5;

@@ -88,6 +88,25 @@ fn what_the_first_half_does_not_tell_nobody_is_blamed_for() {
     }
 }
 
+/// Of 200 logs a share of 0.94 has a deviation of 0.017, of which three are allowed.
+#[test]
+fn of_logs_as_the_model_has_them_few_do_not_fit() {
+    const LOGS: u64 = 20;
+    let (mut fit, mut seed) = (0, 4000);
+    for model in MODELS {
+        for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
+            for _ in 0..LOGS {
+                // Never the same one: models that are given the same noise err alike.
+                seed += 1;
+                let told = calibrated(&Simulation::of(model, noise, 300, seed), Robust::No);
+                fit += u64::from(told.doubts.verdict == Verdict::Fits);
+            }
+        }
+    }
+    let share = fit as f64 / (MODELS.len() as f64 * 2.0 * LOGS as f64);
+    assert!(share > 0.89, "{share}");
+}
+
 /// The factor under which the held-out half is likeliest.
 fn likeliest(Inflation { log_likelihood, .. }: &Inflation) -> usize {
     (0..log_likelihood.len()).max_by(|a, b| log_likelihood[*a].total_cmp(&log_likelihood[*b])).expect("some")
@@ -149,12 +168,15 @@ fn blocks_of_legs_know_what_legs_have_in_common() {
         }
         [profile, bootstrap]
     };
-    // Where they have nothing in common both are right: a deviation of 0.013 about 0.95, of the bootstrap about a little less, as an
-    // interval by normal theory with a variance of a hundred blocks.
+    // Where they have nothing in common both are right: a deviation of 0.013 about 0.95, of which three are allowed. The bootstrap's are
+    // never shorter.
     let [profile, bootstrap] = shares(Unlike::Nothing);
-    assert!(profile > 0.91 && bootstrap > 0.88, "{profile} {bootstrap}");
-    // Where their squares have, and tails that are heavy as well, the bootstrap falls short by a tenth, what takes legs for independent by far
-    // more.
+    assert!(profile > 0.91 && bootstrap >= profile, "{profile} {bootstrap}");
+    // Of tails that are heavy alone too; what takes legs for normal falls short by a fifth.
+    let [profile, bootstrap] = shares(Unlike::Tails(5));
+    assert!(bootstrap > 0.9 && profile < 0.85, "{profile} {bootstrap}");
+    // Where their squares have something in common over more than a block, the bootstrap falls short by an eighth or so, what takes legs for
+    // independent by far more.
     let [profile, bootstrap] = shares(Unlike::Wandering(1.0));
     assert!(bootstrap > profile + 0.2 && bootstrap > 0.75, "{profile} {bootstrap}");
 }

@@ -135,6 +135,11 @@ test('lines for Nav2: an α without an interval has no empty comment', () => {
     assert.deepEqual(none.filter((line) => /alpha1/.test(line)), [`    # alpha1: ${en.nav2.undetermined}`]);
   }
   // Nor is 0 a result, however it is written; inflated, the most of it is too.
+  // Of a robot whose error is larger than its motion nobody would want the lines; that the reader inflates them is the reader's.
+  const large = nav2Lines({ ...fitted, inflation: 2, alphas: [103, 0.8, 1.2, 0.1], intervals: [[50, 200], [0.5, 1.5], null, [0.05, 0.2]] }, en.nav2)
+    .filter((line) => line.includes('alpha')).slice(0, 4);
+  assert.deepEqual(large.map((line) => line.trim().startsWith('#')), [true, false, true, false]);
+  assert.equal(large[0].trim(), `# alpha1: 206, ${en.nav2.tooLarge}`);
   const zeros = nav2Lines({ ...fitted, inflation: 2, alphas: [0, 1e-7, 0, 0.1], intervals: [[0, 0.00123], [0, 0.0016], null, [0.05, 0.16]] }, en.nav2);
   assert.deepEqual(zeros.filter((line) => /alpha[1-4]/.test(line)).map((line) => line.trim()), [
     '# alpha1: not told from 0 by this log, 0.0025 at most', '# alpha2: not told from 0 by this log, 0.0032 at most',

@@ -180,6 +180,7 @@ export const de = {
     otherRule: 'nach einer anderen Regel als der von Nav2 angepasst: die von Nav2 wählen',
     undetermined: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (most) => `hier nicht von 0 zu unterscheiden, höchstens ${most}`,
+    tooLarge: 'mehr als 1, was kein Roboter hat: siehe die Zweifel und die robuste Einstellung',
     of: (legs, length, log, date) => `${parts(legs)} ${length}, ${log}, ${date}; 95-%-Intervalle`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,
     lasted: (duration) => `von ${duration} s`,

@@ -179,6 +179,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     otherRule: 'fitted under another rule than Nav2’s: choose that of Nav2',
     undetermined: 'not determined by this log',
     zero: (most) => `not told from 0 by this log, ${most} at most`,
+    tooLarge: 'more than 1, which no robot has: look at the doubts, and the robust option',
     of: (legs, length, log, date) => `${of(legs, 'leg')} ${length} of ${log}, ${date}; 95 % intervals`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
     lasted: (duration) => `of ${duration} s`,

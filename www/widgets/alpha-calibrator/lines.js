@@ -28,6 +28,9 @@ const TINY = 1e-6;
 
 const MOST_DECIMALS = 12;
 
+/** An error as large as the motion that drives it, or of a radian a metre: no robot's, whatever made the log say so. */
+const MOST = 1;
+
 /** What stands for a figure that a log is too short for. */
 const NONE = '–';
 
@@ -115,7 +118,9 @@ export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, da
   const lines = alphas.map((alpha, i) => {
     const ends = /** @type {Interval} */ (intervals[i]?.map((end) => inflation * end) ?? null);
     if (alpha === null || USELESS.includes(verdict)) return `# alpha${i + 1}: ${say.undetermined}`;
-    return isZero(inflation * alpha, ends) ? `# alpha${i + 1}: ${say.zero(mostOf(ends))}` : `alpha${i + 1}: ${fixed(inflation * alpha, ends)}${ends ? `  # ${between(ends)}` : ''}`;
+    if (isZero(inflation * alpha, ends)) return `# alpha${i + 1}: ${say.zero(mostOf(ends))}`;
+    const value = fixed(inflation * alpha, ends);
+    return alpha > MOST ? `# alpha${i + 1}: ${value}, ${say.tooLarge}` : `alpha${i + 1}: ${value}${ends ? `  # ${between(ends)}` : ''}`;
   });
   // A name may have lines of its own, which would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);

@@ -130,13 +130,13 @@ fn panels_are_means_of_squared_residuals() {
         .zip(judged)
         .map(|(observation, judged)| {
             let [first, way, second] = observation.reading;
-            let square =
-                observation.residuals[1].powi(2) - estimate.alphas[2] * way * way - observation.floors[1];
+            let [of_way, of_turns] = observation.coefficients[1];
             let turns = first * first + second * second;
-            // Of many legs as much turned as others to rounding, which decides on their bins.
-            let exactly = observation.coefficients[1][1];
-            assert!((turns - exactly).abs() < 1e-12);
-            [exactly, square, 1.0 - judged.bad]
+            // What the clock, known to some milliseconds, leaves a leg of its own noise.
+            let own = if way > 0.0 { of_way / (way * way) } else { of_turns / turns };
+            assert!((0.9..1.0).contains(&own) && (own * turns - of_turns).abs() < 1e-12, "{own}");
+            let answered = estimate.alphas[2] * of_way + observation.floors[1] + observation.unknown[1];
+            [of_turns, observation.residuals[1].powi(2) - answered, 1.0 - judged.bad]
         })
         .collect();
     points.sort_by(|one, other| one[0].total_cmp(&other[0]));

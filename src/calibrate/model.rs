@@ -48,7 +48,8 @@ pub struct Observation {
     pub first_order: [f64; 3],
     /// The same by the other way to the same pose, backwards and turned about, where that might be meant.
     pub other_way: Option<[f64; 3]>,
-    /// What the two α's of each kind are multiplied by in its variance, 0 or more.
+    /// What the two α's of each kind are multiplied by in its variance, 0 or more. In a [`Calibration`](super::Calibration) less what a
+    /// clock that is not known for sure takes of a leg's own noise.
     pub coefficients: [[f64; 2]; 3],
     /// The part of each variance that is the reference's own error.
     pub floors: [f64; 3],

@@ -1,6 +1,7 @@
-import { ready, show } from './element-support.js';
+import { expect } from '@playwright/test';
+import { ALL, ready, show } from './element-support.js';
 import { expectRecorded } from './figure-contract.js';
-import { STILL, test } from './support.js';
+import { STILL, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -281,3 +282,26 @@ test('a core that traps is made again three times, and then a sentence says that
   });
   expectRecorded('trapped', lines);
 });
+
+for (const name of ALL) {
+  test(`${name}: who has it rendered while work is under way does not make it hurry`, async ({ page }) => {
+    await show(page, `<${name}></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    await unfold(widget);
+    const steps = await widget.evaluate(async (element) => {
+      const figure = /** @type {any} */ (element);
+      let done = 0;
+      const work = function* () {
+        for (; done < 1000; done++) yield done / 1000;
+      };
+      await new Promise(requestAnimationFrame);
+      figure.settings.work(work());
+      figure.requestUpdate();
+      // A microtask later, before any frame goes on with it.
+      await figure.updateComplete;
+      return [done, figure.renderRoot.querySelectorAll('canvas').length > 0];
+    });
+    expect(steps).toEqual([0, true]);
+  });
+}

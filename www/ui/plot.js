@@ -26,7 +26,7 @@ export const plotStyles = css`
   .plot {
     display: block;
     width: 100%;
-    max-width: 34em;
+    max-width: 26em;
   }
 
   .plot text {

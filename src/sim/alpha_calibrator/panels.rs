@@ -24,8 +24,8 @@ pub const BINS: usize = 8;
 /// Legs of a bin at least: the error of a mean of fewer says nothing.
 const LEAST: usize = 5;
 
-/// One noise against what drives it. By what the other α answers for, the squares are smaller than they were: their
-/// expectation is α·x.
+/// One noise against what drives it. By what the other α, the reference and the removed errors answer for, the squares are smaller than
+/// they were: their expectation is α·x.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize))]
 pub struct Panel {
@@ -67,7 +67,8 @@ fn panel(model: Model, noise: NoiseKind, calibration: &Calibration, kind: usize,
         .filter(|(observation, _)| !observation.residuals[kind].is_nan())
         .map(|(observation, judged)| {
             let coefficients = observation.coefficients[kind];
-            let answered = other * coefficients[1 - own] + observation.floors[kind];
+            let answered =
+                other * coefficients[1 - own] + observation.floors[kind] + observation.unknown[kind];
             let square = observation.residuals[kind] * observation.residuals[kind];
             // The variance of a square of variance v: (κ − 1) v².
             let variance = (noise.kurtosis() - 1.0) * judged.deviations[kind].powi(4);

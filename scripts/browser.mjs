@@ -24,8 +24,25 @@ export const CHROME_ARGUMENTS = [
 
 /** @typedef {{ chrome: string, driver: string, version: string }} Browser */
 
+/**
+ * What pages ask for by name, and as wide letters as they are laid out for: where a machine has nothing but DejaVu, all text is a
+ * tenth wider.
+ */
+async function ensureFonts() {
+  if (findProgram('fc-match') === undefined || findProgram('apt-get') === undefined) return;
+  const { stdout } = await run('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
+  if (/Arial|Liberation|Arimo|Helvetica/.test(stdout)) return;
+  await aptInstall(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
+}
+
 /** @returns {Promise<Browser>} */
 export async function ensureBrowser() {
+  const browser = await ensureChrome();
+  await ensureFonts();
+  return browser;
+}
+
+async function ensureChrome() {
   const { CHROME, CHROMEDRIVER } = process.env;
   const present = await usablePair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (present !== undefined) return present;

@@ -82,14 +82,14 @@ export class AlphaCalibratorElement extends FigureElement {
   }
 
   /** What is predicted of that leg, and where it ended, as last read: whatever is being fitted goes on. */
-  get leg() {
+  get predicted() {
     const { chosen } = this;
     return chosen < 0 ? null : (this.machine?.leg(chosen) ?? null);
   }
 
   get scene() {
     const reading = this.fresh;
-    return { ...reading, chosen: this.chosen, leg: this.leg };
+    return { ...reading, chosen: this.chosen, leg: this.predicted };
   }
 
   /** The reader looks at a leg, and may go on to others. @param {number} leg from 0 */
@@ -227,7 +227,7 @@ export class AlphaCalibratorElement extends FigureElement {
       >
         <div class="views">
           <div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>
-          <div class="stage one">${canvas(this, this.#one, legText(this.leg, chosen))}</div>
+          <div class="stage one">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>
           ${this.stage.later(() => html`
           <div class="looked">${legControls(this)}</div>
           <p part="caption" class="caption roomy ${verdict !== 'fits' && 'note'}" data-room=${longestCaption(this.logName)}>

@@ -53,7 +53,7 @@ export function legControls(figure) {
 }
 
 /** How far the leg is off. @param {Figure} figure @returns {Parameters<typeof readoutList>[0]} */
-function saidOf({ reading: { legs, stats }, chosen, leg }) {
+function saidOf({ reading: { legs, stats }, chosen, predicted: leg }) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;

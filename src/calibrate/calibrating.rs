@@ -2,7 +2,7 @@
 
 use super::bad::Robust;
 use super::calibration::{CalibrateError, Calibration, FEWEST, Options};
-use super::clock::Alignment;
+use super::clock::{Alignment, KNOWN_TO};
 use super::judging::{Judge, Judging};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Cutting, Leg};
@@ -267,6 +267,9 @@ impl Calibrating {
         let without = *self.without(purpose);
         let estimated = if let Purpose::Round(_) = purpose { [true; ERRORS] } else { remove };
         let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
+        let clock = Error::ClockOffset as usize;
+        // As long as no leg has told it, by how the turns did.
+        let unsure = if estimated[clock] { self.deviations[clock].unwrap_or(KNOWN_TO) } else { 0.0 };
         let [place, heading] =
             [reference_error.position, reference_error.heading].map(|deviation| deviation * deviation);
         let from = self.observations.len();
@@ -274,11 +277,13 @@ impl Calibrating {
         let legs = &self.legs[from..until];
         let observe = |leg: &Leg| {
             let [from, to] = leg.averaged;
-            let own = Matrix2::identity() * (place * (from + to));
-            let bearing = own + without.uncertainty(leg, &deviations);
-            let headings = [from * heading, to * heading];
-            let mut observation =
-                model.observe(leg, &without, &Uncertainty { place: own, bearing, headings });
+            let kink = without.kink(leg);
+            let off = kink * deviations[clock].unwrap_or(0.0);
+            let place = Matrix2::identity() * (place * (from + to)) + off.xy() * off.xy().transpose();
+            let bearing = place + without.uncertainty(leg, &deviations);
+            let headings = [from * heading, to * heading + off.z * off.z];
+            let mut observation = model.observe(leg, &without, &Uncertainty { place, bearing, headings });
+            observation.hide(&(kink * unsure));
             let own = without.own_share(leg, &deviations);
             observation.coefficients = observation.coefficients.map(|pair| pair.map(|each| own * each));
             observation

@@ -60,6 +60,8 @@ pub struct Leg {
     pub odometry: [SE2; 2],
     /// Velocities by the odometry at both ends: m/s ahead and to the left, rad/s.
     pub velocities: [Vector3<f64>; 2],
+    /// By how much they are less just before the ends, and more just after them.
+    pub(super) kinks: [Vector3<f64>; 2],
     /// Both ends in the reference’s.
     pub reference: [SE2; 2],
     /// How much of the variance of a sample of the reference there is at both ends: all at one, half in the middle between two.
@@ -80,6 +82,7 @@ struct End {
     time: f64,
     reading: SE2,
     velocity: Vector3<f64>,
+    kink: Vector3<f64>,
     truth: SE2,
     averaged: f64,
 }
@@ -103,12 +106,14 @@ impl Log<'_> {
         if !sparse {
             let truth = reference.pose_at(time + clock_offset)?;
             let averaged = reference.averaged_at(time + clock_offset);
-            return Some(End { time, reading, velocity: odometry.velocity(sample), truth, averaged });
+            let (velocity, kink) = (odometry.velocity(sample), odometry.kink(sample));
+            return Some(End { time, reading, velocity, kink, truth, averaged });
         }
         let (seen, truth) = reference.sample(reference.nearest(time + clock_offset)?);
         let time = seen - clock_offset;
-        let velocity = odometry.velocity(odometry.nearest(time)?);
-        Some(End { time, reading: odometry.pose_at(time)?, velocity, truth, averaged: 1.0 })
+        let sample = odometry.nearest(time)?;
+        let (velocity, kink) = (odometry.velocity(sample), odometry.kink(sample));
+        Some(End { time, reading: odometry.pose_at(time)?, velocity, kink, truth, averaged: 1.0 })
     }
 }
 
@@ -175,6 +180,7 @@ impl Cutting {
                 times: [start.time, end.time],
                 odometry: [start.reading, end.reading],
                 velocities: [start.velocity, end.velocity],
+                kinks: [start.kink, end.kink],
                 reference: [start.truth, end.truth],
                 averaged: [start.averaged, end.averaged],
             });

@@ -64,7 +64,24 @@ pub struct Observation {
     pub slopes: Matrix3<f64>,
 }
 
+/// What would pass for an α of a hundredth by itself hides the noise of a leg.
+const HIDING: f64 = 0.01;
+
 impl Observation {
+    /// Without its residuals, where one of them is rather that of an error of the base's motion as large as this (x, y, θ) than of any
+    /// noise: a robot that hardly moves, between legs in which it does, shows no more than that its clock is not known to a millisecond.
+    pub(super) fn hide(&mut self, error: &Vector3<f64>) {
+        let sizes = self.slopes * error;
+        let hides =
+            |kind: usize| sizes[kind] * sizes[kind] > HIDING * self.coefficients[kind].iter().sum::<f64>();
+        if (0..3).any(|kind| !self.residuals[kind].is_nan() && hides(kind)) {
+            self.residuals = [f64::NAN; 3];
+            self.first_order = [f64::NAN; 3];
+            self.other_way = None;
+            self.coefficients = [[0.0; 2]; 3];
+        }
+    }
+
     /// With residuals as they would be had this leg not been among those that told the errors which were removed. A fit draws itself to
     /// what it is fitted to; of the residuals r that it leaves, with weights W and S the covariance that those errors, as all legs know
     /// them, give them (`unknown`), the others alone would leave (1 − S W)⁻¹ r, and know them by (1 − S W)⁻¹ S.

@@ -143,6 +143,13 @@ impl Systematic {
             .sum()
     }
 
+    /// By how much more a leg's motion is off, for each second of the clock's offset: a clock that is early takes the velocity before an end
+    /// for that at it, and one that is late the one after it. Where a robot starts, stops or turns off that is no slope but a kink, by
+    /// which no leg tells the sign of the offset: it is an error of the leg.
+    pub(super) fn kink(&self, leg: &Leg) -> Vector3<f64> {
+        later(leg.kinks, &self.expected(leg))
+    }
+
     /// How much of the variance of its noise a leg has because the clock is not known better than by its deviation: noise comes on the way,
     /// and a clock that is off by a share s of the leg's time takes that share of a neighbour's for as much of its own, (1 − s)² + s² in all.
     pub(super) fn own_share(&self, leg: &Leg, deviations: &[Option<f64>; ERRORS]) -> f64 {
@@ -176,18 +183,11 @@ impl Systematic {
 
     /// How the motion that the reference saw, less the one that was read, changes.
     fn motion_slopes(&self, leg: &Leg, read: &SE2) -> SMatrix<f64, 3, ERRORS> {
-        let [start, end] = leg.velocities;
         let (sin, cos) = libm::sincos(read.theta());
         let (x, y) = (read.x(), read.y());
-        // A little later at both ends.
-        let later = Vector3::new(
-            cos * end.x - sin * end.y - start.x + start.z * y,
-            sin * end.x + cos * end.y - start.y - start.z * x,
-            end.z - start.z,
-        );
         let twist = read.log();
         SMatrix::from_columns(&[
-            later,
+            later(leg.velocities, read),
             Vector3::new(-y, x, 0.0),
             Vector3::new(1.0 - cos, -sin, 0.0),
             Vector3::new(sin, 1.0 - cos, 0.0),
@@ -195,6 +195,16 @@ impl Systematic {
             -turn_slope(&twist, read) * (twist.z / self.turn_scale),
         ])
     }
+}
+
+/// How a motion changes where both its ends are a little later, with these velocities at them.
+fn later([start, end]: [Vector3<f64>; 2], read: &SE2) -> Vector3<f64> {
+    let (sin, cos) = libm::sincos(read.theta());
+    Vector3::new(
+        cos * end.x - sin * end.y - start.x + start.z * read.y(),
+        sin * end.x + cos * end.y - start.y - start.z * read.x(),
+        end.z - start.z,
+    )
 }
 
 /// Which of [`Error::ALL`].

@@ -160,7 +160,21 @@ impl Trajectory {
         if from == to {
             return Vector3::zeros();
         }
+        self.velocity_between(from, to)
+    }
+
+    fn velocity_between(&self, from: usize, to: usize) -> Vector3<f64> {
         self.poses[to].boxminus(&self.poses[from]) / (self.times[to] - self.times[from])
+    }
+
+    /// Half of what its velocity changes by at a sample: the step after it is by so much faster than the mean, and the one before it by as
+    /// much slower.
+    pub(super) fn kink(&self, sample: usize) -> Vector3<f64> {
+        let next = sample + 1;
+        if sample == 0 || next == self.times.len() || self.gaps[sample] || self.gaps[next] {
+            return Vector3::zeros();
+        }
+        (self.velocity_between(sample, next) - self.velocity_between(sample - 1, sample)) * 0.5
     }
 
     /// A sample: its time (s) and its pose.

@@ -10,5 +10,6 @@ mod passes;
 mod same;
 mod simulated;
 mod sparse;
+mod standing;
 mod steps;
 mod undetermined;

@@ -402,7 +402,9 @@ impl Calibrating {
         let (estimate, undetermined) = self.estimate(&self.fitted());
         let stretched = |(alpha, longer): (usize, &f64)| {
             let (best, [from, to]) = (estimate.alphas[alpha], estimate.intervals[alpha]?);
-            Some([(best - longer * (best - from)).max(0.0), best + longer * (to - best)])
+            // What has no end has none if it is longer.
+            let end = if to.is_finite() { best + longer * (to - best) } else { to };
+            Some([(best - longer * (best - from)).max(0.0), end])
         };
         let bootstrap = judging.longer?.iter().enumerate().map(stretched).collect();
         Some(Calibration {

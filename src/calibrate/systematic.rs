@@ -302,8 +302,10 @@ impl LeastSquares {
             chosen[pivot] = true;
             sweep(&mut swept, pivot);
         }
+        // Of weights that are worlds apart rounding may leave a variance of less than nothing: that determines nothing.
+        let known: Which = std::array::from_fn(|i| chosen[i] && swept[i][i] > 0.0);
         let inverse: Square = std::array::from_fn(|i| {
-            std::array::from_fn(|j| if chosen[i] && chosen[j] { swept[i][j] } else { 0.0 })
+            std::array::from_fn(|j| if known[i] && known[j] { swept[i][j] } else { 0.0 })
         });
         let times = |vector: [f64; ERRORS], row: [f64; ERRORS]| -> f64 {
             (0..ERRORS).map(|i| row[i] * vector[i]).sum()
@@ -315,7 +317,7 @@ impl LeastSquares {
         Step {
             change: std::array::from_fn(|i| times(self.pull, inverse[i])),
             // By the scatter of the legs, whatever their noise is, but not below what their noise says.
-            deviations: std::array::from_fn(|i| chosen[i].then(|| covariance(i).max(inverse[i][i]).sqrt())),
+            deviations: std::array::from_fn(|i| known[i].then(|| covariance(i).max(inverse[i][i]).sqrt())),
             inverse,
         }
     }

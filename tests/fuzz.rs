@@ -29,14 +29,14 @@ macro_rules! tests {
     };
 }
 tests! {
-    anatomy: 5_000,
+    anatomy: 50_000,
     banana: 15_000,
-    calibrate: 100,
+    calibrate: 400,
     decomposer: 50_000,
     grid: 15_000,
     pgm: 200_000,
     plan: 10_000,
-    reckoning: 1_000,
+    reckoning: 2_000,
     squeeze: 5_000,
 }
 

@@ -1,6 +1,6 @@
 //! Arc Anatomy under any settings and calls.
 
-use super::input::Input;
+use super::input::{Input, turn_of};
 use super::settings::{allowed, changed};
 use super::{banana, laws};
 use motion::geom::se2::SE2;
@@ -31,11 +31,11 @@ pub fn run(bytes: &[u8]) {
     }
     shows_sense(&machine);
     // Of a thousand points, each with its sine and cosine.
-    if with_paths {
+    if with_paths && turn_of(4, bytes) {
         paths(&machine);
     }
     // A map takes as long as hundreds of other calls.
-    if input.choice(128) == 1 {
+    if turn_of(256, bytes) {
         surface(&machine, &mut input);
     }
 }

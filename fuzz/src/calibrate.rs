@@ -1,6 +1,6 @@
 //! Logs of any robot, calibrated with any options.
 
-use super::input::Input;
+use super::input::{Input, turn_of};
 use super::laws;
 use motion::NoiseKind;
 use motion::calibrate::{
@@ -13,8 +13,9 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Parts of a drive, and rows of each, at most.
+/// Parts of a drive, and rows of each, at most: of most drives a few, for what a calibration takes grows with them.
 const PARTS: usize = 6;
+const FEW_ROWS: usize = 12;
 const ROWS: usize = 64;
 
 /// Steps of a calibration at most, with room: each is a pass over the legs or less, and what is searched for takes sixty at most.
@@ -31,7 +32,10 @@ const MODELS: [Model; 5] = [
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let options = options(&mut input);
-    let mut driven = driven(&mut input);
+    // Legs of other lengths take five calibrations.
+    let Options { by_length, .. } = options;
+    let options = Options { by_length: by_length && turn_of(8, bytes), ..options };
+    let mut driven = driven(&mut input, if turn_of(128, bytes) { ROWS } else { FEW_ROWS });
     let mut seen = seen(&driven, &mut input);
     edit(&mut driven, &mut input);
     edit(&mut seen, &mut input);
@@ -97,13 +101,13 @@ fn usually(choices: &[f64], input: &mut Input) -> f64 {
     choices.get(choice).copied().unwrap_or_else(|| input.within(-1e9..=1e9))
 }
 
-fn driven(input: &mut Input) -> Vec<Row> {
+fn driven(input: &mut Input, rows_of_a_part: usize) -> Vec<Row> {
     let step = usually(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
     let mut rows = vec![(usually(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
     for _ in 0..=input.choice(PARTS) {
         let v = usually(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
         let omega = usually(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
-        for _ in 0..1 + usize::from(input.byte()) % ROWS {
+        for _ in 0..1 + usize::from(input.byte()) % rows_of_a_part {
             let (time, pose) = rows[rows.len() - 1];
             rows.push((time + step, pose.boxplus(Vector3::new(v, 0.0, omega) * step)));
         }

@@ -1,6 +1,6 @@
 //! Dead Reckoning under any settings and calls.
 
-use super::input::Input;
+use super::input::{Input, turn_of};
 use super::laws;
 use super::settings::{allowed, changed};
 use motion::sim::dead_reckoning::{
@@ -8,19 +8,24 @@ use motion::sim::dead_reckoning::{
 };
 use nalgebra::Matrix3;
 
-/// Robots (some blocks of 256, one of which is driven whole for a single robot), steps and calls of a run at most.
+/// Robots, steps and calls of a run at most. A block of 256 robots is driven whole for a single one: most runs have one block,
+/// some several.
+const FEW_SAMPLES: usize = 200;
 const SAMPLES: usize = 800;
-const STEPS: u32 = 9;
+const STEPS: u32 = 5;
 const CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let [with_straight, with_double] = [0; 2].map(|_| input.choice(4) == 1);
-    let opening = changed(&few(Settings { samples: 3, ..Settings::default() }), &mut input);
+    let opening = Settings { samples: 3, steps: STEPS, ..Settings::default() };
+    let opening = changed(&opening, &mut input);
     if !allowed(&opening) {
         assert!(DeadReckoning::empty(opening).is_err());
         return;
     }
+    let most = if turn_of(16, bytes) { SAMPLES } else { FEW_SAMPLES };
+    let few = |settings| few(settings, most);
     let mut machine = DeadReckoning::empty(few(opening)).expect("allowed");
     if input.truth() {
         machine.grow(SAMPLES);
@@ -29,33 +34,33 @@ pub fn run(bytes: &[u8]) {
         if input.is_empty() {
             break;
         }
-        call(&mut machine, &mut input);
+        call(&mut machine, &few, &mut input);
     }
     shows_sense(&machine);
     // What takes longest is not looked at every time.
-    if with_straight {
+    if with_straight && turn_of(8, bytes) {
         straight(&machine);
     }
-    if with_double {
+    if with_double && turn_of(8, bytes) {
         as_if_new(&machine);
     }
 }
 
 /// The same settings with few enough robots and steps.
-fn few(settings: Settings) -> Settings {
+fn few(settings: Settings, most: usize) -> Settings {
     Settings {
-        samples: settings.samples.min(SAMPLES),
+        samples: settings.samples.min(most),
         steps: settings.steps.min(STEPS),
         step: settings.step.min(settings.steps.min(STEPS)),
         ..settings
     }
 }
 
-fn call(machine: &mut DeadReckoning, input: &mut Input) {
+fn call(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let shown = machine.shown();
     match input.choice(9) {
-        0 | 1 => configure(machine, input),
-        2 | 3 => in_slices(machine, input),
+        0 | 1 => configure(machine, few, input),
+        2 | 3 => in_slices(machine, few, input),
         4 => {
             let count = usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
             assert_eq!(machine.grow(count), (shown + count).min(machine.settings().samples));
@@ -70,7 +75,7 @@ fn call(machine: &mut DeadReckoning, input: &mut Input) {
     }
 }
 
-fn configure(machine: &mut DeadReckoning, input: &mut Input) {
+fn configure(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = changed(machine.settings(), input);
     if allowed(&settings) {
         machine.configure(few(settings)).expect("allowed");
@@ -82,7 +87,7 @@ fn configure(machine: &mut DeadReckoning, input: &mut Input) {
 }
 
 /// Changes in slices, of which the last may be given up or followed by a start from none.
-fn in_slices(machine: &mut DeadReckoning, input: &mut Input) {
+fn in_slices(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let (before, shown) = (*machine.settings(), machine.shown());
     for _ in 0..=input.choice(3) {
         let present = *machine.settings();
@@ -92,7 +97,7 @@ fn in_slices(machine: &mut DeadReckoning, input: &mut Input) {
             // The same way, looked at elsewhere or by more robots or fewer.
             1 => {
                 let step = 1 + u32::from(input.byte()) % present.steps;
-                machine.begin(Settings { step, samples: count, ..present }).expect("allowed");
+                machine.begin(few(Settings { step, samples: count, ..present })).expect("allowed");
             }
             _ => {
                 let settings = changed(&present, input);
@@ -138,11 +143,15 @@ fn as_if_new(machine: &DeadReckoning) {
     assert_eq!(told(&other), told(&machine));
 }
 
-/// All that is told of every step: as text, in which NaN is equal to itself.
-fn told(machine: &DeadReckoning) -> String {
-    let step = machine.settings().step;
+/// All that is told: of the step that is shown bit by bit, the rest as text, in which NaN is equal to itself.
+fn told(machine: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured());
-    format!("{settings:?} {stats:?} {measured:?} {:?} {:?}", machine.poses(step), machine.outlines(step))
+    let outlines = machine.outlines(settings.step);
+    let lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
+        [ellipse, exponential, predicted, measured].into_iter().flat_map(|line| line.as_flattened())
+    });
+    let numbers = machine.poses(settings.step).as_flattened().iter().chain(lines);
+    (format!("{settings:?} {stats:?} {measured:?}"), numbers.map(|number| number.to_bits()).collect())
 }
 
 /// Everything shown is finite, or NaN or empty where it has no meaning.

@@ -2,6 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { Buffer } from 'node:buffer';
+import { setImmediate as turn } from 'node:timers/promises';
 import { generator } from '../random.js';
 import { keep, keptOf } from './corpus.js';
 import { mutantOf } from './mutate.js';
@@ -77,6 +78,8 @@ export async function execute(name, count, seed, reached) {
       await one(bytes);
       done += 1;
     }
+    // What was inflated is let go between two turns only.
+    await turn();
     if (!reached) continue;
     const places = await reached.look();
     if (!reached.isNews(places)) continue;

@@ -2,14 +2,14 @@
 
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { Ahead, PIECE } from './ahead.js';
-import { breathing } from './breath.js';
+import { breathing } from '../../../figure/breath.js';
 import { MAX_CHUNK, decompressors } from './decompress.js';
 import { LogError, cut, reasonOf } from './refusal.js';
 
 /**
  * @import { McapTypes } from '@mcap/core'
  * @import { Part } from './ahead.js'
- * @import { Watching } from './breath.js'
+ * @import { Watching } from '../../../figure/breath.js'
  * @import { Place, Source } from './refusal.js'
  *
  * @typedef {{ topic: string, type: string, encoding: string }} Channel

@@ -1,12 +1,12 @@
 /** Logs of robots: poses or commands with times, of CSV, TUM and MCAP files. */
 
-import { turn } from './breath.js';
+import { turn } from '../../../figure/breath.js';
 import { withoutHeld } from './held.js';
 import { LogError, bytesOf, listed } from './refusal.js';
 import { readTable } from './table.js';
 
 /**
- * @import { Watching } from './breath.js'
+ * @import { Watching } from '../../../figure/breath.js'
  * @import { Source, Words } from './refusal.js'
  * @import { Log, Reason } from './rows.js'
  *

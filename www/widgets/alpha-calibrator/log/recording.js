@@ -1,6 +1,6 @@
 /** Logs of MCAP recordings of ROS 2. Loaded when the first one is opened. */
 
-import { breathing } from './breath.js';
+import { breathing } from '../../../figure/breath.js';
 import { Frames } from './frames.js';
 import { openRecording } from './mcap.js';
 import { KINDS, edgeReader, poseReader } from './messages.js';
@@ -8,7 +8,7 @@ import { LogError, cut, listed, reasonOf } from './refusal.js';
 import { Rows } from './rows.js';
 
 /**
- * @import { Watching } from './breath.js'
+ * @import { Watching } from '../../../figure/breath.js'
  * @import { Channel, Message, Recording } from './mcap.js'
  * @import { Reading } from './messages.js'
  * @import { Choice, Topic } from './read.js'

@@ -1,6 +1,6 @@
 /** The rows of a log as they are found: what is kept, and what is left out and why. */
 
-import { ROWS_A_LOOK } from './breath.js';
+import { ROWS_A_LOOK } from '../../../figure/breath.js';
 import { LogError } from './refusal.js';
 
 /**

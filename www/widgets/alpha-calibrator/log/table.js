@@ -1,6 +1,6 @@
 /** Logs in text: CSV with a header, and TUM's eight numbers a row. */
 
-import { ROWS_A_LOOK, breathing } from './breath.js';
+import { ROWS_A_LOOK, breathing } from '../../../figure/breath.js';
 import { isHeader, layoutOf } from './header.js';
 import { Lines } from './lines.js';
 import { numberIn, textOf, time, timeIn } from './numbers.js';
@@ -8,7 +8,7 @@ import { LogError, cut } from './refusal.js';
 import { Rows } from './rows.js';
 
 /**
- * @import { Watching } from './breath.js'
+ * @import { Watching } from '../../../figure/breath.js'
  * @import { Layout } from './header.js'
  * @import { Place, Source } from './refusal.js'
  * @import { How, Log } from './rows.js'

@@ -4,6 +4,7 @@
  * and profiles are left alone, and only inflating is the browser's. By the standard, https://www.w3.org/TR/png-3/.
  */
 
+import { breathing } from '../../../figure/breath.js';
 import { inflated } from '../../../figure/packing.js';
 
 /**
@@ -123,6 +124,7 @@ export async function decodePng(bytes) {
   const length = passes.reduce((sum, { columns, rows }) => sum + rows * lengthOf(columns), 0);
   const pixels = new Uint32Array(width * height);
   const raster = new Raster(parts.chunks, length);
+  const breathe = breathing({});
   try {
     for (const { x, y, dx, dy, columns, rows } of passes) {
       // What would be to the left of a row, or above the first, counts as 0.
@@ -130,6 +132,7 @@ export async function decodePng(bytes) {
       let above = new Uint8Array(row.length);
       for (let i = 0; i < rows; i++) {
         await raster.read(row, step - 1);
+        await breathe(i / rows);
         const filter = row[step - 1];
         if (filter >= FILTERS) throw refused('filter', filter, `< ${FILTERS}`);
         row[step - 1] = 0;

@@ -67,8 +67,9 @@ for (const [attributes, options, legs] of /** @type {[string, string, object][]}
   });
   const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
   const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, ...options.split(' ').filter(Boolean), '--json'], { encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28 });
-  const { date, fit, logs, start, ...printed } = JSON.parse(stdout);
+  const { date, fit, deviations, logs, start, ...printed } = JSON.parse(stdout);
   expect([fit, start, logs.length, typeof date]).toEqual([{ legs, byLength: true }, 9, 2, 'string']);
+  expect(deviations).toEqual(options === '' ? {} : { positionDeviation: 0.004, headingDeviation: 0.003 });
   expect(JSON.parse(shown)).toEqual(printed);
 });
 

@@ -319,6 +319,10 @@ test('as text: a table of the α’s, what is systematic, the doubts, a verdict,
   assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# of odometry that is corrected: clockOffset 0\.1\d+; [^\n]+\n {4}# Heavy tails: [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
   for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out residuals inside of 95 % +\S+ % /m]) assert.match(out, line);
   const { out: byTable } = await said(['calibrate', ...FILES]);
+  assert.match(byTable, /^the reference is taken to be exact; .* --position-deviation and --heading-deviation$/m);
+  const stated = [...FILES, '--position-deviation', '0.001', '--heading-deviation', '0.002'];
+  assert.match((await said(['calibrate', ...stated])).out, /^the reference errs by 0\.001 m and 0\.002 rad, as stated$/m);
+  assert.deepEqual(JSON.parse((await said(['calibrate', ...stated, '--json'])).out).deviations, { positionDeviation: 0.001, headingDeviation: 0.002 });
   assert.match(byTable, /^The model fits: of unseen residuals, [\d.]+ % are inside its 95 %\.$/m);
   assert.match(byTable, /^ {4}# fitted under another rule than Nav2’s: choose that of Nav2$/m);
 });

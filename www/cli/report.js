@@ -10,6 +10,7 @@ import { adviceOf, between, fixed, isZero, mostOf, nav2Lines, neededFor, short }
  * @typedef {object} Result
  * @property {any} calibration of the core
  * @property {Record<string, any>} fit what was asked of it
+ * @property {{ positionDeviation?: number, headingDeviation?: number }} deviations of the reference, as stated
  * @property {{ name: string, found: string[] }[]} logs odometry and reference, and what was found in them
  * @property {number} start whole seconds that were taken from all times
  * @property {string} date
@@ -28,7 +29,7 @@ const SYSTEMATIC = [
  * @param {Result} result
  * @returns {string}
  */
-export function textOf({ calibration, fit, logs, start, date }) {
+export function textOf({ calibration, fit, deviations, logs, start, date }) {
   const { alphas, intervals, bootstrap, systematic, legs, doubts, outliers, logLikelihood, gaps } = calibration;
   const model = fit.model ?? 'odometry';
   const rule = model === 'odometry' ? `, rule ${fit.rule ?? 'table'}` : '';
@@ -43,6 +44,7 @@ export function textOf({ calibration, fit, logs, start, date }) {
     ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
     '',
     `${legs.count} legs ${lengthOf(fit.legs)}; model ${model}${rule}, ${fit.noise ?? 'normal'} noise`,
+    exactnessOf(deviations),
     ...(gaps.odometry + gaps.reference > 0 ? [`no leg leads across ${gaps.odometry} ${gaps.odometry === 1 ? 'gap' : 'gaps'} of the odometry and ${gaps.reference} of the reference`] : []),
     '',
     ...aligned([['', 'value', '95 %', '95 % by bootstrap', 'noise of'], ...rows]),
@@ -57,9 +59,16 @@ export function textOf({ calibration, fit, logs, start, date }) {
     '',
     verdictOf(calibration),
     '',
-    ...nav2Of({ calibration, fit, logs, start, date }),
+    ...nav2Of({ calibration, fit, deviations, logs, start, date }),
     '',
   ].join('\n');
+}
+
+/** What the reference errs by is noise to whoever is not told. @param {Result['deviations']} stated */
+function exactnessOf({ positionDeviation = 0, headingDeviation = 0 }) {
+  return positionDeviation > 0 || headingDeviation > 0
+    ? `the reference errs by ${positionDeviation} m and ${headingDeviation} rad, as stated`
+    : 'the reference is taken to be exact; what it errs by passes for noise, of short legs most of all: state it by --position-deviation and --heading-deviation';
 }
 
 /** @param {Legs} legs */
@@ -166,7 +175,7 @@ function aligned(rows) {
  * @param {Result} result
  * @returns {string} with typed arrays as plain ones
  */
-export function jsonOf({ calibration, fit, logs, start, date }) {
+export function jsonOf({ calibration, fit, deviations, logs, start, date }) {
   const plain = (/** @type {string} */ _, /** @type {unknown} */ value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value);
-  return `${JSON.stringify({ date, fit, logs, start, ...calibration }, plain, 1)}\n`;
+  return `${JSON.stringify({ date, fit, deviations, logs, start, ...calibration }, plain, 1)}\n`;
 }

@@ -38,7 +38,7 @@ export async function run(args, { load, print, complain, now = new Date() }) {
     const motion = await load();
     const calibration = calibrate(motion, asked, logs);
     const told = [logs.odometry, logs.reference].map((log) => ({ name: log.name, found: tell(log, words.found) }));
-    const result = { calibration, fit: asked.fit, logs: told, start: logs.start, date: now.toISOString().slice(0, 10) };
+    const result = { calibration, fit: asked.fit, deviations: asked.deviations, logs: told, start: logs.start, date: now.toISOString().slice(0, 10) };
     print(asked.json ? jsonOf(result) : textOf(result));
     return WELL;
   } catch (error) {

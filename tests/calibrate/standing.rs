@@ -19,8 +19,9 @@ fn started_and_stopped(leg: usize) -> [f64; 2] {
 
 /// A clock that is known to some milliseconds has a robot that stands move by as many millimetres, where its own noise is none: a single
 /// such leg would decide on the α's and on the clock. Against the fits of which no error is removed, for there are none: the noise is the
-/// same in both, and the ratio of the means is allowed three hundredths and three of its deviations. The shares of intervals and verdicts are
-/// allowed three of theirs, below 95 % and the 94 % of `doubts`.
+/// same in both, and the ratio of the means is allowed three of its deviations, and three hundredths, for velocity commands have two left: of
+/// logs made with other seeds α₃ was 1.022 ± 0.005. The shares of intervals and verdicts are allowed three deviations, below 95 % and the 94 %
+/// of `doubts`.
 #[test]
 fn a_leg_that_shows_no_more_than_the_clocks_error_does_not_decide() {
     const LOGS: u64 = 30;
@@ -33,7 +34,7 @@ fn a_leg_that_shows_no_more_than_the_clocks_error_does_not_decide() {
                 let simulation = Simulation {
                     legs: LegLength::Lasted { duration: 1.0 },
                     drive: Some(started_and_stopped),
-                    ..Simulation::of(model, noise, 600, 500 + seed)
+                    ..Simulation::of(model, noise, 600, 9_000 + seed)
                 };
                 let [odometry, reference] = simulation.log();
                 let [with, without] = [true, false].map(|remove| {

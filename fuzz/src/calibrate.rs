@@ -195,7 +195,11 @@ fn makes_sense(told: &Calibration, options: &Options, [odometry, reference]: [&T
             assert!(alpha.is_nan() && bootstrap[k].is_none(), "α{}: {estimate:?}", k + 1);
             continue;
         };
-        assert!(0.0 <= from && from <= *alpha && *alpha <= to, "α{}: {estimate:?}", k + 1);
+        assert!(
+            0.0 <= from && from <= *alpha && *alpha <= to && alpha.is_finite(),
+            "α{}: {estimate:?}",
+            k + 1
+        );
         let [low, high] = bootstrap[k].expect("as determined as the other");
         assert!(0.0 <= low && low <= high, "α{}: {bootstrap:?}", k + 1);
     }

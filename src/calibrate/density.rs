@@ -11,6 +11,8 @@ pub(super) struct Density {
     pub by_variance: [f64; 3],
     /// What is expected of minus the second ones, or what stands for that.
     pub information: [f64; 3],
+    /// Whether what a blur has made of a triangle's corners had to be computed, which takes long.
+    pub blurred: bool,
 }
 
 impl Density {
@@ -24,6 +26,7 @@ impl Density {
             exponent: -0.5 * (shares[0] + shares[1] + shares[2]),
             by_variance: std::array::from_fn(|k| 0.5 * precisions[k] * (shares[k] - 1.0)),
             information: precisions.map(|precision| 0.5 * precision * precision),
+            blurred: false,
         }
     }
 
@@ -52,12 +55,20 @@ impl Density {
                 let bend = inverse[k] * (inverse[k] + 1.0) - 4.0;
                 0.25 * bend.max(0.0) * (precisions[k] * precisions[k])
             }),
+            blurred: false,
         }
     }
 
     #[inline(never)]
     fn blurred(sizes: &[f64; 3], blurs: &[f64; 3], variances: &[f64; 3]) -> Self {
-        let mut density = Self { factor: 1.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
+        let nothing = Self {
+            factor: 0.0,
+            exponent: 0.0,
+            by_variance: [0.0; 3],
+            information: [0.0; 3],
+            blurred: *blurs != [0.0; 3],
+        };
+        let mut density = Self { factor: 1.0, ..nothing };
         for k in 0..3 {
             let (size, blur, variance) = (sizes[k], blurs[k], variances[k]);
             if blur > BLUNT * variance.sqrt() {
@@ -72,7 +83,7 @@ impl Density {
             let (precision, end) = (1.0 / variance, (6.0 * variance).sqrt());
             let [value, slope, bend] = triangle(size / end, blur / end);
             if value.is_nan() || value <= 0.0 {
-                return Self { factor: 0.0, exponent: 0.0, by_variance: [0.0; 3], information: [0.0; 3] };
+                return nothing;
             }
             let [slope, bend] = [slope / value, bend / value];
             density.factor *= value * end * precision / ROOT_6;
@@ -99,7 +110,7 @@ impl Density {
     pub fn or(&self, other: &Self) -> (Self, f64) {
         let ratio = other.factor / self.factor * libm::exp(other.exponent - self.exponent);
         if ratio.is_nan() || self.factor == 0.0 {
-            return (*other, 1.0);
+            return (Self { blurred: self.blurred, ..*other }, 1.0);
         }
         let part = if ratio < 1.0 { ratio / (1.0 + ratio) } else { 1.0 / (1.0 + 1.0 / ratio) };
         let both = |a: f64, b: f64| (1.0 - part) * a + part * b;
@@ -114,6 +125,7 @@ impl Density {
             exponent,
             by_variance: std::array::from_fn(|k| both(self.by_variance[k], other.by_variance[k])),
             information: std::array::from_fn(|k| both(self.information[k], other.information[k])),
+            blurred: self.blurred,
         };
         (sum, part)
     }

@@ -93,7 +93,8 @@ impl Evidence {
             told,
             other_way: if other_way.is_some() { self.other_ways.len() as u32 } else { u32::MAX },
         });
-        for (pair, coefficients) in self.pairs.iter().zip(&self.rows[self.rows.len() - 1].coefficients) {
+        let row = &self.rows[self.rows.len() - 1];
+        for (pair, coefficients) in self.pairs.iter().zip(&row.coefficients) {
             for i in 0..2 {
                 self.told[pair[i]] |= coefficients[i] > 0.0;
             }
@@ -195,8 +196,11 @@ impl Evidence {
         for row in &self.rows {
             let variances = self.variances(row, &at.alphas);
             let other_way = self.other_ways.get(row.other_way as usize);
+            // What is blurred as far as that is nearly one again.
+            let sharp: [bool; 3] =
+                std::array::from_fn(|k| row.blurs[k] * row.blurs[k] < 6.0 * width * width * variances[k]);
             let near = |sizes: &[f64; 3]| {
-                (0..3).any(|k| {
+                (0..3).filter(|k| sharp[*k]).any(|k| {
                     let near = NEAR * row.blurs[k];
                     let [nearest, farthest] = [sizes[k] - near, sizes[k] + near];
                     farthest * farthest > least * variances[k]
@@ -264,15 +268,16 @@ impl Evidence {
     /// The logarithm of the likelihood (nats), its derivatives, and what Fisher expects of the second ones. With `robust` also what the
     /// bad legs are likely to be if this is what the others are.
     pub(super) fn slope(&self, at: &Parameters, robust: Robust) -> Slope {
-        self.work.add(self.rows.len());
         let mut logs = LogProduct::EMPTY;
         let (mut exponents, mut gradients, mut informations) = (0.0, [[0.0; 2]; 3], [[0.0; 3]; 3]);
+        let mut blurred = 0;
         let mut again = at.bad.filter(|_| robust != Robust::No).map(BadAgain::new);
         for row in &self.rows {
             let variances = self.variances(row, &at.alphas);
             let (density, part) = self.density(row, &variances, at);
             logs.multiply(density.factor);
             exponents += density.exponent;
+            blurred += usize::from(density.blurred);
             for kind in 0..3 {
                 let [f, g] = row.coefficients[kind];
                 let (slope, information) = (density.by_variance[kind], density.information[kind]);
@@ -286,6 +291,7 @@ impl Evidence {
                 again.add(&row.told, &row.sizes, &variances, part);
             }
         }
+        self.work.add(self.rows.len() + BLURRED * blurred);
         let constant = match at.noise {
             NoiseKind::Normal => libm::log(ROOT_TAU),
             NoiseKind::Triangular => libm::log(ROOT_6),
@@ -360,6 +366,9 @@ const NEAR: f64 = 3.0;
 
 /// √6.
 pub(super) const ROOT_6: f64 = 2.449_489_742_783_178;
+
+/// A row with a residual near a blurred corner takes as long as so many others besides.
+const BLURRED: usize = 4;
 
 /// So many tell a median to a hundredth.
 const ENOUGH_FOR_A_MEDIAN: usize = 10_000;

@@ -1,6 +1,6 @@
 //! Where a likelihood is largest, by few passes over all legs.
 
-use super::bad::{Bad, Robust};
+use super::bad::Robust;
 use super::likelihood::{Alphas, Evidence, Parameters, Slope};
 
 impl Slope {
@@ -98,6 +98,9 @@ pub(super) const INSIDE: f64 = 0.1;
 /// Where other maxima are looked for, in widths of the edge.
 const HOPS: [f64; 6] = [1.0, 0.5, 0.25, 0.125, -0.125, -0.25];
 
+/// Legs gone through near a point, after which the rest is for the next step: ten milliseconds' work.
+pub(super) const ENOUGH_WORK: usize = 200_000;
+
 /// The shortest part of a step.
 const LEAST: f64 = 1e-4;
 
@@ -154,7 +157,7 @@ impl Near {
         self.of_edge(alphas).plus(&self.rest.moved(&self.at.alphas, alphas), 1.0)
     }
 
-    /// The `free` α's that make it largest, from a point on.
+    /// The `free` α's that make it largest, from a point on; or likelier ones, where that takes too long at once.
     pub fn maximum(&self, mut at: Alphas, free: &[usize]) -> (Alphas, Slope) {
         // Residuals outside of their triangles have to be inside first.
         let mut here = self.slope(&at);
@@ -165,7 +168,11 @@ impl Near {
                 here = self.slope(&at);
             }
         }
+        let before = self.edge.work.total();
         for _ in 0..NEAR_STEPS {
+            if self.edge.work.total() - before > ENOUGH_WORK {
+                break;
+            }
             let aim = here.maximum(&here.gradient, &at, at, free);
             let promised = here.moved(&at, &aim).log_likelihood - here.log_likelihood;
             if promised.is_nan() || promised < ENOUGH {
@@ -188,23 +195,27 @@ impl Near {
         (at, here)
     }
 
-    /// With bad legs every one that is in its triangle or out of it makes a maximum of its own. The likeliest of those nearby.
-    fn hop(&self, at: &mut Alphas, here: &mut Slope, free: &[usize]) {
-        for pair in self.edge.pairs {
-            for share in HOPS {
-                let mut from = *at;
-                pair.iter().for_each(|k| from[*k] *= 1.0 + share * self.width);
-                let (to, there) = self.maximum(from, free);
-                if there.log_likelihood > here.log_likelihood + GAINED {
-                    (*at, *here) = (to, there);
-                }
-            }
+    /// With bad legs every one that is in its triangle or out of it makes a maximum of its own. Looks for a likelier one at one of the places
+    /// nearby that are to be tried; false after the last of them.
+    fn hop(&self, place: usize, at: &mut Alphas, here: &mut Slope, free: &[usize]) -> bool {
+        let Some(pair) = self.edge.pairs.get(place / HOPS.len()) else { return false };
+        let mut from = *at;
+        pair.iter().for_each(|k| from[*k] *= 1.0 + HOPS[place % HOPS.len()] * self.width);
+        let (to, there) = self.maximum(from, free);
+        if there.log_likelihood > here.log_likelihood + GAINED {
+            (*at, *here) = (to, there);
         }
+        true
     }
 }
 
 fn between(from: &Alphas, to: &Alphas, share: f64) -> Alphas {
     std::array::from_fn(|k| from[k] + share * (to[k] - from[k]))
+}
+
+/// By how much a step is to be shorter that has not made the legs likelier: outside of a triangle there is no telling how far.
+fn shorter(there: &Slope) -> f64 {
+    if there.log_likelihood.is_finite() { 0.5 } else { 0.25 }
 }
 
 /// The first of ever shorter parts of a step that makes the legs likelier.
@@ -218,8 +229,7 @@ fn likelier(
         if there.log_likelihood > here.log_likelihood {
             return Some((to, there));
         }
-        // Outside of a triangle there is no telling how far.
-        share *= if there.log_likelihood.is_finite() { 0.5 } else { 0.25 };
+        share *= shorter(&there);
     }
     None
 }
@@ -230,44 +240,85 @@ pub(super) struct Climb {
     pub at: Parameters,
     pub here: Slope,
     steps: usize,
+    /// Of the present step, where that goes on.
+    ahead: Option<Ahead>,
+}
+
+/// A step of which a part is done.
+#[derive(Clone, Debug)]
+struct Ahead {
+    near: Near,
+    /// Where it leads, by what is near.
+    aim: Alphas,
+    top: Slope,
+    /// The place nearby to be tried next.
+    place: usize,
+    /// Whether what bad legs are stays as it is.
+    alone: bool,
+    /// The part of the way to be tried next.
+    share: f64,
 }
 
 impl Climb {
     pub fn new(evidence: &Evidence, start: Parameters, robust: Robust) -> Self {
-        Self { at: start, here: evidence.slope(&start, robust), steps: 0 }
+        Self { at: start, here: evidence.slope(&start, robust), steps: 0, ahead: None }
     }
 
-    /// A step by the `free` α's; whether there is another one.
+    /// A step by the `free` α's, or a part of one; whether there is another one.
     pub fn step(&mut self, evidence: &Evidence, free: &[usize], robust: Robust) -> bool {
         let Self { at, here, .. } = *self;
-        self.steps += 1;
-        if self.steps > STEPS || are_nothing(&at.alphas, free) {
-            return false;
-        }
-        let near = Near::new(evidence, at, &here);
-        let (mut aim, mut top) = near.maximum(at.alphas, free);
-        if at.bad.is_some() && near.edge.legs() > 0 && top.log_likelihood - here.log_likelihood < SETTLED {
-            near.hop(&mut aim, &mut top, free);
+        let before = evidence.work.total();
+        let is_enough = || evidence.work.total() - before > ENOUGH_WORK;
+        let mut ahead = match self.ahead.take() {
+            Some(ahead) => ahead,
+            None => {
+                self.steps += 1;
+                if self.steps > STEPS || are_nothing(&at.alphas, free) {
+                    return false;
+                }
+                let near = Near::new(evidence, at, &here);
+                let (aim, top) = near.maximum(at.alphas, free);
+                Ahead { near, aim, top, place: 0, alone: false, share: 1.0 }
+            }
+        };
+        let Ahead { near, aim, top, place, alone, share } = &mut ahead;
+        let settled = *place > 0 || top.log_likelihood - here.log_likelihood < SETTLED;
+        if at.bad.is_some() && near.edge.legs() > 0 && settled {
+            while near.hop(*place, aim, top, free) {
+                *place += 1;
+                if is_enough() {
+                    self.ahead = Some(ahead);
+                    return true;
+                }
+            }
         }
         let promised = top.log_likelihood - here.log_likelihood;
         if here.bad.is_none() && (promised.is_nan() || promised < ENOUGH) {
             return false;
         }
-        let bad = here.bad.or(at.bad);
-        let least = if bad.is_some() { 0.3 } else { LEAST };
-        let step = |bad: Option<Bad>, least: f64| {
-            likelier(&here, [1.0, least], &|share| {
-                let bad = at.bad.zip(bad).map(|(from, to)| from.toward(&to, share));
-                let to = Parameters { alphas: between(&at.alphas, &aim, share), bad, ..at };
-                (to, evidence.slope(&to, robust))
-            })
-        };
-        // Where bad legs cannot be told from others their least spread is in the way of what they are likely to be.
-        let alone = || if promised >= GAINED { step(at.bad, LEAST) } else { None };
-        let Some((to, there)) = step(bad, least).or_else(alone) else {
-            return false;
-        };
-        (self.at, self.here) = (to, there);
-        there.log_likelihood - here.log_likelihood > GAINED
+        loop {
+            let bad = if *alone { at.bad } else { here.bad.or(at.bad) };
+            let least = if *alone || bad.is_none() { LEAST } else { 0.3 };
+            if *share <= least {
+                // Where bad legs cannot be told from others their least spread is in the way of what they are likely to be.
+                if *alone || promised.is_nan() || promised < GAINED {
+                    return false;
+                }
+                (*alone, *share) = (true, 1.0);
+            } else {
+                let bad = at.bad.zip(bad).map(|(from, to)| from.toward(&to, *share));
+                let to = Parameters { alphas: between(&at.alphas, aim, *share), bad, ..at };
+                let there = evidence.slope(&to, robust);
+                if there.log_likelihood > here.log_likelihood {
+                    (self.at, self.here) = (to, there);
+                    return there.log_likelihood - here.log_likelihood > GAINED;
+                }
+                *share *= shorter(&there);
+            }
+            if is_enough() {
+                self.ahead = Some(ahead);
+                return true;
+            }
+        }
     }
 }

@@ -4,7 +4,7 @@ use super::calibration::FEWEST;
 use super::doubts::Verdict;
 use super::legs::{Leg, LegLength};
 use super::model::Observation;
-use super::systematic::Systematic;
+use super::systematic::{Error, Systematic};
 use super::trajectory::sort;
 use crate::geom::se2::SE2;
 
@@ -14,6 +14,9 @@ const LOST: f64 = 0.7;
 /// What a leg turns (rad) or drives (m) at least to be asked: noise is small beside it.
 const TURNS: f64 = 0.1;
 const DRIVES: f64 = 0.05;
+
+/// No wheel is half as large as it is taken for, or twice: what was removed as a scale is another unit.
+const SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
 /// Half of the legs are so many times as long as asked: more than a sample or two too late.
 const LONGER: f64 = 1.5;
@@ -43,7 +46,9 @@ pub(super) fn mismatch(
         |motion| libm::hypot(motion.x(), motion.y()),
         |one, other| libm::hypot(one.x() - other.x(), one.y() - other.y()),
     );
-    if !turns || !drives {
+    let in_units =
+        [Error::DistanceScale, Error::TurnScale].iter().all(|scale| SCALES.contains(&removed.get(*scale)));
+    if !turns || !drives || !in_units {
         return Some(Verdict::Unrelated);
     }
     let mut lengths: Vec<f64> = legs.iter().map(|leg| length.share_of(leg)).collect();

@@ -3,7 +3,7 @@
 use super::bad::Robust;
 use super::doubts::NORMAL_95;
 use super::likelihood::{Alphas, Evidence, Parameters, Slope};
-use super::maximum::{Climb, INSIDE, NOTHING, Near, are_nothing};
+use super::maximum::{Climb, ENOUGH_WORK, INSIDE, NOTHING, Near, are_nothing};
 
 /// What the residuals say of the α's.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,7 +124,8 @@ impl Ends {
     /// Goes on by a few passes; the interval after the last step, none where the log does not determine it.
     pub fn step(&mut self, fitted: &Fitted) -> Option<Option<[f64; 2]>> {
         let Self { alpha, ref about, lower, ref mut end } = *self;
-        if !fitted.free.contains(&alpha) {
+        // An α that no number is large enough for is driven by next to nothing.
+        if !fitted.free.contains(&alpha) || fitted.best.alphas[alpha] > FARTHEST {
             return Some(None);
         }
         // Of a perfect log: there is no maximum to fall from.
@@ -224,19 +225,32 @@ impl Profile<'_> {
     /// where the likelihood does not fall enough.
     fn step(&self, about: &Near, end: &mut End) -> Option<f64> {
         let evidence = self.fitted.evidence;
-        let End { side, last, step, ref mut bracket, ref mut moved } = *end;
+        let End { side, last, step, ref mut bracket, ref mut moved, is_close, .. } = *end;
         if self.best() == last {
             return Some(last);
         }
         let ended = |bracket: &Bracket| Some(if bracket.is_closed() { bracket.inside[0] } else { last });
-        if step == STEPS {
+        if step == STEPS && !is_close {
             return ended(bracket);
         }
-        end.step += 1;
         let near = moved.as_ref().unwrap_or(about);
         // Every third step halves, so that no end stays for good.
         let halve = bracket.outside[1] == f64::INFINITY || step % 3 == 2 && bracket.is_closed();
-        let mut value = if halve { bracket.between(true) } else { self.crossing(near, bracket, side) };
+        let mut value = if halve && !is_close {
+            bracket.between(true)
+        } else {
+            let crossing = end.crossing.get_or_insert_with(|| {
+                let far = (near.at.alphas[self.alpha] - self.best()).abs();
+                Crossing { bracket: *bracket, far, doublings: 0, step: 0 }
+            });
+            let value = self.crossing(near, crossing, side)?;
+            end.crossing = None;
+            value
+        };
+        if is_close {
+            return Some(value);
+        }
+        end.step += 1;
         if step > 0 && bracket.is_near(value, self.best()) {
             if bracket.inside[0] != self.best() {
                 return Some(value);
@@ -263,50 +277,62 @@ impl Profile<'_> {
         if settled && off < NEAR || value == last && root <= HEIGHT || bracket.is_narrow(self.best()) {
             return Some(value);
         }
-        if settled && off < CLOSE {
-            return Some(self.crossing(&near, bracket, side));
-        }
-        if value > FARTHEST {
+        end.is_close = settled && off < CLOSE;
+        if value > FARTHEST && !end.is_close {
             return ended(bracket);
         }
         *moved = Some(near);
         None
     }
 
-    /// Where what is near a point falls as far as at the end, or a place on the way there.
-    fn crossing(&self, near: &Near, bracket: &Bracket, side: f64) -> f64 {
-        let mut bracket = *bracket;
-        if !bracket.is_closed() {
-            // Further and further, until it falls enough.
-            let deviation = self.fitted.slope.information_of(self.alpha, &self.fitted.free).sqrt().recip();
-            let reach = 2.0 * if deviation.is_finite() { deviation } else { self.best() };
-            let mut far = reach.max((near.at.alphas[self.alpha] - self.best()).abs());
-            for _ in 0..DOUBLINGS {
-                let value = (self.best() + side * far).max(0.0);
-                bracket.narrow(value, self.beside(near, value).1);
-                if bracket.is_closed() {
-                    break;
-                }
-                if value == 0.0 {
-                    return value;
-                }
-                far *= 2.0;
+    /// Goes on to where what is near a point falls as far as at the end, or to a place on the way there.
+    fn crossing(&self, near: &Near, at: &mut Crossing, side: f64) -> Option<f64> {
+        let work = &self.fitted.evidence.work;
+        let before = work.total();
+        let is_enough = || work.total() - before > ENOUGH_WORK;
+        let Crossing { bracket, far, doublings, step } = at;
+        // Further and further, until it falls enough.
+        let deviation = self.fitted.slope.information_of(self.alpha, &self.fitted.free).sqrt().recip();
+        let reach = 2.0 * if deviation.is_finite() { deviation } else { self.best() };
+        while !bracket.is_closed() && *doublings < DOUBLINGS {
+            if is_enough() {
+                return None;
             }
+            *far = reach.max(*far);
+            let value = (self.best() + side * *far).max(0.0);
+            bracket.narrow(value, self.beside(near, value).1);
+            if !bracket.is_closed() && value == 0.0 {
+                return Some(value);
+            }
+            *far *= 2.0;
+            *doublings += 1;
         }
         // The root of the fall is nearly linear, on which a false position finds it soon.
-        for step in 0..STEPS {
-            if !bracket.is_closed() || bracket.is_narrow(self.best()) {
-                break;
+        while *step < STEPS && bracket.is_closed() && !bracket.is_narrow(self.best()) {
+            if is_enough() {
+                return None;
             }
-            let value = bracket.between(step % 3 == 2);
+            let value = bracket.between(*step % 3 == 2);
             let root = self.beside(near, value).1;
             if (root / HEIGHT - 1.0).abs() < 0.2 * NEAR {
-                return value;
+                return Some(value);
             }
             bracket.narrow(value, root);
+            *step += 1;
         }
-        bracket.inside[0]
+        Some(bracket.inside[0])
     }
+}
+
+/// A search by what is near a point, of which a part is done.
+#[derive(Clone, Debug)]
+struct Crossing {
+    bracket: Bracket,
+    /// How far from the maximum it looks next, at least, while nothing falls far enough; and how often it has.
+    far: f64,
+    doublings: usize,
+    /// How often it has looked between two values.
+    step: usize,
 }
 
 /// One end of an interval, being sought: the lower one, on side −1, or the upper one, on side 1.
@@ -319,13 +345,16 @@ struct End {
     bracket: Bracket,
     /// About where the latest step came to.
     moved: Option<Near>,
+    /// Whether what is near that place has the end.
+    is_close: bool,
+    crossing: Option<Crossing>,
 }
 
 impl End {
     fn new(best: f64, side: f64) -> Self {
         let last = if side < 0.0 { 0.0 } else { f64::INFINITY };
         let bracket = Bracket { inside: [best, 0.0], outside: [last, f64::NAN] };
-        Self { side, last, step: 0, bracket, moved: None }
+        Self { side, last, step: 0, bracket, moved: None, is_close: false, crossing: None }
     }
 }
 

@@ -35,21 +35,23 @@ fn edited(
 fn a_reference_of_another_drive_or_in_other_units_is_told() {
     let [odometry, reference] = simulation(1).log();
     let [_, of_another] = simulation(2).log();
-    let millimetres = edited(&reference, |(_, (t, pose))| {
-        Some((t, SE2::new(1000.0 * pose.x(), 1000.0 * pose.y(), pose.theta())))
-    });
-    let degrees = edited(&reference, |(_, (t, pose))| {
-        Some((t, SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())))
-    });
+    let in_millimetres = |log: &Trajectory| {
+        edited(log, |(_, (t, pose))| Some((t, SE2::new(1000.0 * pose.x(), 1000.0 * pose.y(), pose.theta()))))
+    };
+    let in_degrees = |log: &Trajectory| {
+        edited(log, |(_, (t, pose))| Some((t, SE2::new(pose.x(), pose.y(), pose.theta().to_degrees()))))
+    };
     let mirrored =
         edited(&reference, |(_, (t, pose))| Some((t, SE2::new(-pose.x(), pose.y(), pose.theta()))));
-    for (name, strange) in [
-        ("another", &of_another),
-        ("millimetres", &millimetres),
-        ("degrees", &degrees),
-        ("mirrored", &mirrored),
+    for (name, odometry, reference) in [
+        ("another", &odometry, &of_another),
+        ("millimetres", &odometry, &in_millimetres(&reference)),
+        ("degrees", &odometry, &in_degrees(&reference)),
+        ("mirrored", &odometry, &mirrored),
+        ("odometry in millimetres", &in_millimetres(&odometry), &reference),
+        ("odometry in degrees", &in_degrees(&odometry), &reference),
     ] {
-        let verdict = told(&odometry, strange, ReferenceError::default()).doubts.verdict;
+        let verdict = told(odometry, reference, ReferenceError::default()).doubts.verdict;
         assert_eq!(verdict, Verdict::Unrelated, "{name}");
     }
     assert_eq!(told(&odometry, &reference, ReferenceError::default()).doubts.verdict, Verdict::Fits);

@@ -2,16 +2,25 @@
 
 use crate::simulated::{MODELS, Simulation};
 use motion::NoiseKind;
-use motion::calibrate::{Calibrating, Model, Options, Robust};
+use motion::calibrate::{Calibrating, Model, Options, ReferenceError, Robust};
 use motion::models::OdometryRule;
 
 const NOISES: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
 
+/// Of a good motion capture.
+const STATED: ReferenceError = ReferenceError { position: 1e-3, heading: 2e-3 };
+
+/// To normal noise it makes no difference.
+fn stated_or_not(noise: NoiseKind) -> Vec<ReferenceError> {
+    let stated = (noise == NoiseKind::Triangular).then_some(STATED);
+    std::iter::once(ReferenceError::default()).chain(stated).collect()
+}
+
 /// The most legs that one step goes through, fifty nanoseconds each, on a log with bad legs or a perfect one.
-fn longest_step(simulation: &Simulation, robust: Robust, perfect: bool, by_length: bool) -> usize {
+fn longest_step(simulation: &Simulation, perfect: bool, options: Options) -> usize {
     let [odometry, reference] = simulation.log();
     let reference = if perfect { odometry.clone() } else { reference };
-    let mut calibrating = Calibrating::new(Options { by_length, ..simulation.options(robust) });
+    let mut calibrating = Calibrating::new(options);
     let (mut most, mut progress) = (0, 0.0);
     loop {
         let before = calibrating.work();
@@ -33,9 +42,15 @@ fn no_step_goes_through_many_legs() {
                 for perfect in [false, true] {
                     for count in [500, 10_000] {
                         let simulation = Simulation { jumps, ..Simulation::of(model, noise, count, 7) };
-                        let most = longest_step(&simulation, robust, perfect, true);
-                        let what = format!("{model:?} {noise:?} {robust:?} {jumps} {perfect} {count}");
-                        assert!(most <= 1_000_000, "{what}: {most}");
+                        for reference_error in stated_or_not(noise) {
+                            let options =
+                                Options { reference_error, by_length: true, ..simulation.options(robust) };
+                            let most = longest_step(&simulation, perfect, options);
+                            let what = format!(
+                                "{model:?} {noise:?} {robust:?} {jumps} {perfect} {count} {reference_error:?}"
+                            );
+                            assert!(most <= 1_000_000, "{what}: {most}");
+                        }
                     }
                 }
             }
@@ -49,8 +64,14 @@ fn of_a_hundred_thousand_legs_no_step_goes_through_all_of_them_often() {
         for (noise, robust) in [(NoiseKind::Normal, Robust::No), (NoiseKind::Triangular, Robust::Estimated)] {
             for perfect in [false, true] {
                 let simulation = Simulation { jumps: 0.01, ..Simulation::of(model, noise, 100_000, 7) };
-                let most = longest_step(&simulation, robust, perfect, false);
-                assert!(most <= 1_000_000, "{model:?} {noise:?} {robust:?} {perfect}: {most}");
+                for reference_error in stated_or_not(noise) {
+                    let options = Options { reference_error, ..simulation.options(robust) };
+                    let most = longest_step(&simulation, perfect, options);
+                    assert!(
+                        most <= 1_000_000,
+                        "{model:?} {noise:?} {robust:?} {perfect} {reference_error:?}: {most}"
+                    );
+                }
             }
         }
     }

@@ -429,3 +429,60 @@ test('of maps that are dropped one after the other the last one is there, and no
   await expect.poll(() => widget.evaluate((element) => /** @type {Element} */ (element).map?.name)).toBe('hall.yaml');
   expect(await made.jsonValue()).toMatchObject({ made: 3, freed: 4 });
 });
+
+/** The largest map that there may be, every second row of it unknown: more than five million letters. Made in the page. */
+const largest = (/** @type {string} */ occupied) => {
+  const bits = (/** @type {(row: number) => number} */ of) => {
+    const bytes = new Uint8Array(2 ** 21).map((_, i) => of(i >> 9));
+    let text = '';
+    for (let at = 0; at < bytes.length; at += 4096) text += String.fromCharCode(...bytes.subarray(at, at + 4096));
+    return btoa(text);
+  };
+  const rows = occupied === 'none' ? () => 0 : (/** @type {number} */ row) => (row % 2 ? 0xaa : 0x55);
+  return { name: 'largest', columns: 4096, rows: 4096, resolution: 0.01, origin: [0, 0, 0], occupied: bits(rows), unknown: bits((row) => (row % 2 ? 0xff : 0)) };
+};
+
+test('the largest grid comes in slices from a state and from its link', FRESH, async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const came = await widget.evaluate(async (element, make) => {
+    const squeeze = /** @type {any} */ (element);
+    const map = eval(make)('none');
+    squeeze.setState({ ...squeeze.getState(), map });
+    let frames = 0;
+    while (squeeze.state.own.map === null) {
+      frames++;
+      await new Promise(requestAnimationFrame);
+    }
+    const same = JSON.stringify(squeeze.map) === JSON.stringify(map);
+    return { frames, same, link: await squeeze.shareLink() };
+  }, `(${largest})`);
+  // A frame has 25 ms for it.
+  expect(came.frames).toBeGreaterThan(3);
+  expect(came.same).toBe(true);
+  await page.goto('about:blank');
+  await page.goto(came.link);
+  const opened = page.locator('map-squeeze').first();
+  await opened.scrollIntoViewIfNeeded();
+  await expect.poll(() => opened.evaluate((element) => /** @type {any} */ (element).map?.rows)).toBe(4096);
+  expect((await squeezed(opened)).bounds).toEqual([0, 0, 40.96, 40.96]);
+});
+
+test('a grid in a state whose cells have too many sides is refused by an event, and nothing has changed', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  const refused = await widget.evaluate(async (element, make) => {
+    const squeeze = /** @type {any} */ (element);
+    const state = squeeze.getState();
+    const message = new Promise((resolve) => element.addEventListener('error', (event) => {
+      event.preventDefault();
+      resolve(/** @type {ErrorEvent} */ (event).message);
+    }));
+    squeeze.setState({ ...state, seed: state.seed + 1, map: eval(make)('checkered') });
+    const told = await message;
+    return { told, same: JSON.stringify(squeeze.getState()) === JSON.stringify(state) };
+  }, `(${largest})`);
+  expect(refused.told).toMatch(/100000/);
+  expect(refused.same).toBe(true);
+  await expect(progress(widget)).toHaveCount(0);
+  expect(await squeezed(widget)).toEqual(before);
+});

@@ -223,6 +223,39 @@ test('quaternions that are no rotation, numbers that are none and times that fal
   assert.deepEqual([...data.breaks], [3, 4]);
 });
 
+test('messages that were not written in the order of their times are read in it, inside of chunks and where chunks overlap', async () => {
+  const random = generator(5);
+  const messages = Array.from({ length: 200 }, (_, i) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t: at(i), message: odometry(at(i), i, 0, 0) }));
+  const order = messages.map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key);
+  const shuffled = order.map(({ message }) => message);
+  // All in one chunk, or in dozens.
+  for (const chunkSize of [1e6, 4096]) {
+    const { data } = await readLog(file(await recordingOf(shuffled, { chunkSize })), { topic: '/odom' });
+    assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
+  }
+});
+
+test('a chunk in which any byte is another is refused, or is what it was', async () => {
+  const messages = Array.from({ length: 20 }, (_, i) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t: at(i), message: odometry(at(i), i, 0, 0) }));
+  const random = generator(6);
+  for (const compression of /** @type {const} */ (['none', 'zstd', 'lz4'])) {
+    const whole = await recordingOf(messages, { chunkSize: 1e6, compression });
+    const { data } = await readLog(file(whole), { topic: '/odom' });
+    let refused = 0;
+    for (let i = 0; i < 200; i++) {
+      const bytes = whole.slice();
+      bytes[40 + Math.floor(random() * (0.5 * whole.length - 40))] ^= 1 + Math.floor(random() * 255);
+      try {
+        assert.deepEqual((await readLog(file(bytes), { topic: '/odom' })).data, data);
+      } catch (error) {
+        assert.ok(error instanceof LogError, String(error));
+        refused++;
+      }
+    }
+    assert.ok(refused > 100, `${compression}: ${refused}`);
+  }
+});
+
 test('a choice that is not there, or of no use: a sentence', async () => {
   const source = file(await recordingOf(drive()));
   const poses = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped or tf2_msgs/msg/TFMessage';

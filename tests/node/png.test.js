@@ -196,3 +196,19 @@ test('what is too large is refused before it is read, and what unpacks to more b
   const parts = Buffer.concat([SIGNATURE, header({ width: 4, height: 4 }), ...Array(200_000).fill(empty)]);
   assert.match(await refusal(parts), /^map\.png: chunks is > 100000; allowed is ≤ 100000;/);
 });
+
+test('whoever reads an image lets others have their turn after a row, when it is time', async (context) => {
+  let [time, turns] = [0, 0];
+  // Each row takes a fiftieth of a second.
+  context.mock.method(performance, 'now', () => (time += 20));
+  const { MessageChannel } = globalThis;
+  globalThis.MessageChannel = class extends MessageChannel {
+    constructor() {
+      super();
+      turns++;
+    }
+  };
+  context.after(() => (globalThis.MessageChannel = MessageChannel));
+  await decodePng(new Uint8Array(pngOf(ROOM)));
+  assert.equal(turns, ROOM.height);
+});

@@ -18,7 +18,7 @@ import { Presentation } from './presentation.js';
 import { Progress, progressStyles } from './progress.js';
 import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
-import { Settings } from './settings.js';
+import { Settings, advancing } from './settings.js';
 import { Stage } from './stage.js';
 import { State } from './state.js';
 import { surface } from './surface.js';
@@ -147,6 +147,17 @@ export class FigureElement extends LitElement {
    */
   createMachine(_motion, _state) {
     throw new Error('A widget makes its own machine.');
+  }
+
+  /**
+   * Lets a machine that was made of a state have all of it, and the state hold it as the machine does.
+   *
+   * @param {Machine} machine
+   * @param {Values} _state
+   * @returns {import('./settings.js').Job}
+   */
+  complete(machine, _state) {
+    return advancing(machine);
   }
 
   /**
@@ -322,7 +333,8 @@ export class FigureElement extends LitElement {
 
   /**
    * Puts the element into a state, which names its `widget` and `version`; what else is left out stays as it is. Throws a
-   * TypeError or RangeError that names the field, the value and what is allowed, and changes nothing then.
+   * TypeError or RangeError that names the field, the value and what is allowed, and changes nothing then. What takes long comes
+   * frame by frame; that the cells of a large grid have too many sides is told by an `error` event.
    *
    * @public
    * @param {Partial<Values> & FigureState} state

@@ -4,9 +4,9 @@ import { refusal } from './checks.js';
 
 /**
  * Bytes of a state at most when it is unpacked: a link is anybody's, and a short text may say "a billion
- * times a". The outlines of the largest maps that are of use take a tenth of it.
+ * times a". A plan's file may have as many, and the largest grid has 5.6 million.
  */
-const MAX_BYTES = 4_000_000;
+const MAX_BYTES = 10_000_000;
 
 /**
  * @param {object} data
@@ -75,9 +75,11 @@ export function toBase64(bytes) {
 
 /**
  * @param {string} text
- * @throws {DOMException} if it is not base64
+ * @throws {DOMException | SyntaxError} if it is not base64
  */
 export function fromBase64(text) {
+  const { fromBase64: native } = /** @type {{ fromBase64?: (text: string) => Uint8Array<ArrayBuffer> }} */ (Uint8Array);
+  if (native) return native.call(Uint8Array, text);
   const characters = atob(text);
   const bytes = new Uint8Array(characters.length);
   for (let i = 0; i < bytes.length; i++) bytes[i] = characters.charCodeAt(i);

@@ -6,6 +6,7 @@
 import { abandon, instantiateFor } from '../core.js';
 import { look, unwatch, watch } from './page/sight.js';
 import { Part } from './part.js';
+import { isTrap } from './trap.js';
 
 /** Cores that may trap one after the other, without a picture between, until the figure gives up. */
 const MAX_CRASHES = 3;
@@ -201,16 +202,6 @@ export function orFree(machine, work) {
     machine.free();
     throw error;
   }
-}
-
-/**
- * Whether an error is the core's end: a trap, or what its glue throws where a machine is used after one: see writeGlue in
- * scripts/build.mjs. Others are refusals, or come from what the page gave.
- *
- * @param {unknown} error
- */
-export function isTrap(error) {
-  return typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 }
 
 /** @param {unknown} error anything: a page's own functions are called too */

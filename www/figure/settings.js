@@ -4,6 +4,7 @@
  */
 
 import { Part } from './part.js';
+import { isTrap } from './trap.js';
 
 /**
  * @typedef {Record<string, any>} Values settings by name
@@ -175,6 +176,32 @@ export class Settings extends Part {
     this.#job = job;
     this.next = next;
     this.done = 0;
+  }
+
+  /**
+   * Makes a machine ready that is to take the place of the present one, as far as there is time. What is wrong with it is
+   * thrown where it shows by then; where it shows later, all stays as it is and `refuse` is called.
+   *
+   * @param {any} next
+   * @param {Job} job
+   * @param {(error: unknown) => void} refuse
+   * @param {number} end of that time, by performance.now()
+   */
+  prepare(next, job, refuse, end) {
+    const settings = this;
+    let later = false;
+    this.work((function* () {
+      try {
+        yield* job;
+      } catch (error) {
+        if (!later || settings.next !== next || isTrap(error)) throw error;
+        settings.abandon();
+        settings.show();
+        refuse(error);
+      }
+    })(), next);
+    this.settle(end - performance.now());
+    later = true;
   }
 
   /** What is being done is given up. */

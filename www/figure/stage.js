@@ -19,6 +19,9 @@ import { LONGEST_WORK } from './settings.js';
  */
 const QUICK = 5;
 
+/** What is drawn and told of a machine after so much work in a frame, milliseconds, would make that a long one. */
+const ENOUGH_WORK = LONGEST_WORK / 2;
+
 /** Longest that words wait while every frame has a picture, milliseconds: what comes later is no answer to the hand. */
 const LATEST_WORDS = 100;
 
@@ -42,6 +45,8 @@ export class Stage extends Part {
   /** When the first picture was drawn whose words have not come yet. @type {number | undefined} */
   #owedSince;
   #printing = false;
+  /** Whether the frame before was too short for what was to be done. */
+  #slicing = false;
   /** Words of other heights would change the sizes that are being told of: they wait for the next frame. */
   #resizing = false;
   /** @type {ResizeObserver | undefined} */
@@ -160,7 +165,11 @@ export class Stage extends Part {
     const settled = host.settings.settle(LONGEST_WORK);
     // It has trapped: the next picture is that of the core in its place.
     if (!host.machine) return;
-    if (!settled) this.wake();
+    // What came in slices is drawn in the frame after the last of them, if that has taken long.
+    const enough = this.#slicing && performance.now() - began > ENOUGH_WORK;
+    this.#slicing = !settled;
+    if (!settled || enough) this.wake();
+    if (enough && settled) return;
     if (settled ? host.cloud?.grow() === false : !host.settings.next || this.#told) {
       this.wake();
       return;

@@ -3,7 +3,7 @@
 import { object, refusal, word } from './checks.js';
 import { Part } from './part.js';
 import { orFree } from './runtime.js';
-import { LONGEST_WORK, advancing } from './settings.js';
+import { LONGEST_WORK } from './settings.js';
 
 /**
  * @import { Figure } from './figure.js'
@@ -60,7 +60,6 @@ export class State extends Part {
   /** A machine was made of the last good state: the figure goes on with it, and with what the page asked for meanwhile. */
   resume() {
     const { host } = this;
-    host.machineChanged();
     host.settings.reset();
     host.settings.work(this.#resuming());
     host.settings.settle(LONGEST_WORK);
@@ -69,7 +68,8 @@ export class State extends Part {
 
   *#resuming() {
     const { host } = this;
-    yield* advancing(host.machine);
+    yield* host.complete(host.machine, this.kept ?? {});
+    host.machineChanged();
     host.settings.reset();
     host.reflection.catchUp();
     host.link.catchUp();
@@ -86,6 +86,7 @@ export class State extends Part {
   enter(state) {
     const host = this.host;
     host.settings.settle();
+    const end = performance.now() + LONGEST_WORK;
     const present = host.snapshot();
     const given = object('state', state, Object.keys(present), ({ widget, version }) => {
       word('state.widget', widget, [host.localName]);
@@ -98,8 +99,7 @@ export class State extends Part {
         whole[name] = check(`state.${name}`, whole[name], made, markable);
       }
     });
-    host.settings.work(this.#entering(machine, whole), machine);
-    host.settings.settle(LONGEST_WORK);
+    host.settings.prepare(machine, this.#entering(machine, whole), (error) => host.runtime.report(error), end);
     host.settings.show();
   }
 
@@ -108,8 +108,8 @@ export class State extends Part {
    * @param {Values} whole the state
    */
   *#entering(machine, whole) {
-    yield* advancing(machine);
     const { host } = this;
+    yield* host.complete(machine, whole);
     for (const name of Object.keys(this.own)) this.own[name] = whole[name];
     host.runtime.replace(machine);
     host.settings.arrive();

@@ -31,8 +31,11 @@ const WALLS_A_STROKE = 500;
 const STROKED = 200_000;
 const A_WALL = 40;
 
-/** Cells of a picture that are counted and drawn in a frame: ten milliseconds' work, before the engine has compiled it. */
-const COUNTED = 1_000_000;
+/** How long cells of a picture are counted and drawn in a frame, milliseconds: there may be two of them. */
+const COUNTING = 8;
+
+/** Cells between two looks at the clock. */
+const COUNTED = 100_000;
 
 /** Walls whose ends are nearer to each other than this look the same, pixels of the view. */
 const ALIKE = 0.25;
@@ -145,7 +148,7 @@ export class WallLayer {
     else {
       if (!isRight(coming)) coming = new Mask(grid, grid[kind], colour, side);
       // One after the other.
-      if (kind === 'unknown' || !this.#masks.unknown?.coming) coming?.grow(piecemeal ? COUNTED : Infinity);
+      if (kind === 'unknown' || !this.#masks.unknown?.coming) coming?.grow(piecemeal ? COUNTING : Infinity);
       if (coming?.complete) [complete, coming] = [coming, undefined];
     }
     this.#masks[kind] = { complete, coming };
@@ -229,11 +232,18 @@ class Mask {
     return this.#row === this.canvas.height;
   }
 
-  /** Counts up to so many cells, by rows of pixels, and draws these. @param {number} most */
-  grow(most) {
+  /** Counts cells and draws them. @param {number} limit milliseconds that it may take */
+  grow(limit) {
+    const end = performance.now() + limit;
+    do this.#some();
+    while (!this.complete && performance.now() < end);
+  }
+
+  /** Some rows of pixels. */
+  #some() {
     const [cells, columns, side] = [this.#cells, this.#columns, this.side];
     const { width, height } = this.canvas;
-    const rows = Math.min(height - this.#row, Math.max(1, Math.floor(most / (columns * side))));
+    const rows = Math.min(height - this.#row, Math.ceil(COUNTED / (columns * side)));
     const image = new ImageData(width, rows);
     const pixels = new Uint32Array(image.data.buffer);
     const [colour] = new Uint32Array(Uint8Array.of(...channels(this.colour), 0).buffer);

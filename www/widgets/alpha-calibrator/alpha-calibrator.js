@@ -185,6 +185,13 @@ export class AlphaCalibratorElement extends FigureElement {
     return this.#log ? this.#log.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
+  /** Whether nothing says what the reference of the reader's own log errs by. */
+  get exact() {
+    const { positionDeviation, headingDeviation } = this.settings.told;
+    const { reference } = this.#log ?? {};
+    return reference !== undefined && ![positionDeviation, headingDeviation, reference.positionDeviation, reference.headingDeviation].some(Boolean);
+  }
+
   get takeaway() {
     const { config, legs } = this.fresh;
     const of = (/** @type {Float64Array} */ numbers, /** @type {number} */ i, /** @type {number} */ size) => numbers.subarray(size * i, size * (i + 1));
@@ -192,7 +199,7 @@ export class AlphaCalibratorElement extends FigureElement {
     const kinds = this.reading.stats.doubts.kinds.map(({ name }) => name);
     return {
       title: this.lettering.name,
-      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName), ...systematicTexts(this.reading)].join(' '),
+      description: [wayText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this.reading, this.logName, this.exact), ...systematicTexts(this.reading)].join(' '),
       settings: { element: this.localName, log: this.#log?.name ?? null, ...config },
       columns: [
         'begins_s', 'ends_s', ...poses('odometry'), ...poses('reference'), 'reading_1', 'reading_2', 'reading_3',
@@ -209,7 +216,7 @@ export class AlphaCalibratorElement extends FigureElement {
 
   /** @param {Reading} reading */
   announcement(reading) {
-    return captionOf(reading, this.logName);
+    return captionOf(reading, this.logName, this.exact);
   }
 
   /** @param {Reading} reading */
@@ -230,8 +237,8 @@ export class AlphaCalibratorElement extends FigureElement {
           <div class="stage one">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>
           ${this.stage.later(() => html`
           <div class="looked">${legControls(this)}</div>
-          <p part="caption" class="caption roomy ${verdict !== 'fits' && 'note'}" data-room=${longestCaption(this.logName)}>
-            <span>${captionOf(reading, this.logName)}</span>
+          <p part="caption" class="caption roomy ${verdict !== 'fits' && 'note'}" data-room=${longestCaption(this.logName, this.exact)}>
+            <span>${captionOf(reading, this.logName, this.exact)}</span>
           </p>
           <div class="tables">${alphaTable(reading)} ${systematicTable(this)}</div>`)}
         </div>

@@ -32,7 +32,7 @@ export const de = {
   axisAhead: 'voraus (m)',
   axisLeft: 'links (m)',
   simulated: 'simulierte Aufzeichnung',
-  present: (log, legs) => `${parts(legs)}, ${log}.`,
+  present: (log, legs, exact) => `${parts(legs)}, ${log}${exact ? ', mit fehlerfreier Referenz' : ''}.`,
   verdicts: {
     fits: (coverage) => `Das Modell passt: Von neuen Residuen liegen ${coverage} in seinen 95 %.`,
     overconfident: (coverage) => `Zu sicher: Von neuen Residuen liegen nur ${coverage} in seinen 95 %. Vergrößern.`,
@@ -157,7 +157,7 @@ export const de = {
   own: {
     title: 'Eigene Aufzeichnung',
     text: 'Odometrie und Referenz als zwei Dateien (CSV mit Kopfzeile oder TUM) oder beide in einer Aufnahme (MCAP aus ROS 2). Hierher ziehen. Nichts verlässt dieses Gerät.',
-    deviations: 'Standardabweichungen der Referenz selbst, wenn sie bekannt sind; bei 0 die der Aufzeichnung:',
+    deviations: 'Standardabweichungen der Referenz selbst; bei 0 die der Aufzeichnung. Was fehlt, gilt als Rauschen der Räder, bei kurzen Etappen vor allem:',
     files: 'Dateien',
     odometry: 'Odometrie',
     reference: 'Referenz',

@@ -31,7 +31,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   axisAhead: 'ahead (m)',
   axisLeft: 'left (m)',
   simulated: 'the simulated log',
-  present: (log, legs) => `${of(legs, 'leg')} of ${log}.`,
+  present: (log, legs, exact) => `${of(legs, 'leg')} of ${log}${exact ? ', with a reference taken to be exact' : ''}.`,
   verdicts: {
     fits: (coverage) => `The model fits: of unseen residuals, ${coverage} are inside its 95 %.`,
     overconfident: (coverage) => `Overconfident: of unseen residuals, only ${coverage} are inside its 95 %. Inflate, or a filter gets lost.`,
@@ -156,7 +156,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   own: {
     title: 'Your log',
     text: 'Odometry and a reference, as two files (CSV with a header, or TUM), or both in one recording (MCAP of ROS 2). Drop them here. Nothing leaves this device.',
-    deviations: 'Standard deviations of the reference itself, if they are known; at 0 those that the log states:',
+    deviations: 'Standard deviations of the reference itself; at 0, those that the log states. What is not stated passes for noise of the wheels, of short legs most of all:',
     files: 'Files',
     odometry: 'Odometry',
     reference: 'Reference',

@@ -44,7 +44,7 @@ export class Plate extends Picture {
 
   /** @type {Picture<Scene>['draw']} */
   draw(surface, scene, palette) {
-    const { reading, logName } = this.#figure;
+    const { reading, logName, exact } = this.#figure;
     const brush = brushOn(surface, this.view, palette);
     const way = this.#way;
     within(brush, way.view, 0, 0, WAY, (own) => {
@@ -61,7 +61,7 @@ export class Plate extends Picture {
     let y = 2;
     for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = write(context, text, beside, y, WIDTH - beside) + LINE / 3;
     y = WAY.height + PANEL.height + LINE;
-    for (const text of [captionOf(reading, logName), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
+    for (const text of [captionOf(reading, logName, exact), ...systematicTexts(reading)]) y = write(context, text, 2, y, WIDTH - 2);
     panelsOf(this.#figure).forEach(({ plot }, i) =>
       within(brush, this.#panel, i * PANEL.width, WAY.height + LINE / 2, PANEL, (own) => drawPlot(own, plot)));
     return false;

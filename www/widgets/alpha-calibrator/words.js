@@ -34,17 +34,18 @@ export function thousandths(highest) {
  *
  * @param {Reading} reading
  * @param {string} log its name
+ * @param {boolean} exact whether its reference is taken to be so
  */
-export function captionOf({ stats: { doubts: { verdict, heldOut } }, legs }, log) {
+export function captionOf({ stats: { doubts: { verdict, heldOut } }, legs }, log, exact) {
   const say = words.calibrator;
   if (legs.count === 0) return say.none;
-  return `${say.present(log, counted(legs.count))} ${say.verdicts[verdict](percent(heldOut.coverage))}`;
+  return `${say.present(log, counted(legs.count), exact)} ${say.verdicts[verdict](percent(heldOut.coverage))}`;
 }
 
-/** The longest of these, to keep room for. @param {string} log */
-export function longestCaption(log) {
+/** The longest of these, to keep room for. @param {string} log @param {boolean} exact */
+export function longestCaption(log, exact) {
   const { verdicts, present } = words.calibrator;
-  return `${present(log, counted(10_000))} ${longest(Object.values(verdicts).map((verdict) => verdict(percent(0.999))))}`;
+  return `${present(log, counted(10_000), exact)} ${longest(Object.values(verdicts).map((verdict) => verdict(percent(0.999))))}`;
 }
 
 /**

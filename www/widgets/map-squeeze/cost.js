@@ -16,8 +16,8 @@ import { SAMPLERS } from './settings.js';
 /** The particles and rate of the chapter's exercise: samples a second. */
 export const DEMAND = 2000 * 20;
 
-/** Milliseconds that a measurement lasts at least: browsers' clocks are as coarse as 1 ms. */
-const LONG_ENOUGH = 20;
+/** Milliseconds that a measurement lasts at least, and twice that at most: browsers' clocks are as coarse as 1 ms. */
+const LONG_ENOUGH = 12;
 
 /** Runs of which the median is told. */
 const RUNS = 5;

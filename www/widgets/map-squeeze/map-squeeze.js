@@ -6,7 +6,7 @@ import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
-import { isTrap, orFree } from '../../figure/runtime.js';
+import { orFree } from '../../figure/runtime.js';
 import { LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
@@ -60,6 +60,8 @@ export class MapSqueezeElement extends FigureElement {
   });
   /** What unknown cells are in the map of the picture. */
   #unknown = '';
+  /** The grid of the machine that was asked for it last. @type {{ of: Machine, grid: Machine['grid'] } | undefined} */
+  #grid;
   /** The machine in the making of a map that the page gave. @type {Machine | undefined} */
   #given;
   /** The reader's own map that was left last, and where the robot stood in it. @type {{ map: MapData, start: Pose } | null} */
@@ -72,15 +74,49 @@ export class MapSqueezeElement extends FigureElement {
     if (!state) return new motion.MapSqueeze();
     return orFree(motion.MapSqueeze.empty(), (machine) => {
       machine.configure(this.settings.declared(state));
-      if (state.map !== null) applyMap(machine, state.map);
-      machine.beginToGrow(shownOf(machine, state.shown));
+      // Attempts wait for the map.
+      if (state.map === null) machine.beginToGrow(shownOf(machine, state.shown));
     });
   };
 
-  /** @param {Machine['grid']} [grid] of the machine, by who has it: to ask for it takes long where it is large */
-  machineChanged(grid = this.machine?.grid ?? null) {
+  /** @type {FigureElement<Machine, Reading>['complete']} */
+  *complete(machine, state) {
+    const { map = null } = state;
+    if (map !== null) {
+      yield* applyMap(machine, map);
+      yield* advancing(machine);
+      machine.beginToGrow(shownOf(machine, state.shown));
+    }
+    yield* advancing(machine);
+    if (map !== null) state.map = yield* this.#mapOf(machine, map.name ?? '');
+  }
+
+  /**
+   * The map that a machine has, as data.
+   *
+   * @param {Machine} machine
+   * @param {string} name
+   * @returns {Generator<number, MapData>}
+   */
+  *#mapOf(machine, name) {
+    yield 1;
+    const grid = this.#gridOf(machine);
+    yield 1;
+    const data = mapData(machine, name, grid);
+    yield 1;
+    return data;
+  }
+
+  /** The grid of a machine: to ask for it takes long where it is large. @param {Machine} machine */
+  #gridOf(machine) {
+    if (this.#grid?.of !== machine) this.#grid = { of: machine, grid: machine.grid };
+    return this.#grid.grid;
+  }
+
+  machineChanged() {
     const { machine } = this;
     if (!machine) return;
+    const grid = this.#gridOf(machine);
     this.#opener.forgive();
     this.#meter.outdate();
     this.#unknown = machine.config.unknown;
@@ -249,7 +285,8 @@ export class MapSqueezeElement extends FigureElement {
     if (!map) return;
     this.#left = { map, start: this.settings.wanted.start };
     machine.setPlan(undefined);
-    this.#moved(null, null);
+    this.#grid = undefined;
+    this.#moved(null);
   }
 
   /**
@@ -271,21 +308,7 @@ export class MapSqueezeElement extends FigureElement {
       machine.configure(settings.declared(settings.wanted));
       reading.next();
     });
-    const entering = this.#entering(machine, reading, map, arrived);
-    let later = false;
-    const job = (function* () {
-      try {
-        yield* entering;
-      } catch (error) {
-        if (!later || settings.next !== machine || isTrap(error)) throw error;
-        settings.abandon();
-        settings.show();
-        refuse(error);
-      }
-    })();
-    settings.work(job, machine);
-    settings.settle(end - performance.now());
-    later = true;
+    settings.prepare(machine, this.#entering(machine, reading, map, arrived), refuse, end);
   }
 
   /**
@@ -298,20 +321,16 @@ export class MapSqueezeElement extends FigureElement {
   *#entering(machine, reading, { name, start }, arrived) {
     yield* reading;
     yield 1;
-    const { grid } = machine;
-    yield 1;
     if (start) machine.configure({ start });
-    else if (!machine.startFree || grid) machine.configure({ start: this.#putInTheOpen(machine) });
+    else if (!machine.startFree || this.#gridOf(machine)) machine.configure({ start: this.#putInTheOpen(machine) });
     machine.beginToGrow(this.cloud.asked);
     yield 0;
     yield* advancing(machine);
-    yield 1;
-    const data = mapData(machine, name, grid);
-    yield 1;
+    const data = yield* this.#mapOf(machine, name);
     this.runtime.replace(machine);
     this.settings.arrive();
     this.#left = null;
-    this.#moved(data, grid);
+    this.#moved(data);
     arrived();
   }
 
@@ -321,13 +340,10 @@ export class MapSqueezeElement extends FigureElement {
     if (machine && !machine.startFree) this.settings.assign({ start: PRESETS[0].start });
   }
 
-  /**
-   * @param {MapData | null} map that the machine has now
-   * @param {Machine['grid']} grid
-   */
-  #moved(map, grid) {
+  /** @param {MapData | null} map that the machine has now */
+  #moved(map) {
     this.state.own.map = map;
-    this.machineChanged(grid);
+    this.machineChanged();
     this.settings.stale = true;
     this.cloud.mark(-1);
   }
@@ -383,7 +399,7 @@ export class MapSqueezeElement extends FigureElement {
 const mapOf = (map) => ({
   name: map.name ?? '',
   *apply(machine, rest) {
-    applyMap(machine, map, 'beginGrid');
+    yield* applyMap(machine, map);
     yield 0;
     yield* rest;
   },

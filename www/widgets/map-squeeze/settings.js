@@ -5,7 +5,6 @@ import { word } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { presets, settings } from '../../settings.js';
 import { commandLooks } from '../shared/command.js';
-import { mapData } from './maps/data.js';
 
 export const declared = settings['map-squeeze'];
 
@@ -34,8 +33,8 @@ export const attributes = {
 export const own = {
   ...cloudState,
   view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
-  /** The reader's own; null for the apartment. */
-  map: { opening: null, check: (_, map, machine) => map && mapData(machine, map.name ?? '') },
+  /** The reader's own; null for the apartment. A machine has looked at it. */
+  map: { opening: null, check: (_, map) => map },
 };
 
 /**

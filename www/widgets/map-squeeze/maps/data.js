@@ -4,7 +4,10 @@ import { object, refusal, wholeNumber } from '../../../figure/checks.js';
 import { fromBase64, toBase64 } from '../../../figure/packing.js';
 import { limits } from '../../../settings.js';
 
-/** @import { MapData, MapSqueeze } from '../../../types.d.ts' */
+/**
+ * @import { Job } from '../../../figure/settings.js'
+ * @import { MapData, MapSqueeze } from '../../../types.d.ts'
+ */
 
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
@@ -20,6 +23,9 @@ const FOURS = Uint32Array.from({ length: 16 }, (_, bits) => {
   const cells = Uint8Array.of(bits >> 3, (bits >> 2) & 1, (bits >> 1) & 1, bits & 1);
   return new Uint32Array(cells.buffer)[0];
 });
+
+/** Bytes of bits that become cells between two looks at the clock: a few milliseconds' work before the engine has compiled it. */
+const SHADED = 200_000;
 
 /** Times four cells, all four bits are the highest of 28, in their order. */
 const GATHER = 0x08040201;
@@ -61,14 +67,15 @@ export function inOneList(walls) {
 }
 
 /**
- * Puts a map into a machine.
+ * Puts a map into a machine, which is to go on with it: a floor plan at once, a grid in slices. The first one checks all
+ * fields.
  *
  * @param {MapSqueeze} machine
  * @param {unknown} data to be MapData
- * @param {'setGrid' | 'beginGrid'} [put] how a grid gets in: at once, or in slices
+ * @returns {Job}
  * @throws {TypeError | RangeError} with the machine's present map left as it is
  */
-export function applyMap(machine, data, put = 'setGrid') {
+export function* applyMap(machine, data) {
   const isGrid = typeof data === 'object' && data !== null && 'occupied' in data;
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
@@ -79,18 +86,35 @@ export function applyMap(machine, data, put = 'setGrid') {
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
   const count = columns * rows;
+  const occupied = bitsOf('map.occupied', map.occupied, count);
+  const unknown = map.unknown === undefined ? undefined : bitsOf('map.unknown', map.unknown, count);
+  const description = { resolution: map.resolution, origin: map.origin, negate: 1 };
+  // What the machine checks it says of one cell as well.
+  machine.beginGrid(description, imageOf(1, new Uint8Array(1)));
+  yield 0;
   const fours = new Uint32Array(2 * Math.ceil(count / 8));
-  shade(fours, bitsOf('map.occupied', map.occupied, count), OCCUPIED);
-  if (map.unknown !== undefined) shade(fours, bitsOf('map.unknown', map.unknown, count), UNKNOWN);
-  const cells = new Uint8Array(fours.buffer);
-  const header = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED}\n`);
-  const image = new Uint8Array(header.length + count);
+  yield* shade(fours, occupied, OCCUPIED);
+  if (unknown) yield* shade(fours, unknown, UNKNOWN);
+  const image = imageOf(columns, new Uint8Array(fours.buffer, 0, count));
+  yield 0;
+  machine.beginGrid(description, image);
+}
+
+/**
+ * Shades as a PGM file.
+ *
+ * @param {number} columns
+ * @param {Uint8Array} cells row by row from the bottom
+ */
+function imageOf(columns, cells) {
+  const header = new TextEncoder().encode(`P5 ${columns} ${cells.length / columns} ${OCCUPIED}\n`);
+  const image = new Uint8Array(header.length + cells.length);
   image.set(header);
-  // Cells are counted from the bottom, and rows of an image from the top; negated, white is what is occupied.
-  for (let at = 0; at < count; at += columns) {
+  // Rows of an image are counted from the top; negated, white is what is occupied.
+  for (let at = 0; at < cells.length; at += columns) {
     image.set(cells.subarray(at, at + columns), image.length - columns - at);
   }
-  machine[put]({ resolution: map.resolution, origin: map.origin, negate: 1 }, image);
+  return image;
 }
 
 /**
@@ -113,11 +137,16 @@ function packBits(cells) {
  * @param {Uint32Array} fours of cells
  * @param {Uint8Array} bits
  * @param {number} shade
+ * @returns {Job}
  */
-function shade(fours, bits, shade) {
-  for (let i = 0; i < bits.length; i++) {
-    fours[2 * i] += FOURS[bits[i] >> 4] * shade;
-    fours[2 * i + 1] += FOURS[bits[i] & 15] * shade;
+function* shade(fours, bits, shade) {
+  for (let from = 0; from < bits.length; from += SHADED) {
+    const end = Math.min(from + SHADED, bits.length);
+    for (let i = from; i < end; i++) {
+      fours[2 * i] += FOURS[bits[i] >> 4] * shade;
+      fours[2 * i + 1] += FOURS[bits[i] & 15] * shade;
+    }
+    yield 0;
   }
 }
 

@@ -132,7 +132,7 @@ test('lines for Nav2: an α without an interval has no empty comment', () => {
   for (const verdict of ['few-legs', 'unrelated']) {
     const none = nav2Lines({ ...fitted, verdict, alphas: [0.1, 0.1, 0.1, 0.1], intervals: [null, null, null, null] }, en.nav2);
     assert.deepEqual(none.filter((line) => /^ *alpha/.test(line)), []);
-    assert.deepEqual(none.filter((line) => /alpha1/.test(line)), [`    # alpha1: ${en.nav2.undetermined}`]);
+    assert.deepEqual(none.filter((line) => /alpha1/.test(line)), [`    # alpha1: ${en.nav2.useless}`]);
   }
   // Nor is 0 a result, however it is written; inflated, the most of it is too.
   // Of a robot whose error is larger than its motion nobody would want the lines; that the reader inflates them is the reader's.
@@ -148,7 +148,7 @@ test('lines for Nav2: an α without an interval has no empty comment', () => {
   const corrected = nav2Lines({ ...fitted, alphas: [0.1], intervals: [null], systematic: {
     mountYaw: { value: 0.05, interval: [0.04, 0.06], removed: true }, turnScale: { value: 1.01, interval: [1, 1.02], removed: false },
   } }, en.nav2);
-  assert.ok(corrected.includes('    # of odometry that is corrected: mountYaw 0.050'));
+  assert.ok(corrected.includes('    # with these errors removed: mountYaw 0.050'));
 });
 
 test('legs of the simulated log are those that the settings open with', () => {

@@ -316,7 +316,7 @@ test('as text: a table of the α’s, what is systematic, the doubts, a verdict,
     assert.ok(Math.abs(Number(value) / alpha - 1) < 0.01, `${value} ${alpha}`);
     assert.match(out, new RegExp(`^alpha${i + 1}  +${value}  `, 'm'));
   }
-  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# of odometry that is corrected: clockOffset 0\.1\d+; [^\n]+\n {4}# Heavy tails: [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
+  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# with these errors removed: clockOffset 0\.1\d+; [^\n]+\n {4}# Heavy tails: [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
   for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out residuals inside of 95 % +\S+ % /m]) assert.match(out, line);
   const { out: byTable } = await said(['calibrate', ...FILES]);
   assert.match(byTable, /^the reference is taken to be exact; .* --position-deviation and --heading-deviation$/m);

@@ -117,7 +117,8 @@ export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, da
   ];
   const lines = alphas.map((alpha, i) => {
     const ends = /** @type {Interval} */ (intervals[i]?.map((end) => inflation * end) ?? null);
-    if (alpha === null || USELESS.includes(verdict)) return `# alpha${i + 1}: ${say.undetermined}`;
+    if (USELESS.includes(verdict)) return `# alpha${i + 1}: ${say.useless}`;
+    if (alpha === null) return `# alpha${i + 1}: ${say.undetermined}`;
     if (isZero(inflation * alpha, ends)) return `# alpha${i + 1}: ${say.zero(mostOf(ends))}`;
     const value = fixed(inflation * alpha, ends);
     return alpha > MOST ? `# alpha${i + 1}: ${value}, ${say.tooLarge}` : `alpha${i + 1}: ${value}${ends ? `  # ${between(ends)}` : ''}`;

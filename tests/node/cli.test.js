@@ -369,7 +369,7 @@ test('a log of ten seconds has no lines for Nav2 with values', async () => {
   });
   const { out } = await said(['calibrate', ...short]);
   assert.match(out, /^Too few legs to say whether the model is any good\. Drive on, or take shorter legs\.$/m);
-  assert.deepEqual(out.split('\n').filter((line) => /alpha[1-4]:/.test(line)), [1, 2, 3, 4].map((i) => `    # alpha${i}: not determined by this log`));
+  assert.deepEqual(out.split('\n').filter((line) => /alpha[1-4]:/.test(line)), [1, 2, 3, 4].map((i) => `    # alpha${i}: left out, for the reason above`));
 });
 
 test('the α’s by the length of legs are a table', async () => {

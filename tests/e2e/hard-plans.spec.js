@@ -438,7 +438,7 @@ const largest = (/** @type {string} */ occupied) => {
     for (let at = 0; at < bytes.length; at += 4096) text += String.fromCharCode(...bytes.subarray(at, at + 4096));
     return btoa(text);
   };
-  const rows = occupied === 'none' ? () => 0 : (/** @type {number} */ row) => (row % 2 ? 0xaa : 0x55);
+  const rows = occupied === 'none' ? () => 0 : (/** @type {number} */ row) => (row % 2 ? 0 : 0xaa);
   return { name: 'largest', columns: 4096, rows: 4096, resolution: 0.01, origin: [0, 0, 0], occupied: bits(rows), unknown: bits((row) => (row % 2 ? 0xff : 0)) };
 };
 
@@ -467,6 +467,25 @@ test('the largest grid comes in slices from a state and from its link', FRESH, a
   expect((await squeezed(opened)).bounds).toEqual([0, 0, 40.96, 40.96]);
 });
 
+test('what is wrong with the fields of a large grid is thrown at once, however long the rest would take', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  const thrown = await widget.evaluate((element, make) => {
+    const squeeze = /** @type {any} */ (element);
+    const map = eval(make)('none');
+    const wrong = [undefined, { ...map, rows: -1 }, { ...map, unknown: 'AAAA' }, { ...map, resolution: 'fine' }, { ...map, origin: [0, 0] }];
+    return wrong.map((each) => {
+      try {
+        squeeze.setState({ ...squeeze.getState(), map: each });
+      } catch (error) {
+        return /** @type {Error} */ (error).message.replace(/ is .*/s, '');
+      }
+    });
+  }, `(${largest})`);
+  expect(thrown).toEqual(['map', 'map.rows', 'map.unknown', 'resolution', 'origin has length 2; allowed']);
+  expect(await squeezed(widget)).toEqual(before);
+});
+
 test('a grid in a state whose cells have too many sides is refused by an event, and nothing has changed', async ({ page }) => {
   const widget = await openSqueeze(page);
   const before = await squeezed(widget);
@@ -477,7 +496,7 @@ test('a grid in a state whose cells have too many sides is refused by an event, 
       event.preventDefault();
       resolve(/** @type {ErrorEvent} */ (event).message);
     }));
-    squeeze.setState({ ...state, seed: state.seed + 1, map: eval(make)('checkered') });
+    squeeze.setState({ ...state, seed: state.seed + 1, map: eval(make)('dotted') });
     const told = await message;
     return { told, same: JSON.stringify(squeeze.getState()) === JSON.stringify(state) };
   }, `(${largest})`);

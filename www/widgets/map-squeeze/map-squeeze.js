@@ -81,7 +81,8 @@ export class MapSqueezeElement extends FigureElement {
 
   /** @type {FigureElement<Machine, Reading>['complete']} */
   *complete(machine, state) {
-    const { map = null } = state;
+    // Of the opening there is none to be put in.
+    const { map } = 'map' in state ? state : { map: null };
     if (map !== null) {
       yield* applyMap(machine, map);
       yield* advancing(machine);

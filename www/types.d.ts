@@ -24,11 +24,11 @@ export interface FigureState {
 /**
  * A map as plain data. A floor plan of walls from one point to another, or square cells row by row from the
  * bottom: base64 of a bit each, the first of eight highest, 1 where occupied, and likewise where unknown. Lengths in m,
- * yaw in rad.
+ * yaw in rad. That of an element is frozen: another one takes its place.
  */
 export type MapData =
-  | { name?: string; bounds: number[]; walls: number[][] }
-  | { name?: string; columns: number; rows: number; resolution: number; origin: number[]; occupied: string; unknown?: string };
+  | Readonly<{ name?: string; bounds: readonly number[]; walls: readonly (readonly number[])[] }>
+  | Readonly<{ name?: string; columns: number; rows: number; resolution: number; origin: readonly number[]; occupied: string; unknown?: string }>;
 
 /** What a robot's wheels said, and where it really was. */
 export interface CalibrationLog {

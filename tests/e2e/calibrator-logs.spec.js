@@ -202,6 +202,7 @@ test('while a log is fitted, whoever asks for the picture does not go on with it
 test('a page gives a log, which is in no state; one that is refused leaves the present one', async ({ page }) => {
   const widget = await openCalibrator(page);
   const before = await stateOf(widget);
+  const opened = await caption(widget).innerText();
   const [name, count, refused] = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.machine;
@@ -220,6 +221,24 @@ test('a page gives a log, which is in no state; one that is refused leaves the p
   expect(Number(count)).toBeGreaterThan(100);
   expect(refused).toMatch(/^odometry: sample 3 is not later than the one before/);
   expect(await stateOf(widget)).toEqual(before);
+  expect(opened).not.toContain('exact');
+  // Of what the log and the page state, the rest is taken to be exact.
+  for (const [positionDeviation, headingDeviation, stated, said] of /** @type {[number, number, object, string][]} */ ([
+    [0, 0, {}, 'page, with a reference taken to be exact.'],
+    [0.004, 0, {}, 'page, with headings of the reference taken to be exact.'],
+    [0, 0.003, {}, 'page, with positions of the reference taken to be exact.'],
+    [0.004, 0.003, {}, 'page.'],
+    [0, 0, { positionDeviation: 0.004 }, 'page, with headings of the reference taken to be exact.'],
+    [0, 0.003, { positionDeviation: 0.004 }, 'page.'],
+  ])) {
+    await widget.evaluate((element, [deviations, stated]) => {
+      const figure = /** @type {AlphaCalibratorElement} */ (element);
+      const { log } = figure;
+      if (log) figure.log = { ...log, reference: { ...log.reference, positionDeviation: undefined, ...stated } };
+      Object.assign(figure, deviations);
+    }, [{ positionDeviation, headingDeviation }, stated]);
+    await expect(caption(widget)).toHaveText(new RegExp(`^\\d+ legs of of the ${said.replaceAll('.', '\\.')}`));
+  }
 });
 
 test('a log without legs says so, and trouble with it is no failure', async ({ page }) => {

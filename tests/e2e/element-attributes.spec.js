@@ -492,7 +492,7 @@ test.describe('properties', () => {
       [squeeze, 'conditioned', 'toString', 'TypeError: conditioned is "toString"; allowed is true or false'],
       [banana, 'model', 'constructor', 'RangeError: model is "constructor"; allowed is "velocity" or "odometry"'],
       [squeeze, 'view', 'near', 'RangeError: view is "near"; allowed is "close" or "whole"'],
-      [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: bounds has length 3; allowed is an array of 4 numbers'],
+      [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: map.bounds has length 3; allowed is an array of 4 numbers'],
     ])) {
       const before = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));
       expect(await assign(widget, name, value)).toBe(message);

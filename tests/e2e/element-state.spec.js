@@ -62,7 +62,15 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['banana-machine', { isolateChoice: 7 }, 'RangeError: state.isolateChoice is 7; allowed is a whole number from 1 to 6'],
     ['map-squeeze', { sampler: 'guess' }, 'RangeError: sampler is "guess"; allowed is'],
     ['map-squeeze', { view: 1 }, 'TypeError: state.view is 1; allowed is "close" or "whole"'],
-    ['map-squeeze', { map: 'apartment' }, 'TypeError: map is "apartment"; allowed is an object'],
+    ['map-squeeze', { map: 'apartment' }, 'TypeError: map is "apartment"; allowed is a plan, an object of name, bounds, walls, or a grid, one of name, columns'],
+    ['map-squeeze', { map: [] }, 'TypeError: map is an array; allowed is a plan, an object of name, bounds, walls, or a grid'],
+    ['map-squeeze', { map: { bounds: [0, 0, 1, 1] } }, 'TypeError: map.walls is undefined; allowed is'],
+    ['map-squeeze', { map: { bounds: [0, 0, 1, 1], walls: [3] } }, 'TypeError: map.walls[0] is 3; allowed is'],
+    ['map-squeeze', { map: { bounds: [0, 0, 1, 1], walls: [], floor: 1 } }, 'TypeError: map.floor is an unknown key; allowed are name, bounds, walls'],
+    ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0] } }, 'TypeError: map.occupied is undefined; allowed is base64 of 1 bytes'],
+    ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], walls: [] } }, 'TypeError: map.walls is an unknown key; allowed are name, columns'],
+    ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 0, origin: [0, 0, 0], occupied: 'gA==' } }, 'RangeError: map.resolution is 0; allowed is'],
+    ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0], occupied: 'gA==' } }, 'RangeError: map.origin'],
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: 'gA==', unknown: 3 } }, 'TypeError: map.unknown is 3; allowed is base64 of 1 bytes'],
     ['map-squeeze', { unknown: 'maybe' }, 'RangeError: unknown is "maybe"; allowed is "free" or "blocked"'],
@@ -117,6 +125,45 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     }),
   );
   expect(ofOthers).toEqual(['function', 'bigint'].map((kind) => `RangeError: state.version is a ${kind}; allowed is 1`));
+});
+
+test('what a page does to a state that it was given changes nothing of the element', async ({ page }) => {
+  await show(page, ALL.map((name) => `<${name}></${name}>`).join(''));
+  for (const name of ALL) {
+    const widget = page.locator(name);
+    await widget.scrollIntoViewIfNeeded();
+    await ready(widget);
+    const changed = await widget.evaluate(async (element) => {
+      const figure = /** @type {AnyElement & { map: any }} */ (element);
+      if (figure.localName === 'map-squeeze') {
+        const arrived = new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
+        figure.map = { bounds: [0, 0, 2, 2], walls: [[0, 0, 2, 0], [0, 1, 0, 2]] };
+        await arrived;
+      }
+      let refused = 0;
+      /** @param {any} part */
+      const spoil = (part) => {
+        for (const [key, value] of Object.entries(part)) {
+          if (typeof value === 'object' && value !== null) spoil(value);
+          refused += Number(!Reflect.set(part, key, 'spoilt'));
+        }
+      };
+      const told = () => JSON.stringify(figure.getState());
+      const before = told();
+      spoil(figure.getState());
+      const after = told();
+      const parent = figure.parentNode;
+      figure.remove();
+      spoil(figure.getState());
+      const away = told();
+      parent?.append(figure);
+      return { before, after, away, refused };
+    });
+    expect(changed.before).not.toContain('spoilt');
+    expect([changed.after, changed.away]).toEqual([changed.before, changed.before]);
+    // A map may be large, and is frozen in the place of being copied.
+    expect(changed.refused > 0).toBe(name === 'map-squeeze');
+  }
 });
 
 test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {

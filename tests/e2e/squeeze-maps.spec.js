@@ -412,6 +412,39 @@ test('what goes wrong beyond the file is said too, and the present map stays', a
   expect({ ...(await squeezed(widget)), openPlace: before.openPlace }).toEqual(before);
 });
 
+test('a page gives a map: the same again changes nothing, and one that has less is another', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const told = await widget.evaluate(async (element, room) => {
+    const figure = /** @type {any} */ (element);
+    /** @param {any} map @returns {Promise<string>} what comes of it: the map that is there then, why there is none, or that it is as it was */
+    const given = (map) => {
+      const before = figure.map;
+      return new Promise((resolve) => {
+        figure.addEventListener('stats', () => resolve(JSON.stringify(Object.keys(figure.map))), { once: true });
+        figure.addEventListener('error', (/** @type {ErrorEvent} */ event) => {
+          event.preventDefault();
+          resolve(event.message);
+        }, { once: true });
+        figure.map = map;
+        // Nothing is on its way then.
+        if (figure.map === before && !figure.settings.next) resolve('as it was');
+      });
+    };
+    const empty = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0] };
+    const known = { ...empty, occupied: 'gA==' };
+    const grid = { ...known, unknown: 'AQ==' };
+    const all = [];
+    for (const map of [room, { ...room }, { ...room, name: 'room' }, room, { bounds: room.bounds }, {}, grid, { ...grid }, known, empty]) all.push(await given(map));
+    return all;
+  }, ROOM);
+  expect(told).toEqual([
+    '["name","bounds","walls"]', 'as it was', '["name","bounds","walls"]', '["name","bounds","walls"]',
+    expect.stringMatching(/^map\.walls is undefined; /), expect.stringMatching(/^map\.(bounds|walls) is undefined; /),
+    '["name","columns","rows","resolution","origin","occupied","unknown"]', 'as it was',
+    '["name","columns","rows","resolution","origin","occupied"]', expect.stringMatching(/^map\.occupied is undefined; /),
+  ]);
+});
+
 test('the map survives the element’s removal', async ({ page }) => {
   const widget = await openSqueeze(page);
   await choose(widget, [file('room.json', JSON.stringify(ROOM))]);

@@ -430,6 +430,11 @@ test.describe('judging', () => {
     await widget.getByLabel('Condition on the map').uncheck();
     const { throughWall } = (await squeezed(widget)).stats;
     await expect(status).toContainText(`Without the map all 600 motions are kept; ${throughWall} of them, `);
+    // What the page changes is the page's to say; what was said does not hold any more.
+    await widget.evaluate((element) => Object.assign(element, { conditioned: true }));
+    await expect(status).toBeEmpty();
+    await widget.evaluate((element) => Object.assign(element, { conditioned: false }));
+    await expect(status).toBeEmpty();
     await expect(canvas).toHaveAttribute('aria-label', new RegExp(`600 kept, as dots; ${throughWall} of those with a way that is not free, ringed\\.$`));
     // A density has no marks to name.
     await widget.getByLabel('Condition on the map').check();

@@ -320,6 +320,10 @@ test('as text: a table of the α’s, what is systematic, the doubts, a verdict,
   for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out residuals inside of 95 % +\S+ % /m]) assert.match(out, line);
   const { out: byTable } = await said(['calibrate', ...FILES]);
   assert.match(byTable, /^the reference is taken to be exact; .* --position-deviation and --heading-deviation$/m);
+  for (const [given, error, whose, missing] of [['position', '0.001 m', 'heading', 'heading'], ['heading', '0.001 rad', 'position', 'position']]) {
+    const { out: half } = await said(['calibrate', ...FILES, `--${given}-deviation`, '0.001']);
+    assert.match(half, new RegExp(`^the reference errs by ${error}, as stated; its ${whose} is taken to be exact; .*: state it by --${missing}-deviation$`, 'm'));
+  }
   const stated = [...FILES, '--position-deviation', '0.001', '--heading-deviation', '0.002'];
   assert.match((await said(['calibrate', ...stated])).out, /^the reference errs by 0\.001 m and 0\.002 rad, as stated$/m);
   assert.deepEqual(JSON.parse((await said(['calibrate', ...stated, '--json'])).out).deviations, { positionDeviation: 0.001, headingDeviation: 0.002 });

@@ -54,7 +54,7 @@ export function textOf({ calibration, fit, deviations, logs, start, date }) {
     ...aligned([['systematic', 'value', '95 %', ''], ...SYSTEMATIC.map((each) => systematicRow(each, systematic))]),
     '',
     ...aligned([['doubts', 'measured', 'if the model is true'], ...doubtRows(doubts), ['log-likelihood', `${short(logLikelihood, 6)} nats`, '']]),
-    ...(outliers === null || outliers === undefined ? [] : [`bad legs: ${short(100 * outliers)} %`]),
+    ...(outliers === null || outliers === undefined ? [] : [`bad legs: ${(100 * outliers).toFixed(1)} %`]),
     ...worstOf(doubts, legs, start),
     '',
     verdictOf(calibration),
@@ -66,9 +66,12 @@ export function textOf({ calibration, fit, deviations, logs, start, date }) {
 
 /** What the reference errs by is noise to whoever is not told. @param {Result['deviations']} stated */
 function exactnessOf({ positionDeviation = 0, headingDeviation = 0 }) {
-  return positionDeviation > 0 || headingDeviation > 0
-    ? `the reference errs by ${positionDeviation} m and ${headingDeviation} rad, as stated`
-    : 'the reference is taken to be exact; what it errs by passes for noise, of short legs most of all: state it by --position-deviation and --heading-deviation';
+  const errors = [...(positionDeviation ? [`${positionDeviation} m`] : []), ...(headingDeviation ? [`${headingDeviation} rad`] : [])];
+  const stated = errors.length ? `the reference errs by ${errors.join(' and ')}, as stated` : '';
+  if (errors.length === 2) return stated;
+  const exact = positionDeviation ? '; its heading is' : headingDeviation ? '; its position is' : 'the reference is';
+  const options = [...(positionDeviation ? [] : ['--position-deviation']), ...(headingDeviation ? [] : ['--heading-deviation'])];
+  return `${stated}${exact} taken to be exact; what it errs by passes for noise, of short legs most of all: state it by ${options.join(' and ')}`;
 }
 
 /** @param {Legs} legs */

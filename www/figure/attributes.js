@@ -128,17 +128,3 @@ function settingOf({ key, in: group, field = key, index, of, type }) {
     },
   };
 }
-
-/**
- * The error of a refused change, in the name by which it was asked for.
- *
- * @param {unknown} error
- * @param {string} name
- * @param {Setting} setting
- */
-export function renamed(error, name, { path }) {
-  if (path && error instanceof Error && error.message.startsWith(path)) {
-    error.message = name + error.message.slice(path.length);
-  }
-  return error;
-}

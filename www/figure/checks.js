@@ -10,6 +10,20 @@ export function refusal(field, value, allowed, Kind = RangeError) {
   return new Kind(`${field} is ${described(value)}; allowed is ${allowed}`);
 }
 
+/**
+ * The error of a refused change, in the name by which it was asked for.
+ *
+ * @param {unknown} error
+ * @param {string} name
+ * @param {string | undefined} path what it is called where it was refused, if not so
+ */
+export function renamed(error, name, path) {
+  if (path && error instanceof Error && error.message.startsWith(path)) {
+    error.message = name + error.message.slice(path.length);
+  }
+  return error;
+}
+
 /** @param {unknown} value */
 function described(value) {
   if (typeof value === 'string') return JSON.stringify(beginning(value));

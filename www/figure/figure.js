@@ -20,7 +20,7 @@ import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
 import { Settings, advancing } from './settings.js';
 import { Stage } from './stage.js';
-import { State } from './state.js';
+import { State, copyOf } from './state.js';
 import { surface } from './surface.js';
 import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
@@ -328,7 +328,7 @@ export class FigureElement extends LitElement {
    * @returns {Values | null}
    */
   getState() {
-    return this.ask(() => this.snapshot()) ?? this.state.kept ?? null;
+    return copyOf(this.ask(() => this.snapshot()) ?? this.state.kept ?? null);
   }
 
   /**

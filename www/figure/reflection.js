@@ -1,7 +1,7 @@
 /** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
 
-import { COMMON, groupsOf, isSetting, renamed } from './attributes.js';
-import { word } from './checks.js';
+import { COMMON, groupsOf, isSetting } from './attributes.js';
+import { renamed, word } from './checks.js';
 import { cloudProperties } from './cloud.js';
 import { Part } from './part.js';
 
@@ -96,7 +96,10 @@ export class Reflection extends Part {
     const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
     const taken = () => {
       const wanted = given ?? this.#usual(name);
-      if (!has(entry && isSetting(entry) ? entry.get(this.#present) : Reflect.get(this.host, name), wanted)) take(wanted);
+      const setting = entry && isSetting(entry) ? entry : undefined;
+      const present = setting ? setting.get(this.#present) : Reflect.get(this.host, name);
+      // A part of a setting's group leaves the others as they are; of the element's own a part is another whole.
+      if (!has(present, wanted) || (!setting && !has(wanted, present))) take(wanted);
     };
     if (this.host.machine) {
       this.host.runtime.tolerate(taken);
@@ -166,7 +169,7 @@ export class Reflection extends Part {
     try {
       this.host.settings.assign(setting.change(value, this.#present));
     } catch (error) {
-      throw renamed(error, name, setting);
+      throw renamed(error, name, setting.path);
     }
   }
 

@@ -43,14 +43,12 @@ export class State extends Part {
 
   /** The part that every widget's state has. @returns {Values} */
   get common() {
-    const own = Object.keys(this.own).map((name) => [name, this.copy(name)]);
-    return { widget: this.host.localName, version: VERSION, ...Object.fromEntries(own) };
+    return { widget: this.host.localName, version: VERSION, ...this.own };
   }
 
-  /** Something of the element's own, for the page: a list is a copy. @param {string} name */
+  /** Something of the element's own, for the page. @param {string} name */
   copy(name) {
-    const value = this.own[name];
-    return Array.isArray(value) ? [...value] : value;
+    return copyOf(this.own[name]);
   }
 
   keep() {
@@ -138,4 +136,17 @@ export class State extends Part {
     reflection.tell();
     stage.wake();
   }
+}
+
+/**
+ * Plain data, for whoever may change it; what is frozen nobody can.
+ *
+ * @template Data
+ * @param {Data} data
+ * @returns {Data}
+ */
+export function copyOf(data) {
+  if (typeof data !== 'object' || data === null || Object.isFrozen(data)) return data;
+  const copies = Object.entries(data).map(([key, part]) => [key, copyOf(part)]);
+  return /** @type {any} */ (Array.isArray(data) ? copies.map(([, copy]) => copy) : Object.fromEntries(copies));
 }

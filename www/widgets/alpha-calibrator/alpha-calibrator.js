@@ -29,6 +29,9 @@ import { captionOf, legText, longestCaption, wayText } from './words.js';
  * @import { Reading } from './reading.js'
  */
 
+/** What a reference errs by. */
+const DEVIATIONS = /** @type {const} */ (['positionDeviation', 'headingDeviation']);
+
 /**
  * The α's of a log, how well they are known, and whether the model is any good.
  *
@@ -185,11 +188,11 @@ export class AlphaCalibratorElement extends FigureElement {
     return this.#log ? this.#log.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
-  /** Whether nothing says what the reference of the reader's own log errs by. */
+  /** What of the reference of the reader's own log nothing says the error of. */
   get exact() {
-    const { positionDeviation, headingDeviation } = this.settings.told;
     const { reference } = this.#log ?? {};
-    return reference !== undefined && ![positionDeviation, headingDeviation, reference.positionDeviation, reference.headingDeviation].some(Boolean);
+    const [position, heading] = DEVIATIONS.map((key) => reference !== undefined && !this.settings.told[key] && !reference[key]);
+    return position && heading ? 'reference' : position ? 'position' : heading ? 'heading' : null;
   }
 
   get takeaway() {

@@ -31,7 +31,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   axisAhead: 'ahead (m)',
   axisLeft: 'left (m)',
   simulated: 'the simulated log',
-  present: (log, legs, exact) => `${of(legs, 'leg')} of ${log}${exact ? ', with a reference taken to be exact' : ''}.`,
+  present: (log, legs, exact) => `${of(legs, 'leg')} of ${log}${exact ? `, with ${exact} taken to be exact` : ''}.`,
+  exact: { reference: 'a reference', position: 'positions of the reference', heading: 'headings of the reference' },
   verdicts: {
     fits: (coverage) => `The model fits: of unseen residuals, ${coverage} are inside its 95 %.`,
     overconfident: (coverage) => `Overconfident: of unseen residuals, only ${coverage} are inside its 95 %. Inflate, or a filter gets lost.`,

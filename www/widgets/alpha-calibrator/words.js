@@ -8,6 +8,8 @@ import { en } from './en.js';
 /**
  * @import { LegView } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
+ *
+ * @typedef {'reference' | 'position' | 'heading' | null} Exact
  */
 
 addEnglish({ calibrator: en });
@@ -34,18 +36,18 @@ export function thousandths(highest) {
  *
  * @param {Reading} reading
  * @param {string} log its name
- * @param {boolean} exact whether its reference is taken to be so
+ * @param {Exact} exact what of its reference is taken to be so
  */
 export function captionOf({ stats: { doubts: { verdict, heldOut } }, legs }, log, exact) {
   const say = words.calibrator;
   if (legs.count === 0) return say.none;
-  return `${say.present(log, counted(legs.count), exact)} ${say.verdicts[verdict](percent(heldOut.coverage))}`;
+  return `${say.present(log, counted(legs.count), exact && say.exact[exact])} ${say.verdicts[verdict](percent(heldOut.coverage))}`;
 }
 
-/** The longest of these, to keep room for. @param {string} log @param {boolean} exact */
+/** The longest of these, to keep room for. @param {string} log @param {Exact} exact */
 export function longestCaption(log, exact) {
-  const { verdicts, present } = words.calibrator;
-  return `${present(log, counted(10_000), exact)} ${longest(Object.values(verdicts).map((verdict) => verdict(percent(0.999))))}`;
+  const { verdicts, present, exact: parts } = words.calibrator;
+  return `${present(log, counted(10_000), exact && parts[exact])} ${longest(Object.values(verdicts).map((verdict) => verdict(percent(0.999))))}`;
 }
 
 /**

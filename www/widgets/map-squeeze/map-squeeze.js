@@ -197,7 +197,8 @@ export class MapSqueezeElement extends FigureElement {
   set map(map) {
     // Not a file that the reader has opened meanwhile.
     if (!map && this.#given && this.#given === this.settings.next) this.settings.abandon();
-    this.reflection.give('map', map, (given) => {
+    const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
+    this.reflection.give('map', isNameless ? { ...map, name: '' } : map, (given) => {
       if (given === null) {
         this.#leave();
         this.#findRoom();

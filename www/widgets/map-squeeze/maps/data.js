@@ -1,6 +1,6 @@
 /** Maps as plain data: what a state holds of a map of the reader's own. */
 
-import { object, refusal, wholeNumber } from '../../../figure/checks.js';
+import { object, refusal, renamed, wholeNumber } from '../../../figure/checks.js';
 import { fromBase64, toBase64 } from '../../../figure/packing.js';
 import { limits } from '../../../settings.js';
 
@@ -9,8 +9,13 @@ import { limits } from '../../../settings.js';
  * @import { MapData, MapSqueeze } from '../../../types.d.ts'
  */
 
+const frozen = Object.freeze;
+
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
+
+/** What only a grid has tells that it is to be one. */
+const KEYS_OF_GRIDS_ALONE = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
 /** The most that the core takes. */
 const MAX_WALLS = 100_000;
@@ -31,7 +36,7 @@ const SHADED = 200_000;
 const GATHER = 0x08040201;
 
 /**
- * The map that a machine has.
+ * The map that a machine has, frozen: a page may look at what an element has, and changes that by another one.
  *
  * @param {MapSqueeze} machine
  * @param {string} name
@@ -41,13 +46,13 @@ const GATHER = 0x08040201;
 export function mapData(machine, name, grid = machine.grid) {
   if (grid) {
     const { columns, rows, resolution, origin, occupied, unknown } = grid;
-    const data = { name, columns, rows, resolution, origin: [...origin], occupied: packBits(occupied) };
-    return unknown.includes(1) ? { ...data, unknown: packBits(unknown) } : data;
+    const data = { name, columns, rows, resolution, origin: frozen([...origin]), occupied: packBits(occupied) };
+    return frozen(unknown.includes(1) ? { ...data, unknown: packBits(unknown) } : data);
   }
   const { bounds, walls } = machine.plan;
   const listed = [];
-  for (let i = 0; i < walls.length; i += 4) listed.push([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]);
-  return { name, bounds: [...bounds], walls: listed };
+  for (let i = 0; i < walls.length; i += 4) listed.push(frozen([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]));
+  return frozen({ name, bounds: frozen([...bounds]), walls: frozen(listed) });
 }
 
 /**
@@ -76,11 +81,14 @@ export function inOneList(walls) {
  * @throws {TypeError | RangeError} with the machine's present map left as it is
  */
 export function* applyMap(machine, data) {
-  const isGrid = typeof data === 'object' && data !== null && 'occupied' in data;
+  if (typeof data !== 'object' || data === null || Array.isArray(data)) {
+    throw refusal('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
+  }
+  const isGrid = KEYS_OF_GRIDS_ALONE.some((key) => key in data);
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    machine.setPlan({ bounds: map.bounds, walls: inOneList(map.walls) });
+    taken(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: inOneList(map.walls) }));
     return;
   }
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
@@ -90,7 +98,7 @@ export function* applyMap(machine, data) {
   const unknown = map.unknown === undefined ? undefined : bitsOf('map.unknown', map.unknown, count);
   const description = { resolution: map.resolution, origin: map.origin, negate: 1 };
   // What the machine checks it says of one cell as well.
-  machine.beginGrid(description, imageOf(1, new Uint8Array(1)));
+  taken(GRID_KEYS, () => machine.beginGrid(description, imageOf(1, new Uint8Array(1))));
   yield 0;
   const fours = new Uint32Array(2 * Math.ceil(count / 8));
   yield* shade(fours, occupied, OCCUPIED);
@@ -98,6 +106,22 @@ export function* applyMap(machine, data) {
   const image = imageOf(columns, new Uint8Array(fours.buffer, 0, count));
   yield 0;
   machine.beginGrid(description, image);
+}
+
+/**
+ * Lets the machine take fields of a map.
+ *
+ * @param {string[]} keys of the fields
+ * @param {() => void} take
+ * @throws {TypeError | RangeError} that names the field as one of the map's
+ */
+function taken(keys, take) {
+  try {
+    take();
+  } catch (error) {
+    const key = keys.find((each) => error instanceof Error && error.message.startsWith(each));
+    throw key === undefined ? error : renamed(error, `map.${key}`, key);
+  }
 }
 
 /**

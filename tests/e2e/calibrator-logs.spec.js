@@ -241,6 +241,30 @@ test('a page gives a log, which is in no state; one that is refused leaves the p
   }
 });
 
+test('of twenty thousand legs that are shorter than a pixel those are drawn that can be told apart', async ({ page }) => {
+  const widget = await openCalibrator(page, 'distance="0.01"');
+  const [legs, lines, characters] = await widget.evaluate(async (element) => {
+    const figure = /** @type {AlphaCalibratorElement} */ (element);
+    // Twenty times around a circle of ten metres, three centimetres a leg, with a wobble that the reference alone has.
+    const count = 40_000;
+    const of = (/** @type {(turned: number, i: number) => number} */ f) => Float64Array.from({ length: count }, (_, i) => f((40 * Math.PI * i) / count, i));
+    const wobble = (/** @type {number} */ i) => 1e-3 * Math.sin(i * i);
+    const [t, heading] = [of((_, i) => i / 50), of((turned) => turned + Math.PI / 2)];
+    const odometry = { t, x: of((turned) => 10 * Math.cos(turned)), y: of((turned) => 10 * Math.sin(turned)), theta: heading };
+    const settled = new Promise((resolve) => figure.addEventListener('stats', () => figure.log && resolve(undefined)));
+    figure.log = { odometry, reference: { t, x: of((turned, i) => 10 * Math.cos(turned) + wobble(i)), y: of((turned, i) => 10 * Math.sin(turned) + wobble(i + 1)), theta: heading } };
+    await settled;
+    const svg = /** @type {any} */ (figure).toSVG();
+    const { legs } = figure.machine;
+    return [legs.count, svg.match(/[ML]/g)?.length ?? 0, svg.length];
+  });
+  expect(legs).toBeGreaterThan(15_000);
+  // Some two thousand pixels of way, in each of four classes at most, and what the odometry has of it; two ends a line.
+  expect(lines).toBeLessThan(legs);
+  expect(lines).toBeGreaterThan(2000);
+  expect(characters).toBeLessThan(400_000);
+});
+
 test('a log without legs says so, and trouble with it is no failure', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {

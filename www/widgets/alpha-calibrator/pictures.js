@@ -23,6 +23,12 @@ const REACH = 16;
 /** Legs that are stroked at once: browsers take far longer for one path of many. */
 const LEGS_A_STROKE = 500;
 
+/** Of steps that are shorter one is drawn in each square of this side, CSS pixels: nobody sees the others, and they may be a hundred thousand. */
+const FINE = 1;
+
+/** A number for each square of that side. @param {number} x CSS pixels @param {number} y */
+const squareOf = (x, y) => Math.round(x / FINE) + 2 ** 26 * Math.round(y / FINE);
+
 /** Room for a key in two lines, CSS pixels. */
 const TWO_LINES = 42;
 
@@ -110,10 +116,15 @@ function drawReckoned({ context, view, palette }, { count, odometry, reference }
   const turn = reference[2] - odometry[2];
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
   context.beginPath();
+  let last = NaN;
   for (let leg = 0; leg < count; leg++) {
     const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
-    const [x, y] = [reference[0] + cos * dx - sin * dy, reference[1] + sin * dx + cos * dy];
-    context.lineTo(view.toPixelX(x), view.toPixelY(y));
+    const x = view.toPixelX(reference[0] + cos * dx - sin * dy);
+    const y = view.toPixelY(reference[1] + sin * dx + cos * dy);
+    const square = squareOf(x, y);
+    if (square === last) continue;
+    last = square;
+    context.lineTo(x, y);
   }
   context.strokeStyle = palette.prior;
   context.lineWidth = 1.25;
@@ -131,13 +142,22 @@ function drawReckoned({ context, view, palette }, { count, odometry, reference }
 function drawLegs({ context, view }, reference, are, { colour, width }) {
   context.strokeStyle = colour;
   context.lineWidth = width;
+  /** @type {Set<number>} */
+  const drawn = new Set();
   let begun = 0;
   for (let leg = 0; leg < reference.length / 6; leg++) {
     if (!are(leg)) continue;
-    if (begun === 0) context.beginPath();
     const at = 6 * leg;
-    context.moveTo(view.toPixelX(reference[at]), view.toPixelY(reference[at + 1]));
-    context.lineTo(view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4]));
+    const [x, y] = [view.toPixelX(reference[at]), view.toPixelY(reference[at + 1])];
+    const [toX, toY] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
+    if (Math.hypot(toX - x, toY - y) < FINE) {
+      const square = squareOf(toX, toY);
+      if (drawn.has(square)) continue;
+      drawn.add(square);
+    }
+    if (begun === 0) context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(toX, toY);
     begun = (begun + 1) % LEGS_A_STROKE;
     if (begun === 0) context.stroke();
   }

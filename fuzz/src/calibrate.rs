@@ -32,9 +32,12 @@ const MODELS: [Model; 5] = [
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let options = options(&mut input);
-    // Legs of other lengths take five calibrations.
-    let Options { by_length, .. } = options;
-    let options = Options { by_length: by_length && turn_of(8, bytes), ..options };
+    // Legs of other lengths take five calibrations, and searches among triangles and bad legs several times as long as of normal noise.
+    let Options { by_length, noise, robust, .. } = options;
+    let by_length = by_length && turn_of(16, bytes);
+    let noise = if turn_of(16, bytes) { noise } else { NoiseKind::Normal };
+    let robust = if turn_of(8, bytes) { robust } else { Robust::No };
+    let options = Options { by_length, noise, robust, ..options };
     let mut driven = driven(&mut input, if turn_of(128, bytes) { ROWS } else { FEW_ROWS });
     let mut seen = seen(&driven, &mut input);
     edit(&mut driven, &mut input);

@@ -1,7 +1,7 @@
 //! How well the α's are known if legs are not independent: by logs made of pieces of this one.
 
 use super::doubts::NORMAL_95;
-use super::profile::Fitted;
+use super::profile::{Estimate, Fitted};
 use super::trajectory::sort;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -81,6 +81,17 @@ impl Bootstrap {
         };
         Some(drawn.iter_mut().map(longer).collect())
     }
+}
+
+/// The intervals of an estimate, each about its α by so much longer.
+pub(super) fn stretched(estimate: &Estimate, longer: &[f64]) -> Vec<Option<[f64; 2]>> {
+    let stretched = |(alpha, longer): (usize, &f64)| {
+        let (best, [from, to]) = (estimate.alphas[alpha], estimate.intervals[alpha]?);
+        // What has no end has none if it is longer.
+        let end = if to.is_finite() { best + longer * (to - best) } else { to };
+        Some([(best - longer * (best - from)).max(0.0), end])
+    };
+    longer.iter().enumerate().map(stretched).collect()
 }
 
 /// The end of the 95 % interval of Student's t with so many degrees of freedom, by Cornish and Fisher's expansion: to a hundredth from

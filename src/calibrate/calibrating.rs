@@ -1,6 +1,7 @@
 //! From a log to parameters, one step after the other.
 
 use super::bad::Robust;
+use super::bootstrap::{Bootstrap, stretched};
 use super::calibration::{CalibrateError, Calibration, FEWEST, Options};
 use super::clock::{Alignment, KNOWN_TO};
 use super::judging::{Judge, Judging};
@@ -24,7 +25,7 @@ use nalgebra::Matrix2;
 ///    those errors removed, until they stay.
 /// 3. The α's are fitted with the errors removed that are to be.
 /// 4. Each α's interval; the bootstrap; a fit to the first half of the log; the doubts; inflation.
-/// 5. If asked for, legs of each other length, and the intervals of their α's.
+/// 5. If asked for, legs of each other length, the intervals of their α's, and the bootstrap.
 ///
 /// No step is longer than a few passes over the legs: what takes more comes in several.
 #[derive(Clone, Debug)]
@@ -41,6 +42,8 @@ pub struct Calibrating {
     /// Of the last round.
     known: [[f64; ERRORS]; ERRORS],
     removed: Systematic,
+    /// The same two by the legs of another length.
+    of_length: ([Option<f64>; ERRORS], [[f64; ERRORS]; ERRORS]),
     cutting: Option<Cutting>,
     legs: Vec<Leg>,
     observations: Vec<Observation>,
@@ -54,6 +57,8 @@ pub struct Calibrating {
     ends: Option<Ends>,
     intervals: Vec<Option<[f64; 2]>>,
     judging: Judging,
+    /// Of the next bootstrap of another length.
+    drawing: Option<Bootstrap>,
     /// Of the legs that were asked for, while those of other lengths are fitted.
     asked: Option<Calibration>,
     work: Work,
@@ -82,6 +87,7 @@ impl Calibrating {
             deviations: [None; ERRORS],
             known: [[0.0; ERRORS]; ERRORS],
             removed: Systematic::NONE,
+            of_length: ([None; ERRORS], [[0.0; ERRORS]; ERRORS]),
             cutting: None,
             legs: Vec::new(),
             observations: Vec::new(),
@@ -92,6 +98,7 @@ impl Calibrating {
             ends: None,
             intervals: Vec::new(),
             judging: Judging::default(),
+            drawing: None,
             asked: None,
             work,
         }
@@ -146,13 +153,14 @@ impl Calibrating {
                 self.systematic = self.begun;
                 Stage::Cut(Purpose::Round(0))
             }
-            Stage::Cut(Purpose::Length(place)) if place == FACTORS.len() => return Ok(self.asked.take()),
-            Stage::Cut(Purpose::Length(place)) if FACTORS[place] == ASKED => {
+            Stage::Cut(Purpose::Scatter(place)) if place == FACTORS.len() => return Ok(self.asked.take()),
+            Stage::Cut(Purpose::Scatter(place)) if FACTORS[place] == ASKED => {
                 if let Some(asked) = &mut self.asked {
                     let (legs, estimate) = (asked.legs.len(), Some(asked.estimate.clone()));
-                    asked.by_length.push(AtLength { factor: ASKED, legs, estimate });
+                    let bootstrap = asked.bootstrap.clone();
+                    asked.by_length.push(AtLength { factor: ASKED, legs, estimate, bootstrap });
                 }
-                Stage::Cut(Purpose::Length(place + 1))
+                Stage::Cut(Purpose::Scatter(place + 1))
             }
             Stage::Cut(purpose) => {
                 let Some(enough) = self.cut(odometry, reference, purpose) else { return Ok(None) };
@@ -161,9 +169,9 @@ impl Calibrating {
                 }
                 match purpose {
                     _ if enough => Stage::Observe(purpose),
-                    Purpose::Length(place) => {
+                    Purpose::Scatter(place) => {
                         self.tell(FACTORS[place], None);
-                        Stage::Cut(Purpose::Length(place + 1))
+                        Stage::Cut(Purpose::Scatter(place + 1))
                     }
                     _ => return Err(CalibrateError::FewLegs { legs: self.legs.len() }),
                 }
@@ -177,25 +185,34 @@ impl Calibrating {
             Stage::Fit(purpose) => {
                 // Bad legs are set aside in rounds even if the α's are to answer for them.
                 let robust = match (purpose, self.options.robust) {
-                    (Purpose::Round(_), Robust::No) => Robust::Estimated,
+                    (Purpose::Round(_) | Purpose::Scatter(_), Robust::No) => Robust::Estimated,
                     (_, robust) => robust,
                 };
                 if !self.search(robust) {
                     return Ok(None);
                 }
-                if let Purpose::Round(round) = purpose {
-                    Stage::Refine(round)
-                } else {
-                    Stage::Interval(purpose, 0)
+                match purpose {
+                    Purpose::Round(_) | Purpose::Scatter(_) => Stage::Refine(purpose),
+                    _ => Stage::Interval(purpose, 0),
                 }
             }
-            Stage::Refine(round) => {
-                let Some(stays) = self.refine() else { return Ok(None) };
-                if !stays && round + 1 < ROUNDS {
-                    Stage::Cut(Purpose::Round(round + 1))
+            Stage::Refine(purpose) => {
+                let Some(step) = self.refine(purpose) else { return Ok(None) };
+                if let Purpose::Scatter(place) = purpose {
+                    self.of_length = (step.deviations, step.inverse);
+                    self.forget();
+                    Stage::Observe(Purpose::Length(place))
                 } else {
-                    self.remove();
-                    Stage::Cut(Purpose::Alphas)
+                    let stays = self.improve(&step);
+                    match purpose {
+                        Purpose::Round(round) if !stays && round + 1 < ROUNDS => {
+                            Stage::Cut(Purpose::Round(round + 1))
+                        }
+                        _ => {
+                            self.remove();
+                            Stage::Cut(Purpose::Alphas)
+                        }
+                    }
                 }
             }
             Stage::Interval(purpose, alpha) => {
@@ -204,13 +221,24 @@ impl Calibrating {
                 }
                 match purpose {
                     _ if alpha + 1 < self.options.model.alphas() => Stage::Interval(purpose, alpha + 1),
-                    Purpose::Length(place) => {
-                        let (estimate, _) = self.estimate(&self.fitted());
-                        self.tell(FACTORS[place], Some(estimate));
-                        Stage::Cut(Purpose::Length(place + 1))
-                    }
+                    Purpose::Length(place) => Stage::Stretch(place),
                     _ => Stage::Judge,
                 }
+            }
+            Stage::Stretch(place) => {
+                let mut drawing = self.drawing.take();
+                let Options { model, seed, .. } = self.options;
+                let fitted = self.fitted();
+                let longer = drawing
+                    .get_or_insert_with(|| Bootstrap::new(&fitted, model.alphas(), seed))
+                    .step(&fitted);
+                let Some(longer) = longer else {
+                    self.drawing = drawing;
+                    return Ok(None);
+                };
+                let (estimate, _) = self.estimate(&fitted);
+                self.tell(FACTORS[place], Some((estimate, longer)));
+                Stage::Cut(Purpose::Scatter(place + 1))
             }
             Stage::Judge => {
                 let Some(calibration) = self.judge() else { return Ok(None) };
@@ -218,7 +246,7 @@ impl Calibrating {
                     return Ok(Some(calibration));
                 }
                 self.asked = Some(calibration);
-                Stage::Cut(Purpose::Length(0))
+                Stage::Cut(Purpose::Scatter(0))
             }
         };
         Ok(None)
@@ -231,10 +259,10 @@ impl Calibrating {
 
     /// Goes on with cutting; once that is done, whether there are legs enough.
     fn cut(&mut self, odometry: &Trajectory, reference: &Trajectory, purpose: Purpose) -> Option<bool> {
-        let Options { model, noise, legs: asked, .. } = self.options;
+        let asked = self.options.legs;
         self.legs.clear();
         let length = match purpose {
-            Purpose::Length(place) => asked.times(FACTORS[place]),
+            Purpose::Scatter(place) => asked.times(FACTORS[place]),
             _ => Some(asked),
         };
         let Some(length) = length else { return Some(false) };
@@ -247,9 +275,8 @@ impl Calibrating {
             return None;
         }
         self.legs = self.cutting.take().map_or_else(Vec::new, |cutting| cutting.legs);
-        self.observations.clear();
-        self.evidence = Evidence::none(model, noise, self.work.clone());
-        if let Purpose::Length(_) = purpose {
+        self.forget();
+        if let Purpose::Scatter(_) = purpose {
             let (all, kept) = (self.legs.len(), self.legs.len().min(MOST));
             (0..kept).for_each(|place| self.legs[place] = self.legs[place * all / kept]);
             self.legs.truncate(kept);
@@ -259,6 +286,13 @@ impl Calibrating {
         Some(self.legs.len() >= FEWEST)
     }
 
+    /// Forgets what the legs say: they are to be asked again.
+    fn forget(&mut self) {
+        let Options { model, noise, .. } = self.options;
+        self.observations.clear();
+        self.evidence = Evidence::none(model, noise, self.work.clone());
+    }
+
     /// Goes on with what the legs say; whether all have been asked.
     ///
     /// What is removed was fitted to the same residuals, each of which is told as the others would have it.
@@ -266,10 +300,12 @@ impl Calibrating {
         let Options { model, noise, reference_error, remove, .. } = self.options;
         let without = *self.without(purpose);
         let estimated = if let Purpose::Round(_) = purpose { [true; ERRORS] } else { remove };
-        let deviations = std::array::from_fn(|i| self.deviations[i].filter(|_| estimated[i]));
+        let (deviations, known) =
+            if let Purpose::Length(_) = purpose { self.of_length } else { (self.deviations, self.known) };
+        let deviations: [_; ERRORS] = std::array::from_fn(|i| deviations[i].filter(|_| estimated[i]));
         let clock = Error::ClockOffset as usize;
         // As long as no leg has told it, by how the turns did.
-        let unsure = if estimated[clock] { self.deviations[clock].unwrap_or(KNOWN_TO) } else { 0.0 };
+        let unsure = if estimated[clock] { deviations[clock].unwrap_or(KNOWN_TO) } else { 0.0 };
         let [place, heading] =
             [reference_error.position, reference_error.heading].map(|deviation| deviation * deviation);
         let from = self.observations.len();
@@ -290,11 +326,11 @@ impl Calibrating {
         };
         let mut observations: Vec<Observation> = legs.iter().map(observe).collect();
         let evidence = Evidence::new(model, noise, &observations);
-        // In the first round nothing was fitted to them yet, and legs of other lengths are not those to which it was.
+        // In the first round, and the first time of a length, nothing was fitted to them yet.
         if let Some((best, _)) = &self.best {
             let densities: Vec<LegDensity> = evidence.each(best, 0..legs.len()).collect();
             for ((leg, observation), density) in legs.iter().zip(&mut observations).zip(densities) {
-                let unknown = without.unknown(leg, observation, &self.known, &estimated);
+                let unknown = without.unknown(leg, observation, &known, &estimated);
                 observation.by_the_others(&unknown, model.weights(observation, &density));
             }
         }
@@ -304,11 +340,13 @@ impl Calibrating {
         until == self.legs.len()
     }
 
-    /// What the legs of another length say.
-    fn tell(&mut self, factor: f64, estimate: Option<Estimate>) {
+    /// What the legs of another length say: their estimate, and by how much longer its intervals are.
+    fn tell(&mut self, factor: f64, told: Option<(Estimate, Vec<f64>)>) {
         let legs = self.legs.len();
+        let bootstrap = told.as_ref().map_or_else(Vec::new, |(estimate, longer)| stretched(estimate, longer));
+        let estimate = told.map(|(estimate, _)| estimate);
         if let Some(asked) = &mut self.asked {
-            asked.by_length.push(AtLength { factor, legs, estimate });
+            asked.by_length.push(AtLength { factor, legs, estimate, bootstrap });
         }
     }
 
@@ -336,8 +374,8 @@ impl Calibrating {
         }
     }
 
-    /// Goes on with the systematic errors to where they are a step better; whether they are as they were.
-    fn refine(&mut self) -> Option<bool> {
+    /// Goes on with the step to better systematic errors.
+    fn refine(&mut self, purpose: Purpose) -> Option<Step> {
         let model = self.options.model;
         let (mut squares, from) = self.squares.take().unwrap_or((LeastSquares::after(self.known), 0));
         let until = self.legs.len().min(from + LEGS);
@@ -345,14 +383,18 @@ impl Calibrating {
         let densities = self.evidence.each(&best, from..until);
         let legs = self.legs[from..until].iter().zip(&self.observations[from..until]);
         for ((leg, observation), density) in legs.zip(densities) {
-            squares.add(&self.systematic, leg, observation, model.weights(observation, &density));
+            squares.add(self.without(purpose), leg, observation, model.weights(observation, &density));
         }
         self.work.add(ARCS * (until - from));
         if until < self.legs.len() {
             self.squares = Some((squares, until));
             return None;
         }
-        let Step { change, deviations, inverse } = squares.step();
+        Some(squares.step())
+    }
+
+    /// Takes a step; whether the systematic errors are as they were.
+    fn improve(&mut self, &Step { change, deviations, inverse }: &Step) -> bool {
         (self.deviations, self.known) = (deviations, inverse);
         let mut stays = true;
         for (i, error) in Error::ALL.into_iter().enumerate() {
@@ -367,7 +409,7 @@ impl Calibrating {
             self.systematic.mount_yaw = wrap_angle(self.systematic.mount_yaw);
             stays &= change.abs() <= STAYS * deviation;
         }
-        Some(stays)
+        stays
     }
 
     /// Sets what is to be removed.
@@ -400,13 +442,7 @@ impl Calibrating {
             return None;
         }
         let (estimate, undetermined) = self.estimate(&self.fitted());
-        let stretched = |(alpha, longer): (usize, &f64)| {
-            let (best, [from, to]) = (estimate.alphas[alpha], estimate.intervals[alpha]?);
-            // What has no end has none if it is longer.
-            let end = if to.is_finite() { best + longer * (to - best) } else { to };
-            Some([(best - longer * (best - from)).max(0.0), end])
-        };
-        let bootstrap = judging.longer?.iter().enumerate().map(stretched).collect();
+        let bootstrap = stretched(&estimate, &judging.longer?);
         Some(Calibration {
             estimate,
             undetermined,

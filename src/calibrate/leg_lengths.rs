@@ -26,6 +26,8 @@ pub struct AtLength {
     /// None where they are fewer than [`super::FEWEST`], most of them shorter than four rows of the log, or such that turns of more
     /// than half a circle are lost.
     pub estimate: Option<Estimate>,
+    /// As that of [`super::Calibration`]: where a few legs are far out and decide, these say so. Empty without an estimate.
+    pub bootstrap: Vec<Option<[f64; 2]>>,
 }
 
 /// So many legs tell an α to a hundredth, and do not take longer than those that were asked for.

@@ -12,7 +12,10 @@ pub(super) enum Purpose {
     Round(usize),
     /// For the α's, without the errors that are to be removed.
     Alphas,
-    /// For the α's of the length at this place among [`FACTORS`].
+    /// For how far the errors that are removed may be off by the legs of the length at this place among [`FACTORS`]: what is not known of
+    /// them a leg that hardly leads anywhere shows most, and it would decide on the α's.
+    Scatter(usize),
+    /// For the α's of that length.
     Length(usize),
 }
 
@@ -22,9 +25,11 @@ pub(super) enum Stage {
     Cut(Purpose),
     Observe(Purpose),
     Fit(Purpose),
-    Refine(usize),
+    Refine(Purpose),
     /// Of the α at this place.
     Interval(Purpose, usize),
+    /// The bootstrap of legs of the length at this place.
+    Stretch(usize),
     Judge,
 }
 
@@ -34,16 +39,18 @@ impl Stage {
         let before = |purpose: Purpose| match purpose {
             Purpose::Round(round) => 1 + round,
             Purpose::Alphas => ROUNDS + 1,
-            Purpose::Length(place) => ROUNDS + 3 + alphas + place * (2 + alphas),
+            Purpose::Scatter(place) => ROUNDS + 3 + alphas + place * (5 + alphas),
+            Purpose::Length(place) => ROUNDS + 5 + alphas + place * (5 + alphas),
         };
         match self {
             Self::Align => 0,
             Self::Cut(purpose) | Self::Observe(purpose) => before(purpose),
-            Self::Fit(purpose @ Purpose::Length(_)) => before(purpose) + 1,
-            Self::Fit(purpose) => before(purpose),
-            Self::Refine(round) => before(Purpose::Round(round)),
+            Self::Fit(purpose @ (Purpose::Scatter(_) | Purpose::Length(_))) => before(purpose) + 1,
+            Self::Refine(purpose @ Purpose::Scatter(_)) => before(purpose) + 1,
+            Self::Fit(purpose) | Self::Refine(purpose) => before(purpose),
             Self::Interval(purpose @ Purpose::Length(_), alpha) => before(purpose) + 2 + alpha,
             Self::Interval(purpose, alpha) => before(purpose) + 1 + alpha,
+            Self::Stretch(place) => before(Purpose::Length(place)) + 2 + alphas,
             Self::Judge => before(Purpose::Alphas) + 1 + alphas,
         }
     }
@@ -52,5 +59,5 @@ impl Stage {
 /// How many parts there are in all.
 pub(super) fn parts(alphas: usize, by_length: bool) -> usize {
     let asked = ROUNDS + 3 + alphas;
-    if by_length { asked + FACTORS.len() * (2 + alphas) + 1 } else { asked }
+    if by_length { asked + FACTORS.len() * (5 + alphas) + 1 } else { asked }
 }

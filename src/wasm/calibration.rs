@@ -94,6 +94,8 @@ export interface AlphasAtLength {
    */
   alphas: (number | null)[];
   intervals: (Interval | null)[];
+  /** 95 % too, not taking legs for independent: much longer where a few legs that are far out decide. */
+  bootstrap: (Interval | null)[];
 }
 
 /** Legs, one after the other in each array. */
@@ -179,13 +181,16 @@ fn undetermined_word(reason: Option<Undetermined>) -> JsValue {
 /// Without an estimate none of the α's is told.
 fn at_length_to_js(at: &AtLength, count: usize) -> Result<JsValue, JsValue> {
     let (none, unknown) = (vec![f64::NAN; count], vec![None; count]);
-    let (told, their) =
-        at.estimate.as_ref().map_or((&none, &unknown), |told| (&told.alphas, &told.intervals));
+    let (told, their, stretched) = at
+        .estimate
+        .as_ref()
+        .map_or((&none, &unknown, &unknown), |told| (&told.alphas, &told.intervals, &at.bootstrap));
     object(&[
         ("factor", at.factor.into()),
         ("legs", (at.legs as f64).into()),
         ("alphas", alphas(told)),
         ("intervals", intervals(their)?),
+        ("bootstrap", intervals(stretched)?),
     ])
 }
 

@@ -34,9 +34,10 @@ fn bits(told: &Calibration) -> String {
     numbers.extend(told.doubts.kinds.iter().flat_map(|kind| [kind.kurtosis, kind.autocorrelation]));
     numbers.extend(&told.inflation.log_likelihood);
     numbers.extend(told.judged.iter().map(|leg| leg.squared_error));
-    for at in told.by_length.iter().filter_map(|at| at.estimate.as_ref()) {
+    for (at, bootstrap) in told.by_length.iter().filter_map(|at| Some((at.estimate.as_ref()?, &at.bootstrap)))
+    {
         numbers.extend(&at.alphas);
-        numbers.extend(at.intervals.iter().flatten().flatten());
+        numbers.extend(at.intervals.iter().chain(bootstrap).flatten().flatten());
     }
     numbers.retain(|number| !number.is_nan());
     numbers.iter().fold(String::new(), |mut text, number| {

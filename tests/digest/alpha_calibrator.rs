@@ -126,11 +126,12 @@ fn legs(calibration: &Calibration) -> Values {
     ])
 }
 
-/// A list of four.
-fn at_length(AtLength { factor, legs, estimate }: &AtLength, count: usize) -> Values {
+/// A list of five.
+fn at_length(AtLength { factor, legs, estimate, bootstrap }: &AtLength, count: usize) -> Values {
     let alphas = estimate.as_ref().map_or_else(|| vec![f64::NAN; count], |told| told.alphas.clone());
     let intervals = estimate.as_ref().map_or_else(|| vec![None; count], |told| told.intervals.clone());
-    Values::of(&[&4usize, factor, legs, &alphas, &intervals])
+    let stretched = if bootstrap.is_empty() { vec![None; count] } else { bootstrap.clone() };
+    Values::of(&[&5usize, factor, legs, &alphas, &intervals, &stretched])
 }
 
 fn truth(truth: &Truth) -> Values {

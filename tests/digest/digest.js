@@ -133,7 +133,7 @@ export const widgets = {
         worst,
       },
       inflation,
-      byLength: byLength.map(({ factor, legs: count, ...told }) => [factor, count, told.alphas, told.intervals]),
+      byLength: byLength.map(({ factor, legs: count, ...told }) => [factor, count, told.alphas, told.intervals, told.bootstrap]),
       legs,
       truth,
       panels: ['turn', 'way'].map((driver) => machine.panels(/** @type {'turn' | 'way'} */ (driver))),

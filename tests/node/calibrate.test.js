@@ -24,7 +24,7 @@ function bits({ alphas, intervals, bootstrap, logLikelihood, doubts, inflation, 
   const numbers = [
     ...alphas, ...intervals.flat(), ...bootstrap.flat(), logLikelihood, doubts.heldOut.coverage, doubts.squaredError.mean,
     ...doubts.kinds.flatMap(({ kurtosis, autocorrelation }) => [kurtosis, autocorrelation]),
-    ...inflation.logLikelihood, ...legs.squaredError, ...byLength.flatMap((at) => [...at.alphas, ...at.intervals.flat()]),
+    ...inflation.logLikelihood, ...legs.squaredError, ...byLength.flatMap((at) => [...at.alphas, ...at.intervals.flat(), ...at.bootstrap.flat()]),
   ].filter((number) => number !== null && !Number.isNaN(number));
   const view = new DataView(new ArrayBuffer(8));
   return numbers.map((number) => {
@@ -100,14 +100,14 @@ test('an α that the log does not determine is null', () => {
 });
 
 test('by the length of legs: the α’s of all others beside those of the legs asked for', () => {
-  const { alphas, intervals, legs, byLength, ...rest } = motion.calibrate({ odometry, reference, byLength: true });
+  const { alphas, intervals, bootstrap, legs, byLength, ...rest } = motion.calibrate({ odometry, reference, byLength: true });
   assert.deepEqual(byLength.map(({ factor }) => factor), [0.25, 0.5, 1, 2, 4]);
-  assert.deepEqual(byLength[2], { factor: 1, legs: legs.count, alphas, intervals });
+  assert.deepEqual(byLength[2], { factor: 1, legs: legs.count, alphas, intervals, bootstrap });
   // Longer legs are fewer, and tell less.
   for (const [i, at] of byLength.slice(2).entries()) {
     if (i > 0) assert.ok(at.legs < byLength[i + 1].legs && at.alphas.every((alpha, k) => alpha === null || at.intervals[k]));
   }
-  assert.deepEqual({ ...motion.calibrate({ odometry, reference }), byLength: [] }, { alphas, intervals, legs, byLength: [], ...rest });
+  assert.deepEqual({ ...motion.calibrate({ odometry, reference }), byLength: [] }, { alphas, intervals, bootstrap, legs, byLength: [], ...rest });
   assert.deepEqual(motion.calibrate({ odometry, reference, byLength: false }).byLength, []);
   // The log has 0.05 m from row to row at most: of legs a quarter as long most are shorter than four.
   const [shortest] = motion.calibrate({ odometry, reference, legs: { distance: 0.1, angle: 0.1 }, byLength: true }).byLength;

@@ -108,6 +108,7 @@ for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
   [['calibrate', ...FILES, '--duration', '1', '--angle', '1'], /^--duration is 1 beside --distance or --angle; expected is either the one or the others\.$/],
   [['calibrate', ...FILES, '--without', 'yaw'], /^--without has “yaw”; expected are names of clockOffset, mountYaw, leverArm, distanceScale, turnScale\.$/],
   [['calibrate', ...FILES, '--frames', 'map'], /^--frames is “map”; expected are a parent and a child, as in map,base_link\.$/],
+  [['calibrate', ...FILES, '--frames', 'map,base_link'], /^reference\.csv is no recording and has no frames map and base_link; expected is an MCAP file\.$/],
   [['calibrate', ...FILES, '--odom-topic', '/odom'], /^odometry\.csv is no recording and has no topic \/odom; expected is an MCAP file\.$/],
   [['calibrate', ...FILES.slice(0, 2), '--reference', 'none.csv'], /^none\.csv: the file cannot be read \(ENOENT\); expected is one that is still there\.$/],
   [['calibrate', ...FILES.slice(0, 2), '--reference', tmpdir()], /^.*: the file cannot be read \(no file\); expected is one that is still there\.$/],
@@ -355,7 +356,8 @@ test('each reason why an α is not determined has a sentence, and advice that fi
 test('an α that is not told from 0 is no result of 0: at most so much, and what to drive', async () => {
   const motion = /** @type {any} */ (await load());
   const told = motion.calibrate({ ...(await askedOf(FILES)), byLength: true });
-  const zero = (/** @type {any} */ at) => ({ ...at, alphas: [at.alphas[0], 0, at.alphas[2], 1e-9], intervals: [at.intervals[0], [0, 0.00123], at.intervals[2], [0, 0.0021]] });
+  const zeros = (/** @type {any} */ [first, , third]) => [first, [0, 0.00123], third, [0, 0.0021]];
+  const zero = (/** @type {any} */ at) => ({ ...at, alphas: [at.alphas[0], 0, at.alphas[2], 1e-9], intervals: zeros(at.intervals), bootstrap: zeros(at.bootstrap) });
   const calibrate = () => ({ ...zero(told), byLength: told.byLength.map(zero) });
   const { out } = await said(['calibrate', ...FILES], async () => ({ calibrate }));
   assert.match(out, /^alpha2 +≤ 0\.0012 +0\.0000 to 0\.0012 /m);
@@ -364,6 +366,11 @@ test('an α that is not told from 0 is no result of 0: at most so much, and what
   assert.match(out, /^alpha2( +≤ 0\.0012){5}$/m);
   assert.match(out, /^ {4}# alpha2: not told from 0 by this log, 0\.0012 at most$/m);
   assert.doesNotMatch(out, /alpha\d:? +0(\.0*)?( |$)/m);
+});
+
+test('lines for Nav2 have doubles, as its parameters are', async () => {
+  const { out } = await said(['calibrate', ...FILES, '--rule', 'nav2', '--distance', '1', '--angle', '1']);
+  assert.match(out, /^ {4}update_min_d: 1\.0\n {4}update_min_a: 1\.0$/m);
 });
 
 test('a log of ten seconds has no lines for Nav2 with values', async () => {
@@ -381,15 +388,15 @@ test('the α’s by the length of legs are a table', async () => {
   const { out } = await said(['calibrate', ...FILES]);
   assert.match(out, /^by length +0\.0625 m, 0\.05 rad +0\.125 m, 0\.1 rad +0\.25 m, 0\.2 rad +0\.5 m, 0\.4 rad +1 m, 0\.8 rad\n/m);
   const table = out.slice(out.indexOf('by length')).split('\n').map((line) => line.trim().split(/ {2,}/));
-  assert.deepEqual(table[1], byLength.map((/** @type {any} */ { legs }) => `${legs} legs`));
+  assert.deepEqual(table[1], ['95 % by bootstrap', ...byLength.map((/** @type {any} */ { legs }) => `${legs} legs`)]);
   for (const [k, row] of [2, 4, 6, 8].entries()) {
     assert.equal(table[row][0], `alpha${k + 1}`);
-    for (const [i, { alphas, intervals }] of byLength.entries()) {
+    for (const [i, { alphas, bootstrap }] of byLength.entries()) {
       if (alphas[k] === null) {
         assert.equal(table[row][1 + i], '–');
         continue;
       }
-      assert.ok(Math.abs(Number(table[row][1 + i]) - alphas[k]) <= 0.05 * (intervals[k][1] - intervals[k][0]), `${table[row][1 + i]} ${alphas[k]}`);
+      assert.ok(Math.abs(Number(table[row][1 + i]) - alphas[k]) <= 0.05 * (bootstrap[k][1] - bootstrap[k][0]), `${table[row][1 + i]} ${alphas[k]}`);
     }
   }
   const lasting = await said(['calibrate', ...FILES, '--duration', '1']);

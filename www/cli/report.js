@@ -101,7 +101,7 @@ function undeterminedOf({ alphas, intervals, undetermined }, model) {
 const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${mostOf(interval)}` : fixed(alpha, interval));
 
 /**
- * A table of the α's by the length of legs, of each its value and its interval.
+ * A table of the α's by the length of legs, of each its value and its interval by the bootstrap: that knows if few legs decide.
  *
  * @param {any} calibration
  * @param {Legs} legs
@@ -115,10 +115,10 @@ function byLengthOf({ alphas, byLength }, legs) {
   });
   const counts = byLength.map((/** @type {any} */ at) => `${at.legs} legs`);
   const rows = alphas.flatMap((/** @type {unknown} */ _, /** @type {number} */ i) => [
-    [`alpha${i + 1}`, ...byLength.map((/** @type {any} */ at) => toldOf(at.alphas[i], at.intervals[i]))],
-    ['', ...byLength.map((/** @type {any} */ at) => between(at.intervals[i]))],
+    [`alpha${i + 1}`, ...byLength.map((/** @type {any} */ at) => toldOf(at.alphas[i], at.bootstrap[i]))],
+    ['', ...byLength.map((/** @type {any} */ at) => between(at.bootstrap[i]))],
   ]);
-  return [...aligned([['by length', ...lengths], ['', ...counts], ...rows]), ''];
+  return [...aligned([['by length', ...lengths], ['95 % by bootstrap', ...counts], ...rows]), ''];
 }
 
 /** @param {[string, string, string]} about @param {any} systematic @returns {string[]} */

@@ -105,6 +105,7 @@ function readOne(part, role, asked) {
   return withSource(part.path, async (source) => {
     if (source.size === 0 || !(await isRecording(source))) {
       if (part.topic !== undefined) throw new UsageError(`${source.name} is no recording and has no topic ${cut(part.topic)}; expected is an MCAP file.`);
+      if (part.frames) throw new UsageError(`${source.name} is no recording and has no frames ${cut(part.frames.parent)} and ${cut(part.frames.child)}; expected is an MCAP file.`);
       if (asked.odometry.path === asked.reference.path) throw new UsageError(`${source.name} is both odometry and reference; expected are two tables, or an MCAP file.`);
       return readLog(source, { kind: kindOf(role, asked) });
     }

@@ -84,10 +84,15 @@ impl Settings {
         }
     }
 
-    /// Whether rollouts under these settings are those under others, however many there are and whatever is looked at.
+    /// Whether rollouts under these settings are those under others, to the last bit, however many there are and whatever is looked at.
     pub(super) fn drives_as(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
-        Self { step, compounding, samples, ..*self } == *other
+        // A zero that is negative equals one that is not, and leads to other zeros.
+        let signs = |of: &Self| {
+            let VelocityCmd { v, omega, dt } = of.command;
+            ([v, omega, dt].map(f64::is_sign_negative), of.alphas.map(f64::is_sign_negative))
+        };
+        Self { step, compounding, samples, ..*self } == *other && signs(self) == signs(other)
     }
 }
 

@@ -39,7 +39,7 @@ function lengthPlot(config, byLength, index) {
   const driver = driverOf(config.model, index);
   const lasts = config.duration > 0;
   const asked = lasts ? config.duration : driver === 'turn' ? config.angle : config.distance;
-  const told = byLength.map(({ factor, alphas, intervals }) => ({ x: factor * asked, y: alphas[index] ?? NaN, ends: intervals[index] }));
+  const told = byLength.map(({ factor, alphas, bootstrap }) => ({ x: factor * asked, y: alphas[index] ?? NaN, ends: bootstrap[index] }));
   const there = told.flatMap(({ y, ends }) => [y, ...(ends ?? [])]).filter((value) => value > 0 && value < Infinity).map(Math.log10);
   const to = there.length ? Math.ceil(Math.max(...there)) : 0;
   // An interval from 0 has no end on such an axis, and one that is nearly so leaves it.

@@ -49,6 +49,9 @@ export const short = (value, digits = DIGITS) => (value !== null && Number.isFin
 /** To readers of YAML 1.1 a number with an exponent is a text unless it has a point. @param {string} number */
 const pointed = (number) => number.replace(/^(-?\d)e/, '$1.0e');
 
+/** As Nav2 takes it: its parameters are doubles, and it refuses whole numbers. @param {string} number */
+const double = (number) => (number.includes('.') ? number : `${number}.0`);
+
 /** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
 export function fixed(value, interval) {
   const width = interval ? interval[1] - interval[0] : 0;
@@ -121,12 +124,12 @@ export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, da
     if (alpha === null) return `# alpha${i + 1}: ${say.undetermined}`;
     if (isZero(inflation * alpha, ends)) return `# alpha${i + 1}: ${say.zero(mostOf(ends))}`;
     const value = fixed(inflation * alpha, ends);
-    return alpha > MOST ? `# alpha${i + 1}: ${value}, ${say.tooLarge}` : `alpha${i + 1}: ${value}${ends ? `  # ${between(ends)}` : ''}`;
+    return alpha > MOST ? `# alpha${i + 1}: ${value}, ${say.tooLarge}` : `alpha${i + 1}: ${double(value)}${ends ? `  # ${between(ends)}` : ''}`;
   });
   // A name may have lines of its own, which would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifth = alphas.length < 5 ? [`# ${say.fifth}`] : [];
-  const triggers = duration === undefined ? [`update_min_d: ${short(distance ?? null)}`, `update_min_a: ${short(angle ?? null)}`] : [];
+  const triggers = duration === undefined ? [`update_min_d: ${double(short(distance ?? null))}`, `update_min_a: ${double(short(angle ?? null))}`] : [];
   const all = [...comments, `robot_model_type: "${NAV2[model]}"`, ...lines, ...fifth, ...triggers];
   return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
 }

@@ -265,6 +265,26 @@ test('of twenty thousand legs that are shorter than a pixel those are drawn that
   expect(characters).toBeLessThan(400_000);
 });
 
+for (const [what, driven] of /** @type {[string, (at: number) => number[]][]} */ ([
+  ['never turns', (at) => [at, 0, 0]],
+  // A reference in no need of a calibration, but for its clock: the noise of its turns is 10³⁰ times as large as that of its way.
+  ['is exact to rounding', (at) => [Math.sin(at), 1 - Math.cos(at), at]],
+])) test(`of a log that ${what} every figure has room, and no picture a number that is none`, async ({ page }) => {
+  const messages = /** @type {string[]} */ ([]);
+  page.on('console', (message) => messages.push(message.text()));
+  const widget = await openCalibrator(page, 'robust="false"');
+  const [t, all] = [Array.from({ length: 4000 }, (_, i) => i / 20), (/** @type {number} */ late) => Array.from({ length: 4000 }, (_, i) => driven((i / 20 - late) * (0.3 + 0.1 * Math.sin(i / 300))))];
+  const poses = (/** @type {number} */ late) => ({ t, ...Object.fromEntries(['x', 'y', 'theta'].map((name, k) => [name, all(late).map((pose) => pose[k])])) });
+  await widget.evaluate((element, log) => Object.assign(element, { log }), { name: what, odometry: poses(0), reference: poses(0.123) });
+  await expect(caption(widget)).toContainText(`legs of ${what}`);
+  for (const name of ['Why these', 'Doubts', 'Inflate']) await fold(widget, name).locator('summary').click();
+  await settled(widget);
+  const texts = await widget.locator('svg.plot text, td').allTextContents();
+  expect(texts.length).toBeGreaterThan(30);
+  expect(texts.filter((text) => /\d{8}/.test(text))).toEqual([]);
+  expect(messages).toEqual([]);
+});
+
 test('a log without legs says so, and trouble with it is no failure', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {

@@ -105,6 +105,8 @@ test('an axis has two ends whatever is of a curve', () => {
     [[-Infinity, 1, 2], 1, 2.5],
     [[-Infinity, -Infinity], 0, 0.5],
     [[NaN], 0, 0.5],
+    // A half more is no more there.
+    [[-1.1e38, -1.2e38], 0, 0.5],
   ])) assert.deepEqual(axisOf(values, 6), { from, to });
 });
 

@@ -399,8 +399,11 @@ test('the α’s by the length of legs are a table', async () => {
       assert.ok(Math.abs(Number(table[row][1 + i]) - alphas[k]) <= 0.05 * (bootstrap[k][1] - bootstrap[k][0]), `${table[row][1 + i]} ${alphas[k]}`);
     }
   }
+  // The shortest legs are of three rows.
+  assert.match(out, /^–: too few legs, most of them shorter than four rows of a log, or turns of more than half a circle\n\n/m);
   const lasting = await said(['calibrate', ...FILES, '--duration', '1']);
   assert.match(lasting.out, /^by length +0\.25 s +0\.5 s +1 s +2 s +4 s\n/m);
+  assert.doesNotMatch(lasting.out, /^–: /m);
 });
 
 test('by the omnidirectional rule five α’s, and one table is no two logs', async () => {

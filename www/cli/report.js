@@ -118,7 +118,9 @@ function byLengthOf({ alphas, byLength }, legs) {
     [`alpha${i + 1}`, ...byLength.map((/** @type {any} */ at) => toldOf(at.alphas[i], at.bootstrap[i]))],
     ['', ...byLength.map((/** @type {any} */ at) => between(at.bootstrap[i]))],
   ]);
-  return [...aligned([['by length', ...lengths], ['95 % by bootstrap', ...counts], ...rows]), ''];
+  const untold = byLength.some((/** @type {any} */ at) => at.alphas.every((/** @type {unknown} */ alpha) => alpha === null));
+  const why = untold ? ['–: too few legs, most of them shorter than four rows of a log, or turns of more than half a circle'] : [];
+  return [...aligned([['by length', ...lengths], ['95 % by bootstrap', ...counts], ...rows]), ...why, ''];
 }
 
 /** @param {[string, string, string]} about @param {any} systematic @returns {string[]} */

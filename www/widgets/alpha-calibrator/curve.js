@@ -17,15 +17,18 @@ export function between(at, values, where) {
   return Number.isFinite(value) ? value : NaN;
 }
 
+/** Beside it nobody sees a half. */
+const BEYOND = 1e9;
+
 /**
- * From where to where an axis is to reach, for the highest points of a curve.
+ * From where to where an axis is to reach, for the highest points of a curve; what is beyond all axes counts as not finite.
  *
  * @param {ArrayLike<number>} values
  * @param {number} depth below the highest of them
  * @returns {{ from: number, to: number }} around 0 where none is finite
  */
 export function axisOf(values, depth) {
-  const finite = Array.from(values).filter(Number.isFinite);
+  const finite = Array.from(values).filter((value) => Math.abs(value) < BEYOND);
   const best = finite.length > 0 ? Math.max(...finite) : 0;
   return { from: Math.max(Math.min(best, ...finite), best - depth), to: best + 0.5 };
 }

@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { button, radioGroup, rich } from '../../ui/controls.js';
-import { NOTHING, counted, fixed, percent } from '../../ui/format.js';
+import { NOTHING, counted, fixed, percent, significant } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
 import { axisOf, between } from './curve.js';
@@ -17,6 +17,15 @@ import { alphaName, significantly, thousandths } from './words.js';
  * @import { Curve, Role } from '../../ui/plot.js'
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
+
+/** A square of way or turn below it is none: a millimetre, or a thousandth of a radian. */
+const DRIVEN = 1e-6;
+
+/** Larger figures have an exponent: the noise of a log that is exact to rounding is 10³⁰ times as large as expected. */
+const LONG = 1e6;
+
+/** @param {number} value */
+const two = (value) => (Math.abs(value) < LONG ? fixed(value, 2) : significant(value, 3));
 
 /** Squared residuals of the three noises against what drives them. @param {Figure} figure */
 export function panels(figure) {
@@ -53,8 +62,10 @@ export function panelsOf({ machine, reading: { config, legs, stats }, state: { o
  */
 function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const say = words.calibrator.panels;
-  const last = 1.06 * Math.max(...x, 1e-9);
-  const highest = 1.1 * Math.max(1e-12, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
+  const furthest = Math.max(0, ...x);
+  // Of a log that has nothing of what drives it the axis is an empty one.
+  const last = furthest > DRIVEN ? 1.06 * furthest : 1;
+  const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
   const { scaled, unit } = thousandths(highest);
   const name = alphaName(alpha);
   const [low, high] = interval ?? [NaN, NaN];
@@ -92,7 +103,6 @@ export function doubts(figure) {
   const nameOf = (/** @type {string} */ name) => /** @type {Record<string, string>} */ (words.calibrator.panels.kinds)[name];
   const range = (/** @type {readonly number[]} */ [low, high], /** @type {(value: number) => string} */ print) =>
     Number.isFinite(high - low) ? `${print(low)} – ${print(high)}` : NOTHING;
-  const two = (/** @type {number} */ value) => fixed(value, 2);
   return html`<div class="figures">
       <figure>
         ${plot({
@@ -153,7 +163,7 @@ export function inflation(figure) {
         points: [{ role: 'prediction', x: factor, y: covered, error: 0 }],
       })}</figure>
       <figure>${plot({
-        label: say.likelihoodLabel(fixed(factor, 2), fixed(nats, 2)),
+        label: say.likelihoodLabel(fixed(factor, 2), two(nats)),
         x,
         y: { name: say.likelihood, ...ends },
         curves: [{ name: say.likelihood, role: 'prediction', x: factors, y: logLikelihood }, present(ends)],

@@ -28,6 +28,9 @@ const TINY = 1e-6;
 
 const MOST_DECIMALS = 12;
 
+/** From it on whole numbers have an exponent: times since 1970 have none. */
+const LONG = 1e15;
+
 /** An error as large as the motion that drives it, or of a radian a metre: no robot's, whatever made the log say so. */
 const MOST = 1;
 
@@ -55,7 +58,7 @@ const double = (number) => (number.includes('.') ? number : `${number}.0`);
 /** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
 export function fixed(value, interval) {
   const width = interval ? interval[1] - interval[0] : 0;
-  if (value === null || !Number.isFinite(value) || !(width > 0 && width < Infinity)) return short(value);
+  if (value === null || !(Math.abs(value) < LONG) || !(width > 0 && width < Infinity)) return short(value);
   const decimals = OF_WIDTH - 1 - Math.floor(Math.log10(width));
   if (width >= TINY || Math.abs(value) >= TINY) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
   const digits = decimals + Math.floor(Math.log10(Math.abs(value)));

@@ -482,7 +482,7 @@ test('what is wrong with the fields of a large grid is thrown at once, however l
       }
     });
   }, `(${largest})`);
-  expect(thrown).toEqual(['map', 'map.rows', 'map.unknown', 'resolution', 'origin has length 2; allowed']);
+  expect(thrown).toEqual(['map', 'map.rows', 'map.unknown', 'map.resolution', 'map.origin has length 2; allowed']);
   expect(await squeezed(widget)).toEqual(before);
 });
 

@@ -42,7 +42,7 @@ pub struct Calibrating {
     /// Of the last round.
     known: [[f64; ERRORS]; ERRORS],
     removed: Systematic,
-    /// The same two by the legs of another length.
+    /// What `deviations` and `known` are by the legs of another length.
     of_length: ([Option<f64>; ERRORS], [[f64; ERRORS]; ERRORS]),
     cutting: Option<Cutting>,
     legs: Vec<Leg>,

@@ -253,7 +253,7 @@ fn what_is_removed_is_that_of_the_legs_that_are_asked_for() {
 /// Legs of other lengths begin and end anywhere in those of the noise, and some hardly lead anywhere: their directions are those of a
 /// millimetre of the lever arm or the clock, and unless it is known how far off these may be a few legs decide on α₁ and α₂. Beside
 /// what the same legs say when they are asked for, which removes errors of its own: of 96 α's 92 are within half as much again, and of
-/// their intervals by the bootstrap 94 overlap; were it not known, 68 would be, and some intervals a tenth long at thirty times as much.
+/// their intervals by the bootstrap 94 overlap. Where it was not known, 68 were.
 #[test]
 fn a_column_is_what_its_legs_say_when_they_are_asked_for() {
     let (mut near, mut agree, mut of) = (0, 0, 0);

@@ -461,7 +461,9 @@ impl Calibrating {
 
     /// The α's that are determined, and why the others are not.
     fn estimate(&self, fitted: &Fitted) -> (Estimate, Vec<Option<Undetermined>>) {
-        let reasons = undetermined(fitted, self.options.model, &self.observations, &self.intervals);
+        let Options { model, reference_error, .. } = self.options;
+        let is_stated = reference_error.is_stated();
+        let reasons = undetermined(fitted, model, &self.observations, &self.intervals, is_stated);
         let told = |(interval, reason): (&Option<[f64; 2]>, &Option<Undetermined>)| {
             interval.filter(|_| reason.is_none())
         };

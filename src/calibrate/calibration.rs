@@ -20,6 +20,13 @@ pub struct ReferenceError {
     pub heading: f64,
 }
 
+impl ReferenceError {
+    /// Whether it is any at all.
+    pub(super) fn is_stated(&self) -> bool {
+        *self != Self::default()
+    }
+}
+
 /// What is asked of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {

@@ -65,6 +65,8 @@ pub enum Verdict {
     Unrelated,
     /// Legs are much longer than was asked, because one of the logs has few samples: the α's are those of longer legs.
     LongLegs,
+    /// The reference errs less than is stated: residuals are smaller than its error alone would make them, and the α's with them.
+    Overstated,
     /// Neighbouring legs have something in common: they err alike, or, where no tails explain it, opposite.
     Correlated,
     /// Residuals are far out more often than the noise explains.

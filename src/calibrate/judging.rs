@@ -6,6 +6,7 @@ use super::doubts::{Doubts, Halves, Inflation, Judged, Verdict, doubts};
 use super::legs::Leg;
 use super::mismatch::mismatch;
 use super::model::Observation;
+use super::overstated::overstated;
 use super::profile::Fitted;
 use super::systematic::Systematic;
 
@@ -40,7 +41,11 @@ const SORTED: usize = 4;
 impl Judging {
     /// Goes on by a few passes; whether all is said.
     pub fn step(&mut self, fitted: &Fitted, of: Judge) -> bool {
-        let Judge { options: &Options { model, noise, robust, seed, legs: length, .. }, legs, .. } = of;
+        let Judge {
+            options: &Options { model, noise, robust, seed, legs: length, reference_error, .. },
+            legs,
+            ..
+        } = of;
         let (observations, work) = (of.observations, &fitted.evidence.work);
         if self.longer.is_none() {
             let drawing = self.drawing.get_or_insert_with(|| Bootstrap::new(fitted, model.alphas(), seed));
@@ -70,7 +75,12 @@ impl Judging {
             self.asked = true;
             if doubted.verdict != Verdict::FewLegs {
                 work.add(SORTED * legs.len());
-                doubted.verdict = mismatch(legs, observations, of.removed, length).unwrap_or(doubted.verdict);
+                let is_overstated = || {
+                    let smaller = reference_error.is_stated() && overstated(model, observations, judged);
+                    smaller.then_some(Verdict::Overstated)
+                };
+                let found = mismatch(legs, observations, of.removed, length).or_else(is_overstated);
+                doubted.verdict = found.unwrap_or(doubted.verdict);
             }
             return false;
         }

@@ -11,9 +11,9 @@ use crate::geom::se2::SE2;
 /// Half of the legs that drive, or that turn, are off by this share of what was read: a reference that has to do with it is nearer.
 const LOST: f64 = 0.7;
 
-/// What a leg turns (rad) or drives (m) at least to be asked: noise is small beside it.
-const TURNS: f64 = 0.1;
-const DRIVES: f64 = 0.05;
+/// What a leg turns (rad) or drives (m) at least to be asked: noise is small beside it, and such legs tell of it.
+pub(super) const TURNS: f64 = 0.1;
+pub(super) const DRIVES: f64 = 0.05;
 
 /// No wheel is half as large as it is taken for, or twice: what was removed as a scale is another unit.
 const SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;

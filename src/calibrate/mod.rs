@@ -19,6 +19,7 @@ mod likelihood;
 mod maximum;
 mod mismatch;
 mod model;
+mod overstated;
 mod profile;
 mod stages;
 mod systematic;

@@ -141,7 +141,8 @@ impl Uncertainty {
 fn variance_along(covariance: &Matrix2<f64>, direction: f64) -> f64 {
     let (sin, cos) = libm::sincos(direction);
     let toward = Vector2::new(cos, sin);
-    (covariance * toward).dot(&toward)
+    // Of nothing rounding may leave less.
+    (covariance * toward).dot(&toward).max(0.0)
 }
 
 impl Model {
@@ -169,6 +170,11 @@ impl Model {
             Self::Odometry(_) => [0, 3].contains(&alpha),
             Self::Velocity => alpha % 2 == 1,
         }
+    }
+
+    /// Which of its noises is that of the way itself, or of the speed.
+    pub(super) fn along(self) -> usize {
+        usize::from(self != Self::Velocity)
     }
 
     /// What a leg says, once what is systematic about it is removed.

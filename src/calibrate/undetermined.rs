@@ -2,7 +2,8 @@
 
 use super::bad::Robust;
 use super::likelihood::Parameters;
-use super::model::{Model, Observation};
+use super::mismatch::{DRIVES, TURNS};
+use super::model::{Kind, Model, Observation};
 use super::profile::Fitted;
 use crate::noise::NoiseKind;
 
@@ -14,6 +15,8 @@ pub enum Undetermined {
     TurnsTooLittle,
     /// The robot never went anywhere, or hardly.
     DrivesTooLittle,
+    /// The stated error of the reference is larger than what even an α of 1 would make of the legs, of which there are enough.
+    ReferenceTooCoarse,
     /// In all legs turn and way had the same ratio: the noise may be this α's or that of another one of the same kind.
     OneRatio,
 }
@@ -29,16 +32,20 @@ const SEEN: f64 = 4.0;
 /// (2 deviations)²: an interval that is shorter, where the likelihood would have it four long, ends where an α is 0.
 const SHORT: f64 = 4.0;
 
+/// So many legs tell an α that is alone in their variance to a fifth.
+const ENOUGH: usize = 50;
+
 /// Of each α why it is not determined; None where it is.
 ///
 /// It is not where its profile has no end; nor where that has ends that are not the likelihood's: with turn and way in one ratio
 /// an α may take all that the other has, and the ends are where one of them is 0. What there is to know of an α is asked of normal
-/// noise: of triangular noise a few legs at its edges would tell most.
+/// noise: of triangular noise a few legs at its edges would tell most. `is_stated` says whether the reference errs.
 pub(super) fn undetermined(
     fitted: &Fitted,
     model: Model,
     observations: &[Observation],
     intervals: &[Option<[f64; 2]>],
+    is_stated: bool,
 ) -> Vec<Option<Undetermined>> {
     let normal = Parameters { bad: None, noise: NoiseKind::Normal, ..fitted.best };
     let slope = fitted.evidence.slope(&normal, Robust::No);
@@ -55,13 +62,13 @@ pub(super) fn undetermined(
                 one_ratio.then_some(Undetermined::OneRatio)
             }
             None if one_ratio => Some(Undetermined::OneRatio),
-            None => Some(lacking(model, observations, alpha)),
+            None => Some(lacking(model, observations, alpha, is_stated)),
         }
     };
     intervals.iter().enumerate().map(of).collect()
 }
 
-fn lacking(model: Model, observations: &[Observation], alpha: usize) -> Undetermined {
+fn lacking(model: Model, observations: &[Observation], alpha: usize, is_stated: bool) -> Undetermined {
     let tells = |observation: &Observation| {
         model
             .kinds()
@@ -69,9 +76,29 @@ fn lacking(model: Model, observations: &[Observation], alpha: usize) -> Undeterm
             .zip(observation.residuals)
             .any(|(kind, residual)| kind.alphas.contains(&alpha) && !residual.is_nan())
     };
-    if model.grows_with_turn(alpha) && observations.iter().any(tells) {
+    // Of as many as one would be told to drive.
+    let hidden = observations.iter().filter(|observation| is_hidden(model, observation, alpha)).count();
+    if is_stated && hidden >= ENOUGH {
+        Undetermined::ReferenceTooCoarse
+    } else if model.grows_with_turn(alpha) && observations.iter().any(tells) {
         Undetermined::TurnsTooLittle
     } else {
         Undetermined::DrivesTooLittle
     }
+}
+
+/// Whether a leg has much of what drives an α, and yet less than the reference errs by.
+fn is_hidden(model: Model, observation: &Observation, alpha: usize) -> bool {
+    let Observation { expected, residuals, coefficients, floors, .. } = observation;
+    let drives = if model.grows_with_turn(alpha) {
+        expected.theta().abs() > TURNS
+    } else {
+        libm::hypot(expected.x(), expected.y()) > DRIVES
+    };
+    let below = |(k, kind): (usize, &Kind)| {
+        let place = kind.alphas.iter().position(|of| *of == alpha)?;
+        (!residuals[k].is_nan()).then_some(coefficients[k][place] < floors[k])
+    };
+    let mut told = model.kinds().iter().enumerate().filter_map(below).peekable();
+    drives && told.peek().is_some() && told.all(|below| below)
 }

@@ -40,9 +40,9 @@ export interface Calibration {
   alphas: (number | null)[];
   /**
    * Why not, null where it does: the robot turned too little (under the velocity model while it drove); it hardly went anywhere;
-   * or turn and way had one ratio in all legs, so that one α may answer for what is another's.
+   * the reference's stated error is larger than what even an α of 1 would make of its turns or ways; or turn and way had one ratio in all legs, so that one α may answer for what is another's.
    */
-  undetermined: ('turns-too-little' | 'drives-too-little' | 'one-ratio' | null)[];
+  undetermined: ('turns-too-little' | 'drives-too-little' | 'reference-too-coarse' | 'one-ratio' | null)[];
   /** By the profile of the likelihood. */
   intervals: (Interval | null)[];
   /** By a bootstrap of blocks of legs, which does not take them for independent. */
@@ -72,7 +72,7 @@ export interface Calibration {
     squaredError: { mean: number; interval: Interval };
     /** Places of the legs that are furthest from what was expected, the worst first. */
     worst: number[];
-    verdict: 'few-legs' | 'unrelated' | 'long-legs' | 'heavy-tails' | 'correlated' | 'overconfident' | 'lazy' | 'fits';
+    verdict: 'few-legs' | 'unrelated' | 'long-legs' | 'overstated' | 'heavy-tails' | 'correlated' | 'overconfident' | 'lazy' | 'fits';
   };
   /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
   inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
@@ -172,6 +172,7 @@ fn undetermined_word(reason: Option<Undetermined>) -> JsValue {
         let word = match reason {
             Undetermined::TurnsTooLittle => "turns-too-little",
             Undetermined::DrivesTooLittle => "drives-too-little",
+            Undetermined::ReferenceTooCoarse => "reference-too-coarse",
             Undetermined::OneRatio => "one-ratio",
         };
         word.into()
@@ -267,6 +268,7 @@ fn verdict_word(verdict: Verdict) -> &'static str {
         Verdict::FewLegs => "few-legs",
         Verdict::Unrelated => "unrelated",
         Verdict::LongLegs => "long-legs",
+        Verdict::Overstated => "overstated",
         Verdict::HeavyTails => "heavy-tails",
         Verdict::Correlated => "correlated",
         Verdict::Overconfident => "overconfident",

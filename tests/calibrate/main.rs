@@ -6,6 +6,7 @@ mod fits;
 mod leg_lengths;
 mod logs;
 mod mismatch;
+mod overstated;
 mod passes;
 mod same;
 mod simulated;

@@ -93,6 +93,48 @@ test('a recording has both, and where it is not clear which topic is which, the 
   }
 });
 
+test('of files with poses and commands the velocity model takes the commands, as the command does, and the others the poses', async ({ page }) => {
+  const widget = await openCalibrator(page, 'model="velocity"');
+  const keys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
+  const model = async (/** @type {string} */ name, /** @type {string} */ key) => {
+    await widget.getByRole('radio', { name }).check();
+    await expect.poll(keys).toContain(key);
+    await settled(widget);
+  };
+  // What is commanded in a row is driven until the next one.
+  const [header, ...lines] = example('odometry').trim().split('\n');
+  const driven = lines.map((line) => line.split(',').map(Number));
+  const commands = driven.map(([t, x, y, yaw], i) => {
+    const [next, toX, toY, to] = driven[i + 1] ?? [t + 1, x, y, yaw];
+    return `${lines[i]},${Math.hypot(toX - x, toY - y) / (next - t)},${Math.atan2(Math.sin(to - yaw), Math.cos(to - yaw)) / (next - t)}`;
+  });
+  await choose(widget, { 'odom.csv': [`${header},v,omega`, ...commands].join('\n'), 'truth.csv': example('reference') });
+  await expect.poll(keys).toContain('omega');
+  await settled(widget);
+  expect((await stats(widget)).alphas).toHaveLength(6);
+  await model('Table 5.6', 'theta');
+  await model('velocity', 'omega');
+  // Where there is nothing else, all models have the same.
+  await choose(widget, { 'odom.csv': example('odometry'), 'truth.csv': example('reference') });
+  await expect.poll(keys).toContain('theta');
+  await model('Table 5.6', 'theta');
+  await model('velocity', 'theta');
+  // Of a recording they are a topic of their own, unless the reader has chosen another.
+  const buffer = await recordingWith(['/mocap/pose'], undefined, true);
+  const topic = widget.getByLabel('Odometry', { exact: true });
+  await widget.locator('#log-files').setInputFiles({ name: 'run.mcap', mimeType: 'application/octet-stream', buffer });
+  await expect.poll(keys).toContain('omega');
+  await expect(topic).toHaveValue('/cmd_vel');
+  await model('Table 5.6', 'theta');
+  await expect(topic).toHaveValue('/odom');
+  await model('velocity', 'omega');
+  await topic.selectOption('/odom');
+  await expect.poll(keys).toContain('theta');
+  await model('Table 5.6', 'theta');
+  await model('velocity', 'theta');
+  await expect(topic).toHaveValue('/odom');
+});
+
 test('of transforms the reader says which frames are meant', async ({ page }) => {
   const widget = await openCalibrator(page);
   const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));

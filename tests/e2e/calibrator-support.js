@@ -6,7 +6,7 @@
 
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { odometry, poseOf, recordingOf, stampOf } from '../mcap.js';
+import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
 import { ready, show } from './element-support.js';
 import { frames } from './support.js';
 
@@ -72,12 +72,14 @@ export const example = (name) => readFileSync(new URL(`../../examples/calibratio
  *
  * @param {string[]} topics
  * @param {Parameters<typeof recordingOf>[1]} [options]
+ * @param {boolean} [commands] whether it has some
  */
-export async function recordingWith(topics, options = { compression: 'zstd', chunkSize: 100_000 }) {
+export async function recordingWith(topics, options = { compression: 'zstd', chunkSize: 100_000 }, commands = false) {
   const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const reference = topics.flatMap((topic) => rows('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
   const wheels = rows('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
-  return recordingOf([...wheels, ...reference].sort((one, other) => one.t - other.t), options);
+  const driven = commands ? wheels.map(({ t }) => ({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(0.3, 0) })) : [];
+  return recordingOf([...wheels, ...driven, ...reference].sort((one, other) => one.t - other.t), options);
 }

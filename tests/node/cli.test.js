@@ -84,6 +84,7 @@ test('a recording gives both, by the topics that can be meant or are named', asy
   assert.deepEqual([named.odometry.y[3], named.reference.y[3]], [2, 1]);
   const driven = await askedOf(['--recording', path, '--model', 'velocity']);
   assert.deepEqual([driven.odometry.v[3], driven.odometry.omega[3]], [1, 2]);
+  assert.deepEqual((await askedOf(['--recording', path, '--odom-topic', '/odom', '--model', 'velocity'])).odometry.y[3], 1);
   const unclear = file('unclear.mcap', await recordingOf(messages.filter(({ topic }) => topic !== '/mocap').map((each) => (each.topic === '/cmd_vel' ? { ...each, topic: '/third', type: 'nav_msgs/msg/Odometry', message: odometry(each.t, 0, 0, 0) } : each))));
   const { code, err } = await said(['calibrate', '--recording', unclear]);
   assert.deepEqual([code, err], [2, 'unclear.mcap: which topic is the reference is not clear; expected is a choice of /odom (Odometry), /other (PoseStamped), /third (Odometry).\n']);

@@ -54,11 +54,18 @@ test('a log that a recorder exported: the stamp of the message, and poses before
   const row = (/** @type {number} */ i) => [2e18, i, `1700000000${100000000 + i}`, 'odom', 'base', i, -i, 0, 0, 0, Math.SQRT1_2, Math.SQRT1_2, 9, 0.5, 9, 9, 0.1].join(',');
   const text = [header.join(','), row(1), row(2), row(3)].join('\n');
   const poses = await read(text);
-  assert.equal(poses.start, 1_700_000_000);
+  assert.deepEqual([poses.start, poses.how.hasBoth], [1_700_000_000, true]);
   assert.deepEqual([...poses.data.t], [0.100000001, 0.100000002, 0.100000003]);
   close(/** @type {any} */ (poses.data).theta[1], Math.PI / 2);
   const commands = await read(text, { kind: 'commands' });
   assert.deepEqual([commands.kind, [.../** @type {any} */ (commands.data).v], [.../** @type {any} */ (commands.data).omega]], ['commands', [0.5, 0.5, 0.5], [0.1, 0.1, 0.1]]);
+});
+
+test('where commands are wanted and there are none, poses are read', async () => {
+  for (const text of ['t,x,y,yaw\n0,0,0,0\n1,2,0,0\n', '0 0 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n']) {
+    const { kind, data, how } = await read(text, { kind: 'commands' });
+    assert.deepEqual([kind, [.../** @type {any} */ (data).x], how.hasBoth], ['poses', [0, 2], false]);
+  }
 });
 
 test('of a message that holds another one, its own fields are read', async () => {
@@ -199,7 +206,7 @@ const REFUSED = [
   ['no time', 'x,y,yaw\n', 'run.csv, line 1: none of the columns x, y, yaw is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec.'],
   ['no heading', 't,x,y,qx\n', 'run.csv, line 1: none of the columns t, x, y, qx is the heading; expected is yaw, theta or heading, or qx, qy, qz and qw.'],
   ['no pose', `t,${LONG}\n`, `run.csv, line 1: the columns are t, ${LONG.slice(0, 40)}…; expected are x, y and yaw (or qx, qy, qz and qw), or v and omega among them.`],
-  ['no commands', 't,x,y,yaw\n', 'run.csv, line 1: the columns are t, x, y, yaw; expected are v and omega among them.', 'commands'],
+  ['neither of them', 't,y,v\n', 'run.csv, line 1: the columns are t, y, v; expected are x, y and yaw (or qx, qy, qz and qw), or v and omega among them.', 'commands'],
   ['no poses', 't,v,omega\n', 'run.csv, line 1: the columns are t, v, omega; expected are x, y and yaw (or qx, qy, qz and qw) among them.', 'poses'],
   ['two times', 't,t,x,y,yaw\n', 'run.csv, line 1: both “t” and “t” may be the time; expected is one of them.'],
   ['two robots', '__time,/odom/pose/pose/position/x,/odom/pose/pose/position/y,/truth/pose/pose/position/x\n', 'run.csv, line 1: both “/odom/pose/pose/position/x” and “/truth/pose/pose/position/x” may be x; expected is one of them.'],

@@ -1,7 +1,7 @@
 /** What came out, as text and as JSON. */
 
 import { en } from '../widgets/alpha-calibrator/en.js';
-import { adviceOf, between, fixed, isZero, mostOf, nav2Lines, neededFor, short } from '../widgets/alpha-calibrator/lines.js';
+import { OVERSTATED, adviceOf, between, fixed, isZero, mostOf, nav2Lines, neededFor, short } from '../widgets/alpha-calibrator/lines.js';
 
 /**
  * @typedef {[number, number] | null} Interval
@@ -86,13 +86,13 @@ function lengthOf({ distance, angle, duration }) {
  * @param {string} model
  * @returns {string[]}
  */
-function undeterminedOf({ alphas, intervals, undetermined }, model) {
+function undeterminedOf({ alphas, intervals, undetermined, doubts: { verdict } }, model) {
   const { lacking } = en.alphas;
   return /** @type {(keyof typeof lacking)[]} */ (Object.keys(lacking)).flatMap((reason) => {
     const { lack, drive } = adviceOf(lacking, model, reason);
     const those = (/** @type {(i: number) => boolean} */ are) => new Intl.ListFormat('en').format(alphas.flatMap((/** @type {unknown} */ _, /** @type {number} */ i) => (are(i) ? [`alpha${i + 1}`] : [])));
     const unknown = those((i) => undetermined[i] === reason);
-    const zero = those((i) => undetermined[i] === null && isZero(alphas[i], intervals[i]) && neededFor(model, i) === reason);
+    const zero = those((i) => undetermined[i] === null && verdict !== OVERSTATED && isZero(alphas[i], intervals[i]) && neededFor(model, i) === reason);
     return [...(unknown ? [`${unknown} not determined: ${lack}; ${drive}`] : []), ...(zero ? [`${zero} not told from 0: to tell it, ${drive}`] : [])];
   });
 }

@@ -153,7 +153,7 @@ async function choiceOf({ topic, frames }, role, asked, { name }, topics) {
  */
 function usualTopic(file, topics, role, kind) {
   const useful = usefulTopics(file, topics);
-  const usual = usualTopics(topics)[kind === 'commands' ? 'commands' : role];
+  const usual = usualTopics(topics, kind)[role];
   if (usual === null) throw new LogError({ file }, (say) => say.choose(role, described(useful)));
   return usual;
 }

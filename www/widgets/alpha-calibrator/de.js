@@ -42,6 +42,7 @@ export const de = {
     correlated: (coverage) => `Noch ein fester Fehler: Der einer Etappe verrät den der nächsten. ${coverage} liegen in den 95 %.`,
     unrelated: () => 'Die Referenz folgt dieser Odometrie nicht: Ist sie von einer anderen Fahrt, in Grad oder in Millimetern?',
     'long-legs': (coverage) => `Die Etappen sind länger als verlangt: zu wenige Zeilen. Von neuen Residuen liegen ${coverage} in den 95 %.`,
+    overstated: () => 'Die Referenz irrt weniger als angegeben, denn die Residuen sind kleiner: Die α sind zu klein.',
     'few-legs': () => 'Zu wenige Etappen, um über das Modell zu urteilen: weiterfahren oder kürzere nehmen.',
   },
   none: 'Weniger als acht Etappen: zu wenig Bewegung oder keine gemeinsame Zeit.',
@@ -61,6 +62,7 @@ export const de = {
     lacking: {
       'turns-too-little': { lack: 'zu wenig gedreht', drive: 'etwa fünfzig Mal auf der Stelle drehen', byCommands: 'enge Kurven fahren, etwa fünfzig Etappen' },
       'drives-too-little': { lack: 'kaum gefahren', drive: 'geradeaus fahren, etwa fünfzig Etappen', byCommands: 'geradeaus und in Kurven fahren, je etwa fünfzig Etappen' },
+      'reference-too-coarse': { lack: 'der angegebene Fehler der Referenz ist größer', drive: 'längere Etappen nehmen oder eine bessere Referenz', byCommands: 'längere Etappen nehmen oder eine bessere Referenz' },
       'one-ratio': { lack: 'Drehung und Weg immer im selben Verhältnis', drive: 'geradeaus fahren und auf der Stelle drehen, je etwa fünfzig Etappen', byCommands: 'geradeaus und in engeren Kurven fahren, je etwa fünfzig Etappen' },
     },
   },

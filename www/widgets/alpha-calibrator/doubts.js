@@ -8,7 +8,7 @@ import { NOTHING, counted, fixed, percent, significant } from '../../ui/format.j
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
 import { axisOf, between } from './curve.js';
-import { adviceOf, isZero, neededFor } from './lines.js';
+import { OVERSTATED, adviceOf, isZero, neededFor } from './lines.js';
 import { QUANTILES, REACH } from './quantiles.js';
 import { alphaName, significantly, thousandths } from './words.js';
 
@@ -37,7 +37,7 @@ export function panels(figure) {
     <div class="panels">
       ${panelsOf(figure).map(({ panel, plot: described }) => html`<figure>
         ${plot(described)}
-        ${noteOf(panel, reading.config.model)}
+        ${noteOf(panel, reading)}
       </figure>`)}
     </div>
     <p class="figcaption">${rich(say.caption)}</p>`;
@@ -84,10 +84,10 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   };
 }
 
-/** What a line does not tell of its α. @param {CalibrationPanel} panel @param {string} model */
-function noteOf({ alpha, slope, interval }, model) {
+/** What a line does not tell of its α. @param {CalibrationPanel} panel @param {import('./reading.js').Reading} reading */
+function noteOf({ alpha, slope, interval }, { config: { model }, stats: { doubts: { verdict } } }) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
-  if (slope !== null && !isZero(slope, interval)) return '';
+  if (slope !== null && (!isZero(slope, interval) || verdict === OVERSTATED)) return '';
   const name = alphaName(alpha);
   return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, neededFor(model, alpha)).drive))}</p>`;
 }

@@ -41,6 +41,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     correlated: (coverage) => `Something is left: one leg’s error tells the next one’s. Of unseen residuals, ${coverage} are inside its 95 %.`,
     unrelated: () => 'The reference does not follow this odometry: is it of another drive, in degrees, or in millimetres?',
     'long-legs': (coverage) => `Legs are longer than asked, as a log has too few rows for them. Of unseen residuals, ${coverage} are inside its 95 %.`,
+    overstated: () => 'The reference errs less than is stated, for residuals are smaller: the α’s are too small. State a smaller error.',
     'few-legs': () => 'Too few legs to say whether the model is any good. Drive on, or take shorter legs.',
   },
   none: 'Fewer than eight legs: too little motion, or no time in common.',
@@ -60,6 +61,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     lacking: {
       'turns-too-little': { lack: 'this log turns too little', drive: 'turn on the spot, some fifty times', byCommands: 'drive tight bends, some fifty legs' },
       'drives-too-little': { lack: 'this log hardly goes anywhere', drive: 'drive straight on, some fifty legs', byCommands: 'drive straight on and in bends, some fifty legs of each' },
+      'reference-too-coarse': { lack: 'the stated error of the reference is larger', drive: 'take longer legs, or a better reference', byCommands: 'take longer legs, or a better reference' },
       'one-ratio': { lack: 'this log turns and drives in one ratio', drive: 'drive straight on and turn on the spot, some fifty legs of each', byCommands: 'drive straight on and in tighter bends, some fifty legs of each' },
     },
   },

@@ -40,8 +40,11 @@ const NONE = '–';
 /** What Nav2 calls its models. @type {Record<string, string>} */
 const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
+/** Of a reference that is taken for worse than it is, no drive would tell more. */
+export const OVERSTATED = 'overstated';
+
 /** Of these nothing is to be taken along. */
-const USELESS = ['few-legs', 'unrelated'];
+const USELESS = ['few-legs', 'unrelated', OVERSTATED];
 
 /** The rules under which Nav2's models are. */
 const ITS_RULES = ['nav2', 'omni'];

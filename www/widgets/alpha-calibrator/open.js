@@ -11,6 +11,7 @@ import { deviations } from './controls.js';
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  * @typedef {import('./log/rows.js').Poses} Poses
  * @typedef {import('./log/read.js').Topic} Topic
+ * @typedef {import('../../types.d.ts').CalibrationLog} CalibrationLog
  * @typedef {typeof import('./log/read.js')} Reader
  * @typedef {{ onProgress: (share: number) => void, signal: AbortSignal }} Watched
  */
@@ -28,9 +29,10 @@ export const FOLD = 'log-fold';
 const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
 
 /**
- * A recording whose topics are to be chosen, with the frames of those that hold transforms; or two tables.
+ * A recording whose topics are to be chosen, with the frames of those that hold transforms; or two tables. `kind` is what was wanted of the
+ * odometry when it was read, `isTold` whether the reader said which topic that is.
  *
- * @typedef {{ files: File[], topics: Topic[], odometry: string, reference: string, frames: typeof FRAMES }} Chosen
+ * @typedef {{ files: File[], topics: Topic[], odometry: string, reference: string, frames: typeof FRAMES, kind: 'commands' | undefined, isTold: boolean }} Chosen
  */
 
 /** Of a part of what is watched. @param {Watched} watching @param {number} from @param {number} to @returns {Watched} */
@@ -45,6 +47,8 @@ export class LogOpener extends Part {
   #found;
   /** What is read, and which of it is which. @type {Chosen | undefined} */
   chosen;
+  /** What was opened last, and whether there are poses and commands in its table. @type {{ chosen: Chosen, log: CalibrationLog, hasBoth: boolean } | undefined} */
+  #opened;
   /** How much of it has been read; undefined where nothing is. @type {number | undefined} */
   share;
   /** Stops what is being read. */
@@ -58,6 +62,25 @@ export class LogOpener extends Part {
   /** What was left out of the present log, and what was decided about it. */
   get found() {
     return this.#found?.() ?? [];
+  }
+
+  /** What the model takes of an odometry that has both: velocities are commanded. */
+  get #kind() {
+    return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
+  }
+
+  /** Another model may take what else the same files have. */
+  hostUpdated() {
+    if (!this.#opened || this.share !== undefined) return;
+    const { chosen, log, hasBoth } = this.#opened;
+    if (chosen !== this.chosen || log !== this.host.log || chosen.kind === this.#kind) return;
+    chosen.kind = this.#kind;
+    this.#attempt(async (reader, watching) => {
+      const { odometry } = reader.usualTopics(chosen.topics, chosen.kind);
+      const isOther = odometry !== null && odometry !== chosen.odometry && !chosen.isTold;
+      if (isOther) chosen.odometry = odometry;
+      if (isOther || hasBoth) await this.#read(reader, watching);
+    });
   }
 
   /** Back to the simulated log. */
@@ -87,9 +110,10 @@ export class LogOpener extends Part {
       if (recording && !(/\.mcap$/i.test(name) || (await reader.isRecording(files[0])))) throw new Error(words.calibrator.own.two(1));
       // To find the topics a recording without an index is read as a whole, and then once more.
       const topics = recording ? reader.usefulTopics(name, await reader.topicsOf(files[0], partOf(watching, 0, 0.5))) : [];
-      const usual = reader.usualTopics(topics);
+      const kind = this.#kind;
+      const usual = reader.usualTopics(topics, kind);
       const [first, second] = reader.areSwapped(name, files.at(-1)?.name ?? '') ? [...files].reverse() : files;
-      this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '', frames: FRAMES };
+      this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '', frames: FRAMES, kind, isTold: false };
       if (recording && !(usual.odometry && usual.reference)) return;
       await this.#read(reader, watching);
     });
@@ -99,7 +123,7 @@ export class LogOpener extends Part {
   change(change) {
     const { chosen } = this;
     if (!chosen) return;
-    this.chosen = { ...chosen, ...change };
+    this.chosen = { ...chosen, ...change, isTold: chosen.isTold || change.odometry !== undefined };
     const { topics, odometry, reference } = this.chosen;
     this.host.requestUpdate();
     if (topics.length === 0 || (odometry && reference)) this.#attempt((reader, watching) => this.#read(reader, watching));
@@ -110,7 +134,8 @@ export class LogOpener extends Part {
    * @param {Watched} watching
    */
   async #read(reader, watching) {
-    const { files, topics, odometry, reference, frames } = /** @type {Chosen} */ (this.chosen);
+    const chosen = /** @type {Chosen} */ (this.chosen);
+    const { files, topics, odometry, reference, frames, kind } = chosen;
     const topic = (/** @type {string} */ name, /** @type {string} */ its) => {
       const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
       return { topic: name, ...(holdsTransforms(topics, name) && { frames: { parent, child } }) };
@@ -118,14 +143,16 @@ export class LogOpener extends Part {
     const both = [topic(odometry, frames.odometry), topic(reference, frames.reference)];
     const [first, second] = topics.length
       ? await reader.logsOf(files[0], both, partOf(watching, this.share ?? 0, 1))
-      : [await reader.readLog(files[0], partOf(watching, 0, 0.5)), await reader.readLog(files[1], { kind: 'poses', ...partOf(watching, 0.5, 1) })];
+      : [await reader.readLog(files[0], { kind, ...partOf(watching, 0, 0.5) }), await reader.readLog(files[1], { kind: 'poses', ...partOf(watching, 0.5, 1) })];
     // Each of these takes about as long as a frame has.
     await reader.turn();
     const logs = reader.together(first, second);
     await reader.turn();
     watching.signal.throwIfAborted();
     const name = [...new Set(files.map((file) => file.name))].join(', ');
-    this.host.open({ name, odometry: logs.odometry.data, reference: /** @type {Poses} */ (logs.reference.data) });
+    const log = { name, odometry: logs.odometry.data, reference: /** @type {Poses} */ (logs.reference.data) };
+    this.#opened = { chosen, log, hasBoth: first.how.hasBoth };
+    this.host.open(log);
     const say = await wordsOf();
     this.#found = () => [logs.odometry, logs.reference].flatMap((log) => [`${log.name}: ${reader.tell(log, say().found).join(' ')}`]);
   }

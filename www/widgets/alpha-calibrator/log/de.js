@@ -8,13 +8,12 @@ const FIELDS = {
 
 const NEEDED = {
   poses: 'x, y und yaw (oder qx, qy, qz und qw)',
-  commands: 'v und omega',
   either: 'x, y und yaw (oder qx, qy, qz und qw), oder v und omega',
 };
 
 const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped oder tf2_msgs/msg/TFMessage';
 const OF_COMMANDS = 'geometry_msgs/msg/Twist oder TwistStamped';
-const TYPES = { poses: OF_POSES, commands: OF_COMMANDS, either: `${OF_POSES}, oder ${OF_COMMANDS}` };
+const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}` };
 
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');

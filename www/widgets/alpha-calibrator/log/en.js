@@ -8,13 +8,12 @@ const FIELDS = {
 
 const NEEDED = {
   poses: 'x, y and yaw (or qx, qy, qz and qw)',
-  commands: 'v and omega',
   either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
 };
 
 const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped or tf2_msgs/msg/TFMessage';
 const OF_COMMANDS = 'geometry_msgs/msg/Twist or TwistStamped';
-const TYPES = { poses: OF_POSES, commands: OF_COMMANDS, either: `${OF_POSES}, or ${OF_COMMANDS}` };
+const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}` };
 
 export const log = {
   place: (/** @type {string} */ file, /** @type {number} */ line, /** @type {string} */ topic) =>

@@ -9,6 +9,7 @@ import { LogError, cut, listed } from './refusal.js';
  *
  * @typedef {object} Layout where the fields of a row are
  * @property {'poses' | 'commands'} kind
+ * @property {boolean} hasBoth whether the table has those of the other kind too
  * @property {Field[]} fields that are read, the time first
  * @property {number[]} columns from 0, of each of them
  * @property {string[]} names of these columns, as the header has them
@@ -63,7 +64,7 @@ function plain(name, whole) {
 /**
  * @param {string[]} names of the columns
  * @param {Place} place of the header
- * @param {'poses' | 'commands' | undefined} wanted either, where nothing is said: then poses if they are there
+ * @param {'poses' | 'commands' | undefined} wanted commands if they are there, poses alone, or where nothing is said poses if they are there
  * @returns {Layout}
  * @throws {LogError} where a field is missing, or two columns are it
  */
@@ -80,9 +81,10 @@ export function layoutOf(names, place, wanted) {
   const time = /** @type {Field[]} */ (hasBoth ? ['seconds', 'nanoseconds'] : ['t']);
   if (!hasBoth && found.t === undefined) throw new LogError(place, (say) => say.noTime(columns));
   const has = (/** @type {Field[]} */ ...fields) => fields.every((field) => found[field] !== undefined);
-  const isPose = has('x', 'y') && wanted !== 'commands';
+  const hasCommands = wanted !== 'poses' && has('v', 'omega');
+  const isPose = has('x', 'y') && !(wanted === 'commands' && hasCommands);
   if (isPose && !has('yaw') && !has('qz', 'qw')) throw new LogError(place, (say) => say.noHeading(columns));
-  if (!isPose && (wanted === 'poses' || !has('v', 'omega'))) throw new LogError(place, (say) => say.noColumns(wanted ?? 'either', columns));
+  if (!isPose && !hasCommands) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', columns));
   /** @type {Field[]} */
   const rotation = has('yaw') ? ['yaw'] : has('qx', 'qy') ? ['qx', 'qy', 'qz', 'qw'] : ['qz', 'qw'];
   const fields = [...time, ...(isPose ? /** @type {Field[]} */ (['x', 'y', ...rotation]) : /** @type {Field[]} */ (['v', 'omega']))];
@@ -90,6 +92,7 @@ export function layoutOf(names, place, wanted) {
   const [first] = hasBoth ? [''] : [names[read[0]].trim().toLowerCase()];
   return {
     kind: isPose ? 'poses' : 'commands',
+    hasBoth: hasCommands && has('x', 'y') && (has('yaw') || has('qz', 'qw')),
     fields,
     columns: read,
     names: read.map((at) => names[at].trim()),

@@ -17,7 +17,7 @@ import { readTable } from './table.js';
  * @property {'poses' | 'commands' | 'transforms' | null} kind what it holds; null where it is of no use here
  *
  * @typedef {object} Choice what is to be read
- * @property {'poses' | 'commands'} [kind] that is wanted; of a table that has both, poses where nothing is said
+ * @property {'poses' | 'commands'} [kind] poses, or commands where there are some; of a table that has both, poses where nothing is said
  * @property {string} [topic] of a recording
  * @property {{ parent: string, child: string }} [frames] of a topic of transforms
  */
@@ -97,9 +97,10 @@ const [ODOMETRY, COMMANDS, REFERENCE] = [/(^|\/)odom(etry)?$/i, /(^|\/)cmd_vel$/
  * Which topics are meant, where that is clear.
  *
  * @param {Topic[]} topics
- * @returns {{ odometry: string | null, commands: string | null, reference: string | null }}
+ * @param {'poses' | 'commands'} [kind] of the odometry, as of a choice
+ * @returns {{ odometry: string | null, reference: string | null }}
  */
-export function usualTopics(topics) {
+export function usualTopics(topics, kind) {
   const poses = topics.filter(({ kind, count }) => kind === 'poses' && count > 1);
   const only = (/** @type {Topic[]} */ some) => (some.length === 1 ? some[0].name : null);
   const ofOdometry = poses.filter(({ type, name }) => type === 'nav_msgs/msg/Odometry' && !REFERENCE.test(name));
@@ -107,7 +108,7 @@ export function usualTopics(topics) {
   const others = poses.filter(({ name }) => name !== odometry);
   const driven = topics.filter(({ kind, count }) => kind === 'commands' && count > 1);
   const commands = only(driven.filter(({ name }) => COMMANDS.test(name))) ?? only(driven);
-  return { odometry, commands, reference: only(others.filter(({ name }) => REFERENCE.test(name))) ?? only(others) };
+  return { odometry: kind === 'commands' ? (commands ?? odometry) : odometry, reference: only(others.filter(({ name }) => REFERENCE.test(name))) ?? only(others) };
 }
 
 /**

@@ -145,8 +145,8 @@ class TopicReader {
     const { topic, type, encoding } = /** @type {Channel} */ (this.#recording.channels.get(id));
     const { kind: wanted, frames } = this.#choice;
     const kind = kindOf(type);
-    const isWanted = kind !== null && (!wanted || (kind === 'commands') === (wanted === 'commands'));
-    if (!isWanted) this.#refuse((say) => say.type(cut(type), wanted ?? 'either'));
+    const isWanted = kind !== null && !(wanted === 'poses' && kind === 'commands');
+    if (!isWanted) this.#refuse((say) => say.type(cut(type), wanted === 'poses' ? wanted : 'either'));
     if (encoding !== 'cdr') this.#refuse((say) => say.encoding(cut(encoding)));
     if (kind !== 'transforms') {
       const read = poseReader(type);
@@ -197,6 +197,7 @@ class TopicReader {
       heading: kind === 'poses' ? 'quaternion' : 'none',
       columns: { type: this.#type, clock: this.#isStamped ? 'header.stamp' : 'log time' },
       cutShort: this.#recording.cutShort,
+      hasBoth: false,
     };
     const { file, topic } = this.#place;
     return this.#rows.end(`${file}, ${topic}`, kind, how, breathing(watching));

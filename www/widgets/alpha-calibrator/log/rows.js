@@ -19,6 +19,7 @@ import { LogError } from './refusal.js';
  * @property {'name' | 'size' | 'format'} unitBy what told it: the column's name, the size of the numbers, or the format
  * @property {'radians' | 'degrees' | 'quaternion' | 'none'} heading
  * @property {Record<string, string>} columns what was found in which column, or in which topic
+ * @property {boolean} hasBoth whether there are both poses and commands, of which these are one
  * @property {boolean} cutShort whether the file ends in the middle of a row or record
  * @property {[string, string, string]} [apart] of a reference that has no time in common with the odometry: the name of that, and the
  *   times of both

@@ -38,6 +38,7 @@ const LOOKED_AT = 100;
 /** @type {Layout} */
 const TUM = {
   kind: 'poses',
+  hasBoth: false,
   fields: ['t', 'x', 'y', 'qx', 'qy', 'qz', 'qw'],
   columns: [0, 1, 2, 4, 5, 6, 7],
   names: ['t', 'x', 'y', 'qx', 'qy', 'qz', 'qw'],
@@ -92,6 +93,7 @@ export async function readTable(source, wanted, watching) {
     heading: layout.kind === 'commands' ? 'none' : layout.fields.includes('qw') ? 'quaternion' : layout.degrees ? 'degrees' : 'radians',
     columns: Object.fromEntries(layout.fields.map((field, i) => [field, layout.names[i]])),
     cutShort: read.cutShort(),
+    hasBoth: layout.hasBoth,
   };
   return rows.end(source.name, layout.kind, how, breathe);
 }
@@ -108,7 +110,7 @@ function formatOf(line, comment, place, wanted) {
   const [separator = BLANK] = marks.toSorted((a, b) => countOf(line, b) - countOf(line, a));
   const [first, above] = [line, comment].map((each) => split(each, separator));
   if (isHeader(first)) return { name: 'csv', separator, layout: layoutOf(first, place, wanted), width: first.length, isHeader: true };
-  if (separator === BLANK && first.length === 8 && wanted !== 'commands') return { name: 'tum', separator, layout: TUM, width: 8, isHeader: false };
+  if (separator === BLANK && first.length === 8) return { name: 'tum', separator, layout: TUM, width: 8, isHeader: false };
   if (above.length === first.length && isHeader(above)) {
     return { name: 'csv', separator, layout: layoutOf(above, place, wanted), width: above.length, isHeader: false };
   }

@@ -1,0 +1,83 @@
+//! A reference that errs less than is stated is told, and one that errs as stated never is.
+
+use crate::simulated::{MODELS, Simulation};
+use motion::calibrate::Undetermined::ReferenceTooCoarse;
+use motion::calibrate::{
+    Calibration, Model, Options, ReferenceError, Robust, Trajectory, Verdict, calibrate,
+};
+use motion::geom::se2::SE2;
+use motion::models::OdometryRule;
+use motion::{NoiseKind, Variance};
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// The reference's stated error, m and rad.
+const STATED: ReferenceError = ReferenceError { position: 0.02, heading: 0.02 };
+
+/// Each row independently off.
+fn off_by(error: ReferenceError, trajectory: &Trajectory, seed: u64) -> Trajectory {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let [place, heading] = [error.position, error.heading].map(|deviation| Variance(deviation * deviation));
+    let mut off = |variance| NoiseKind::Normal.sample(variance, &mut rng);
+    let rows = trajectory.samples().map(|(time, pose)| {
+        let [x, y, theta] = [pose.x() + off(place), pose.y() + off(place), pose.theta() + off(heading)];
+        (time, SE2::new(x, y, theta))
+    });
+    Trajectory::new(rows.collect::<Vec<_>>()).expect("times rise")
+}
+
+fn judged(made: &Simulation, reference_error: ReferenceError, rows: [&Trajectory; 2]) -> Calibration {
+    let options = Options { reference_error, ..made.options(Robust::No) };
+    calibrate(rows[0], rows[1], &options).expect("legs enough")
+}
+
+#[test]
+fn one_that_errs_less_is_told() {
+    // Larger than what the wheels err by, which would hide that it is not there.
+    let stated = ReferenceError { position: 0.05, heading: 0.05 };
+    let halved = ReferenceError { position: 0.5 * stated.position, heading: 0.5 * stated.heading };
+    for model in MODELS {
+        for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
+            let made = Simulation::of(model, noise, 400, 31);
+            let [odometry, exact] = made.log();
+            for errs in [ReferenceError::default(), halved] {
+                let told = judged(&made, stated, [&odometry, &off_by(errs, &exact, 1)]);
+                assert_eq!(told.doubts.verdict, Verdict::Overstated, "{model:?} {noise:?} {errs:?}");
+            }
+            // As it is, there is nothing to state.
+            let told = judged(&made, ReferenceError::default(), [&odometry, &exact]);
+            assert_ne!(told.doubts.verdict, Verdict::Overstated, "{model:?} {noise:?}");
+        }
+    }
+}
+
+/// Of wheels that err by nothing the residuals are the reference's, no larger: one of three kinds is beyond three deviations by chance in every
+/// two hundredth log, and in 4 of 150 or more once in a hundred times.
+#[test]
+fn one_that_errs_as_stated_is_not() {
+    let mut told = 0;
+    for model in MODELS {
+        for seed in 0..10 {
+            let made = Simulation::of(model, NoiseKind::Normal, 300, 40 + seed);
+            let [exact, _] = made.log();
+            for error in [
+                STATED,
+                ReferenceError { position: 0.2, ..STATED },
+                ReferenceError { position: 0.0, ..STATED },
+            ] {
+                let calibration = judged(&made, error, [&exact, &off_by(error, &exact, seed)]);
+                told += usize::from(calibration.doubts.verdict == Verdict::Overstated);
+            }
+        }
+    }
+    assert!(told < 4, "{told}");
+}
+
+#[test]
+fn what_no_reference_of_its_kind_would_show_asks_for_another_one() {
+    let made = Simulation::of(Model::Odometry(OdometryRule::Nav2), NoiseKind::Normal, 400, 32);
+    let [odometry, reference] = made.log();
+    let told = judged(&made, ReferenceError { position: 100.0, heading: 0.0 }, [&odometry, &reference]);
+    assert_eq!(told.undetermined[2..], [Some(ReferenceTooCoarse); 2]);
+    assert_eq!(told.doubts.verdict, Verdict::Overstated);
+}

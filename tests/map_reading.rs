@@ -263,7 +263,7 @@ fn what_is_refused_late_changes_nothing() {
     begun(&mut machine, &file);
     assert_eq!(
         finish(&mut machine),
-        Err(MapError::Plan(FloorPlanError::TooManyWalls(FloorPlan::MAX_WALLS + 1)))
+        Err(MapError::Plan(FloorPlanError::TooManySides(FloorPlan::MAX_WALLS + 1)))
     );
     assert_eq!(shown(&machine), before);
     assert_eq!(finish(&mut machine), Ok(1));

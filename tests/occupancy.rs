@@ -259,7 +259,24 @@ fn a_grid_of_too_many_walls_is_refused() {
     // 160 · 160 cells that stand alone, with four sides each.
     let error = FloorPlan::from_grid(dots.grid()).err();
     // Counted no further than the row or column that passed the limit.
-    assert!(matches!(error, Some(FloorPlanError::TooManyWalls(100_001..=100_320))), "{error:?}");
+    assert!(matches!(error, Some(FloorPlanError::TooManySides(100_001..=100_320))), "{error:?}");
+    let message = error.map(|error| error.to_string()).unwrap_or_default();
+    assert!(message.starts_with("image has cells in the way with 100"), "{message}");
+}
+
+/// Of a grid in fields that it has.
+#[test]
+fn a_grid_that_reaches_too_far_is_refused() {
+    let grid = |resolution, origin| {
+        Cells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
+    };
+    assert!(FloorPlan::from_grid(grid(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
+    for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {
+        let error = FloorPlan::from_grid(grid(resolution, origin)).err();
+        assert!(matches!(error, Some(FloorPlanError::BadGrid(_))), "{error:?}");
+        let message = error.map(|error| error.to_string()).unwrap_or_default();
+        assert!(message.starts_with("origin has the cells from ["), "{message}");
+    }
 }
 
 /// A turned map ends where its image does, not where a box around it does.

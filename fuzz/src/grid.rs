@@ -25,7 +25,7 @@ pub fn run(bytes: &[u8]) {
     }
     let plan = match FloorPlan::from_grid(grid.with_unknown(unknown)) {
         Ok(plan) => plan,
-        Err(FloorPlanError::BadBounds(_)) => return,
+        Err(FloorPlanError::BadGrid(_)) => return,
         Err(error) => panic!("{error}"),
     };
     let grid = plan.grid().expect("made of a grid");

@@ -65,7 +65,7 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
                     let [x, y] = end;
                     assert!(!((left..=right).contains(&x) && (bottom..=top).contains(&y)), "{message}");
                 }
-                FloorPlanError::TooManyWalls(_) => panic!("{message}"),
+                _ => panic!("{message}"),
             }
             None
         }

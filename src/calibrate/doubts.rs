@@ -4,7 +4,7 @@ use super::bad::Robust;
 use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU};
 use super::model::{Model, Observation};
 use super::profile::Search;
-use super::systematic::{Square, sweep};
+use super::systematic::{Square, inverted};
 use super::trajectory::sort;
 use crate::noise::NoiseKind;
 
@@ -143,14 +143,7 @@ fn shape(noise: NoiseKind) -> Shape {
 /// The variance of a sum of α's with these factors, of which so much is known: factorsᵀ · information⁻¹ · factors. Infinite where it
 /// hangs on an α of which nothing is known.
 fn variance_of(factors: &Alphas, information: &Square) -> f64 {
-    let (mut swept, mut known) = (*information, [false; 6]);
-    for alpha in 0..6 {
-        // Less than that is what rounding leaves of nothing.
-        known[alpha] = swept[alpha][alpha] > 1e-9 * information[alpha][alpha];
-        if known[alpha] {
-            sweep(&mut swept, alpha);
-        }
-    }
+    let (known, swept) = inverted(information);
     let (mut variance, mut unknown) = (0.0, 0.0f64);
     for alpha in 0..6 {
         let mut weight = 0.0;

@@ -6,7 +6,7 @@ use super::doubts::{Doubts, Halves, Inflation, Judged, Verdict, doubts};
 use super::legs::Leg;
 use super::mismatch::mismatch;
 use super::model::Observation;
-use super::overstated::overstated;
+use super::overstated::{is_below_it, is_too_much_of_all};
 use super::profile::Fitted;
 use super::systematic::Systematic;
 
@@ -76,8 +76,12 @@ impl Judging {
             if doubted.verdict != Verdict::FewLegs {
                 work.add(SORTED * legs.len());
                 let is_overstated = || {
-                    let smaller = reference_error.is_stated() && overstated(model, observations, judged);
-                    smaller.then_some(Verdict::Overstated)
+                    let is_overstated = reference_error.is_stated()
+                        && (is_below_it(model, observations, judged)
+                            // Tails and what is systematic leave it undecided.
+                            || (![Verdict::HeavyTails, Verdict::Correlated].contains(&doubted.verdict)
+                                && is_too_much_of_all(model, observations, judged, &fitted.best.alphas)));
+                    is_overstated.then_some(Verdict::Overstated)
                 };
                 let found = mismatch(legs, observations, of.removed, length).or_else(is_overstated);
                 doubted.verdict = found.unwrap_or(doubted.verdict);

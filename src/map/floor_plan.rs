@@ -71,6 +71,10 @@ pub enum FloorPlanError {
     BadWall { index: usize, end: [f64; 2] },
     /// More than [`FloorPlan::MAX_WALLS`] walls.
     TooManyWalls(usize),
+    /// The bounds of a grid's cells are none of a plan.
+    BadGrid([f64; 4]),
+    /// The cells of a grid that are in the way have more than [`FloorPlan::MAX_WALLS`] sides.
+    TooManySides(usize),
 }
 
 impl FloorPlanError {
@@ -83,12 +87,22 @@ impl FloorPlanError {
                  1000000, the sides from 0.01 to 100000",
                 list(bounds)
             ),
+            Self::BadGrid(bounds) => format!(
+                "origin has the cells from [{}] to [{}]; allowed are coordinates from -1000000 to 1000000, and a grid with \
+                 sides from 0.01 to 100000",
+                list(&bounds[..2]),
+                list(&bounds[2..])
+            ),
             Self::BadWall { index, end } => {
                 format!("walls[{index}] ends at [{}]; allowed is a point inside the bounds", list(end))
             }
             Self::TooManyWalls(count) => {
                 format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MAX_WALLS)
             }
+            Self::TooManySides(count) => format!(
+                "image has cells in the way with {count} sides or more; allowed are at most {}",
+                FloorPlan::MAX_WALLS
+            ),
         }
     }
 }
@@ -142,7 +156,7 @@ impl FloorPlan {
     /// # Errors
     /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
     pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
-        let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManyWalls)?;
+        let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManySides)?;
         Self::outlined(grid, walls)
     }
 
@@ -165,7 +179,8 @@ impl FloorPlan {
         if !bounds.iter().all(|bound| COORDINATE.contains(bound))
             || !sides.iter().all(|side| SIDE.contains(side))
         {
-            return Err(FloorPlanError::BadBounds(bounds));
+            let refused = if solid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
+            return Err(refused(bounds));
         }
         if walls.len() > Self::MAX_WALLS {
             return Err(FloorPlanError::TooManyWalls(walls.len()));

@@ -146,7 +146,7 @@ impl MapReading {
             self.outlining = Outlining::default();
         }
         let done = self.outlining.advance(&self.grid, FloorPlan::MAX_WALLS, work);
-        Ok(done.map_err(FloorPlanError::TooManyWalls)?)
+        Ok(done.map_err(FloorPlanError::TooManySides)?)
     }
 
     /// Makes cells of pixels; whether all is done.

@@ -84,7 +84,10 @@ test('a recording has both, and where it is not clear which topic is which, the 
     const name = `run-${topics.length}.mcap`;
     const buffer = await recordingWith(topics);
     await widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
-    if (topics.length > 1) await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
+    if (topics.length > 1) {
+      await expect(widget.getByRole('alert')).toHaveText(/^run-2\.mcap: which topic is the reference is not clear; expected is a choice of .*\/slam\/pose \(PoseStamped\)\.$/);
+      await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
+    }
     await expect(caption(widget)).toHaveText(new RegExp(`of ${name}[.,]`));
     await settled(widget);
     const read = await stats(widget);
@@ -163,6 +166,11 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await expect(alert).toHaveText(/3 files given; expected are two tables/);
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/The log is refused: 1 file given; expected are two tables at once/);
+  // A recording has both.
+  const recording = await recordingWith(['/mocap/pose']);
+  const table = Buffer.from(example('odometry'));
+  await widget.locator('#log-files').setInputFiles([{ name: 'odom.csv', buffer: table, mimeType: 'text/csv' }, { name: 'run.mcap', buffer: recording, mimeType: 'application/octet-stream' }]);
+  await expect(alert).toHaveText(/: run\.mcap is a recording, and others are with it; expected is one recording/);
   // What is called a recording, or is one of something else.
   await choose(widget, { 'notes.mcap': 'no recording' });
   await expect(alert).toHaveText(/^notes\.mcap: the recording is damaged/);
@@ -171,6 +179,41 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await expect(alert).toHaveText(/^words\.mcap: the topics are \/rosout \(Log\); expected is one of type nav_msgs\/msg\/Odometry/);
   expect(await stateOf(widget)).toEqual(before);
   await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('a log that says nothing does not take the place of one that does, nor its name', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await settled(widget);
+  const before = await caption(widget).innerText();
+  const { alphas } = await stats(widget);
+  const said = await page.evaluateHandle(() => {
+    const said = /** @type {Set<string>} */ (new Set());
+    const caption = /** @type {HTMLElement} */ (document.querySelector('alpha-calibrator')?.shadowRoot?.querySelector('p[part=caption]'));
+    new MutationObserver(() => said.add(caption.innerText)).observe(caption, { subtree: true, childList: true, characterData: true });
+    return said;
+  });
+  const still = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
+  await choose(widget, { 'a.csv': still, 'b.csv': still });
+  await expect(widget.getByRole('alert')).toHaveText(/^The log is refused: the log has 0 legs for which both trajectories are known; allowed are 8 at least/);
+  // Of another drive, which has no time in common with this one.
+  const elsewhere = Array.from({ length: 600 }, (_, i) => `${1e6 + i / 10},${0.05 * i},0,${Math.sin(i * i / 900)}`);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'elsewhere.csv': ['t,x,y,yaw', ...elsewhere].join('\n') });
+  await expect(widget.getByRole('alert')).toHaveText(/^The log is refused: odometry and reference have no time in common, and turn alike at no offset of their clocks/);
+  await settled(widget);
+  expect(await caption(widget).innerText()).toBe(before);
+  expect((await stats(widget)).alphas).toEqual(alphas);
+  await expect(widget.locator('.own-log .present')).toContainText('odometry.csv, reference.csv');
+  await expect(widget.locator('.own-log')).not.toContainText('nothing in common:');
+  // No caption has the figures of one log and the name of another.
+  const half = (/** @type {'odometry' | 'reference'} */ name) => example(name).split('\n').slice(0, 2000).join('\n');
+  await choose(widget, { 'half.csv': half('odometry'), 'reference.csv': half('reference') });
+  await expect(caption(widget)).toHaveText(/of half\.csv, reference\.csv[.,]/);
+  const { count } = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.legs);
+  const captions = (await said.evaluate((said) => [...said])).filter((text) => text.includes('half.csv'));
+  expect(captions.length).toBeGreaterThan(0);
+  for (const text of captions) expect(text).toMatch(new RegExp(`^${count} legs of half`));
 });
 
 test('who stops the reading of a log is told that all is as it was', async ({ page }) => {
@@ -257,11 +300,13 @@ test('a page gives a log, which is in no state; one that is refused leaves the p
     let refused = '';
     figure.addEventListener('error', (event) => { refused = /** @type {ErrorEvent} */ (event).message; event.preventDefault(); }, { once: true });
     figure.log = { ...given, odometry: { ...given.odometry, t: t.with(3, 1) } };
+    figure.addEventListener('error', (event) => { refused += `; ${/** @type {ErrorEvent} */ (event).message}`; event.preventDefault(); }, { once: true });
+    Object.assign(figure, { log: 5 });
     return [figure.log?.name, figure.machine.count, refused];
   });
   expect(name).toBe('of the page');
   expect(Number(count)).toBeGreaterThan(100);
-  expect(refused).toMatch(/^odometry: sample 3 is not later than the one before/);
+  expect(refused).toMatch(/^odometry: sample 3 is not later than the one before.*; log is 5; allowed is an object with keys from name, odometry, reference$/);
   expect(await stateOf(widget)).toEqual(before);
   expect(opened).not.toContain('exact');
   // Of what the log and the page state, the rest is taken to be exact.

@@ -500,7 +500,7 @@ test('a grid in a state whose cells have too many sides is refused by an event, 
     const told = await message;
     return { told, same: JSON.stringify(squeeze.getState()) === JSON.stringify(state) };
   }, `(${largest})`);
-  expect(refused.told).toMatch(/100000/);
+  expect(refused.told).toMatch(/^map\.occupied has cells in the way with 100\d{3} sides or more; allowed are at most 100000$/);
   expect(refused.same).toBe(true);
   await expect(progress(widget)).toHaveCount(0);
   expect(await squeezed(widget)).toEqual(before);

@@ -327,6 +327,8 @@ test.describe('malformed maps', () => {
     ['a map that contains itself', [file('room.yaml', 'image: &a [*a]'), image], /^room\.yaml, line 1: this is not YAML \(aliases exceeded maxAliases \(0\)\); expected is one field a line/],
     ['a value that goes on for ever', [yaml('room.yaml', { ...FIELDS, image: `[${'a, '.repeat(1e4)}]` }), image], /^room\.yaml: image is \["a",[a",]+…; expected is the name of a \.pgm or \.png file\.$/],
     ['a PNG too large to unpack', [yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', Buffer.concat([SIGNATURE, header({ width: 100_000, height: 100_000 })]))], /^room\.png: width × height is 100000 × 100000; expected are sides up to/],
+    ['a map that reaches too far', [yaml('room.yaml', { ...FIELDS, origin: '[999999, 0, 0]' }), image], /^room\.yaml: origin has the cells from \[999999, 0\] to \[1000002, 2\]; allowed are coordinates from -1000000 to 1000000, and a grid with sides from 0\.01 to 100000\.$/],
+    ['too many walls', [good, pgm('room.pgm', 400, 400, (c, r) => c % 2 === 0 && r % 2 === 0)], /^room\.pgm: image has cells in the way with 100\d{3} sides or more; allowed are at most 100000\.$/],
     ['another kind of file', [file('room.txt', 'a room')], /^room\.txt: this kind of file is not read; expected is a \.json floor plan/],
     ['two maps', [good, image, file('plan.json', JSON.stringify(ROOM))], /^plan\.json, room\.yaml: these are 2 maps; expected is one at a time/],
   ];

@@ -3,13 +3,14 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { axisOf, between } from '../../www/widgets/alpha-calibrator/curve.js';
+import { axisOf, between, squaresOf } from '../../www/widgets/alpha-calibrator/curve.js';
 import { de } from '../../www/widgets/alpha-calibrator/de.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { between as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.js';
 import { QUANTILES, SHARES, SQUARED } from '../../www/widgets/alpha-calibrator/quantiles.js';
 import { classesOf, truthHolds } from '../../www/widgets/alpha-calibrator/reading.js';
 import { SIMULATED } from '../../www/widgets/alpha-calibrator/settings.js';
+import { significantly } from '../../www/widgets/alpha-calibrator/words.js';
 import { settings } from '../../www/settings.js';
 
 /** Where a triangle of variance 1 ends. */
@@ -103,11 +104,34 @@ test('an axis has two ends whatever is of a curve', () => {
   for (const [values, from, to] of /** @type {[number[], number, number][]} */ ([
     [[-Infinity, -20, 1, 2], -4, 2.5],
     [[-Infinity, 1, 2], 1, 2.5],
-    [[-Infinity, -Infinity], 0, 0.5],
-    [[NaN], 0, 0.5],
+    // A flat one is in the middle.
+    [[7, 7, 7], 6.5, 7.5],
+    [[-Infinity, -Infinity], -0.5, 0.5],
+    [[NaN], -0.5, 0.5],
     // A half more is no more there.
-    [[-1.1e38, -1.2e38], 0, 0.5],
+    [[-1.1e38, -1.2e38], -0.5, 0.5],
   ])) assert.deepEqual(axisOf(values, 6), { from, to });
+});
+
+test('bins and their line have room whatever a bar is as long as', () => {
+  // The bars of all but one are short: its own leaves the picture, of which the line has two thirds.
+  assert.deepEqual(squaresOf([1, 2, 3], [0.5, 1, 90], 2.5), { from: -1.5, to: 4.5 });
+  assert.deepEqual(squaresOf([1, 2, 3], [0.5, 1, 1], 2.5), { from: 0, to: 4 });
+  assert.deepEqual(squaresOf([1, 2], [0.5, 0.5], 7), { from: 0, to: 7 });
+  assert.deepEqual(squaresOf([], [], 0), { from: 0, to: 0 });
+  // What a reference is stated to err by is taken off, and may be more than there is.
+  assert.deepEqual(squaresOf([-2, -3], [0.5, 9], 0), { from: -4.5, to: 1.5 });
+});
+
+test('an α is printed in digits that are its own, however small it is', () => {
+  for (const [alpha, text] of /** @type {[number, string][]} */ ([
+    [0, '0'],
+    [0.123456, '0.123'],
+    [0.0001, '0.000100'],
+    [0.0000234, '2.3·10⁻⁵'],
+    [1e-10, '1.0·10⁻¹⁰'],
+    [Infinity, '∞'],
+  ])) assert.equal(significantly(alpha), text);
 });
 
 test('numbers of files: as many digits as the interval has a meaning in, with an exponent where they are tiny', () => {

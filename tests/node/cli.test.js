@@ -87,7 +87,7 @@ test('a recording gives both, by the topics that can be meant or are named', asy
   assert.deepEqual((await askedOf(['--recording', path, '--odom-topic', '/odom', '--model', 'velocity'])).odometry.y[3], 1);
   const unclear = file('unclear.mcap', await recordingOf(messages.filter(({ topic }) => topic !== '/mocap').map((each) => (each.topic === '/cmd_vel' ? { ...each, topic: '/third', type: 'nav_msgs/msg/Odometry', message: odometry(each.t, 0, 0, 0) } : each))));
   const { code, err } = await said(['calibrate', '--recording', unclear]);
-  assert.deepEqual([code, err], [2, 'unclear.mcap: which topic is the reference is not clear; expected is a choice of /odom (Odometry), /other (PoseStamped), /third (Odometry).\n']);
+  assert.deepEqual([code, err], [2, 'unclear.mcap: which topic is the reference is not clear; expected is a choice of /odom (Odometry), /other (PoseStamped), /third (Odometry), by --reference-topic.\n']);
 });
 
 for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([
@@ -249,7 +249,7 @@ test('clocks without a common time are aligned by the turns, which is said; two 
   for (const [i, alpha] of told.alphas.entries()) assert.ok(Math.abs(alpha / clean.alphas[i] - 1) < 1e-3, `${alpha}`);
   const straight = referenceOf(([t, x]) => [t + 1_600_000_000, x, 0, 0]);
   const { code, err } = await said(['calibrate', '--odometry', example('odometry'), '--reference', straight]);
-  assert.deepEqual([code, err], [2, 'odometry.csv and changed.csv: odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive\n']);
+  assert.deepEqual([code, err], [2, 'odometry.csv and changed.csv: odometry and reference have no time in common, and turn alike at no offset of their clocks; allowed are two logs of one drive.\n']);
 });
 
 test('from a shell: help, a sentence, and a pipe that is closed', () => {
@@ -413,7 +413,7 @@ test('by the omnidirectional rule five α’s, and one table is no two logs', as
   assert.match(out, /^alpha5  +0\.\d+ .*slide from driving$/m);
   const twice = await said(['calibrate', '--odometry', FILES[1], '--reference', FILES[1]]);
   assert.equal(twice.code, 2);
-  assert.match(twice.err, /^odometry\.csv is both odometry and reference; expected are two tables, or an MCAP file\.$/m);
+  assert.match(twice.err, /^odometry\.csv is no MCAP recording; expected is one for both odometry and reference, or two tables\.$/m);
 });
 
 test('where a log does not determine an α, no line says one', async () => {

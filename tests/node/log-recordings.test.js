@@ -10,7 +10,8 @@ import { onDisk } from '../../www/cli/disk.js';
 import { log as german } from '../../www/widgets/alpha-calibrator/log/de.js';
 import { MAX_CHUNK, decompressors } from '../../www/widgets/alpha-calibrator/log/decompress.js';
 import { unlz4 } from '../../www/widgets/alpha-calibrator/log/lz4.js';
-import { LogError, isRecording, logsOf, readLog, topicsOf, usualTopics } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { LogError, isRecording, logsOf, readLog, tell, together, topicsOf, usualTopics } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { log as english } from '../../www/widgets/alpha-calibrator/log/en.js';
 import { lz4, odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { generator } from '../random.js';
 
@@ -209,6 +210,38 @@ test('a recording that breaks off is read as far as it goes', async () => {
     assert.ok(length > 0.1 * COUNT && length < 0.6 * COUNT, `${length}`);
     close(/** @type {any} */ (log.data).x, (i) => i / 100);
   }
+});
+
+test('a clock that begins at 0 has stamps, and messages without stamps the times at which they were recorded, which is said', async () => {
+  const rows = async (/** @type {(i: number) => number} */ stamp) => {
+    const messages = Array.from({ length: 100 }, (_, i) => {
+      const message = odometry(stamp(i), i, 0, 0);
+      return { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: 1_700_000_000 + i / 20, message };
+    });
+    const log = await readLog(file(await recordingOf(messages)), { topic: '/odom' });
+    return { ...log, told: tell(log, english.found).join(' ') };
+  };
+  const simulated = await rows((i) => i / 10);
+  assert.deepEqual([simulated.start, simulated.found.rows, simulated.data.t[0], simulated.data.t[99]], [0, 100, 0, 9.9]);
+  const unstamped = await rows(() => 0);
+  assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
+  assert.match(unstamped.told, /times are those at which messages were recorded/);
+  assert.doesNotMatch(simulated.told, /recorded/);
+  // A stamp that was forgotten is one that goes back.
+  const forgotten = await rows((i) => (i === 50 ? 0 : 5 + i / 10));
+  assert.deepEqual([forgotten.data.t.length, forgotten.found.leftOut.falling.count], [99, 1]);
+  assert.doesNotMatch(forgotten.told, /recorded/);
+  // Of a recording it is the message that is named, for there are no lines.
+  assert.match(await sentenceOf(rows((i) => 50 - i / 10)), /^run\.mcap, topic \/odom: 99 of 100 rows, that of message 2 first, go back in time;/);
+});
+
+test('one topic is no two logs, and what has no frames is not asked for some', async () => {
+  const source = file(await recordingOf(drive()));
+  const [one, other] = await logsOf(source, [{ topic: '/odom' }, { topic: '/odom' }]);
+  assert.match(await sentenceOf((async () => together(one, other))()), /^run\.mcap, \/odom: it is both odometry and reference; expected are two logs of one drive\.$/);
+  const [two, frames] = await logsOf(source, [{ topic: '/tf', frames: { parent: 'odom', child: 'base_footprint' } }, { topic: '/tf', frames: { parent: 'map', child: 'base_footprint' } }]);
+  assert.ok(together(two, frames).reference.data.t.length > 1);
+  assert.match(await sentenceOf(readLog(source, { topic: '/odom', frames: { parent: 'map', child: 'odom' } })), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry”; expected is tf2_msgs\/msg\/TFMessage/);
 });
 
 test('quaternions that are no rotation, numbers that are none and times that fall are left out', async () => {

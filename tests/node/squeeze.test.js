@@ -438,7 +438,7 @@ test('a malformed map is explained by field and line, and the present one stays'
     ['line 3: the length of the raster', YAML, bytes('P5\n4 3\n255\n0123456789')],
     ['line 4: a pixel', YAML, bytes('P2\n4 3\n255\n1 2 3')],
     ['line 5: a pixel', YAML, bytes('P2\n4 3\n255\n1 2 3\n4 five 6')],
-    ['walls', { ...YAML, resolution: 0.05 }, imageData(640, 320, Array.from({ length: 640 * 320 }, (_, i) => (i % 2 || Math.floor(i / 640) % 2 ? 255 : 0)))],
+    ['image', { ...YAML, resolution: 0.05 }, imageData(640, 320, Array.from({ length: 640 * 320 }, (_, i) => (i % 2 || Math.floor(i / 640) % 2 ? 255 : 0)))],
   ];
   refused(machine, wrong.map(([field, description, image]) => [field, () => machine.setGrid(description, image)]));
   const inSlices = (/** @type {any} */ description, /** @type {any} */ image) => {
@@ -516,7 +516,7 @@ test('unknown cells are free or blocked, as the reader chooses', () => {
   refused(machine, [['unknown is blocked; allowed is free, as the cells of this map would have more than 100000 sides', () => machine.configure({ unknown: 'blocked' })]]);
   machine.setPlan(undefined);
   machine.configure({ unknown: 'blocked' });
-  refused(machine, [['walls', () => machine.setGrid(description, speckled)]]);
+  refused(machine, [['image', () => machine.setGrid(description, speckled)]]);
 });
 
 test('a density has the colours of what most of the attempts in a cell are', () => {

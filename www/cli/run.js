@@ -59,7 +59,7 @@ function calibrate(motion, { fit, deviations }, { odometry, reference }) {
   } catch (error) {
     // It names a field, the value, and what is allowed.
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-    throw new UsageError(refusalOf(error.message) ?? `${odometry.name} and ${reference.name}: ${error.message}`);
+    throw new UsageError(refusalOf(error.message) ?? `${odometry.name} and ${reference.name}: ${error.message}.`);
   }
 }
 
@@ -106,7 +106,7 @@ function readOne(part, role, asked) {
     if (source.size === 0 || !(await isRecording(source))) {
       if (part.topic !== undefined) throw new UsageError(`${source.name} is no recording and has no topic ${cut(part.topic)}; expected is an MCAP file.`);
       if (part.frames) throw new UsageError(`${source.name} is no recording and has no frames ${cut(part.frames.parent)} and ${cut(part.frames.child)}; expected is an MCAP file.`);
-      if (asked.odometry.path === asked.reference.path) throw new UsageError(`${source.name} is both odometry and reference; expected are two tables, or an MCAP file.`);
+      if (asked.odometry.path === asked.reference.path) throw new UsageError(`${source.name} is no MCAP recording; expected is one for both odometry and reference, or two tables.`);
       return readLog(source, { kind: kindOf(role, asked) });
     }
     return readLog(source, await choiceOf(part, role, asked, source, () => topicsOf(source)));
@@ -142,7 +142,7 @@ const kindOf = (role, { fit }) => (role === 'reference' ? 'poses' : fit.model ==
  */
 async function choiceOf({ topic, frames }, role, asked, { name }, topics) {
   const kind = kindOf(role, asked);
-  return { topic: topic ?? usualTopic(name, await topics(), role, kind), frames, kind };
+  return { topic: topic ?? usualTopic(name, await topics(), role, kind, frames), frames, kind };
 }
 
 /**
@@ -150,11 +150,15 @@ async function choiceOf({ topic, frames }, role, asked, { name }, topics) {
  * @param {Topic[]} topics
  * @param {Role} role
  * @param {'poses' | 'commands' | undefined} kind
+ * @param {Choice['frames']} frames
  */
-function usualTopic(file, topics, role, kind) {
+function usualTopic(file, topics, role, kind, frames) {
   const useful = usefulTopics(file, topics);
+  // What never changes has a topic of its own, which is read with any.
+  const [transforms, ...more] = frames ? useful.filter(({ name, kind }) => kind === 'transforms' && !/static/.test(name)) : [];
+  if (transforms && more.length === 0) return transforms.name;
   const usual = usualTopics(topics, kind)[role];
-  if (usual === null) throw new LogError({ file }, (say) => say.choose(role, described(useful)));
+  if (usual === null) throw new LogError({ file }, (say) => say.choose(role, described(useful), `--${role === 'odometry' ? 'odom' : role}-topic`));
   return usual;
 }
 

@@ -200,7 +200,8 @@ export class Settings extends Part {
         refuse(error);
       }
     })(), next);
-    this.settle(end - performance.now());
+    const left = end - performance.now();
+    if (left > 0) this.settle(left);
     later = true;
   }
 

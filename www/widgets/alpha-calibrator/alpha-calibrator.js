@@ -1,6 +1,7 @@
 /** <alpha-calibrator>: the α's of a log, how well they are known, and whether the model is any good. */
 
 import { html } from 'lit';
+import { object } from '../../figure/checks.js';
 import { canvas } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
@@ -28,6 +29,9 @@ import { captionOf, legText, longestCaption, wayText } from './words.js';
  * @import { AlphaCalibrator as Machine, CalibrationLog } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
  */
+
+/** What a log consists of. */
+const KEYS = ['name', 'odometry', 'reference'];
 
 /** What a reference errs by. */
 const DEVIATIONS = /** @type {const} */ (['positionDeviation', 'headingDeviation']);
@@ -69,11 +73,14 @@ export class AlphaCalibratorElement extends FigureElement {
   read(machine) {
     const reading = readingOf(machine, this.#readOf === machine ? this.reading : undefined);
     this.#readOf = machine;
+    this.#logRead = this.#log;
     return reading;
   }
 
   /** Whose copies the reading has. @type {Machine | undefined} */
   #readOf;
+  /** The log that the reading is of: for a moment the former one. @type {CalibrationLog | null} */
+  #logRead = null;
 
   machineChanged() {
     this.#readOf = undefined;
@@ -131,18 +138,26 @@ export class AlphaCalibratorElement extends FigureElement {
 
   set log(log) {
     this.reflection.give('log', log, (given) => {
+      if (given !== null) object('log', given, KEYS);
       this.#enter(given);
       this.reflection.tell();
       this.settings.show();
     });
   }
 
-  /** The reader opens a log. @param {CalibrationLog | null} log */
-  open(log) {
+  /**
+   * The reader opens a log.
+   *
+   * @param {CalibrationLog | null} log
+   * @param {() => void} [arrived] is called when it is there
+   * @param {(error: unknown) => void} [refuse] is called where it is refused later than here, as one of which nothing can be said
+   */
+  open(log, arrived, refuse) {
     this.runtime.attempt(() => this.#enter(log, () => {
       this.gesture.step();
       this.gesture.commit();
-    }));
+      arrived?.();
+    }, refuse));
     this.stage.wake();
   }
 
@@ -152,28 +167,29 @@ export class AlphaCalibratorElement extends FigureElement {
    *
    * @param {CalibrationLog | null} log
    * @param {() => void} [arrived] is called when it is there
+   * @param {(error: unknown) => void} [refuse] is called where it is refused later than here; without it a log says what it says
    * @throws {TypeError | RangeError} and nothing is changed
    */
-  #enter(log, arrived = () => this.reflection.tell()) {
+  #enter(log, arrived = () => this.reflection.tell(), refuse = undefined) {
     const { motion, settings } = this;
     if (!motion) return;
     // To read a long log takes as long as a frame has.
     const end = performance.now() + LONGEST_WORK;
     const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
     orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
-    settings.work(this.#entering(machine, log, arrived), machine);
-    const left = end - performance.now();
-    if (left > 0) settings.settle(left);
+    settings.prepare(machine, this.#entering(machine, log, arrived, refuse !== undefined), (error) => refuse?.(error), end);
   }
 
   /**
    * @param {Machine} machine with the log
    * @param {CalibrationLog | null} log
    * @param {() => void} arrived
+   * @param {boolean} isStrict whether it has to say something
    * @returns {import('../../figure/settings.js').Job}
    */
-  *#entering(machine, log, arrived) {
+  *#entering(machine, log, arrived, isStrict) {
     yield* advancing(machine);
+    if (isStrict && machine.refusal) throw new RangeError(machine.refusal);
     this.#log = log;
     this.state.own.leg = null;
     this.runtime.replace(machine);
@@ -185,12 +201,12 @@ export class AlphaCalibratorElement extends FigureElement {
 
   /** What the log is called. */
   get logName() {
-    return this.#log ? this.#log.name || words.calibrator.own.odometry : words.calibrator.simulated;
+    return this.#logRead ? this.#logRead.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
   /** What of the reference of the reader's own log nothing says the error of. */
   get exact() {
-    const { reference } = this.#log ?? {};
+    const { reference } = this.#logRead ?? {};
     const [position, heading] = DEVIATIONS.map((key) => reference !== undefined && !this.settings.told[key] && !reference[key]);
     return position && heading ? 'reference' : position ? 'position' : heading ? 'heading' : null;
   }

@@ -30,5 +30,24 @@ const BEYOND = 1e9;
 export function axisOf(values, depth) {
   const finite = Array.from(values).filter((value) => Math.abs(value) < BEYOND);
   const best = finite.length > 0 ? Math.max(...finite) : 0;
-  return { from: Math.max(Math.min(best, ...finite), best - depth), to: best + 0.5 };
+  return { from: Math.max(Math.min(best - 0.5, ...finite), best - depth), to: best + 0.5 };
+}
+
+/**
+ * From where to where the axis of squares is to reach: all bins and the line are on it, and of their bars half as much again, as one that a single
+ * leg decides would leave the others no room.
+ *
+ * @param {number[]} squares of bins
+ * @param {number[]} error of each
+ * @param {number} line its highest square
+ * @returns {{ from: number, to: number }}
+ */
+export function squaresOf(squares, error, line) {
+  const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
+  const ends = (/** @type {number} */ side) => squares.map((square, i) => square + side * error[i]);
+  const room = (highest - lowest) / 2;
+  return {
+    from: Math.max(lowest - room, Math.min(lowest, ...ends(-1))),
+    to: Math.min(highest + room, Math.max(highest, ...ends(1))),
+  };
 }

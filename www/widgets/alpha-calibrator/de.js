@@ -42,7 +42,7 @@ export const de = {
     correlated: (coverage) => `Noch ein fester Fehler: Der einer Etappe verrät den der nächsten. ${coverage} liegen in den 95 %.`,
     unrelated: () => 'Die Referenz folgt dieser Odometrie nicht: Ist sie von einer anderen Fahrt, in Grad oder in Millimetern?',
     'long-legs': (coverage) => `Die Etappen sind länger als verlangt: zu wenige Zeilen. Von neuen Residuen liegen ${coverage} in den 95 %.`,
-    overstated: () => 'Die Referenz irrt weniger als angegeben, denn die Residuen sind kleiner: Die α sind zu klein.',
+    overstated: () => 'Von einem Ende einer Etappe zum anderen irrt die Referenz weniger als angegeben: Die α sind zu klein. Einen kleineren Fehler angeben.',
     'few-legs': () => 'Zu wenige Etappen, um über das Modell zu urteilen: weiterfahren oder kürzere nehmen.',
   },
   none: 'Weniger als acht Etappen: zu wenig Bewegung oder keine gemeinsame Zeit.',
@@ -171,6 +171,7 @@ export const de = {
     present: (name) => `Diese Aufzeichnung: ${name}.`,
     reading: 'Wird gelesen',
     refused: (message) => `Die Aufzeichnung wird abgelehnt: ${message}`,
+    alone: (name) => `${name} ist eine Aufzeichnung, und anderes kam mit; erwartet wird eine Aufzeichnung, die beides hat, oder zwei Tabellen.`,
     two: (count) => `${count} ${count === 1 ? 'Datei wurde' : 'Dateien wurden'} gegeben; erwartet werden zwei Tabellen zugleich, der Odometrie und der Referenz, oder eine Aufnahme.`,
   },
   nav2: {

@@ -7,7 +7,7 @@ import { button, radioGroup, rich } from '../../ui/controls.js';
 import { NOTHING, counted, fixed, percent, significant } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
-import { axisOf, between } from './curve.js';
+import { axisOf, between, squaresOf } from './curve.js';
 import { OVERSTATED, adviceOf, isZero, neededFor } from './lines.js';
 import { QUANTILES, REACH } from './quantiles.js';
 import { alphaName, significantly, thousandths } from './words.js';
@@ -65,8 +65,9 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const furthest = Math.max(0, ...x);
   // Of a log that has nothing of what drives it the axis is an empty one.
   const last = furthest > DRIVEN ? 1.06 * furthest : 1;
-  const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * last, ...y.map((value, i) => value + error[i]));
-  const { scaled, unit } = thousandths(highest);
+  const { from, to } = squaresOf(y, error, (slope ?? 0) * last);
+  const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
+  const { scaled, unit } = thousandths(Math.max(highest, -from));
   const name = alphaName(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const middle = (low + high) / 2;
@@ -78,7 +79,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   return {
     label: say.label(kind, String(alpha + 1), slope === null ? NOTHING : significantly(slope)),
     x: { name: axis, from: 0, to: last },
-    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(Math.min(0, ...y.map((value, i) => value - error[i]))), to: scaled(highest) },
+    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(highest) },
     curves: [...lines, { name: say.bins, role: 'ink', x: [], y: [] }],
     points: x.map((at, i) => ({ role: /** @type {const} */ ('ink'), x: at, y: scaled(y[i]), error: scaled(error[i]) })),
   };
@@ -139,7 +140,7 @@ export function doubts(figure) {
 
 /** What inflation does to legs that were not fitted. @param {Figure} figure */
 export function inflation(figure) {
-  const { config: { inflation: factor }, stats: { inflation: { factors, coverage, logLikelihood }, doubts: { heldOut } } } = figure.reading;
+  const { config: { inflation: factor }, stats: { inflation: { factors, coverage, logLikelihood }, doubts: { heldOut, verdict } } } = figure.reading;
   const say = words.calibrator.inflation;
   if (factors.length === 0) return html`<p>${words.calibrator.none}</p>`;
   const x = { name: say.factor, from: factors[0], to: factors[factors.length - 1], logarithmic: true };
@@ -148,7 +149,8 @@ export function inflation(figure) {
   const ends = axisOf(logLikelihood, 6);
   const [covered, nats] = [between(factors, coverage, factor), between(factors, logLikelihood, factor)];
   const [low, high] = heldOut.interval;
-  const signature = Number.isNaN(covered) ? '' : covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
+  // Where the reference's error makes the intervals, no factor has a signature.
+  const signature = Number.isNaN(covered) || verdict === OVERSTATED ? '' : covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
   return html`<fieldset>${slider(figure, 'inflation')}</fieldset>
     <div class="figures">
       <figure>${plot({

@@ -41,7 +41,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     correlated: (coverage) => `Something is left: one leg’s error tells the next one’s. Of unseen residuals, ${coverage} are inside its 95 %.`,
     unrelated: () => 'The reference does not follow this odometry: is it of another drive, in degrees, or in millimetres?',
     'long-legs': (coverage) => `Legs are longer than asked, as a log has too few rows for them. Of unseen residuals, ${coverage} are inside its 95 %.`,
-    overstated: () => 'The reference errs less than is stated, for residuals are smaller: the α’s are too small. State a smaller error.',
+    overstated: () => 'From one end of a leg to the other the reference errs less than is stated: the α’s are too small. State a smaller error.',
     'few-legs': () => 'Too few legs to say whether the model is any good. Drive on, or take shorter legs.',
   },
   none: 'Fewer than eight legs: too little motion, or no time in common.',
@@ -170,6 +170,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     present: (name) => `The log at present: ${name}.`,
     reading: 'Reading',
     refused: (message) => `The log is refused: ${message}`,
+    alone: (name) => `${name} is a recording, and others are with it; expected is one recording, which has both, or two tables.`,
     two: (count) => `${count} ${count === 1 ? 'file' : 'files'} given; expected are two tables at once, of odometry and of the reference, or one recording.`,
   },
   nav2: {

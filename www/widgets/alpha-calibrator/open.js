@@ -108,13 +108,14 @@ export class LogOpener extends Part {
       const [{ name }] = files;
       // What is called a recording is refused as one.
       if (recording && !(/\.mcap$/i.test(name) || (await reader.isRecording(files[0])))) throw new Error(words.calibrator.own.two(1));
+      for (const file of recording ? [] : files) if (await reader.isRecording(file)) throw new Error(words.calibrator.own.alone(file.name));
       // To find the topics a recording without an index is read as a whole, and then once more.
       const topics = recording ? reader.usefulTopics(name, await reader.topicsOf(files[0], partOf(watching, 0, 0.5))) : [];
       const kind = this.#kind;
       const usual = reader.usualTopics(topics, kind);
       const [first, second] = reader.areSwapped(name, files.at(-1)?.name ?? '') ? [...files].reverse() : files;
       this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '', frames: FRAMES, kind, isTold: false };
-      if (recording && !(usual.odometry && usual.reference)) return;
+      if (recording) reader.checkClear(name, topics, usual);
       await this.#read(reader, watching);
     });
   }
@@ -151,10 +152,21 @@ export class LogOpener extends Part {
     watching.signal.throwIfAborted();
     const name = [...new Set(files.map((file) => file.name))].join(', ');
     const log = { name, odometry: logs.odometry.data, reference: /** @type {Poses} */ (logs.reference.data) };
-    this.#opened = { chosen, log, hasBoth: first.how.hasBoth };
-    this.host.open(log);
     const say = await wordsOf();
-    this.#found = () => [logs.odometry, logs.reference].flatMap((log) => [`${log.name}: ${reader.tell(log, say().found).join(' ')}`]);
+    watching.signal.throwIfAborted();
+    this.host.open(log, () => {
+      this.#opened = { chosen, log, hasBoth: first.how.hasBoth };
+      this.#found = () => [logs.odometry, logs.reference].flatMap((log) => [`${log.name}: ${reader.tell(log, say().found).join(' ')}`]);
+    }, (error) => this.#refuse(error));
+  }
+
+  /** Says why a log was refused. @param {unknown} error */
+  async #refuse(error) {
+    const { message, sentence } = /** @type {Error & Partial<import('./log/refusal.js').LogError>} */ (error);
+    const say = sentence && (await wordsOf());
+    this.#complaint = () => (say ? sentence(say()) : words.calibrator.own.refused(message));
+    this.host.requestUpdate();
+    await this.dropped.showRefusal();
   }
 
   /** @param {(reader: Reader, watching: Watched) => Promise<void>} work */
@@ -175,14 +187,12 @@ export class LogOpener extends Part {
       await work(await import('./log/read.js'), { onProgress, signal: stopping.signal });
     } catch (error) {
       if (stopping.signal.aborted) return;
-      const { message, sentence } = /** @type {Error & Partial<import('./log/refusal.js').LogError>} */ (error);
-      const say = sentence && (await wordsOf());
-      this.#complaint = () => (say ? sentence(say()) : words.calibrator.own.refused(message));
+      this.share = undefined;
+      await this.#refuse(error);
     } finally {
       if (!stopping.signal.aborted) this.share = undefined;
       this.host.requestUpdate();
     }
-    if (this.complaint) await this.dropped.showRefusal();
   }
 }
 

@@ -97,7 +97,8 @@ function axisOf(values) {
   const { width, inset } = CHART;
   const at = (/** @type {number} */ value) => {
     const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
-    return Math.max(0, Math.min(width, inset + share * (width - 2 * inset)));
+    // What is beyond has its mark at the edge, whole.
+    return Math.max(inset / 3, Math.min(width - inset / 3, inset + share * (width - 2 * inset)));
   };
   // More labels would touch.
   const step = Math.ceil((to - from) / MOST_DECADES);

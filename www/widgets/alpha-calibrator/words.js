@@ -2,7 +2,7 @@
 
 import { addEnglish, words } from '../../messages/registry.js';
 import { longest } from '../../ui/controls.js';
-import { counted, fixed, percent, powerOfTen, rounded } from '../../ui/format.js';
+import { counted, fixed, percent, powerOfTen, rounded, significant } from '../../ui/format.js';
 import { en } from './en.js';
 
 /**
@@ -17,8 +17,8 @@ addEnglish({ calibrator: en });
 /** The subscript of an α. @param {number} index from 0 */
 export const alphaName = (index) => String.fromCharCode(0x2081 + index);
 
-/** An α as it is printed: three digits, as its interval has no more to say. @param {number} alpha */
-export const significantly = (alpha) => (alpha === 0 ? '0' : alpha >= 1e-4 ? rounded(alpha, 3) : fixed(alpha, 5));
+/** An α as it is printed: three digits, as its interval has no more to say, and two where they need a power of ten. @param {number} alpha */
+export const significantly = (alpha) => (alpha >= 1e-4 ? rounded(alpha, 3) : significant(alpha, 2));
 
 /**
  * Small numbers have no room beside an axis: in thousandths, or thousandths of these.

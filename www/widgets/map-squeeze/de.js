@@ -160,6 +160,5 @@ export const de = {
       field: (field, value, allowed) => `${field} ist ${value}; erlaubt ist ${allowed}`,
     },
     line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
-    cells: (name, reason) => `${name}: Die belegten Zellen haben zu viele Seiten: ${reason}.`,
   },
 };

@@ -162,6 +162,5 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
       field: (field, value, allowed) => `${field} is ${value}; allowed is ${allowed}`,
     },
     line: (name, line, reason) => `${name}, line ${line}: ${reason}.`,
-    cells: (name, reason) => `${name}: its occupied cells have too many sides: ${reason}.`,
   },
 });

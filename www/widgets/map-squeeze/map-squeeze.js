@@ -84,8 +84,7 @@ export class MapSqueezeElement extends FigureElement {
     // Of the opening there is none to be put in.
     const { map } = 'map' in state ? state : { map: null };
     if (map !== null) {
-      yield* applyMap(machine, map);
-      yield* advancing(machine);
+      yield* applyMap(machine, map, advancing(machine));
       machine.beginToGrow(shownOf(machine, state.shown));
     }
     yield* advancing(machine);
@@ -400,11 +399,7 @@ export class MapSqueezeElement extends FigureElement {
 /** What is there as data. @param {MapData} map @returns {OwnMap} */
 const mapOf = (map) => ({
   name: map.name ?? '',
-  *apply(machine, rest) {
-    yield* applyMap(machine, map);
-    yield 0;
-    yield* rest;
-  },
+  apply: (machine, rest) => applyMap(machine, map, rest),
 });
 
 define('map-squeeze', MapSqueezeElement);

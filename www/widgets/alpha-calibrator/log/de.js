@@ -13,7 +13,7 @@ const NEEDED = {
 
 const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped oder tf2_msgs/msg/TFMessage';
 const OF_COMMANDS = 'geometry_msgs/msg/Twist oder TwistStamped';
-const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}` };
+const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, transforms: 'tf2_msgs/msg/TFMessage, worin Koordinatensysteme sind' };
 
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
@@ -37,7 +37,7 @@ export const log = {
     wide: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')} und der Kopf ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : ''}.`,
     rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
-    falling: (count, rows) => `${count} von ${rows} Zeilen, diese zuerst, gehen in der Zeit zurück; erwartet werden wachsende Zeiten.`,
+    falling: (count, rows, message) => `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, gehen in der Zeit zurück; erwartet werden wachsende Zeiten.`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason && ` (${reason})`}; erwartet werden mindestens 2.`,
     reasons: {
       notFinite: 'ein Wert hier ist keine endliche Zahl',
@@ -53,7 +53,7 @@ export const log = {
     compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,
     noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES.either}.`,
-    choose: (role, topics) => `welches Topic ${role === 'odometry' ? 'die Odometrie' : 'die Referenz'} ist, steht nicht fest; erwartet wird eine Wahl aus ${topics}.`,
+    choose: (role, topics, option) => `welches Topic ${role === 'odometry' ? 'die Odometrie' : 'die Referenz'} ist, steht nicht fest; erwartet wird eine Wahl aus ${topics}${option ? `, mit ${option}` : ''}.`,
     type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr, die Kodierung von ROS 2.`,
     message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
@@ -61,6 +61,7 @@ export const log = {
     noChain: (frames, known) =>
       `keine Transformationen führen von ${frames.replace(',', ' nach ')}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
     noMessages: 'es gibt keine Nachrichten darauf; erwartet werden mindestens 2.',
+    same: 'das ist Odometrie und Referenz zugleich; erwartet werden zwei Logs einer Fahrt.',
     held: 'ihre Pose steht, während die Odometrie weitergeht; erwartet wird eine, die dem Roboter folgt.',
   },
   found: {
@@ -77,6 +78,7 @@ export const log = {
     gaps: (count, first, longest) => `${times(count, 'Pause', 'Pausen')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,
     unit: (unit) => `Zeiten in ${unit}, nach ihrer Größe`,
+    logTimes: 'die Zeiten sind die der Aufzeichnung, denn die Köpfe der Nachrichten haben keine',
     degrees: 'Richtungen in Grad, nach dem Namen der Spalte',
     cutShort: 'die Datei endet mitten in einer Zeile oder einem Record',
     swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Sind die beiden vertauscht?`,

@@ -13,7 +13,7 @@ const NEEDED = {
 
 const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWithCovarianceStamped or tf2_msgs/msg/TFMessage';
 const OF_COMMANDS = 'geometry_msgs/msg/Twist or TwistStamped';
-const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}` };
+const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/msg/TFMessage, which has frames' };
 
 export const log = {
   place: (/** @type {string} */ file, /** @type {number} */ line, /** @type {string} */ topic) =>
@@ -37,8 +37,8 @@ export const log = {
     wide: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells, and the header ${needed}; expected are as many, with decimal points in numbers.`,
     number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : ''}.`,
     rows: (/** @type {number} */ most) => `there are more rows; expected are at most ${most}.`,
-    falling: (/** @type {number} */ count, /** @type {number} */ rows) =>
-      `${count} of ${rows} rows, this one first, go back in time; expected are times that grow.`,
+    falling: (/** @type {number} */ count, /** @type {number} */ rows, /** @type {number} */ message) =>
+      `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, go back in time; expected are times that grow.`,
     few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {string} */ reason) =>
       `${kept} of ${rows} rows can be used${reason && ` (${reason})`}; expected are at least 2.`,
     /** Why rows cannot be used. */
@@ -58,7 +58,8 @@ export const log = {
     compression: (/** @type {string} */ value) => `its chunks are compressed by “${value}”; expected is zstd, lz4 or none.`,
     noTopic: (/** @type {string} */ topics) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
     noTopics: (/** @type {string} */ topics) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
-    choose: (/** @type {string} */ role, /** @type {string} */ topics) => `which topic is the ${role} is not clear; expected is a choice of ${topics}.`,
+    choose: (/** @type {string} */ role, /** @type {string} */ topics, /** @type {string | undefined} */ option) =>
+      `which topic is the ${role} is not clear; expected is a choice of ${topics}${option ? `, by ${option}` : ''}.`,
     type: (/** @type {string} */ type, /** @type {keyof typeof TYPES} */ wanted) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
     encoding: (/** @type {string} */ value) => `its messages are encoded as “${value}”; expected is cdr, that of ROS 2.`,
     message: (/** @type {number} */ number, /** @type {string} */ reason) =>
@@ -68,6 +69,7 @@ export const log = {
       `no transforms lead from ${frames.replace(',', ' to ')}; expected are frames that are connected, of ${known || 'none'}.`,
     noMessages: 'there are no messages on it; expected are at least 2.',
     /** Of two logs. */
+    same: 'it is both odometry and reference; expected are two logs of one drive.',
     held: 'its pose stands while the odometry moves on; expected is one that follows the robot.',
   },
   /** What was found in a log, a sentence each. */
@@ -88,6 +90,7 @@ export const log = {
       `${count} ${count === 1 ? 'pause' : 'pauses'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
     jumps: (/** @type {number} */ count, /** @type {number} */ first) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,
     unit: (/** @type {string} */ unit) => `times in ${unit}, by their size`,
+    logTimes: 'times are those at which messages were recorded, for their headers have none',
     degrees: 'headings in degrees, by the name of the column',
     cutShort: 'the file ends in the middle of a row or record',
     swapped: (/** @type {string} */ odometry) => `it is called as odometry is, and ${odometry} is not: are the two the other way round?`,

@@ -1,6 +1,7 @@
 /** Logs of robots: poses or commands with times, of CSV, TUM and MCAP files. */
 
 import { turn } from '../../../figure/breath.js';
+import { LOG_TIME } from './rows.js';
 import { withoutHeld } from './held.js';
 import { LogError, bytesOf, listed } from './refusal.js';
 import { readTable } from './table.js';
@@ -84,6 +85,17 @@ export function usefulTopics(file, topics) {
   return useful;
 }
 
+/**
+ * @param {string} file
+ * @param {Topic[]} topics that are of use
+ * @param {{ odometry: string | null, reference: string | null }} usual
+ * @throws {LogError} where it is not clear which is which
+ */
+export function checkClear(file, topics, usual) {
+  const role = usual.odometry === null ? 'odometry' : 'reference';
+  if (usual[role] === null) throw new LogError({ file }, (say) => say.choose(role, described(topics), undefined));
+}
+
 /** Whether two tables are called as if the second were the odometry, and not the first. @param {string} first @param {string} second */
 export const areSwapped = (first, second) => CALLED_ODOMETRY.test(second) && !CALLED_ODOMETRY.test(first);
 
@@ -121,6 +133,7 @@ export function usualTopics(topics, kind) {
  * @throws {LogError} where the reference has no poses, or none that follow the robot
  */
 export function together(odometry, reference) {
+  if (reference.how.format === 'mcap' && odometry.name === reference.name && isSame(odometry.data, reference.data)) throw new LogError({ file: reference.name }, (say) => say.same);
   if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', 't, v, omega'));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [odometry, reference].map((log) => after(start, log));
@@ -133,6 +146,13 @@ export function together(odometry, reference) {
   const how = { ...reliable.how, ...(isSwapped && { swapped: odometry.name }), ...(isApart ? { apart: [odometry.name, span(reference), span(odometry)] } : {}) };
   return { odometry: first, reference: { ...reliable, how }, start };
 }
+
+/** Whether two logs have the same rows. @param {Log['data']} one @param {Log['data']} other */
+const isSame = (one, other) =>
+  Object.entries(one).every(([key, numbers]) => {
+    const others = /** @type {Record<string, ArrayLike<number>>} */ (other)[key];
+    return others?.length === numbers.length && numbers.every((/** @type {number} */ each, /** @type {number} */ i) => each === others[i]);
+  });
 
 /** @param {number} start @param {Log} log @returns {Log} */
 function after(start, log) {
@@ -172,6 +192,7 @@ export function tell({ data: { t }, start, how, found }, say) {
   return [
     say.rows(t.length, rows, t[t.length - 1] - t[0], 1 / step),
     ...(how.unitBy === 'size' && how.unit !== 's' ? [say.unit(how.unit)] : []),
+    ...(how.columns.clock === LOG_TIME ? [say.logTimes] : []),
     ...(how.heading === 'degrees' ? [say.degrees] : []),
     ...out.map(([reason, { count, line }]) => say.leftOut(say.reasons[reason], count, how.format === 'mcap' ? 0 : line)),
     ...(gaps.count ? [say.gaps(gaps.count, start + gaps.t, gaps.longest)] : []),

@@ -5,7 +5,7 @@ import { Frames } from './frames.js';
 import { openRecording } from './mcap.js';
 import { KINDS, edgeReader, poseReader } from './messages.js';
 import { LogError, cut, listed, reasonOf } from './refusal.js';
-import { Rows } from './rows.js';
+import { LOG_TIME, Rows } from './rows.js';
 
 /**
  * @import { Watching } from '../../../figure/breath.js'
@@ -100,7 +100,10 @@ class TopicReader {
   #rows;
   /** How many messages came. */
   #number = 0;
-  #isStamped = false;
+  /** Whether the headers have stamps: the first may be that of a clock which begins at 0, and two such are none. @type {boolean | undefined} */
+  #isStamped;
+  /** The first message, as long as that is not known. @type {{ reading: Reading, logTime: bigint, number: number } | undefined} */
+  #first;
   #type = '';
   /** @type {Frames | undefined} */
   #tree;
@@ -146,6 +149,7 @@ class TopicReader {
     const { kind: wanted, frames } = this.#choice;
     const kind = kindOf(type);
     const isWanted = kind !== null && !(wanted === 'poses' && kind === 'commands');
+    if (frames && kind !== 'transforms') this.#refuse((say) => say.type(cut(type), 'transforms'));
     if (!isWanted) this.#refuse((say) => say.type(cut(type), wanted === 'poses' ? wanted : 'either'));
     if (encoding !== 'cdr') this.#refuse((say) => say.encoding(cut(encoding)));
     if (kind !== 'transforms') {
@@ -167,12 +171,31 @@ class TopicReader {
   }
 
   /** @param {Reading} reading @param {bigint} logTime in nanoseconds */
-  #add({ stamp, a, b, c, isRotation }, logTime) {
-    const hasStamp = stamp !== undefined && (stamp.sec !== 0 || stamp.nanosec !== 0);
-    this.#isStamped ||= hasStamp;
-    if (!isRotation) this.#rows.leaveOut('noRotation', this.#number);
-    else if (hasStamp) this.#rows.add(stamp.sec, stamp.nanosec / 1e9, a, b, c, this.#number);
-    else this.#rows.add(Number(logTime / 1_000_000_000n), Number(logTime % 1_000_000_000n) / 1e9, a, b, c, this.#number);
+  #add(reading, logTime) {
+    const { stamp } = reading;
+    if (this.#isStamped === undefined) {
+      const hasStamp = stamp !== undefined && (stamp.sec !== 0 || stamp.nanosec !== 0);
+      if (stamp && !hasStamp && !this.#first) {
+        this.#first = { reading, logTime, number: this.#number };
+        return;
+      }
+      this.#isStamped = hasStamp;
+      this.#addFirst();
+    }
+    this.#put(reading, logTime, this.#number);
+  }
+
+  #addFirst() {
+    const first = this.#first;
+    this.#first = undefined;
+    if (first) this.#put(first.reading, first.logTime, first.number);
+  }
+
+  /** @param {Reading} reading @param {bigint} logTime @param {number} number of the message */
+  #put({ stamp, a, b, c, isRotation }, logTime, number) {
+    if (!isRotation) this.#rows.leaveOut('noRotation', number);
+    else if (this.#isStamped && stamp) this.#rows.add(stamp.sec, stamp.nanosec / 1e9, a, b, c, number);
+    else this.#rows.add(Number(logTime / 1_000_000_000n), Number(logTime % 1_000_000_000n) / 1e9, a, b, c, number);
   }
 
   /**
@@ -182,6 +205,7 @@ class TopicReader {
   async end(watching) {
     this.check();
     if (this.#number === 0) this.#refuse((say) => say.noMessages);
+    this.#addFirst();
     const { frames } = this.#choice;
     if (this.#tree && !frames) this.#refuseUnchosen();
     if (this.#tree && frames && this.#rows.count === 0) {
@@ -195,7 +219,7 @@ class TopicReader {
       unit: 'ns',
       unitBy: 'format',
       heading: kind === 'poses' ? 'quaternion' : 'none',
-      columns: { type: this.#type, clock: this.#isStamped ? 'header.stamp' : 'log time' },
+      columns: { type: this.#type, clock: this.#isStamped ? 'header.stamp' : LOG_TIME },
       cutShort: this.#recording.cutShort,
       hasBoth: false,
     };

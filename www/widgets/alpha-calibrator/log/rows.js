@@ -49,6 +49,9 @@ import { LogError } from './refusal.js';
  * @property {Found} found
  */
 
+/** The clock of messages without stamps. */
+export const LOG_TIME = 'log time';
+
 /** Rows at most: a day at 100 Hz. */
 export const MAX_ROWS = 10_000_000;
 
@@ -160,7 +163,7 @@ export class Rows {
     const [t, x, y, theta] = this.#columns.map((column) => column.slice(0, this.#kept));
     const { falling } = this.#leftOut;
     const count = this.#count;
-    if (2 * falling.count > count) throw new LogError(this.#at(falling.line), (say) => say.falling(falling.count, count));
+    if (2 * falling.count > count) throw new LogError(this.#at(falling.line), (say) => say.falling(falling.count, count, this.#place.topic === undefined ? 0 : falling.line));
     if (this.#kept < 2) {
       const [reason, first] = Object.entries(this.#leftOut).find(([, { count }]) => count > 0) ?? ['few', none()];
       throw new LogError(this.#at(first.line), (say) => say.few(this.#kept, count, say.reasons[/** @type {Reason} */ (reason)] ?? ''));

@@ -72,15 +72,16 @@ export function inOneList(walls) {
 }
 
 /**
- * Puts a map into a machine, which is to go on with it: a floor plan at once, a grid in slices. The first one checks all
+ * Puts a map into a machine, and goes on with the `rest`: a floor plan at once, a grid in slices. The first one checks all
  * fields.
  *
  * @param {MapSqueeze} machine
  * @param {unknown} data to be MapData
+ * @param {Job} rest
  * @returns {Job}
  * @throws {TypeError | RangeError} with the machine's present map left as it is
  */
-export function* applyMap(machine, data) {
+export function* applyMap(machine, data, rest) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
     throw refusal('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
@@ -89,7 +90,8 @@ export function* applyMap(machine, data) {
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
     taken(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: inOneList(map.walls) }));
-    return;
+    yield 0;
+    return yield* rest;
   }
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
@@ -106,6 +108,11 @@ export function* applyMap(machine, data) {
   const image = imageOf(columns, new Uint8Array(fours.buffer, 0, count));
   yield 0;
   machine.beginGrid(description, image);
+  try {
+    yield* rest;
+  } catch (error) {
+    throw ofMap(GRID_KEYS, renamed(error, 'occupied', 'image'));
+  }
 }
 
 /**
@@ -119,9 +126,14 @@ function taken(keys, take) {
   try {
     take();
   } catch (error) {
-    const key = keys.find((each) => error instanceof Error && error.message.startsWith(each));
-    throw key === undefined ? error : renamed(error, `map.${key}`, key);
+    throw ofMap(keys, error);
   }
+}
+
+/** Has a refusal name the field as one of the map's. @param {string[]} keys of the fields @param {unknown} error */
+function ofMap(keys, error) {
+  const key = keys.find((each) => error instanceof Error && error.message.startsWith(each));
+  return key === undefined ? error : renamed(error, `map.${key}`, key);
 }
 
 /**

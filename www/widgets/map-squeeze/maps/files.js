@@ -241,8 +241,7 @@ async function readPng(file) {
 function gridComplaint(say, description, image, reason) {
   const line = /^line (\d+): (.*)$/.exec(reason);
   if (line) return say.line(image, line[1], line[2]);
-  if (reason.startsWith('image')) return `${image}: ${reason}.`;
-  return reason.startsWith('walls') ? say.cells(image, reason) : `${description}: ${reason}.`;
+  return `${reason.startsWith('image') ? image : description}: ${reason}.`;
 }
 
 /**

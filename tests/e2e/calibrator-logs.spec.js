@@ -350,6 +350,18 @@ test('of twenty thousand legs that are shorter than a pixel those are drawn that
   expect(lines).toBeLessThan(legs);
   expect(lines).toBeGreaterThan(2000);
   expect(characters).toBeLessThan(400_000);
+  // Numbers of five digits leave the button beside them its room, in German too.
+  await widget.evaluate((element) => { element.lang = 'de'; });
+  await expect(widget.getByRole('button', { name: 'Nächste schlechte' })).toBeVisible();
+  for (let width = 340; width <= 1400; width += 60) {
+    await page.setViewportSize({ width, height: 900 });
+    const overlap = await widget.evaluate((element) => {
+      const box = (/** @type {string} */ selector) => /** @type {Element} */ (/** @type {ShadowRoot} */ (element.shadowRoot).querySelector(selector)).getBoundingClientRect();
+      const [value, button] = [box('fieldset.leg .printed'), box('.looked button')];
+      return Math.min(value.right - button.left, button.right - value.left, value.bottom - button.top, button.bottom - value.top);
+    });
+    expect(overlap, `${width} pixels`).toBeLessThanOrEqual(0);
+  }
 });
 
 for (const [what, driven] of /** @type {[string, (at: number) => number[]][]} */ ([

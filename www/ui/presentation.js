@@ -93,6 +93,21 @@ export const presentationStyles = css`
     inset: 0;
   }
 
+  /* Nor on a phone that lies, whose height is less than all that there is to say. */
+  @media (max-height: 30em) {
+    :host([presentation]) :is(.machine, .views) {
+      flex: 1 0 auto;
+    }
+
+    :host([presentation]) .views {
+      grid-template-rows: auto;
+    }
+
+    :host([presentation]) .stage {
+      min-height: calc(60vh / var(--zoom));
+    }
+  }
+
   :host([presentation]) .with-controls .folds {
     margin-top: 0;
   }
@@ -135,7 +150,7 @@ export const presentationStyles = css`
   }
 
   /* But on a phone, where it would hide a legend. */
-  @media (max-width: 30em) {
+  @media (max-width: 30em) or (max-height: 30em) {
     .presenting {
       height: auto;
     }

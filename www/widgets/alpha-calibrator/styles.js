@@ -85,7 +85,7 @@ const own = css`
 
   .alphas .dot {
     stroke: var(--prediction);
-    stroke-width: 7;
+    stroke-width: 5;
     stroke-linecap: round;
   }
 
@@ -126,7 +126,7 @@ const own = css`
     display: grid;
     gap: 0 0.8em;
     align-items: center;
-    grid-template-columns: minmax(0, 1fr) auto;
+    grid-template-columns: minmax(min-content, 1fr) auto;
   }
 
   .looked .readouts {
@@ -140,9 +140,11 @@ const own = css`
     --beside: 0.4em;
   }
 
-  /* Below the buttons of the presentation. */
-  :host([presentation]) .views > .tables {
-    padding-top: 2.2em;
+  /* Below the buttons of the presentation, which take no room of their own. */
+  @media (min-width: 30em) and (min-height: 30em) {
+    :host([presentation]) .views {
+      padding-top: 2.2em;
+    }
   }
 
   :host([presentation]) .surface:not(.with-controls) .looked > :is(fieldset, button) {

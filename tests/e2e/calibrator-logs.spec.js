@@ -351,7 +351,7 @@ test('of twenty thousand legs that are shorter than a pixel those are drawn that
   expect(lines).toBeGreaterThan(2000);
   expect(characters).toBeLessThan(400_000);
   // Numbers of five digits leave the button beside them its room, in German too.
-  await widget.evaluate((element) => { element.lang = 'de'; });
+  await widget.evaluate((element) => element.setAttribute('lang', 'de'));
   await expect(widget.getByRole('button', { name: 'Nächste schlechte' })).toBeVisible();
   for (let width = 340; width <= 1400; width += 60) {
     await page.setViewportSize({ width, height: 900 });

@@ -33,7 +33,7 @@ export const de = {
   axisLeft: 'links (m)',
   simulated: 'simulierte Aufzeichnung',
   present: (log, legs, exact) => `${parts(legs)}, ${log}${exact ? `, mit ${exact}` : ''}.`,
-  exact: { reference: 'fehlerfreier Referenz', position: 'fehlerfreien Positionen der Referenz', heading: 'fehlerfreien Richtungen der Referenz' },
+  exact: { reference: 'als fehlerfrei angenommener Referenz', position: 'als fehlerfrei angenommenen Positionen der Referenz', heading: 'als fehlerfrei angenommenen Richtungen der Referenz' },
   verdicts: {
     fits: (coverage) => `Das Modell passt: Von neuen Residuen liegen ${coverage} in seinen 95 %.`,
     overconfident: (coverage) => `Zu sicher: Von neuen Residuen liegen nur ${coverage} in seinen 95 %. Vergrößern.`,

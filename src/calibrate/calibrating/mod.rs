@@ -1,5 +1,7 @@
 //! From a log to parameters, one step after the other.
 
+mod rounds;
+
 use super::bad::Robust;
 use super::bootstrap::{Bootstrap, stretched};
 use super::calibration::{CalibrateError, Calibration, FEWEST, Options};
@@ -11,11 +13,10 @@ use super::likelihood::{Evidence, LegDensity, Parameters, Slope};
 use super::model::{Observation, Uncertainty};
 use super::profile::{Ends, Estimate, Fitted, Search};
 use super::stages::{Purpose, ROUNDS, Stage, parts};
-use super::systematic::{ERRORS, Error, LeastSquares, Step, Systematic};
+use super::systematic::{ERRORS, Error, LeastSquares, Systematic};
 use super::trajectory::Trajectory;
 use super::undetermined::{Undetermined, undetermined};
 use super::work::Work;
-use crate::geom::se2::wrap_angle;
 use nalgebra::Matrix2;
 
 /// A calibration under way: the same in pieces, so that nobody has to wait for all of it.
@@ -63,9 +64,6 @@ pub struct Calibrating {
     asked: Option<Calibration>,
     work: Work,
 }
-
-/// A change that is so small a part of its deviation is none.
-const STAYS: f64 = 0.01;
 
 /// Rows that are cut in a step, and legs that are looked at.
 const ROWS: usize = 40_000;
@@ -371,53 +369,6 @@ impl Calibrating {
         match self.best {
             Some(best) => Fitted::at(&self.evidence, model.alphas(), best),
             None => Fitted::new(&self.evidence, model.alphas(), robust, None),
-        }
-    }
-
-    /// Goes on with the step to better systematic errors.
-    fn refine(&mut self, purpose: Purpose) -> Option<Step> {
-        let model = self.options.model;
-        let (mut squares, from) = self.squares.take().unwrap_or((LeastSquares::after(self.known), 0));
-        let until = self.legs.len().min(from + LEGS);
-        let best = self.fitted().best;
-        let densities = self.evidence.each(&best, from..until);
-        let legs = self.legs[from..until].iter().zip(&self.observations[from..until]);
-        for ((leg, observation), density) in legs.zip(densities) {
-            squares.add(self.without(purpose), leg, observation, model.weights(observation, &density));
-        }
-        self.work.add(ARCS * (until - from));
-        if until < self.legs.len() {
-            self.squares = Some((squares, until));
-            return None;
-        }
-        Some(squares.step())
-    }
-
-    /// Takes a step; whether the systematic errors are as they were.
-    fn improve(&mut self, &Step { change, deviations, inverse }: &Step) -> bool {
-        (self.deviations, self.known) = (deviations, inverse);
-        let mut stays = true;
-        for (i, error) in Error::ALL.into_iter().enumerate() {
-            let Some(deviation) = deviations[i] else {
-                // Whatever an earlier round made of it.
-                self.systematic.set(error, self.begun.get(error));
-                continue;
-            };
-            let most = 4.0 * error.largest_deviation();
-            let change = change[i].max(-most).min(most);
-            self.systematic.set(error, self.systematic.get(error) + change);
-            self.systematic.mount_yaw = wrap_angle(self.systematic.mount_yaw);
-            stays &= change.abs() <= STAYS * deviation;
-        }
-        stays
-    }
-
-    /// Sets what is to be removed.
-    fn remove(&mut self) {
-        for (i, error) in Error::ALL.into_iter().enumerate() {
-            if self.options.remove[i] {
-                self.removed.set(error, self.systematic.get(error));
-            }
         }
     }
 

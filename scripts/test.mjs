@@ -119,6 +119,9 @@ const PARTS = {
       return lint(rust, 'clippy', [...options, ...more, ...LINT_RULES]);
     },
   },
+  docs: {
+    prepare: async (more) => cargo(await native(), ['doc', '--locked', '--no-deps', ...more], { RUSTDOCFLAGS: '-D warnings' }),
+  },
   rust: {
     prepare: async (more) => cargo(await native(), ['test', '--locked', '--no-fail-fast', ...more]),
     count: rustTally,
@@ -160,7 +163,7 @@ const PARTS = {
  * release profile.
  */
 const LANES = [
-  ['rustfmt', 'clippy', 'rust'],
+  ['rustfmt', 'clippy', 'docs', 'rust'],
   // The link of the WebAssembly tests has one core: not at the end, when nobody uses the other.
   ['build', 'wasm', 'clippy-wasm'],
   ['eslint', 'tsc', 'node', 'package'],

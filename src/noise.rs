@@ -99,7 +99,7 @@ impl NoiseKind {
         }
     }
 
-    /// E[ε⁴]/E[ε²]²: of a Gaussian 3, of the triangle 12/5.
+    /// E\[ε⁴\]/E\[ε²\]²: of a Gaussian 3, of the triangle 12/5.
     pub fn kurtosis(self) -> f64 {
         match self {
             Self::Normal => 3.0,

@@ -1,6 +1,6 @@
 //! How well the α's are known if legs are not independent: by logs made of pieces of this one.
 
-use super::doubts::NORMAL_95;
+use super::density::NORMAL_95;
 use super::profile::{Estimate, Fitted};
 use super::trajectory::sort;
 use rand::{RngExt, SeedableRng};

@@ -1,14 +1,13 @@
 //! What is asked of a log, and what it says.
 
 use super::bad::Robust;
-use super::calibrating::Calibrating;
-use super::doubts::{Doubts, Inflation, Judged, NORMAL_95};
+use super::density::NORMAL_95;
+use super::doubts::{Doubts, Inflation, Judged};
 use super::leg_lengths::AtLength;
-use super::legs::{Leg, LegLength};
+use super::legs::{FEWEST, Leg, LegLength};
 use super::model::{Model, Observation};
 use super::profile::Estimate;
 use super::systematic::{ERRORS, Error, Systematic, Which};
-use super::trajectory::Trajectory;
 use super::undetermined::Undetermined;
 use crate::noise::NoiseKind;
 use std::fmt;
@@ -65,7 +64,7 @@ pub struct Calibration {
     pub judged: Vec<Judged>,
     pub doubts: Doubts,
     pub inflation: Inflation,
-    /// The α's of legs of other lengths, one for each of [`FACTORS`]; empty unless asked for.
+    /// The α's of legs of other lengths, one for each of [`super::FACTORS`]; empty unless asked for.
     pub by_length: Vec<AtLength>,
 }
 
@@ -86,9 +85,6 @@ pub enum CalibrateError {
     FewLegs { legs: usize },
 }
 
-/// Fewer than this and halves, blocks and tails would be of single legs.
-pub const FEWEST: usize = 8;
-
 impl fmt::Display for CalibrateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -104,20 +100,3 @@ impl fmt::Display for CalibrateError {
 }
 
 impl std::error::Error for CalibrateError {}
-
-/// From a log to parameters: [`Calibrating`] to its end.
-///
-/// # Errors
-/// [`CalibrateError`] where there are too few legs, or the two are not of one drive.
-pub fn calibrate(
-    odometry: &Trajectory,
-    reference: &Trajectory,
-    options: &Options,
-) -> Result<Calibration, CalibrateError> {
-    let mut calibrating = Calibrating::new(*options);
-    loop {
-        if let Some(calibration) = calibrating.step(odometry, reference)? {
-            return Ok(calibration);
-        }
-    }
-}

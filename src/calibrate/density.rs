@@ -1,6 +1,13 @@
 //! How likely the three residuals of a leg are, and which variances would make them likelier.
 
-use super::likelihood::{ROOT_6, ROOT_TAU};
+/// √(2π).
+pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_5;
+
+/// √6.
+pub(super) const ROOT_6: f64 = 2.449_489_742_783_178;
+
+/// 95 % of a normal distribution are within so many deviations.
+pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// The density of a leg's residuals: `factor` · exp(`exponent`), so that neither is too small for a double.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,8 @@
 //! Whether the model is any good: what the residuals say against it.
 
 use super::bad::Robust;
-use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, ROOT_TAU};
+use super::density::{NORMAL_95, ROOT_TAU};
+use super::likelihood::{Alphas, Evidence, LegDensity, Parameters};
 use super::model::{Model, Observation};
 use super::profile::Search;
 use super::systematic::{Square, inverted};
@@ -24,7 +25,7 @@ pub struct KindDoubts {
     /// As in [`super::Kind`].
     pub name: &'static str,
     pub count: usize,
-    /// E[z⁴]/E[z²]², of each half of the log by itself, in the mean: of the normal distribution 3, of the triangular 2.4. What changes
+    /// E\[z⁴\]/E\[z²\]², of each half of the log by itself, in the mean: of the normal distribution 3, of the triangular 2.4. What changes
     /// from half to half is no tail.
     pub kurtosis: f64,
     /// Of neighbouring legs; the model says 0. NaN where there are none.
@@ -122,9 +123,6 @@ struct Shape {
     /// By how much the share within changes with the logarithm of the variance.
     slope: f64,
 }
-
-/// 95 % of a normal distribution are within so many deviations.
-pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 fn shape(noise: NoiseKind) -> Shape {
     match noise {

@@ -75,6 +75,9 @@ impl Leg {
     }
 }
 
+/// Fewer than this and halves, blocks and tails would be of single legs.
+pub const FEWEST: usize = 8;
+
 /// One end of a leg.
 #[derive(Clone, Copy, Debug)]
 struct End {

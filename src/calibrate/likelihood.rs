@@ -1,7 +1,7 @@
 //! The likelihood of variances that are sums, v = c + Σ αₖ fₖ, each α 0 or more; and where it is largest.
 
 use super::bad::{Bad, BadAgain, Robust};
-use super::density::{Density, LogProduct};
+use super::density::{Density, LogProduct, ROOT_6, ROOT_TAU};
 use super::model::{Model, Observation};
 use super::trajectory::sort;
 use super::work::Work;
@@ -351,9 +351,6 @@ impl Evidence {
     }
 }
 
-/// √(2π).
-pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_5;
-
 /// A residual's square is far from the rest beyond this many medians of them: of a normal distribution one in 25,000 is, of a
 /// mixture of straight legs and turns a few in a hundred are.
 const FAR: f64 = 8.0 / 0.454_936;
@@ -363,9 +360,6 @@ const FARTHEST: f64 = 30.0;
 
 /// Deviations within which the rounded end of a triangle is no parabola.
 const NEAR: f64 = 3.0;
-
-/// √6.
-pub(super) const ROOT_6: f64 = 2.449_489_742_783_178;
 
 /// A row with a residual near a blurred corner takes as long as so many others besides.
 const BLURRED: usize = 4;

@@ -1,8 +1,7 @@
 //! Whether a log is what it is taken for: of one drive, in m and rad, with rows enough for its legs.
 
-use super::calibration::FEWEST;
 use super::doubts::Verdict;
-use super::legs::{Leg, LegLength};
+use super::legs::{FEWEST, Leg, LegLength};
 use super::model::Observation;
 use super::systematic::{Error, Systematic};
 use super::trajectory::sort;

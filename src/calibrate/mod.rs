@@ -28,11 +28,11 @@ mod undetermined;
 mod work;
 
 pub use bad::Robust;
-pub use calibrating::Calibrating;
-pub use calibration::{CalibrateError, Calibration, FEWEST, Options, ReferenceError, calibrate};
+pub use calibrating::{Calibrating, calibrate};
+pub use calibration::{CalibrateError, Calibration, Options, ReferenceError};
 pub use doubts::{Doubts, HeldOut, Inflation, Judged, KindDoubts, Verdict};
 pub use leg_lengths::{AtLength, FACTORS};
-pub use legs::{Leg, LegLength, cut};
+pub use legs::{FEWEST, Leg, LegLength, cut};
 pub use likelihood::Evidence;
 pub use model::{Kind, Model, Observation, Uncertainty};
 pub use profile::{Estimate, fit};

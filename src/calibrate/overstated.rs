@@ -1,7 +1,7 @@
 //! Whether a reference errs less than it is stated to: then what the wheels err by is taken for its error.
 
-use super::calibration::FEWEST;
 use super::doubts::Judged;
+use super::legs::FEWEST;
 use super::likelihood::Alphas;
 use super::model::{Model, Observation};
 use super::systematic::inverted;

@@ -1,7 +1,7 @@
 //! The likeliest α's, and how well they are known.
 
 use super::bad::Robust;
-use super::doubts::NORMAL_95;
+use super::density::NORMAL_95;
 use super::likelihood::{Alphas, Evidence, Parameters, Slope};
 use super::maximum::{Climb, ENOUGH_WORK, INSIDE, NOTHING, Near, are_nothing};
 

@@ -1,6 +1,5 @@
 //! How far the nearest wall is, about, from everywhere on a map.
 
-use super::floor_plan::rounding;
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::WallTree;
 use crate::geom::lanes::{ROUND, lanes};
@@ -290,4 +289,10 @@ impl Filling {
             self.field.corner[axis] + (first[axis] as f64 + 0.5 * size as f64) * self.side
         })
     }
+}
+
+/// More than the rounding of any coordinate among these, m.
+#[inline(never)]
+pub(super) fn rounding(coordinates: &[f64]) -> f64 {
+    1e-12 * coordinates.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()))
 }

@@ -1,7 +1,7 @@
 //! A floor plan, and whether a round robot fits.
 
 use super::apartment;
-use super::distance_field::{DistanceField, Filling};
+use super::distance_field::{DistanceField, Filling, rounding};
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::{Node, WallTree};
 use crate::geom::arc::{Arc, Course, Departure, Driven, Unrolled};
@@ -126,12 +126,6 @@ pub struct Verdict {
 impl Verdict {
     const FREE: Self = Self { free: true, wall_tests: 0 };
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
-}
-
-/// More than the rounding of any coordinate among these, m.
-#[inline(never)]
-pub(super) fn rounding(coordinates: &[f64]) -> f64 {
-    1e-12 * coordinates.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()))
 }
 
 /// Where bounds may lie, m: as far out as a robot's coordinates may.

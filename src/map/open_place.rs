@@ -1,6 +1,7 @@
 //! Where a robot is put that comes into a map.
 
-use super::floor_plan::{FloorPlan, rounding};
+use super::distance_field::rounding;
+use super::floor_plan::FloorPlan;
 use super::occupancy::OccupancyGrid;
 use crate::geom::se2::SE2;
 use std::f64::consts::TAU;

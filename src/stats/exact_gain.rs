@@ -14,7 +14,7 @@ use std::f64::consts::{LN_2, PI, TAU};
 /// What a model says of its exponential coordinates, for robots that start at the identity pose.
 ///
 /// Those coordinates end where a robot turns a whole circle, and Gaussian noise reaches that with some probability: there
-/// the moments of ξ are infinite. Noise that turns the robot by more than [`REACH`] standard deviations is left out, which
+/// the moments of ξ are infinite. Noise that turns the robot by more than `REACH` standard deviations is left out, which
 /// changes a variance by 1e-7 of it; where a whole circle is nearer than that, the figures are NaN. Headings are not
 /// wrapped: where many robots turn more than half a circle further than commanded, which a cloud takes for turns the other
 /// way round, its `pose` is another.

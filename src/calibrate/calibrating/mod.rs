@@ -4,11 +4,11 @@ mod rounds;
 
 use super::bad::Robust;
 use super::bootstrap::{Bootstrap, stretched};
-use super::calibration::{CalibrateError, Calibration, FEWEST, Options};
+use super::calibration::{CalibrateError, Calibration, Options};
 use super::clock::{Alignment, KNOWN_TO};
 use super::judging::{Judge, Judging};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
-use super::legs::{Cutting, Leg};
+use super::legs::{Cutting, FEWEST, Leg};
 use super::likelihood::{Evidence, LegDensity, Parameters, Slope};
 use super::model::{Observation, Uncertainty};
 use super::profile::{Ends, Estimate, Fitted, Search};
@@ -419,5 +419,22 @@ impl Calibrating {
             interval.filter(|_| reason.is_none())
         };
         (fitted.estimate(self.intervals.iter().zip(&reasons).map(told).collect()), reasons)
+    }
+}
+
+/// From a log to parameters: [`Calibrating`] to its end.
+///
+/// # Errors
+/// [`CalibrateError`] where there are too few legs, or the two are not of one drive.
+pub fn calibrate(
+    odometry: &Trajectory,
+    reference: &Trajectory,
+    options: &Options,
+) -> Result<Calibration, CalibrateError> {
+    let mut calibrating = Calibrating::new(*options);
+    loop {
+        if let Some(calibration) = calibrating.step(odometry, reference)? {
+            return Ok(calibration);
+        }
     }
 }

@@ -25,9 +25,11 @@ pub struct KindDoubts {
     /// As in [`super::Kind`].
     pub name: &'static str,
     pub count: usize,
-    /// E\[z⁴\]/E\[z²\]², of each half of the log by itself, in the mean: of the normal distribution 3, of the triangular 2.4. What changes
-    /// from half to half is no tail.
+    /// E\[z⁴\]/E\[z²\]², of each half of the log by itself, in the mean. What changes from half to half is no tail.
     pub kurtosis: f64,
+    /// What it is if the model is true: of the normal distribution 3, of the triangular 2.4, and between them where the reference's error or what
+    /// is unknown of the systematic ones, which are normal, is part of the residuals.
+    pub kurtosis_expected: f64,
     /// Of neighbouring legs; the model says 0. NaN where there are none.
     pub autocorrelation: f64,
     /// Below this it is in 95 of 100 logs of which the model is true.
@@ -116,7 +118,7 @@ const BEYOND: f64 = 1.25;
 /// So many more or fewer of the residuals inside than should be do no harm: 94 of 100 in place of 95.
 const SLIGHT_COVERAGE: f64 = 0.01;
 
-/// Of a kind of noise with variance 1.
+/// Of noise with variance 1.
 struct Shape {
     /// 95 % are within.
     end: f64,
@@ -187,6 +189,12 @@ impl Judged {
         evidence.each(at, 0..observations.len()).zip(observations).map(judged).collect()
     }
 
+    /// How much of the variance of a residual is noise of the model.
+    fn own_share(&self, observation: &Observation, kind: usize) -> f64 {
+        let added = observation.floors[kind] + observation.unknown[kind];
+        (1.0 - added / (self.deviations[kind] * self.deviations[kind])).clamp(0.0, 1.0)
+    }
+
     /// r/σ of each residual; NaN of one that is not told, or of which nothing makes it uncertain.
     pub fn standardized(&self, observation: &Observation) -> [f64; 3] {
         std::array::from_fn(|k| {
@@ -245,16 +253,24 @@ impl Halves {
         found
     }
 
-    /// Standardized residuals of the held-out half, its bad legs left out, if the α's are larger by a factor.
-    fn standardized(&self, at: &Parameters) -> Vec<f64> {
+    /// Standardized residuals of the held-out half, its bad legs left out, by these parameters, each with the share of its own noise.
+    fn standardized(&self, at: &Parameters) -> Vec<(f64, f64)> {
         let judged = Judged::all(&self.evidence, at, &self.observations);
         let good = judged.iter().zip(&self.observations).filter(|(leg, _)| leg.bad <= 0.5);
-        good.flat_map(|(leg, observation)| leg.standardized(observation)).filter(|z| z.is_finite()).collect()
+        let told = |(leg, observation): (&Judged, &Observation)| {
+            let standardized = leg.standardized(observation);
+            [0, 1, 2].map(|kind| (standardized[kind], leg.own_share(observation, kind)))
+        };
+        good.flat_map(told).filter(|(z, _)| z.is_finite()).collect()
     }
 
-    fn coverage(&self, standardized: &[f64]) -> f64 {
-        let end = shape(self.noise).end;
-        standardized.iter().filter(|z| z.abs() <= end).count() as f64 / standardized.len() as f64
+    /// The share of those that are within their 95 %.
+    fn coverage(&self, standardized: &[(f64, f64)]) -> f64 {
+        let [whole, normal] = [self.noise, NoiseKind::Normal].map(|noise| shape(noise).end);
+        // Of a triangle blurred by something normal: to a thousandth of the share.
+        let end = |own: f64| normal + (whole - normal) * own * own;
+        let inside = standardized.iter().filter(|(z, own)| z.abs() <= end(*own)).count();
+        inside as f64 / standardized.len() as f64
     }
 
     fn log_likelihood(&self, at: &Parameters) -> f64 {
@@ -269,12 +285,13 @@ impl Halves {
             let off = NORMAL_95 * variance.sqrt();
             [(middle - off).max(0.0), (middle + off).min(most)]
         };
+        let kurtosis = kurtosis_of(self.noise, standardized.iter().map(|(_, own)| *own));
         HeldOut {
             count: standardized.len(),
             coverage: self.coverage(&standardized),
             coverage_interval: about(0.95, 0.95 * 0.05 / count + slope * slope * of_fit, 1.0),
-            squared_error: standardized.iter().map(|z| z * z).sum::<f64>() / count,
-            squared_error_interval: about(1.0, (self.noise.kurtosis() - 1.0) / count + of_fit, f64::INFINITY),
+            squared_error: standardized.iter().map(|(z, _)| z * z).sum::<f64>() / count,
+            squared_error_interval: about(1.0, (kurtosis - 1.0) / count + of_fit, f64::INFINITY),
             log_likelihood: self.log_likelihood(&self.best),
         }
     }
@@ -311,7 +328,9 @@ pub(super) fn doubts(
         .enumerate()
         .map(|(k, kind)| {
             let of_kind: Vec<f64> = standardized.iter().map(|leg| leg[k]).collect();
-            kind_doubts(kind.name, &of_kind, neighbours)
+            let told = judged.iter().zip(observations).zip(&of_kind).filter(|(_, z)| z.is_finite());
+            let own = told.map(|((leg, observation), _)| leg.own_share(observation, k));
+            kind_doubts(kind.name, &of_kind, kurtosis_of(noise, own), neighbours)
         })
         .collect();
     let mut worst: Vec<usize> = Vec::with_capacity(WORST + 1);
@@ -332,11 +351,23 @@ pub(super) fn doubts(
             .fold((0.0, 0.0), |(n, sum), share| (n + 1.0, sum + share));
         if count > 0.0 { -0.5 * sum / count } else { 0.0 }
     });
-    let verdict = verdict(observations.len(), &kinds, shared, &held_out, noise);
+    let verdict = verdict(observations.len(), &kinds, shared, &held_out);
     Doubts { kinds, held_out, worst, verdict }
 }
 
-fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) -> KindDoubts {
+/// Of residuals of which so much is noise of this kind, and the rest normal; of none that of the noise.
+fn kurtosis_of(noise: NoiseKind, own: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = own.fold((0.0, 0.0), |(count, sum), own| (count + 1.0, sum + own * own));
+    let normal = NoiseKind::Normal.kurtosis();
+    normal + (noise.kurtosis() - normal) * if count > 0.0 { sum / count } else { 1.0 }
+}
+
+fn kind_doubts(
+    name: &'static str,
+    standardized: &[f64],
+    kurtosis_expected: f64,
+    neighbours: &[bool],
+) -> KindDoubts {
     let mut told: Vec<f64> = standardized.iter().copied().filter(|z| z.is_finite()).collect();
     sort(&mut told);
     let count = told.len();
@@ -374,6 +405,7 @@ fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) ->
         name,
         count,
         kurtosis,
+        kurtosis_expected,
         autocorrelation: pairs().sum::<f64>() / neighbouring / square,
         autocorrelation_limit: if neighbouring > 0.0 { NORMAL_95 / neighbouring.sqrt() } else { f64::NAN },
         quantiles: if count > 0 { (1..100).map(|i| at(f64::from(i) / 100.0)).collect() } else { Vec::new() },
@@ -381,16 +413,10 @@ fn kind_doubts(name: &'static str, standardized: &[f64], neighbours: &[bool]) ->
 }
 
 /// `shared` is what the autocorrelation of each kind may go down to because of the reference's stated error.
-fn verdict(
-    legs: usize,
-    kinds: &[KindDoubts],
-    shared: [f64; 3],
-    held_out: &HeldOut,
-    noise: NoiseKind,
-) -> Verdict {
+fn verdict(legs: usize, kinds: &[KindDoubts], shared: [f64; 3], held_out: &HeldOut) -> Verdict {
     // Of three kinds one is beyond two deviations by chance in every seventh log, beyond three in every hundredth.
     let tails = |kind: &KindDoubts| {
-        kind.kurtosis - noise.kurtosis() > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
+        kind.kurtosis - kind.kurtosis_expected > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
     };
     let most = |kind: &KindDoubts| SLIGHT_CORRELATION.max(1.5 * kind.autocorrelation_limit);
     let alike = |kind: &KindDoubts| kind.autocorrelation > most(kind);

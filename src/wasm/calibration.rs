@@ -24,8 +24,10 @@ export interface SystematicValue {
 export interface KindDoubts {
   name: 'rot1' | 'trans' | 'rot2' | 'strafe' | 'v' | 'omega' | 'gamma';
   count: number;
-  /** Of each half of the log by itself, in the mean: of the normal distribution 3, of the triangular 2.4. */
+  /** Of each half of the log by itself, in the mean. */
   kurtosis: number;
+  /** What that is if the model is true: of normal noise 3, of triangular 2.4 and more, as the reference's own error is normal. */
+  kurtosisExpected: number;
   /** Of neighbouring legs; the model says 0. */
   autocorrelation: number;
   /** Below this it is in 95 of 100 logs of which the model is true. */
@@ -257,6 +259,7 @@ fn kind_to_js(kind: &KindDoubts) -> Result<JsValue, JsValue> {
         ("name", kind.name.into()),
         ("count", (kind.count as f64).into()),
         ("kurtosis", kind.kurtosis.into()),
+        ("kurtosisExpected", kind.kurtosis_expected.into()),
         ("autocorrelation", kind.autocorrelation.into()),
         ("autocorrelationLimit", kind.autocorrelation_limit.into()),
         ("quantiles", float64_array(&kind.quantiles)?.into()),

@@ -80,8 +80,16 @@ impl Told for Values {
 }
 
 fn kind(kind: &KindDoubts) -> Values {
-    let KindDoubts { count, kurtosis, autocorrelation, autocorrelation_limit, quantiles, .. } = kind;
-    Values::of(&[count, kurtosis, autocorrelation, autocorrelation_limit, quantiles])
+    let KindDoubts {
+        count,
+        kurtosis,
+        kurtosis_expected,
+        autocorrelation,
+        autocorrelation_limit,
+        quantiles,
+        ..
+    } = kind;
+    Values::of(&[count, kurtosis, kurtosis_expected, autocorrelation, autocorrelation_limit, quantiles])
 }
 
 /// Of the five, the lever arm has two coordinates.

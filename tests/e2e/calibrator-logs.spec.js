@@ -170,7 +170,7 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   const recording = await recordingWith(['/mocap/pose']);
   const table = Buffer.from(example('odometry'));
   await widget.locator('#log-files').setInputFiles([{ name: 'odom.csv', buffer: table, mimeType: 'text/csv' }, { name: 'run.mcap', buffer: recording, mimeType: 'application/octet-stream' }]);
-  await expect(alert).toHaveText(/: run\.mcap is a recording, and others are with it; expected is one recording/);
+  await expect(alert).toHaveText(/: 2 files given; expected are two tables at once, of odometry and of the reference, or one recording\.$/);
   // What is called a recording, or is one of something else.
   await choose(widget, { 'notes.mcap': 'no recording' });
   await expect(alert).toHaveText(/^notes\.mcap: the recording is damaged/);

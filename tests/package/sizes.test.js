@@ -24,7 +24,7 @@ function within(name, paths, limit) {
  * the module" in doc/implementation-notes.md.
  */
 const LIMITS = {
-  page: 112, moduleOfWidget: 56, pageOfCalibrator: 145, moduleOfCalibrator: 85, module: 175, bundle: 354, classicScript: 358, notebook: 365,
+  page: 112, moduleOfWidget: 56, pageOfCalibrator: 146, moduleOfCalibrator: 85, module: 175, bundle: 354, classicScript: 358, notebook: 365,
 };
 
 /** What it carries that the others do not is all of motion::calibrate. */

@@ -139,8 +139,8 @@ function doubtRows({ kinds, heldOut, squaredError }) {
   return [
     ['held-out residuals inside of 95 %', percent(heldOut.coverage), heldOut.interval?.every(Number.isFinite) ? heldOut.interval.map(percent).join(' to ') : ''],
     ['squared error by degree of freedom', fixed(squaredError.mean, squaredError.interval), between(squaredError.interval)],
-    ...kinds.flatMap((/** @type {any} */ { name, kurtosis, autocorrelation, autocorrelationLimit }) => [
-      [`kurtosis, ${name}`, short(kurtosis), ''],
+    ...kinds.flatMap((/** @type {any} */ { name, kurtosis, kurtosisExpected, autocorrelation, autocorrelationLimit }) => [
+      [`kurtosis, ${name}`, short(kurtosis), short(kurtosisExpected)],
       [`autocorrelation, ${name}`, short(autocorrelation), Number.isFinite(autocorrelationLimit) ? `within ±${short(autocorrelationLimit)}` : ''],
     ]),
   ];

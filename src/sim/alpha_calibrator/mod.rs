@@ -378,6 +378,7 @@ fn nothing(settings: &Settings) -> Calibration {
         name,
         count: 0,
         kurtosis: f64::NAN,
+        kurtosis_expected: f64::NAN,
         autocorrelation: f64::NAN,
         autocorrelation_limit: f64::NAN,
         quantiles: vec![f64::NAN; 99],

@@ -171,7 +171,6 @@ export const de = {
     present: (name) => `Diese Aufzeichnung: ${name}.`,
     reading: 'Wird gelesen',
     refused: (message) => `Die Aufzeichnung wird abgelehnt: ${message}`,
-    alone: (name) => `${name} ist eine Aufzeichnung, und anderes kam mit; erwartet wird eine Aufzeichnung, die beides hat, oder zwei Tabellen.`,
     two: (count) => `${count} ${count === 1 ? 'Datei wurde' : 'Dateien wurden'} gegeben; erwartet werden zwei Tabellen zugleich, der Odometrie und der Referenz, oder eine Aufnahme.`,
   },
   nav2: {

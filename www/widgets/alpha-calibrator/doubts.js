@@ -124,7 +124,7 @@ export function doubts(figure) {
           rows: [
             [say.heldOut, percent(heldOut.coverage), range(heldOut.interval, percent)],
             [say.squared, two(squaredError.mean), range(squaredError.interval, two)],
-            ...kinds.map(({ name, kurtosis }) => [say.kurtosis(nameOf(name)), two(kurtosis), noise === 'normal' ? fixed(3, 2) : two(2.4)]),
+            ...kinds.map(({ name, kurtosis, kurtosisExpected }) => [say.kurtosis(nameOf(name)), two(kurtosis), two(kurtosisExpected)]),
             ...kinds.map(({ name, autocorrelation, autocorrelationLimit: most }) => [say.autocorrelation(nameOf(name)), two(autocorrelation), range([-most, most], two)]),
             [say.outliers, outliers === null ? NOTHING : percent(outliers), NOTHING],
             [say.gaps, `${counted(gaps.odometry)}, ${counted(gaps.reference)}`, NOTHING],

@@ -170,7 +170,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     present: (name) => `The log at present: ${name}.`,
     reading: 'Reading',
     refused: (message) => `The log is refused: ${message}`,
-    alone: (name) => `${name} is a recording, and others are with it; expected is one recording, which has both, or two tables.`,
     two: (count) => `${count} ${count === 1 ? 'file' : 'files'} given; expected are two tables at once, of odometry and of the reference, or one recording.`,
   },
   nav2: {

@@ -107,8 +107,8 @@ export class LogOpener extends Part {
       const recording = files.length === 1;
       const [{ name }] = files;
       // What is called a recording is refused as one.
-      if (recording && !(/\.mcap$/i.test(name) || (await reader.isRecording(files[0])))) throw new Error(words.calibrator.own.two(1));
-      for (const file of recording ? [] : files) if (await reader.isRecording(file)) throw new Error(words.calibrator.own.alone(file.name));
+      const recorded = await Promise.all(files.map(reader.isRecording));
+      if (recording ? !(recorded[0] || /\.mcap$/i.test(name)) : recorded.includes(true)) throw new Error(words.calibrator.own.two(files.length));
       // To find the topics a recording without an index is read as a whole, and then once more.
       const topics = recording ? reader.usefulTopics(name, await reader.topicsOf(files[0], partOf(watching, 0, 0.5))) : [];
       const kind = this.#kind;

@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { load } from '../../dist/core.js';
 import { ROOT } from '../../scripts/process.mjs';
+import { MAX_VALUE } from '../../www/widgets/alpha-calibrator/log/rows.js';
 
 const motion = await load();
 
@@ -137,6 +138,9 @@ test('refusals name what is wrong and what is allowed', () => {
     [{ odometry: { ...odometry, t: [] }, reference }, /^odometry\.t has length 0; allowed is 2 to 10000000$/],
     [{ odometry: { ...few, x: [0, 'a'] }, reference }, /^odometry\.x\[1\] is "a"; allowed is a number$/],
     [{ odometry: { ...few, theta: [0, NaN] }, reference }, /^odometry\.theta\[1\] is NaN; allowed /],
+    // What readers of files take is taken.
+    [{ odometry: { ...few, x: [0, MAX_VALUE] }, reference: few }, /^the log has \d legs/],
+    [{ odometry: { ...few, x: [0, 2 * MAX_VALUE] }, reference }, /^odometry\.x\[1\] is 2000000000; allowed /],
     [{ odometry: { ...few, t: [1, 1] }, reference }, /^odometry: sample 1 is not later than the one before, at 1 s; allowed are times that rise$/],
     [{ odometry: { ...few, breaks: [0] }, reference }, /^odometry\.breaks\[0\] is 0; allowed is a whole number from 1 to 1$/],
     [{ odometry: { ...few, breaks: [2] }, reference }, /^odometry\.breaks\[0\] is 2; allowed is a whole number from 1 to 1$/],

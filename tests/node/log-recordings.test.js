@@ -323,8 +323,8 @@ test('chunks that announce more than there is room for: a sentence, and no memor
   assert.equal(bytes[chunk], 6);
   for (const [size, reason] of /** @type {const} */ ([
     [10n ** 12n, `a chunk of 1000000000000 bytes is announced; expected are at most ${MAX_CHUNK}.`],
-    [BigInt(MAX_CHUNK), 'the recording is damaged (a compressed chunk is not what was written); expected is a complete MCAP file.'],
-    [10n, 'the recording is damaged (a compressed chunk is not what was written); expected is a complete MCAP file.'],
+    [BigInt(MAX_CHUNK), 'the recording is damaged (a compressed chunk is not what was written); expected is an undamaged MCAP file.'],
+    [10n, 'the recording is damaged (a compressed chunk is not what was written); expected is an undamaged MCAP file.'],
   ])) {
     const bomb = Buffer.from(bytes);
     bomb.writeBigUInt64LE(size, chunk + 9 + 16);
@@ -378,7 +378,7 @@ test('an index that is not to be trusted is not gone by', async () => {
   }
   // Where all of it holds together, and yet chunks are not where it says: a sentence.
   const astray = withIndex(bytes, (record, code) => code === CHUNK_INDEX && record.writeBigUInt64LE(20n, 16));
-  assert.match(await sentenceOf(readLog(file(astray), { topic: '/odom' })), /^run\.mcap: the recording is damaged \(.*\); expected is a complete MCAP file\.$/);
+  assert.match(await sentenceOf(readLog(file(astray), { topic: '/odom' })), /^run\.mcap: the recording is damaged \(.*\); expected is an undamaged MCAP file\.$/);
 });
 
 /** Bytes of a file that are larger than what may be held of it. */

@@ -98,7 +98,7 @@ test('nanoseconds of the present keep their digits, in every unit', async () => 
 });
 
 test('numbers are the nearest doubles', async () => {
-  const values = ['0.1', '-12345.6789012345', '1e-7', '123456789012345678', '3.141592653589793238462643', '-0', '.5', '7.', '1.7976931348623157e308'];
+  const values = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '2.2250738585072014e-308'];
   const { x } = await dataOf(['t,x,y,yaw', ...values.map((value, i) => `${i},${value},0,0`)].join('\n'));
   assert.deepEqual(x, values.map(Number));
 });
@@ -218,6 +218,7 @@ const REFUSED = [
   ['quaternions of nothing', '0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0\n', 'run.csv, line 1: 0 of 2 rows can be used (the quaternion here has not the length 1); expected are at least 2.'],
   ['times that stand', 't,x,y,yaw\n1,0,0,0\n1,0,0,0\n', 'run.csv, line 3: 1 of 2 rows can be used (the time here is that of the row before); expected are at least 2.'],
   ['times that fall', 't,x,y,yaw\n5,0,0,0\n4,0,0,0\n3,0,0,0\n2,0,0,0\n', 'run.csv, line 3: 3 of 4 rows, this one first, go back in time; expected are times that grow.'],
+  ['a value beyond all maps', 't,x,y,yaw\n0,0,0,0\n1,0,1e300,0\n2,0,0,0\n', 'run.csv, line 3: a value is 1e+300; expected are numbers from -1000000000 to 1000000000, in m, rad and s.'],
   ['a unit that nobody tells', 't,x,y,yaw\n0,0,0,0\n10000000,0,0,0\n20000000,0,0,0\n', 'run.csv: in s, 10000000 s pass from row to row; expected is another unit in the name of the time, as in t_ns.'],
 ];
 

@@ -37,6 +37,7 @@ export const log = {
     wide: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')} und der Kopf ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : ''}.`,
     rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
+    far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
     falling: (count, rows, message) => `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, gehen in der Zeit zurück; erwartet werden wachsende Zeiten.`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason && ` (${reason})`}; erwartet werden mindestens 2.`,
     reasons: {
@@ -48,7 +49,7 @@ export const log = {
     },
     unit: (step, unit) =>
       `in ${unit} vergehen von Zeile zu Zeile ${Math.round(step)} s; erwartet wird eine andere Einheit im Namen der Zeit, wie in t_ns.`,
-    damaged: (reason) => `die Aufzeichnung ist beschädigt (${reason}); erwartet wird eine vollständige MCAP-Datei.`,
+    damaged: (reason) => `die Aufzeichnung ist beschädigt (${reason}); erwartet wird eine unbeschädigte MCAP-Datei.`,
     large: (what, bytes, most) => `angekündigt wird ${{ 'a chunk': 'ein Chunk', 'a record': 'ein Record' }[what] ?? what} von ${bytes} Bytes; erwartet werden höchstens ${most}.`,
     compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,

@@ -37,6 +37,8 @@ export const log = {
     wide: (/** @type {number} */ count, /** @type {number} */ needed) => `the row has ${count} cells, and the header ${needed}; expected are as many, with decimal points in numbers.`,
     number: (/** @type {string} */ column, /** @type {string} */ value) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : ''}.`,
     rows: (/** @type {number} */ most) => `there are more rows; expected are at most ${most}.`,
+    far: (/** @type {number} */ value, /** @type {number} */ most, /** @type {number} */ message) =>
+      `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
     falling: (/** @type {number} */ count, /** @type {number} */ rows, /** @type {number} */ message) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, go back in time; expected are times that grow.`,
     few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {string} */ reason) =>
@@ -52,7 +54,7 @@ export const log = {
     unit: (/** @type {number} */ step, /** @type {string} */ unit) =>
       `in ${unit}, ${Math.round(step)} s pass from row to row; expected is another unit in the name of the time, as in t_ns.`,
     /** Of recordings. */
-    damaged: (/** @type {string} */ reason) => `the recording is damaged (${reason}); expected is a complete MCAP file.`,
+    damaged: (/** @type {string} */ reason) => `the recording is damaged (${reason}); expected is an undamaged MCAP file.`,
     large: (/** @type {string} */ what, /** @type {string} */ bytes, /** @type {number} */ most) =>
       `${what} of ${bytes} bytes is announced; expected are at most ${most}.`,
     compression: (/** @type {string} */ value) => `its chunks are compressed by “${value}”; expected is zstd, lz4 or none.`,

@@ -55,6 +55,9 @@ export const LOG_TIME = 'log time';
 /** Rows at most: a day at 100 Hz. */
 export const MAX_ROWS = 10_000_000;
 
+/** What the core takes at most of coordinates and the like: those of any map of a country. */
+export const MAX_VALUE = 1e9;
+
 /** A pause is longer than this many usual steps, as the core has it. */
 const STEPS_OF_A_GAP = 5;
 
@@ -122,6 +125,8 @@ export class Rows {
     if (this.#kept === 0) this.#start = Math.floor(seconds) - (rest < 0 ? 1 : 0);
     const at = seconds - this.#start + rest;
     if (!Number.isFinite(a + b + c)) return this.#note('notFinite', line, at);
+    const far = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE);
+    if (far !== undefined) throw new LogError(this.#at(line), (say) => say.far(far, MAX_VALUE, this.#place.topic === undefined ? 0 : line));
     const t = this.#columns[0];
     const last = this.#kept - 1;
     if (last >= 0 && at === t[last]) return this.#note('duplicate', line, at);

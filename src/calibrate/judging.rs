@@ -77,7 +77,7 @@ impl Judging {
                 work.add(SORTED * legs.len());
                 let is_overstated = || {
                     let is_overstated = reference_error.is_stated()
-                        && (is_below_it(model, observations, judged)
+                        && (is_below_it(observations, judged)
                             // Tails and what is systematic leave it undecided.
                             || (![Verdict::HeavyTails, Verdict::Correlated].contains(&doubted.verdict)
                                 && is_too_much_of_all(model, observations, judged, &fitted.best.alphas)));

@@ -176,11 +176,6 @@ impl Model {
         }
     }
 
-    /// Which of its noises is that of the way itself, or of the speed.
-    pub(super) fn along(self) -> usize {
-        usize::from(self != Self::Velocity)
-    }
-
     /// What a leg says, once what is systematic about it is removed.
     ///
     /// The variance of each residual is that which the model gives the reading, as its sampler and
@@ -188,8 +183,8 @@ impl Model {
     /// away from it, the one with the nearer bearing is taken; under the printed table a robot that backs up is charged with two
     /// half turns, and its noise is so large that the other one may be meant.
     ///
-    /// Where a leg has not driven a centimetre its direction is that of its noise: it tells no first rotation, and its second is the
-    /// turn as a whole; of a command that drives so little only the speed is told.
+    /// Where a leg has not driven a centimetre, or three deviations of the reference's error, its direction is that of its noise: it tells no first
+    /// rotation, and its second is the turn as a whole; of a command that drives so little only the speed is told.
     pub fn observe(self, leg: &Leg, systematic: &Systematic, error: &Uncertainty) -> Observation {
         let expected = systematic.expected(leg);
         let motion = systematic.motion(leg);
@@ -254,7 +249,7 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
     let drive = RowVector3::new(cos, sin, 0.0);
     let place = error.along(rot1);
     let turned = wrap_angle(motion.theta() - rot1 - rot2);
-    if read.trans < SPIN_BELOW {
+    if read.trans < shortest(place) {
         let residuals = [f64::NAN, cos * motion.x() + sin * motion.y() - trans, turned];
         return Observation {
             residuals,
@@ -290,6 +285,15 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
         slopes: Matrix3::from_rows(&[across, drive, RowVector3::new(0.0, 0.0, 1.0) - across]),
     }
 }
+
+/// A leg that drives less has no direction: by the rules, or because that is lost in the variance (m²) of where it ends.
+fn shortest(place: f64) -> f64 {
+    SPIN_BELOW.max(LEADS * place.sqrt())
+}
+
+/// So many deviations of a place away its direction errs as much as its variance says; nearer it is that of the error, and the
+/// distance is too long.
+const LEADS: f64 = 3.0;
 
 /// A robot that slides has no hinge: its bearing is what was read.
 fn slid(expected: &SE2, motion: &SE2, error: &Uncertainty) -> Observation {
@@ -338,7 +342,7 @@ fn driven(dt: f64, read: &SE2, motion: &SE2, error: &Uncertainty) -> Observation
     let place = error.along(half);
     let per_time = 1.0 / (dt * dt);
     let [v2, omega2] = [v * v, omega * omega];
-    if length.abs() < SPIN_BELOW {
+    if length.abs() < shortest(place) {
         let v_hat = (cos * motion.x() + sin * motion.y()) / sinc(half) / dt;
         let residuals = [v_hat - v, f64::NAN, f64::NAN];
         return Observation {

@@ -18,17 +18,13 @@ const OF_SQUARES: f64 = 2.0;
 /// By how much more the variance of a mean of such is: neighbours share the place where they meet.
 const SHARED: f64 = 1.5;
 
-/// A leg that leads so many deviations of a place far has a direction that errs as much as its variance says. That of a nearer one is lost, and
-/// cannot be off by more than half a circle.
-const LEADS: f64 = 3.0;
-
 /// Whether the residuals of some kind are smaller, in the mean, than the reference's stated error alone makes them.
-pub(super) fn is_below_it(model: Model, observations: &[Observation], judged: &[Judged]) -> bool {
+pub(super) fn is_below_it(observations: &[Observation], judged: &[Judged]) -> bool {
     let is_smaller = |kind: usize| {
         let (mut count, mut sum) = (0.0, 0.0);
         for (observation, judged) in observations.iter().zip(judged) {
             let square = observation.residuals[kind] * observation.residuals[kind] / observation.floors[kind];
-            if judged.bad <= 0.5 && leads(model, kind, observation) && square.is_finite() {
+            if judged.bad <= 0.5 && square.is_finite() {
                 count += 1.0;
                 sum += square;
             }
@@ -37,12 +33,6 @@ pub(super) fn is_below_it(model: Model, observations: &[Observation], judged: &[
         count >= FEWEST as f64 && sum < count * SHARE.min(1.0 - by_chance)
     };
     (0..3).any(is_smaller)
-}
-
-/// Whether its direction errs as the reference's error says.
-fn leads(model: Model, kind: usize, Observation { reading, floors, .. }: &Observation) -> bool {
-    let along = model.along();
-    kind == along || reading[along].abs() > LEADS * floors[along].sqrt()
 }
 
 /// Whether the fit would rather have less of the stated error in the variances of some kind: Rao's test of a factor of that part, the α's
@@ -67,8 +57,7 @@ pub(super) fn is_too_much_of_all(
             for ((alpha, value), coefficient) in alphas.iter().zip(observation.coefficients[kind]) {
                 shares[*alpha] = value * coefficient / variance;
             }
-            let is_of_it = leads(model, kind, observation);
-            let errs = if is_of_it { observation.floors[kind] / variance } else { 0.0 };
+            let errs = observation.floors[kind] / variance;
             let more = standardized[kind] * standardized[kind] - 1.0;
             if (more + errs).is_finite() {
                 told.push(Told { kind, errs, shares, more });

@@ -220,6 +220,8 @@ test('who stops the reading of a log is told that all is as it was', async ({ pa
   const widget = await openCalibrator(page);
   const before = await stateOf(widget);
   await fold(widget, 'Your log').locator('summary').click();
+  // What is in a fold comes when it opens.
+  await expect(widget.locator('#log-files')).toBeVisible();
   await widget.evaluate(async (element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);
     const input = /** @type {HTMLInputElement} */ (root.querySelector('#log-files'));

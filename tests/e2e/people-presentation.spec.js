@@ -37,6 +37,29 @@ for (const controls of [false, true]) {
   });
 }
 
+for (const [width, height] of [[375, 667], [667, 375], [640, 480]]) {
+  test(`in a window of ${width} × ${height} pixels every figure shows its pictures, beside or above each other, and they come to rest`, async ({ page }) => {
+    await page.setViewportSize({ width, height });
+    for (const name of ALL) {
+      await show(page, `<${name} presentation></${name}>`);
+      const widget = page.locator(name);
+      await ready(widget);
+      await frames(page);
+      const canvases = widget.locator('.stage canvas');
+      const boxes = async () => Promise.all(Array.from({ length: await canvases.count() }, (_, i) => boxOf(canvases.nth(i))));
+      const before = await boxes();
+      for (let i = 0; i < 20; i++) await frames(page);
+      expect(await boxes(), name).toEqual(before);
+      for (const [i, box] of before.entries()) {
+        expect(box.height, name).toBeGreaterThan(150);
+        for (const other of before.slice(i + 1)) {
+          expect(other.x >= box.x + box.width || other.y >= box.y + box.height || box.x >= other.x + other.width || box.y >= other.y + other.height, name).toBe(true);
+        }
+      }
+    }
+  });
+}
+
 for (const name of ALL) {
   test(`${name} fills the screen, legible from the last row, and leaves as it came`, async ({ page }) => {
     await show(page, `<div style="height: 300px"></div><${name}></${name}><div style="height: 3000px"></div>`);

@@ -88,6 +88,8 @@ test('a recording gives both, by the topics that can be meant or are named', asy
   const unclear = file('unclear.mcap', await recordingOf(messages.filter(({ topic }) => topic !== '/mocap').map((each) => (each.topic === '/cmd_vel' ? { ...each, topic: '/third', type: 'nav_msgs/msg/Odometry', message: odometry(each.t, 0, 0, 0) } : each))));
   const { code, err } = await said(['calibrate', '--recording', unclear]);
   assert.deepEqual([code, err], [2, 'unclear.mcap: which topic is the reference is not clear; expected is a choice of /odom (Odometry), /other (PoseStamped), /third (Odometry), by --reference-topic.\n']);
+  const alone = file('alone.mcap', await recordingOf(messages.filter(({ topic }) => topic === '/odom')));
+  assert.equal((await said(['calibrate', '--recording', alone])).err, 'alone.mcap: the only topic of use is /odom (Odometry); expected are two, of odometry and of the reference.\n');
 });
 
 for (const [args, sentence] of /** @type {[string[], RegExp][]} */ ([

@@ -1,7 +1,7 @@
 /** The command: reads logs, has the core calibrate, and says what came out. */
 
 import { log as words } from '../widgets/alpha-calibrator/log/en.js';
-import { described, isRecording, logsOf, readLog, tell, together, topicsOf, usefulTopics, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
+import { isRecording, logsOf, readLog, tell, together, topicsOf, unclear, usefulTopics, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
 import { LogError, cut } from '../widgets/alpha-calibrator/log/refusal.js';
 import { onDisk } from './disk.js';
 import { HELP, UsageError, optionsOf, refusalOf } from './options.js';
@@ -158,7 +158,7 @@ function usualTopic(file, topics, role, kind, frames) {
   const [transforms, ...more] = frames ? useful.filter(({ name, kind }) => kind === 'transforms' && !/static/.test(name)) : [];
   if (transforms && more.length === 0) return transforms.name;
   const usual = usualTopics(topics, kind)[role];
-  if (usual === null) throw new LogError({ file }, (say) => say.choose(role, described(useful), `--${role === 'odometry' ? 'odom' : role}-topic`));
+  if (usual === null) throw unclear(file, useful, role, `--${role === 'odometry' ? 'odom' : role}-topic`);
   return usual;
 }
 

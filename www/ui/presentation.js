@@ -93,8 +93,8 @@ export const presentationStyles = css`
     inset: 0;
   }
 
-  /* Nor on a phone that lies, whose height is less than all that there is to say. */
-  @media (max-height: 30em) {
+  /* Nor on a phone, which has no room for all that there is to say. */
+  @media (max-width: 30em) or (max-height: 30em) {
     :host([presentation]) :is(.machine, .views) {
       flex: 1 0 auto;
     }
@@ -104,7 +104,13 @@ export const presentationStyles = css`
     }
 
     :host([presentation]) .stage {
-      min-height: calc(60vh / var(--zoom));
+      height: auto;
+      min-height: calc(60vmin / var(--zoom));
+    }
+
+    :host([presentation]) .stage canvas {
+      position: absolute;
+      inset: 0;
     }
   }
 
@@ -153,6 +159,7 @@ export const presentationStyles = css`
   @media (max-width: 30em) or (max-height: 30em) {
     .presenting {
       height: auto;
+      margin-bottom: 0.5em;
     }
   }
 

@@ -54,6 +54,10 @@ const own = css`
 
   /* On a phone the pictures need the room. */
   @container (max-width: 30em) {
+    :host([presentation]) .views {
+      grid-template: 'floor' 'step' 'ratios' 'aside' / minmax(0, 1fr);
+    }
+
     :host([presentation]) .surface:not(.with-controls) .told {
       display: none;
     }

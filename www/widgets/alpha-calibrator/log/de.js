@@ -54,6 +54,7 @@ export const log = {
     compression: (value) => `ihre Chunks sind mit „${value}“ komprimiert; erwartet wird zstd, lz4 oder nichts davon.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics || 'keinen: sie hat keine Nachrichten'}.`,
     noTopics: (topics) => `die Topics sind ${topics || 'keine'}; erwartet wird eines vom Typ ${TYPES.either}.`,
+    alone: (topic) => `von Nutzen ist nur das Topic ${topic}; erwartet werden zwei, von Odometrie und Referenz.`,
     choose: (role, topics, option) => `welches Topic ${role === 'odometry' ? 'die Odometrie' : 'die Referenz'} ist, steht nicht fest; erwartet wird eine Wahl aus ${topics}${option ? `, mit ${option}` : ''}.`,
     type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr, die Kodierung von ROS 2.`,

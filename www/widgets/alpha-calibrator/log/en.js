@@ -60,6 +60,7 @@ export const log = {
     compression: (/** @type {string} */ value) => `its chunks are compressed by “${value}”; expected is zstd, lz4 or none.`,
     noTopic: (/** @type {string} */ topics) => `there is no such topic; expected is one of ${topics || 'none: it has no messages'}.`,
     noTopics: (/** @type {string} */ topics) => `the topics are ${topics || 'none'}; expected is one of type ${TYPES.either}.`,
+    alone: (/** @type {string} */ topic) => `the only topic of use is ${topic}; expected are two, of odometry and of the reference.`,
     choose: (/** @type {string} */ role, /** @type {string} */ topics, /** @type {string | undefined} */ option) =>
       `which topic is the ${role} is not clear; expected is a choice of ${topics}${option ? `, by ${option}` : ''}.`,
     type: (/** @type {string} */ type, /** @type {keyof typeof TYPES} */ wanted) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,

@@ -93,7 +93,19 @@ export function usefulTopics(file, topics) {
  */
 export function checkClear(file, topics, usual) {
   const role = usual.odometry === null ? 'odometry' : 'reference';
-  if (usual[role] === null) throw new LogError({ file }, (say) => say.choose(role, described(topics), undefined));
+  if (usual[role] === null) throw unclear(file, topics, role);
+}
+
+/**
+ * @param {string} file
+ * @param {Topic[]} topics that are of use
+ * @param {'odometry' | 'reference'} role
+ * @param {string} [option] by which one is chosen
+ */
+export function unclear(file, topics, role, option) {
+  // Transforms may have both, of other frames.
+  const isAlone = topics.length === 1 && topics[0].kind !== 'transforms';
+  return new LogError({ file }, (say) => (isAlone ? say.alone(described(topics)) : say.choose(role, described(topics), option)));
 }
 
 /** Whether two tables are called as if the second were the odometry, and not the first. @param {string} first @param {string} second */

@@ -200,8 +200,7 @@ export class Settings extends Part {
         refuse(error);
       }
     })(), next);
-    const left = end - performance.now();
-    if (left > 0) this.settle(left);
+    this.settle(end - performance.now());
     later = true;
   }
 

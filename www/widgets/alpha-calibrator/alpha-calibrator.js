@@ -188,6 +188,8 @@ export class AlphaCalibratorElement extends FigureElement {
    * @returns {import('../../figure/settings.js').Job}
    */
   *#entering(machine, log, arrived, isStrict) {
+    // Where reading it has taken all of a frame, what comes now waits for the next.
+    yield 0;
     yield* advancing(machine);
     if (isStrict && machine.refusal) throw new RangeError(machine.refusal);
     this.#log = log;

@@ -131,6 +131,8 @@ for (const name of ALL) {
     expect(await page.evaluate(() => scrollY)).toBe(0);
     await page.keyboard.press('Escape');
     await expect(widget).not.toHaveAttribute('presentation');
+    // The focus returns to where it was, a frame later.
+    await frames(page);
     await page.locator('#behind').focus();
     await expect(page.locator('#behind')).toBeFocused();
     expect(await page.locator('[inert]').evaluateAll((all) => all.map(({ localName }) => localName))).toEqual(['p']);

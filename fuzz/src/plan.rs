@@ -65,7 +65,9 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
                     let [x, y] = end;
                     assert!(!((left..=right).contains(&x) && (bottom..=top).contains(&y)), "{message}");
                 }
-                _ => panic!("{message}"),
+                FloorPlanError::TooManyWalls(_)
+                | FloorPlanError::BadGrid(_)
+                | FloorPlanError::TooManySides(_) => panic!("{message}"),
             }
             None
         }

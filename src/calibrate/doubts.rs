@@ -190,7 +190,7 @@ impl Judged {
     }
 
     /// How much of the variance of a residual is noise of the model.
-    fn own_share(&self, observation: &Observation, kind: usize) -> f64 {
+    fn noise_share(&self, observation: &Observation, kind: usize) -> f64 {
         let added = observation.floors[kind] + observation.unknown[kind];
         (1.0 - added / (self.deviations[kind] * self.deviations[kind])).clamp(0.0, 1.0)
     }
@@ -253,13 +253,13 @@ impl Halves {
         found
     }
 
-    /// Standardized residuals of the held-out half, its bad legs left out, by these parameters, each with the share of its own noise.
+    /// Standardized residuals of the held-out half, its bad legs left out, by these parameters, each with what share of it is noise.
     fn standardized(&self, at: &Parameters) -> Vec<(f64, f64)> {
         let judged = Judged::all(&self.evidence, at, &self.observations);
         let good = judged.iter().zip(&self.observations).filter(|(leg, _)| leg.bad <= 0.5);
         let told = |(leg, observation): (&Judged, &Observation)| {
             let standardized = leg.standardized(observation);
-            [0, 1, 2].map(|kind| (standardized[kind], leg.own_share(observation, kind)))
+            [0, 1, 2].map(|kind| (standardized[kind], leg.noise_share(observation, kind)))
         };
         good.flat_map(told).filter(|(z, _)| z.is_finite()).collect()
     }
@@ -267,7 +267,7 @@ impl Halves {
     /// The share of those that are within their 95 %.
     fn coverage(&self, standardized: &[(f64, f64)]) -> f64 {
         let [whole, normal] = [self.noise, NoiseKind::Normal].map(|noise| shape(noise).end);
-        // Of a triangle blurred by something normal: to a thousandth of the share.
+        // Nearly so where a triangle is blurred by something normal.
         let end = |own: f64| normal + (whole - normal) * own * own;
         let inside = standardized.iter().filter(|(z, own)| z.abs() <= end(*own)).count();
         inside as f64 / standardized.len() as f64
@@ -329,7 +329,7 @@ pub(super) fn doubts(
         .map(|(k, kind)| {
             let of_kind: Vec<f64> = standardized.iter().map(|leg| leg[k]).collect();
             let told = judged.iter().zip(observations).zip(&of_kind).filter(|(_, z)| z.is_finite());
-            let own = told.map(|((leg, observation), _)| leg.own_share(observation, k));
+            let own = told.map(|((leg, observation), _)| leg.noise_share(observation, k));
             kind_doubts(kind.name, &of_kind, kurtosis_of(noise, own), neighbours)
         })
         .collect();

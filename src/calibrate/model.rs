@@ -67,10 +67,6 @@ pub struct Observation {
 /// What would pass for an α of a hundredth by itself hides the noise of a leg.
 const HIDING: f64 = 0.01;
 
-/// The variance of a nanometre (m²), and of as small a turn (rad²): nobody knows better where a robot is. Legs of a simulated log that
-/// are exact to rounding would otherwise tell errors by slopes which are themselves rounding.
-const RESOLVED: f64 = 1e-18;
-
 impl Observation {
     /// Without its residuals, where one of them is rather that of an error of the base's motion as large as this (x, y, θ) than of any
     /// noise: a robot that hardly moves, between legs in which it does, shows no more than that its clock is not known to a millisecond.
@@ -197,15 +193,15 @@ impl Model {
 }
 
 impl Model {
-    /// The weights of [`Observation::first_order`]: 1 over their variances, by what the systematic errors do not add, and as if nothing
-    /// were known to better than [`RESOLVED`]; less of a leg that may be bad.
+    /// The weights of [`Observation::first_order`]: 1 over their variances, by what the systematic errors do not add; less of a leg that
+    /// may be bad.
     pub(super) fn weights(self, observation: &Observation, density: &LegDensity) -> [f64; 3] {
         let variances = std::array::from_fn(|k| {
             let own = |all: f64| (all - observation.unknown[k]).max((1.0 - MOST_LEVERAGE) * all);
             density.variances[k].map_or(0.0, own)
         });
         self.first_order_variances(observation, variances)
-            .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance.max(RESOLVED) } else { 0.0 })
+            .map(|variance| if variance > 0.0 { (1.0 - density.bad) / variance } else { 0.0 })
     }
 
     /// The variances of [`Observation::first_order`], where those of its residuals are these: what is across the drive over the length

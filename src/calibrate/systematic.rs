@@ -238,10 +238,6 @@ pub(super) struct LeastSquares {
 /// What a leg adds to what is known is at most nine tenths of that.
 pub(super) const MOST_LEVERAGE: f64 = 0.9;
 
-/// A leg whose kink shows in so short a time (s), less than stamps of two machines differ by, tells nothing of the clock: of a log that is
-/// exact to rounding, a leg that ends just where the robot starts to turn has all of its slope on one side and none on the other.
-const SAME_TIME: f64 = 1e-5;
-
 /// √(2/π), the mean size of a normal number by its deviation.
 const MEAN_SIZE: f64 = 0.797_884_560_802_865_4;
 
@@ -261,14 +257,7 @@ impl LeastSquares {
     /// With one more leg. A leg that by itself says much of an error draws that to itself, and its residual is too small: for the
     /// scatter it is what it would be without it, over 1 − h, h being its leverage (MacKinnon and White's HC3).
     pub fn add(&mut self, systematic: &Systematic, leg: &Leg, observation: &Observation, weights: [f64; 3]) {
-        let mut slopes = systematic.slopes(leg, observation);
-        let kinks = observation.slopes * systematic.kink(leg);
-        for kind in 0..3 {
-            let kink = kinks[kind] * SAME_TIME;
-            if kink * kink * weights[kind] > 1.0 {
-                slopes[(kind, Error::ClockOffset as usize)] = 0.0;
-            }
-        }
+        let slopes = systematic.slopes(leg, observation);
         let (mut pull, mut leverage) = ([0.0; ERRORS], 0.0);
         for (kind, (residual, weight)) in observation.first_order.iter().zip(weights).enumerate() {
             if residual.is_nan() || weight == 0.0 {

@@ -135,12 +135,6 @@ impl JsAlphaCalibrator {
         self.0.with(|machine| machine.fits())
     }
 
-    /// Why the log says nothing, where it does: it has too few legs, or the two are not of one drive.
-    #[wasm_bindgen(getter)]
-    pub fn refusal(&self) -> Option<String> {
-        Some(self.0.with(|machine| machine.refusal())?.to_string())
-    }
-
     /// Gives up what was begun: settings and figures are the former ones.
     pub fn stop(&self) {
         self.0.with(AlphaCalibrator::stop);

@@ -116,7 +116,7 @@ fn of_wheels_that_err_by_as_much_it_is_told_too() {
 }
 
 /// A robot that hardly drives while it turns, seen by a reference that errs by a centimetre: the direction in which it went is that error's, and the
-/// way too long, which once was noise by the turn in the mean and in half of the logs. The share is allowed three deviations below 95 %, the
+/// way too long, which must not pass for noise by the turn. The share is allowed three deviations below 95 %, the
 /// mean three of its own.
 #[test]
 fn of_legs_as_short_as_its_error_no_direction_is_asked() {

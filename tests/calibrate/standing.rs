@@ -74,23 +74,24 @@ fn a_leg_that_shows_no_more_than_the_clocks_error_does_not_decide() {
     assert!(f64::from(fits) / f64::from(logs) > least(0.94, logs), "{fits} of {logs}");
 }
 
-/// Of a log that is exact to rounding most legs have no residual, whatever the clocks: those that end just where the robot starts or stops
-/// once told its offset as 0.1213 s, to the last figure. What is claimed is known to a nanometre at best.
+/// Of wheels that err by nothing most legs are exact whatever the clocks, and the others must not pass for bad: those in which the robot starts,
+/// stops or turns off tell the offset. The reference has samples when the odometry has, and twice and once a second between these. An error is known as
+/// well as by a reference that errs by a millimetre, and is the true one but for rounding and the last step.
 #[test]
 fn of_a_robot_without_noise_the_clock_is_found() {
-    const STEP: f64 = 0.02;
+    const STEP: f64 = 0.01;
     const OFFSET: f64 = 0.123;
     let (mut pose, mut samples) = (SE2::identity(), Vec::new());
-    for row in 0..10_000_u32 {
+    for row in 0..20_000_u32 {
         samples.push((STEP * f64::from(row), pose));
-        let phase = row / 85;
+        let phase = row / 170;
         let turn = [0.7, -0.5, 0.9][phase as usize / 3 % 3];
         let twist = [[0.0, turn], [0.4, 0.0], [0.4, 0.3]][phase as usize % 3];
         pose = pose.boxplus(Vector3::new(twist[0], 0.0, twist[1]) * STEP);
     }
-    let odometry = Trajectory::new(samples.iter().copied()).expect("times rise");
-    for every in [1, 5] {
-        let later = samples.iter().step_by(every).map(|(time, pose)| (time + OFFSET, *pose));
+    let odometry = Trajectory::new(samples.iter().copied().step_by(2)).expect("times rise");
+    for (first, every) in [(0, 2), (0, 10), (7, 50), (7, 100)] {
+        let later = samples.iter().skip(first).step_by(every).map(|(time, pose)| (time + OFFSET, *pose));
         let reference = Trajectory::new(later).expect("times rise");
         let mut options = Simulation::of(MODELS[0], NoiseKind::Normal, 400, 0).options(Robust::No);
         options.remove = [true; ERRORS];
@@ -99,9 +100,9 @@ fn of_a_robot_without_noise_the_clock_is_found() {
         for error in Error::ALL {
             let deviation = told.deviations[error as usize].expect("it is determined");
             let off = told.systematic.get(error) - exact.get(error);
-            assert!(off.abs() < 1.96 * deviation, "{error:?} is off by {off} of {deviation}, every {every}");
-            assert!((1e-11..1e-8).contains(&deviation), "{error:?}: {deviation}, every {every}");
+            assert!(off.abs() < 0.05 * deviation, "{error:?} is off by {off} of {deviation}, every {every}");
+            assert!((1e-6..3e-3).contains(&deviation), "{error:?}: {deviation}, every {every}");
         }
-        assert!(told.estimate.alphas.iter().all(|alpha| *alpha < 1e-15), "{:?}", told.estimate);
+        assert!(told.estimate.alphas.iter().all(|alpha| *alpha < 1e-7), "{:?}", told.estimate);
     }
 }

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { axisOf, between, squaresOf } from '../../www/widgets/alpha-calibrator/curve.js';
+import { axisOf, axisOfSquares, between } from '../../www/widgets/alpha-calibrator/curve.js';
 import { de } from '../../www/widgets/alpha-calibrator/de.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { between as ends, fixed, nav2Lines, short } from '../../www/widgets/alpha-calibrator/lines.js';
@@ -115,12 +115,12 @@ test('an axis has two ends whatever is of a curve', () => {
 
 test('bins and their line have room whatever a bar is as long as', () => {
   // The bars of all but one are short: its own leaves the picture, of which the line has two thirds.
-  assert.deepEqual(squaresOf([1, 2, 3], [0.5, 1, 90], 2.5), { from: -1.5, to: 4.5 });
-  assert.deepEqual(squaresOf([1, 2, 3], [0.5, 1, 1], 2.5), { from: 0, to: 4 });
-  assert.deepEqual(squaresOf([1, 2], [0.5, 0.5], 7), { from: 0, to: 7 });
-  assert.deepEqual(squaresOf([], [], 0), { from: 0, to: 0 });
+  assert.deepEqual(axisOfSquares([1, 2, 3], [0.5, 1, 90], 2.5), { from: -1.5, to: 4.5 });
+  assert.deepEqual(axisOfSquares([1, 2, 3], [0.5, 1, 1], 2.5), { from: 0, to: 4 });
+  assert.deepEqual(axisOfSquares([1, 2], [0.5, 0.5], 7), { from: 0, to: 7 });
+  assert.deepEqual(axisOfSquares([], [], 0), { from: 0, to: 0 });
   // What a reference is stated to err by is taken off, and may be more than there is.
-  assert.deepEqual(squaresOf([-2, -3], [0.5, 9], 0), { from: -4.5, to: 1.5 });
+  assert.deepEqual(axisOfSquares([-2, -3], [0.5, 9], 0), { from: -4.5, to: 1.5 });
 });
 
 test('an α is printed in digits that are its own, however small it is', () => {

@@ -40,6 +40,8 @@ pub struct Calibrating {
     begun: Systematic,
     systematic: Systematic,
     deviations: [Option<f64>; ERRORS],
+    /// Whether the wheels err by less than a reference shows.
+    is_exact: bool,
     /// Of the last round.
     known: [[f64; ERRORS]; ERRORS],
     removed: Systematic,
@@ -83,6 +85,7 @@ impl Calibrating {
             begun: Systematic::NONE,
             systematic: Systematic::NONE,
             deviations: [None; ERRORS],
+            is_exact: false,
             known: [[0.0; ERRORS]; ERRORS],
             removed: Systematic::NONE,
             of_length: ([None; ERRORS], [[0.0; ERRORS]; ERRORS]),
@@ -176,6 +179,10 @@ impl Calibrating {
             }
             Stage::Observe(purpose) => {
                 if !self.observe(purpose) {
+                    return Ok(None);
+                }
+                if self.turns_out_exact(purpose) {
+                    self.forget();
                     return Ok(None);
                 }
                 Stage::Fit(purpose)
@@ -295,7 +302,7 @@ impl Calibrating {
     ///
     /// What is removed was fitted to the same residuals, each of which is told as the others would have it.
     fn observe(&mut self, purpose: Purpose) -> bool {
-        let Options { model, noise, reference_error, remove, .. } = self.options;
+        let Options { model, noise, remove, .. } = self.options;
         let without = *self.without(purpose);
         let estimated = if let Purpose::Round(_) = purpose { [true; ERRORS] } else { remove };
         let (deviations, known) =
@@ -304,8 +311,7 @@ impl Calibrating {
         let clock = Error::ClockOffset as usize;
         // As long as no leg has told it, by how the turns did.
         let unsure = if estimated[clock] { deviations[clock].unwrap_or(KNOWN_TO) } else { 0.0 };
-        let [place, heading] =
-            [reference_error.position, reference_error.heading].map(|deviation| deviation * deviation);
+        let [place, heading] = self.reference_error(purpose).map(|deviation| deviation * deviation);
         let from = self.observations.len();
         let until = self.legs.len().min(from + LEGS);
         let legs = &self.legs[from..until];

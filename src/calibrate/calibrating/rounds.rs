@@ -1,14 +1,50 @@
 //! The rounds in which the systematic errors are found: each is a step of least squares, by the α's of the one before.
 
 use super::{ARCS, Calibrating, LEGS};
+use crate::calibrate::calibration::ReferenceError;
+use crate::calibrate::legs::FEWEST;
+use crate::calibrate::mismatch::DRIVES;
 use crate::calibrate::stages::Purpose;
 use crate::calibrate::systematic::{Error, LeastSquares, Step};
+use crate::calibrate::trajectory::sort;
 use crate::geom::se2::wrap_angle;
 
 /// A change that is so small a part of its deviation is none.
 const STAYS: f64 = 0.01;
 
+/// What a reference errs by at least (m, rad) where wheels err by less than that in a quarter of the legs. These would be exact, whatever the
+/// clocks, and those that tell the clocks' offset, in which the robot starts, stops or turns off, would pass for bad.
+const LEAST_ERROR: f64 = 1e-3;
+
 impl Calibrating {
+    /// What the reference errs by at one moment, m and rad.
+    pub(super) fn reference_error(&self, purpose: Purpose) -> [f64; 2] {
+        let finds_errors = matches!(purpose, Purpose::Round(_) | Purpose::Scatter(_));
+        let least = if self.is_exact && finds_errors { LEAST_ERROR } else { 0.0 };
+        let ReferenceError { position, heading } = self.options.reference_error;
+        [position.max(least), heading.max(least)]
+    }
+
+    /// Whether it has just turned out that a quarter of the legs that drive end where the wheels say, as near as a reference shows.
+    pub(super) fn turns_out_exact(&mut self, purpose: Purpose) -> bool {
+        if self.is_exact || !matches!(purpose, Purpose::Round(_)) {
+            return false;
+        }
+        let without = self.without(purpose);
+        let mut off: Vec<f64> = self
+            .legs
+            .iter()
+            .step_by(1 + self.legs.len() / LEGS)
+            .map(|leg| (without.expected(leg), without.motion(leg)))
+            .filter(|(expected, _)| libm::hypot(expected.x(), expected.y()) > DRIVES)
+            .map(|(expected, motion)| libm::hypot(motion.x() - expected.x(), motion.y() - expected.y()))
+            .collect();
+        self.work.add(ARCS * off.len());
+        sort(&mut off);
+        self.is_exact = off.len() >= FEWEST && off[off.len() / 4] < LEAST_ERROR;
+        self.is_exact
+    }
+
     /// Goes on with the step to better systematic errors.
     pub(super) fn refine(&mut self, purpose: Purpose) -> Option<Step> {
         let model = self.options.model;

@@ -10,8 +10,8 @@ pub use settings::*;
 use super::cloud::draws::Draws;
 use super::settings::{Rules, SettingsError};
 use crate::calibrate::{
-    CalibrateError, Calibrating, Calibration, Doubts, ERRORS, Estimate, HeldOut, Inflation, KindDoubts, Leg,
-    Options, ReferenceError, Robust, Systematic, Trajectory, Verdict,
+    Calibrating, Calibration, Doubts, ERRORS, Estimate, HeldOut, Inflation, KindDoubts, Leg, Options,
+    ReferenceError, Robust, Systematic, Trajectory, Verdict,
 };
 use crate::geom::se2::SE2;
 use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -93,7 +93,6 @@ struct Shown {
     settings: Settings,
     source: Source,
     calibration: Calibration,
-    refusal: Option<CalibrateError>,
 }
 
 /// A calibration under way.
@@ -122,8 +121,7 @@ impl AlphaCalibrator {
     pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
         let source = Source::Simulated(settings.seed, None);
-        let shown =
-            Shown { settings, source: source.clone(), calibration: nothing(&settings), refusal: None };
+        let shown = Shown { settings, source: source.clone(), calibration: nothing(&settings) };
         let mut machine = Self { settings, shown, next: None, fits: 0 };
         machine.fit(source);
         Ok(machine)
@@ -195,12 +193,9 @@ impl AlphaCalibrator {
             return false;
         };
         let step = calibrating.step(&log.odometry, &log.reference);
-        let (calibration, refusal) = match step {
-            Ok(None) => return false,
-            Ok(Some(calibration)) => (calibration, None),
-            Err(error) => (nothing(&self.settings), Some(error)),
-        };
-        self.shown = Shown { settings: self.settings, source: source.clone(), calibration, refusal };
+        let Some(calibration) = step.unwrap_or_else(|_| Some(nothing(&self.settings))) else { return false };
+        let source = source.clone();
+        self.shown = Shown { settings: self.settings, source, calibration };
         self.next = None;
         self.fits += 1;
         true
@@ -230,11 +225,6 @@ impl AlphaCalibrator {
     /// What is fitted.
     pub fn calibration(&self) -> &Calibration {
         &self.shown.calibration
-    }
-
-    /// Why the log says nothing, where it does.
-    pub fn refusal(&self) -> Option<CalibrateError> {
-        self.shown.refusal
     }
 
     /// What is fitted but for its legs, of which there may be many.

@@ -177,7 +177,7 @@ export class AlphaCalibratorElement extends FigureElement {
     const end = performance.now() + LONGEST_WORK;
     const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
     orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
-    settings.prepare(machine, this.#entering(machine, log, arrived, refuse !== undefined), (error) => refuse?.(error), end);
+    settings.prepare(machine, this.#entering(machine, log, arrived, refuse !== undefined), refuse ?? ((error) => this.runtime.report(error)), end);
   }
 
   /**
@@ -191,7 +191,7 @@ export class AlphaCalibratorElement extends FigureElement {
     // Where reading it has taken all of a frame, what comes now waits for the next.
     yield 0;
     yield* advancing(machine);
-    if (isStrict && machine.refusal) throw new RangeError(machine.refusal);
+    if (isStrict && machine.count === 0) throw new RangeError(words.calibrator.none);
     this.#log = log;
     this.state.own.leg = null;
     this.runtime.replace(machine);

@@ -42,7 +42,7 @@ export function axisOf(values, depth) {
  * @param {number} line its highest square
  * @returns {{ from: number, to: number }}
  */
-export function squaresOf(squares, error, line) {
+export function axisOfSquares(squares, error, line) {
   const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
   const ends = (/** @type {number} */ side) => squares.map((square, i) => square + side * error[i]);
   const room = (highest - lowest) / 2;

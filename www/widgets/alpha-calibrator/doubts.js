@@ -7,7 +7,7 @@ import { button, radioGroup, rich } from '../../ui/controls.js';
 import { NOTHING, counted, fixed, percent, significant } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable } from '../../ui/readouts.js';
-import { axisOf, between, squaresOf } from './curve.js';
+import { axisOf, axisOfSquares, between } from './curve.js';
 import { OVERSTATED, adviceOf, isZero, neededFor } from './lines.js';
 import { QUANTILES, REACH } from './quantiles.js';
 import { alphaName, significantly, thousandths } from './words.js';
@@ -65,7 +65,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const furthest = Math.max(0, ...x);
   // Of a log that has nothing of what drives it the axis is an empty one.
   const last = furthest > DRIVEN ? 1.06 * furthest : 1;
-  const { from, to } = squaresOf(y, error, (slope ?? 0) * last);
+  const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
   const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
   const { scaled, unit } = thousandths(Math.max(highest, -from));
   const name = alphaName(alpha);

@@ -78,6 +78,15 @@ const own = css`
     }
   }
 
+  /* Clear of the buttons, which have no row of their own where there is height enough. */
+  @media (min-height: 30em) {
+    @container (30em <= width < 56em) {
+      :host([presentation]) .views {
+        padding-top: 1.6em;
+      }
+    }
+  }
+
   .cloud .buttons {
     margin-bottom: 0.2em;
   }

@@ -126,7 +126,7 @@ export class Rows {
     const at = seconds - this.#start + rest;
     if (!Number.isFinite(a + b + c)) return this.#note('notFinite', line, at);
     const far = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE);
-    if (far !== undefined) throw new LogError(this.#at(line), (say) => say.far(far, MAX_VALUE, this.#place.topic === undefined ? 0 : line));
+    if (far !== undefined) throw new LogError(this.#at(line), (say) => say.far(far, MAX_VALUE, this.#message(line)));
     const t = this.#columns[0];
     const last = this.#kept - 1;
     if (last >= 0 && at === t[last]) return this.#note('duplicate', line, at);
@@ -168,7 +168,7 @@ export class Rows {
     const [t, x, y, theta] = this.#columns.map((column) => column.slice(0, this.#kept));
     const { falling } = this.#leftOut;
     const count = this.#count;
-    if (2 * falling.count > count) throw new LogError(this.#at(falling.line), (say) => say.falling(falling.count, count, this.#place.topic === undefined ? 0 : falling.line));
+    if (2 * falling.count > count) throw new LogError(this.#at(falling.line), (say) => say.falling(falling.count, count, this.#message(falling.line)));
     if (this.#kept < 2) {
       const [reason, first] = Object.entries(this.#leftOut).find(([, { count }]) => count > 0) ?? ['few', none()];
       throw new LogError(this.#at(first.line), (say) => say.few(this.#kept, count, say.reasons[/** @type {Reason} */ (reason)] ?? ''));
@@ -206,7 +206,12 @@ export class Rows {
 
   /** @param {number} line @returns {Place} */
   #at(line) {
-    return line && this.#place.topic === undefined ? { ...this.#place, line } : this.#place;
+    return line && !this.#message(line) ? { ...this.#place, line } : this.#place;
+  }
+
+  /** The number of a message, which a recording has for lines; 0 of a table. @param {number} line */
+  #message(line) {
+    return this.#place.topic === undefined ? 0 : line;
   }
 
   /** @param {Reason} reason @param {number} line @param {number} t */

@@ -107,8 +107,8 @@ export function* applyMap(machine, data, rest) {
   if (unknown) yield* shade(fours, unknown, UNKNOWN);
   const image = imageOf(columns, new Uint8Array(fours.buffer, 0, count));
   yield 0;
-  machine.beginGrid(description, image);
   try {
+    machine.beginGrid(description, image);
     yield* rest;
   } catch (error) {
     throw ofMap(GRID_KEYS, renamed(error, 'occupied', 'image'));

@@ -37,6 +37,24 @@ for (const controls of [false, true]) {
   });
 }
 
+for (const name of ['alpha-calibrator', 'dead-reckoning']) {
+  test(`the legends of ${name} are not behind the buttons, however large the window is`, async ({ page }) => {
+    await show(page, `<${name} presentation></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    for (const [width, height] of [[667, 375], [800, 600], [1024, 768], [1280, 720]]) {
+      await page.setViewportSize({ width, height });
+      await frames(page);
+      const buttons = await boxOf(widget.locator('.presenting'));
+      const bottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(boxOf))).map(({ y, height }) => y + height));
+      for (const canvas of await widget.locator('.stage canvas').all()) {
+        const { x, y, width: wide } = await boxOf(canvas);
+        expect(x + wide <= buttons.x || y >= bottom, `${width} × ${height}: a picture at ${x}, ${y}, buttons down to ${bottom}`).toBe(true);
+      }
+    }
+  });
+}
+
 for (const [width, height] of [[375, 667], [667, 375], [640, 480]]) {
   test(`in a window of ${width} × ${height} pixels every figure shows its pictures, beside or above each other, and they come to rest`, async ({ page }) => {
     await page.setViewportSize({ width, height });

@@ -13,7 +13,7 @@ import { HELP } from '../../www/cli/options.js';
 import { run } from '../../www/cli/run.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
-import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
+import { odometry, poseOf, recordingOf, stampOf, twistOf, transform } from '../mcap.js';
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
 const example = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
@@ -88,6 +88,12 @@ test('a recording gives both, by the topics that can be meant or are named', asy
   const unclear = file('unclear.mcap', await recordingOf(messages.filter(({ topic }) => topic !== '/mocap').map((each) => (each.topic === '/cmd_vel' ? { ...each, topic: '/third', type: 'nav_msgs/msg/Odometry', message: odometry(each.t, 0, 0, 0) } : each))));
   const { code, err } = await said(['calibrate', '--recording', unclear]);
   assert.deepEqual([code, err], [2, 'unclear.mcap: which topic is the reference is not clear; expected is a choice of /odom (Odometry), /other (PoseStamped), /third (Odometry), by --reference-topic.\n']);
+  // Of transforms alone the frames are asked for, and are enough.
+  const moving = messages.filter(({ topic }) => topic === '/odom').flatMap(({ t }, i) => [['odom', 'base_link', i, 1], ['map', 'base_link', i, 2]].map(([parent, child, x, y]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, String(parent), String(child), Number(x), Number(y), 0)] } })));
+  const frames = file('tf.mcap', await recordingOf(moving));
+  assert.equal((await said(['calibrate', '--recording', frames])).err, 'tf.mcap: which topic is the odometry is not clear; expected is a choice of /tf (TFMessage), by --odom-frames.\n');
+  const framed = await askedOf(['--recording', frames, '--odom-frames', 'odom,base_link', '--frames', 'map,base_link']);
+  assert.deepEqual([framed.odometry.y[3], framed.reference.y[3]], [1, 2]);
   const alone = file('alone.mcap', await recordingOf(messages.filter(({ topic }) => topic === '/odom')));
   assert.equal((await said(['calibrate', '--recording', alone])).err, 'alone.mcap: the only topic of use is /odom (Odometry); expected are two, of odometry and of the reference.\n');
 });

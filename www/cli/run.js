@@ -19,6 +19,9 @@ import { jsonOf, textOf } from './report.js';
  * @property {Date} [now]
  */
 
+/** By which options a topic of a recording is chosen, or the frames of its transforms. */
+const [TOPIC_OPTIONS, FRAMES_OPTIONS] = [{ odometry: '--odom-topic', reference: '--reference-topic' }, { odometry: '--odom-frames', reference: '--frames' }];
+
 /** What a shell is told: all is well, or what was asked for or given is not. */
 const [WELL, BAD_INPUT] = [0, 2];
 
@@ -158,7 +161,9 @@ function usualTopic(file, topics, role, kind, frames) {
   const [transforms, ...more] = frames ? useful.filter(({ name, kind }) => kind === 'transforms' && !/static/.test(name)) : [];
   if (transforms && more.length === 0) return transforms.name;
   const usual = usualTopics(topics, kind)[role];
-  if (usual === null) throw unclear(file, useful, role, `--${role === 'odometry' ? 'odom' : role}-topic`);
+  // Of transforms alone the frames tell all.
+  const options = useful.every(({ kind }) => kind === 'transforms') ? FRAMES_OPTIONS : TOPIC_OPTIONS;
+  if (usual === null) throw unclear(file, useful, role, options[role]);
   return usual;
 }
 

@@ -402,3 +402,43 @@ test('a log without legs says so, and trouble with it is no failure', async ({ p
   await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
   expect(await heard(page, ['error'])).toEqual([]);
 });
+
+test('a way of many legs is drawn in the time that frames have for it, and is whole in the end', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const { pieces, shown, atOnce } = await widget.evaluate(async (element) => {
+    const calibrator = /** @type {any} */ (element);
+    // A robot that drives around in a hall, and turns at each corner.
+    const count = 20_000;
+    const made = () => Object.fromEntries(['t', 'x', 'y', 'theta'].map((key) => [key, new Float64Array(count + 1)]));
+    const log = { odometry: made(), reference: made() };
+    const random = (/** @type {number} */ i) => (((i * 7919) % 1009) / 1009 - 0.5) * Math.sqrt(12);
+    for (let i = 1; i <= count; i++) {
+      const turn = i % 20 === 0 ? Math.PI / 2 + 0.3 * Math.sin(i) : 0.02 * Math.sin(i);
+      for (const [poses, error] of /** @type {const} */ ([[log.odometry, 0], [log.reference, 1]])) {
+        const { t, x, y, theta } = poses;
+        t[i] = i / 2;
+        theta[i] = theta[i - 1] + turn + 0.02 * error * random(3 * i);
+        const way = 0.3 + 0.01 * error * random(3 * i + 1);
+        x[i] = x[i - 1] + way * Math.cos(theta[i]);
+        y[i] = y[i - 1] + way * Math.sin(theta[i]);
+      }
+    }
+    const [way] = calibrator.pictures;
+    const { draw } = way;
+    const pieces = /** @type {boolean[]} */ ([]);
+    way.draw = function (/** @type {any[]} */ ...given) {
+      const moving = draw.apply(this, given);
+      if (calibrator.machine.count > 10_000) pieces.push(this.unfinished);
+      return moving;
+    };
+    calibrator.log = log;
+    while (pieces.at(-1) !== false) await new Promise(requestAnimationFrame);
+    const canvas = calibrator.stage.canvasOf(way);
+    const shown = canvas.toDataURL();
+    draw.call(way, canvas, calibrator.scene, calibrator.stage.palette);
+    return { pieces, shown, atOnce: canvas.toDataURL() };
+  });
+  // Each leg counts 40 pixels at least, of the 200,000 of a frame, and is in both ways.
+  expect(pieces.length).toBeGreaterThanOrEqual(5);
+  expect(shown).toBe(atOnce);
+});

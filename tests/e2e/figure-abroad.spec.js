@@ -41,6 +41,19 @@ test('the address has a part for each figure, by its id or its place, and nothin
     delete prototype.toBase64;
     said.push(`Without base64 of the browser ${(await figures[0].shareLink()) === whole}`);
     if (toBase64) prototype.toBase64 = toBase64;
+    // One that is there already is written over, and one that says the same is not written.
+    figures[0].gesture.decide({ seed: 39 });
+    while (new URL(await figures[0].shareLink()).hash !== location.hash) await rest();
+    said.push(`Changed again: ${names()}`);
+    const { replaceState } = history;
+    let written = 0;
+    history.replaceState = (...given) => {
+      written++;
+      replaceState.apply(history, given);
+    };
+    await figures[0].link.write();
+    history.replaceState = replaceState;
+    said.push(`The same written: ${written}`);
 
     // What comes by the address is entered; what is broken is told.
     const errors = /** @type {string[]} */ ([]);
@@ -58,6 +71,22 @@ test('the address has a part for each figure, by its id or its place, and nothin
     await follow(`#banana-machine:${encodeURIComponent('ä b')}=${text}`);
     await follow(`#x&host/banana-machine.1=${text}`);
     await follow(`#div:host/banana-machine.1=${text}`);
+    // Without base64 of the browser too.
+    const bytes = /** @type {any} */ (Uint8Array);
+    const { fromBase64 } = bytes;
+    delete bytes.fromBase64;
+    figures[0].seed = 1;
+    await follow(`#banana-machine.1=${text}&later`);
+    if (fromBase64) bytes.fromBase64 = fromBase64;
+    // Of two addresses, one right after the other, the later one counts.
+    figures[0].seed = 2;
+    history.replaceState(null, '', `#banana-machine.1=${text}`);
+    const followed = [figures[0].link.follow()];
+    history.replaceState(null, '', '#');
+    followed.push(figures[0].link.follow());
+    await Promise.all(followed);
+    await rest();
+    said.push(`Left at once: ${figures[0].seed}`);
     // One that is not on the page follows nothing.
     const [, away] = figures;
     const { parentNode, nextSibling } = away;

@@ -183,6 +183,25 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
       said.push(`${tag} opens with ${await opened}`);
       other.remove();
     }
+    for (const tag of ['map-squeeze', 'arc-anatomy']) {
+      const other = document.createElement(tag);
+      said.push(`${tag} has ${['playing', 'marked', 'poses'].filter((name) => name in other)}`);
+    }
+    // It is told how long ago the frame before was, of which it makes the steps of its views.
+    const spans = /** @type {boolean[]} */ ([]);
+    const { frame } = figure.stage;
+    let before = NaN;
+    figure.stage.frame = function (/** @type {number} */ elapsed) {
+      const now = Number(document.timeline.currentTime);
+      if (!Number.isNaN(before)) spans.push(Math.abs(elapsed - Math.min(100, now - before)) < 1);
+      before = now;
+      frame.call(this, elapsed);
+      figure.stage.wake();
+    };
+    figure.stage.wake();
+    while (spans.length < 5) await new Promise(requestAnimationFrame);
+    figure.stage.frame = frame;
+    said.push(`Told of the time: ${spans}`);
 
     // An element without its cloud on the page any more.
     figure.remove();

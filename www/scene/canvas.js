@@ -33,6 +33,13 @@ export const inCss = ({ width, height }, canvas) => [width, height].map((each) =
 export const LONGEST_SIDE = 16_384;
 
 /**
+ * What is stroked in a frame at most, pixels of the view, and what a line counts besides its length: a hundredth of a second
+ * or two where a browser draws without a graphics processor.
+ */
+export const STROKED = 200_000;
+export const A_LINE = 40;
+
+/**
  * A point of the window in the pixels of a view, which what is around it may enlarge.
  *
  * @param {Element} element as wide as the view

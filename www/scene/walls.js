@@ -4,7 +4,7 @@
  */
 
 import { channels } from '../ui/theme.js';
-import { LONGEST_SIDE, hiddenContext } from './canvas.js';
+import { A_LINE, LONGEST_SIDE, STROKED, hiddenContext } from './canvas.js';
 
 /**
  * @import { View } from './view.js'
@@ -23,13 +23,6 @@ const OUTLINE = 0.75;
 
 /** Walls that are stroked at once: browsers take far longer for one path of many. */
 const WALLS_A_STROKE = 500;
-
-/**
- * What is stroked in a frame at most, pixels of the view, and what a wall counts besides its length: a hundredth of a second
- * or two where a browser draws without a graphics processor.
- */
-const STROKED = 200_000;
-const A_WALL = 40;
 
 /** How long cells of a picture are counted and drawn in a frame, milliseconds: there may be two of them. */
 const COUNTING = 8;
@@ -194,7 +187,7 @@ export class WallLayer {
         [fromX, fromY, toX, toY] = [x0, y0, x1, y1];
         context.moveTo(x0, y0);
         context.lineTo(x1, y1);
-        stroked += A_WALL + Math.min(Math.hypot(x1 - x0, y1 - y0), width + height);
+        stroked += A_LINE + Math.min(Math.hypot(x1 - x0, y1 - y0), width + height);
       }
       context.stroke();
     }

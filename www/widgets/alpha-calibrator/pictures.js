@@ -2,16 +2,14 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { drawDots, drawMark, drawOutlines } from '../../scene/draw.js';
+import { drawDots, drawMark, drawOutline, drawOutlines } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
-import { channels } from '../../ui/theme.js';
 import { lineKey } from '../shared/line-key.js';
+import { READ_DASH, WayLayer, readStyleOf, stylesOf } from './way.js';
 
 /**
- * @import { AlphaCalibrator as Machine, CalibrationLegs, LegView } from '../../types.d.ts'
- * @import { Brush } from '../../scene/canvas.js'
- * @import { Palette } from '../../ui/theme.js'
+ * @import { AlphaCalibrator as Machine, LegView } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
  *
  * @typedef {Reading & { chosen: number, leg: LegView | null }} Scene what both pictures are of: with the leg that is looked at
@@ -20,37 +18,11 @@ import { lineKey } from '../shared/line-key.js';
 /** How near to a leg the pointer must be to choose it, CSS pixels. */
 const REACH = 16;
 
-/** Legs that are stroked at once: browsers take far longer for one path of many. */
-const LEGS_A_STROKE = 500;
-
-/** Of steps that are shorter one is drawn in each square of this side, CSS pixels: nobody sees the others, and they may be a hundred thousand. */
-const FINE = 1;
-
-/** A number for each square of that side. @param {number} x CSS pixels @param {number} y */
-const squareOf = (x, y) => Math.round(x / FINE) + 2 ** 26 * Math.round(y / FINE);
-
 /** Room for a key in two lines, CSS pixels. */
 const TWO_LINES = 42;
 
 /** Radius of the rings around the worst legs, CSS pixels. */
 const RING = 6;
-
-/** Dash of what the odometry says, CSS pixels. */
-const READ_DASH = [2.5, 3.5];
-
-/** How legs look, the most usual first: the wider, the more unusual. @param {Palette} palette */
-const stylesOf = ({ truth, cloud, prediction, accent }) => [
-  { colour: truth, width: 1.5, dash: [] },
-  { colour: between(truth, cloud), width: 2, dash: [] },
-  { colour: prediction, width: 3.25, dash: [] },
-  { colour: accent, width: 4.5, dash: [] },
-];
-
-/** Halfway from one colour to another. @param {string} one @param {string} other */
-function between(one, other) {
-  const [from, to] = [channels(one), channels(other)];
-  return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
-}
 
 /**
  * The floor from above, in the frame of the reference.
@@ -58,6 +30,8 @@ function between(one, other) {
  * @extends {Picture<Scene>}
  */
 export class WayPicture extends Picture {
+  #layer = new WayLayer();
+
   constructor() {
     super('plane', new View({ top: TWO_LINES }));
   }
@@ -84,11 +58,9 @@ export class WayPicture extends Picture {
     const styles = stylesOf(palette);
     const { key } = words.calibrator;
     const entries = styles.map((style, i) => lineKey(brush, key.classes[i], style)).reverse();
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, [...entries, lineKey(brush, key.read, { colour: palette.prior, width: 1.25, dash: READ_DASH })]);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, [...entries, lineKey(brush, key.read, readStyleOf(palette))]);
     clipped(brush, () => {
-      drawReckoned(brush, legs);
-      context.lineCap = 'round';
-      styles.forEach((style, place) => drawLegs(brush, legs.reference, (leg) => classes[leg] === place, style));
+      this.unfinished = this.#layer.draw(brush, legs, classes);
       context.strokeStyle = palette.ink;
       context.lineWidth = 1;
       for (const leg of doubts.worst) {
@@ -97,71 +69,11 @@ export class WayPicture extends Picture {
         context.stroke();
       }
       if (chosen < 0) return;
-      drawLegs(brush, legs.reference, (leg) => leg === chosen, { colour: palette.ink, width: 3.25 });
-      const [x, y, heading] = legs.reference.subarray(6 * chosen + 3);
+      const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
+      drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
       drawMark(brush, { x, y, heading }, palette.ink);
-      context.lineCap = 'butt';
     });
   };
-}
-
-/**
- * Where the odometry has the robot, from where that began: it drifts away, and each leg is compared by itself.
- *
- * @param {Brush} brush
- * @param {CalibrationLegs} legs
- */
-function drawReckoned({ context, view, palette }, { count, odometry, reference }) {
-  if (count === 0) return;
-  const turn = reference[2] - odometry[2];
-  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-  context.beginPath();
-  let last = NaN;
-  for (let leg = 0; leg < count; leg++) {
-    const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
-    const x = view.toPixelX(reference[0] + cos * dx - sin * dy);
-    const y = view.toPixelY(reference[1] + sin * dx + cos * dy);
-    const square = squareOf(x, y);
-    if (square === last) continue;
-    last = square;
-    context.lineTo(x, y);
-  }
-  context.strokeStyle = palette.prior;
-  context.lineWidth = 1.25;
-  context.setLineDash(READ_DASH);
-  context.stroke();
-  context.setLineDash([]);
-}
-
-/**
- * @param {Brush} brush
- * @param {Float64Array} reference both ends of each leg
- * @param {(leg: number) => boolean} are which of them
- * @param {{ colour: string, width: number }} style
- */
-function drawLegs({ context, view }, reference, are, { colour, width }) {
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  /** @type {Set<number>} */
-  const drawn = new Set();
-  let begun = 0;
-  for (let leg = 0; leg < reference.length / 6; leg++) {
-    if (!are(leg)) continue;
-    const at = 6 * leg;
-    const [x, y] = [view.toPixelX(reference[at]), view.toPixelY(reference[at + 1])];
-    const [toX, toY] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    if (Math.hypot(toX - x, toY - y) < FINE) {
-      const square = squareOf(toX, toY);
-      if (drawn.has(square)) continue;
-      drawn.add(square);
-    }
-    if (begun === 0) context.beginPath();
-    context.moveTo(x, y);
-    context.lineTo(toX, toY);
-    begun = (begun + 1) % LEGS_A_STROKE;
-    if (begun === 0) context.stroke();
-  }
-  if (begun > 0) context.stroke();
 }
 
 /**

@@ -9,8 +9,11 @@ import { isTrap } from './trap.js';
 /**
  * @typedef {Record<string, any>} Values settings by name
  *
- * @typedef {Generator<number, void>} Job a few milliseconds' work a step; how much of it is done, from 0 to 1
+ * @typedef {Generator<number | typeof LONG, void>} Job a few milliseconds' work a step; how much of it is done, from 0 to 1
  */
+
+/** Of a job: its next step may take as long as a frame has, and is begun in the first half of one. */
+export const LONG = Symbol('long');
 
 /** Longest work in a frame, milliseconds: with the pictures, a touch is answered within 50. */
 export const LONGEST_WORK = 25;
@@ -220,7 +223,7 @@ export class Settings extends Part {
    * @returns {boolean} whether nothing is left to do
    */
   #proceed(limit) {
-    const end = performance.now() + limit;
+    const began = performance.now();
     while (this.#job) {
       const job = this.#job;
       let step;
@@ -231,8 +234,8 @@ export class Settings extends Part {
         throw error;
       }
       if (!step.done) {
-        this.done = step.value;
-        if (performance.now() < end) continue;
+        if (step.value !== LONG) this.done = step.value;
+        if (performance.now() - began < (step.value === LONG ? limit / 2 : limit)) continue;
         this.host.progress.tell();
         return false;
       }

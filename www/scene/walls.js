@@ -88,7 +88,8 @@ export class WallLayer {
       this.#shown = coming ? '' : wanted;
       this.#paint(brush, unknown, occupied);
     }
-    if (this.#next < walls.length) {
+    // With another mask the layer begins anew.
+    if (!coming && this.#next < walls.length) {
       const layer = hiddenContext(this.#layer);
       this.#next = this.#stroke({ context: layer, view, palette }, this.#next, piecemeal ? STROKED : Infinity);
     }

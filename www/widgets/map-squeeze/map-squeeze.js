@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/reserve.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
-import { LONGEST_WORK, advancing } from '../../figure/settings.js';
+import { LONG, LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
 import { fold } from '../../ui/fold.js';
@@ -96,14 +96,14 @@ export class MapSqueezeElement extends FigureElement {
    *
    * @param {Machine} machine
    * @param {string} name
-   * @returns {Generator<number, MapData>}
+   * @returns {Generator<typeof LONG, MapData>}
    */
   *#mapOf(machine, name) {
-    yield 1;
+    yield LONG;
     const grid = this.#gridOf(machine);
-    yield 1;
+    yield LONG;
     const data = mapData(machine, name, grid);
-    yield 1;
+    yield LONG;
     return data;
   }
 
@@ -321,7 +321,7 @@ export class MapSqueezeElement extends FigureElement {
    */
   *#entering(machine, reading, { name, start }, arrived) {
     yield* reading;
-    yield 1;
+    yield LONG;
     if (start) machine.configure({ start });
     else if (!machine.startFree || this.#gridOf(machine)) machine.configure({ start: this.#putInTheOpen(machine) });
     machine.beginToGrow(this.cloud.asked);

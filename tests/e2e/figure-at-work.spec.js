@@ -89,6 +89,14 @@ test('work that takes long is done in slices of the time that a frame has for it
     figure.cloud.playing = false;
     await note('Stopped for good', () => figure.settings.stop());
     await note('Stopped where nothing goes on', () => figure.settings.stop());
+    left = 50;
+    await note('A step again', () => {
+      machine.restart();
+      figure.cloud.playing = true;
+      figure.stage.wake();
+    });
+    figure.settings.stop();
+    said.push(`Stopped, playing: ${figure.cloud.playing}`);
     return said;
   });
   expectRecorded('sliced', lines);

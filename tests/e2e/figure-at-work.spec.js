@@ -332,3 +332,31 @@ for (const name of ALL) {
     expect(steps).toEqual([0, true]);
   });
 }
+
+test('what takes long from the first picture on is done in slices too', async ({ page }) => {
+  await show(page, '<main></main>');
+  const frames = await page.evaluate(async () => {
+    const figure = /** @type {any} */ (document.createElement('banana-machine'));
+    let done = 0;
+    const work = function* () {
+      for (; done < 60; done++) {
+        // As long as five to ten milliseconds of a machine's.
+        const end = performance.now() + 5;
+        while (performance.now() < end);
+        yield done / 60;
+      }
+    };
+    const loaded = new Promise((resolve) => figure.addEventListener('load', (/** @type {Event} */ event) => {
+      // The page asks nothing.
+      event.stopPropagation();
+      resolve(figure.settings.work(work()));
+    }, { once: true }));
+    document.querySelector('main')?.append(figure);
+    await loaded;
+    let frames = 0;
+    for (; done < 60; frames++) await new Promise(requestAnimationFrame);
+    return frames;
+  });
+  // 300 ms of work, of which a frame does no more than 25 and a step.
+  expect(frames).toBeGreaterThanOrEqual(10);
+});

@@ -509,3 +509,74 @@ test('a grid in a state whose cells have too many sides is refused by an event, 
   await expect(progress(widget)).toHaveCount(0);
   expect(await squeezed(widget)).toEqual(before);
 });
+
+test('what takes as long as a frame is begun early in one', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const elapsed = await widget.evaluate(async (element) => {
+    const squeeze = /** @type {any} */ (element);
+    const { prototype } = squeeze.machine.constructor;
+    const { settings } = squeeze;
+    const { now } = performance;
+    const { advance } = prototype;
+    const { settle } = settings;
+    const grid = /** @type {PropertyDescriptor} */ (Object.getOwnPropertyDescriptor(prototype, 'grid'));
+    // A clock that goes on by ten milliseconds with each slice of work: of five, three are done at once, and two in a frame.
+    let [added, began, calls] = [0, 0, 0];
+    performance.now = () => now.call(performance) + added;
+    prototype.advance = function (/** @type {number} */ work) {
+      added += 10;
+      return ++calls < 5 ? false : advance.call(this, 1000 * work);
+    };
+    settings.settle = function (/** @type {number[]} */ ...given) {
+      began = added;
+      return settle.apply(this, given);
+    };
+    const elapsed = /** @type {number[]} */ ([]);
+    Object.defineProperty(prototype, 'grid', {
+      configurable: true,
+      get() {
+        elapsed.push(added - began);
+        return grid.get?.call(this);
+      },
+    });
+    squeeze.map = { name: 'yard', columns: 4, rows: 4, resolution: 1, origin: [0, 0, 0], occupied: btoa('\x00\x01') };
+    while (squeeze.map?.name !== 'yard') await new Promise(requestAnimationFrame);
+    Object.assign(prototype, { advance });
+    Object.defineProperty(prototype, 'grid', grid);
+    Object.assign(performance, { now });
+    settings.settle = settle;
+    return elapsed;
+  });
+  expect(elapsed.length).toBeGreaterThan(0);
+  // Half of what a frame has.
+  expect(Math.max(...elapsed)).toBeLessThan(12.5);
+});
+
+test('the walls of a large grid are not stroked while its cells are being drawn', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const done = await widget.evaluate(async (element) => {
+    const squeeze = /** @type {any} */ (element);
+    const { prototype } = OffscreenCanvasRenderingContext2D;
+    const { putImageData, stroke } = prototype;
+    let done = '';
+    /** @type {any} */ (prototype).putImageData = function (/** @type {any[]} */ ...given) {
+      done += 'c';
+      return /** @type {any} */ (putImageData).apply(this, given);
+    };
+    /** @type {any} */ (prototype).stroke = function () {
+      done += 'w';
+      return /** @type {any} */ (stroke).call(this);
+    };
+    const rows = Uint8Array.from({ length: 2 ** 21 }, (_, i) => ((i >> 9) % 128 ? 0 : 1));
+    let occupied = '';
+    for (let at = 0; at < rows.length; at += 4096) occupied += String.fromCharCode(...rows.subarray(at, at + 4096));
+    squeeze.map = { name: 'dots', columns: 4096, rows: 4096, resolution: 0.01, origin: [0, 0, 0], occupied: btoa(occupied) };
+    while (squeeze.map?.name !== 'dots' || !done.includes('w') || squeeze.pictures[0].unfinished) await new Promise(requestAnimationFrame);
+    return done;
+  });
+  // Cells are counted 100,000 or so at a time, of seventeen millions, for each view that is not on its way.
+  const pictures = done.split(/w+/).filter(Boolean).map(({ length }) => length);
+  expect(pictures.length).toBeGreaterThan(0);
+  expect(Math.min(...pictures)).toBeGreaterThan(100);
+  expect(done).toMatch(/w$/);
+});

@@ -154,8 +154,7 @@ export function cloudControls(figure, counts) {
   const { cloud: say } = wordsOf(figure);
   const { name, effect } = wordsFor(figure, 'samples');
   const last = counts.length - 1;
-  const above = counts.findIndex((count) => count >= samples);
-  const nearest = above < 0 ? last : above;
+  const nearest = counts.findIndex((count) => count >= samples);
   return html`<fieldset class="cloud">
     <legend class="visually-hidden">${say.legend}</legend>
     ${typeable(
@@ -167,7 +166,7 @@ export function cloudControls(figure, counts) {
         symbol: html`<i>N</i>`,
         name,
         // Beyond the last there is no index, and the thumb says so.
-        value: samples > counts[last] ? last + 1 : nearest,
+        value: nearest < 0 ? last + 1 : nearest,
         min: 0,
         max: last,
         step: 1,

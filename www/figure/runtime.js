@@ -175,13 +175,11 @@ export class Runtime extends Part {
   #stop() {
     this.#loaded = false;
     this.host.stage.clear();
-    if (this.machine) {
-      this.attempt(() => {
-        this.host.settings.settle();
-        this.host.state.keep();
-      });
-      this.machine?.free();
-    }
+    this.attempt(() => {
+      this.host.settings.settle();
+      this.host.state.keep();
+    });
+    this.machine?.free();
     this.machine = this.motion = undefined;
     this.host.requestUpdate();
   }

@@ -405,7 +405,7 @@ test('a log without legs says so, and trouble with it is no failure', async ({ p
 
 test('a way of many legs is drawn in the time that frames have for it, and is whole in the end', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const { pieces, shown, atOnce } = await widget.evaluate(async (element) => {
+  const { pieces, shown, atOnce, inks } = await widget.evaluate(async (element) => {
     const calibrator = /** @type {any} */ (element);
     // A robot that drives around in a hall, and turns at each corner.
     const count = 20_000;
@@ -436,9 +436,43 @@ test('a way of many legs is drawn in the time that frames have for it, and is wh
     const canvas = calibrator.stage.canvasOf(way);
     const shown = canvas.toDataURL();
     draw.call(way, canvas, calibrator.scene, calibrator.stage.palette);
-    return { pieces, shown, atOnce: canvas.toDataURL() };
+    const atOnce = canvas.toDataURL();
+    // In other colours the whole way is seen until they are there: as much of the picture has a colour.
+    const inked = () => {
+      const copy = /** @type {any} */ (new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true }));
+      copy.drawImage(canvas, 0, 0);
+      const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+      return data.reduce((/** @type {number} */ sum, /** @type {number} */ value, /** @type {number} */ i) => sum + Number(i % 4 === 3 && value > 0), 0);
+    };
+    const inks = [inked()];
+    pieces.length = 0;
+    calibrator.theme = 'dark';
+    while (pieces.at(-1) !== false || pieces.length < 2) {
+      await new Promise(requestAnimationFrame);
+      inks.push(inked());
+    }
+    return { pieces, shown, atOnce, inks };
   });
+  expect(Math.min(...inks)).toBeGreaterThan(0.9 * inks[0]);
   // Each leg counts 40 pixels at least, of the 200,000 of a frame, and is in both ways.
   expect(pieces.length).toBeGreaterThanOrEqual(5);
   expect(shown).toBe(atOnce);
+});
+
+test('without a log of the page’s own there is the simulated one again', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const count = () => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.count);
+  const simulated = await count();
+  for (const none of [null, undefined]) {
+    await widget.evaluate((element) => {
+      const { legs } = /** @type {AlphaCalibratorElement} */ (element).machine;
+      const of = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => Float64Array.from({ length: 200 }, (_, leg) => poses[6 * leg + at]);
+      const log = (/** @type {Float64Array} */ poses) => ({ t: Float64Array.from({ length: 200 }, (_, i) => i), x: of(poses, 0), y: of(poses, 1), theta: of(poses, 2) });
+      /** @type {AlphaCalibratorElement} */ (element).log = { odometry: log(legs.odometry), reference: log(legs.reference) };
+    });
+    await expect.poll(count).toBeLessThan(simulated);
+    await widget.evaluate((element, given) => void Object.assign(element, { log: given }), none);
+    await expect.poll(count).toBe(simulated);
+    expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).log)).toBe(null);
+  }
 });

@@ -95,7 +95,7 @@ export class Reflection extends Part {
     const entry = this.#entries[name];
     const given = typeof value === 'string' && entry?.kind ? entry.kind.parse(value) : value;
     const taken = () => {
-      const wanted = given ?? this.#usual(name);
+      const wanted = given ?? this.#usual(name) ?? null;
       const setting = entry && isSetting(entry) ? entry : undefined;
       const present = setting ? setting.get(this.#present) : Reflect.get(this.host, name);
       // A part of a setting's group leaves the others as they are; of the element's own a part is another whole.

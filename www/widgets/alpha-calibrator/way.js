@@ -14,6 +14,8 @@ import { channels } from '../../ui/theme.js';
  *
  * @typedef {{ colour: string, width: number, dash: number[] }} Style
  *
+ * @typedef {[left: number, top: number, right: number, bottom: number]} Corners m
+ *
  * @typedef {Generator<number, void>} Strokes one at a time; the pixels of each, as `STROKED` counts them
  */
 
@@ -51,12 +53,16 @@ function between(one, other) {
 
 export class WayLayer {
   #layer = new OffscreenCanvas(1, 1);
-  /** The view and the colours of what the layer shows. */
-  #shown = '';
+  /** The view and the colours of the layer. */
+  #wanted = '';
   /** The legs that it shows. @type {CalibrationLegs | undefined} */
   #legs;
   /** What of them it does not show yet. @type {Strokes | undefined} */
   #left;
+  /** Where its corners are on the floor. @type {Corners} */
+  #corners = [0, 0, 0, 0];
+  /** The last one that is whole and of the same legs, which is seen until this one is. @type {{ layer: OffscreenCanvas, corners: Corners } | undefined} */
+  #former;
 
   /**
    * @param {Brush} brush
@@ -72,12 +78,13 @@ export class WayLayer {
     }
     const { extent, frame, width, height } = view;
     const wanted = JSON.stringify([extent, frame, width, height, stylesOf(palette), palette.prior, ratio]);
-    if (wanted !== this.#shown || legs !== this.#legs) {
-      this.#shown = wanted;
+    if (wanted !== this.#wanted || legs !== this.#legs) {
+      if (legs !== this.#legs) this.#former = undefined;
+      else if (!this.#left) this.#former = { layer: this.#layer, corners: this.#corners };
+      this.#wanted = wanted;
       this.#legs = legs;
-      // A new size clears it.
-      this.#layer.width = Math.round(width * ratio);
-      this.#layer.height = Math.round(height * ratio);
+      this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
+      this.#corners = [view.toWorldX(0), view.toWorldY(0), view.toWorldX(width), view.toWorldY(height)];
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
       this.#left = strokesOf({ context: layer, view, palette }, legs, classes);
@@ -87,7 +94,14 @@ export class WayLayer {
       if (done) this.#left = undefined;
       else left -= value;
     }
-    context.drawImage(this.#layer, 0, 0, width, height);
+    if (!this.#left) this.#former = undefined;
+    if (this.#former) {
+      const { layer, corners } = this.#former;
+      const [left, top] = [view.toPixelX(corners[0]), view.toPixelY(corners[1])];
+      context.drawImage(layer, left, top, view.toPixelX(corners[2]) - left, view.toPixelY(corners[3]) - top);
+    } else {
+      context.drawImage(this.#layer, 0, 0, width, height);
+    }
     return this.#left !== undefined;
   }
 }

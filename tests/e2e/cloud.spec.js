@@ -296,7 +296,8 @@ test.describe('figures', () => {
     });
     await page.mouse.move(x + width * left, y + width * top);
     expect(await marked()).toBe(0);
-    await frames(page);
+    expect(await pixelsOf(twist, 'accent')).toBeGreaterThan(20);
+    await expect(widget.locator('.marked output')).toContainText('m/s');
     // While it stays there, nothing is drawn anew.
     const asked = await twist.evaluate((canvas, [clientX, clientY]) => {
       const request = window.requestAnimationFrame;

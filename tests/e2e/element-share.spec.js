@@ -81,6 +81,8 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
   }
   expect(links[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
+  // Of a figure that is in the address already, it has one part.
+  expect(new URL(await figure(page, 1).evaluate((element) => /** @type {AnyElement} */ (element).shareLink())).hash).toBe(links[1]);
   for (const [i, fragment] of links.entries()) {
     const other = await context.newPage();
     await show(other, body, { fragment });
@@ -106,6 +108,49 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   await expect(page.locator('banana-machine:defined')).toHaveCount(2);
   await frames(page);
   expect(await page.evaluate(() => scrollY)).toBe(700);
+});
+
+test('a figure that comes when its link is no longer the address does not move the page', FRESH, async ({ page }) => {
+  const gap = '<p style="margin: 2000px 0">Between</p>';
+  await show(page, gap, { fragment: '#banana-machine.1=abc' });
+  const moved = await page.evaluate(async () => {
+    await customElements.whenDefined('banana-machine');
+    document.querySelector('p')?.before(document.createElement('map-squeeze'));
+    history.replaceState(null, '', '#other');
+    const figure = /** @type {any} */ (document.createElement('banana-machine'));
+    document.body.append(figure);
+    await figure.updateComplete;
+    await new Promise(requestAnimationFrame);
+    return scrollY;
+  });
+  expect(moved).toBe(0);
+});
+
+test('a state that the address had while the figure was far away is not entered when it has none any more', async ({ page }) => {
+  await show(page, '<banana-machine v="0.5"></banana-machine>');
+  const first = page.locator('banana-machine').first();
+  await ready(first);
+  const hash = await first.evaluate((element) => /** @type {AnyElement} */ (element).shareLink().then((link) => new URL(link).hash.replace('#banana-machine.1', '#x&banana-machine.2')));
+  const last = await page.evaluateHandle(async (address) => {
+    const gap = document.createElement('div');
+    gap.style.height = '5000px';
+    const figure = document.createElement('banana-machine');
+    document.body.append(gap, figure);
+    const rest = async () => {
+      // The state is unpacked in a stream.
+      for (let i = 0; i < 10; i++) await new Promise((resolve) => setTimeout(resolve));
+    };
+    for (const next of [address, '#other=1']) {
+      const heard = new Promise((resolve) => addEventListener('hashchange', resolve, { once: true }));
+      location.hash = next;
+      await heard;
+      await rest();
+    }
+    return figure;
+  }, hash);
+  await last.scrollIntoViewIfNeeded();
+  await ready(page.locator('banana-machine').last());
+  expect(await last.evaluate((element) => Reflect.get(element, 'v'))).not.toBe(0.5);
 });
 
 test('an anchor by itself is the browser’s business: who has left it is not brought back by a figure', FRESH, async ({ page }) => {

@@ -250,6 +250,7 @@ test('a figure whose first core traps before anything was shown says all the sam
   await page.evaluate(() => {
     const element = /** @type {any} */ (document.createElement('banana-machine'));
     element.omega = 1.25;
+    element.addEventListener('load', () => (element.title = `${element.machine !== undefined}`));
     const { createMachine } = element;
     element.createMachine = (/** @type {unknown[]} */ ...given) => {
       const machine = createMachine.apply(element, given);
@@ -264,6 +265,7 @@ test('a figure whose first core traps before anything was shown says all the sam
   await ready(widget);
   await expect(widget.locator('canvas.plane')).toBeVisible();
   expect(await told()).toEqual(['error', 'load']);
+  await expect(widget).toHaveAttribute('title', 'true');
   // One that has been shown is not ready anew.
   await damage(widget);
   await widget.evaluate((element) => /** @type {any} */ (element).gesture.commit());

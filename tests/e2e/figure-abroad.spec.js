@@ -52,8 +52,24 @@ test('the address has a part for each figure, by its id or its place, and nothin
       replaceState.apply(history, given);
     };
     await figures[0].link.write();
-    history.replaceState = replaceState;
     said.push(`The same written: ${written}`);
+    // Of two, one right after the other, the later one is; what is removed meanwhile writes none.
+    figures[0].seed = 51;
+    const both = [figures[0].link.write()];
+    figures[0].seed = 39;
+    both.push(figures[0].link.write());
+    await Promise.all(both);
+    said.push(`Two written: ${written}`);
+    figures[0].seed = 52;
+    const late = figures[0].link.write();
+    const { nextSibling: next, parentNode: parent } = figures[0];
+    figures[0].remove();
+    await late;
+    said.push(`Written of what is gone: ${written}`);
+    parent.insertBefore(figures[0], next);
+    await figures[0].runtime.hasten();
+    figures[0].seed = 39;
+    history.replaceState = replaceState;
 
     // What comes by the address is entered; what is broken is told.
     const errors = /** @type {string[]} */ ([]);
@@ -202,6 +218,7 @@ test('what is taken along is named, copied and saved as the menus say, before th
     element.remove();
     await new Promise((resolve) => setTimeout(resolve));
     await ask('Gone');
+    said.push(`In sight ${figure.stage.inSight}`);
     return said;
   });
   expectRecorded('taken along', lines);

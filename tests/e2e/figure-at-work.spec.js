@@ -112,7 +112,15 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
     const figure = /** @type {any} */ (main.firstElementChild);
     figure.marked = 300;
     const shown = /** @type {number[]} */ ([]);
+    const framesOf = /** @type {number[]} */ ([]);
+    let count = 0;
+    const counted = () => {
+      count++;
+      requestAnimationFrame(counted);
+    };
+    requestAnimationFrame(counted);
     figure.addEventListener('stats', () => {
+      framesOf.push(count);
       if (shown.push(figure.machine.shown) === 4) figure.cloud.play();
     });
     const note = (/** @type {string} */ what) => {
@@ -123,6 +131,7 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
       said.push(`${what}: ${JSON.stringify({ marked, at, playing, samples, complete, asked, growing, isMarked, markable, index })} ${buttons.join('; ')}`);
     };
     note('Before');
+    said.push(`Plays: ${figure.playing}`);
     await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
     note('Loaded');
     const rest = async () => {
@@ -131,10 +140,13 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
     while (shown.length < 4) await new Promise(requestAnimationFrame);
     await rest();
     note('Paused');
-    said.push(`Steps: ${shown.slice(0, 4)}`);
+    said.push(`Steps: ${shown.slice(0, 4)}, a frame each: ${[2, 3].map((step) => framesOf[step] - framesOf[step - 1])}`);
     figure.cloud.step();
     await rest();
     note('A step');
+    figure.cloud.play();
+    note('Gone on');
+    figure.cloud.play();
     figure.setState({ widget: 'banana-machine', version: 1, shown: 298, playing: true });
     while (figure.playing) await new Promise(requestAnimationFrame);
     await rest();
@@ -148,6 +160,10 @@ test('a cloud grows before the eyes of a reader who likes that, step by step', a
     said.push(`Status: ${figure.shadowRoot.querySelector('[role=status]').textContent}`);
     figure.cloud.play();
     note('Again');
+    figure.cloud.reset();
+    figure.marked = null;
+    figure.setState({ widget: 'banana-machine', version: 1, shown: 1, marked: 0 });
+    note('The first marked');
     figure.cloud.reset();
     await rest();
     note('Emptied');
@@ -304,7 +320,29 @@ test('a core that traps is made again three times, and then a sentence says that
     brief.remove();
     await made;
     said.push(`Gone before it was there: ${brief.machine} ${brief.motion}`);
+    await note('Pointed at while there is none', () => {
+      runtime.attempt(trap);
+      figure.shadowRoot.querySelector('canvas').dispatchEvent(new PointerEvent('pointermove'));
+    });
+    runtime.prove();
+    let freed = 0;
+    const { free } = figure.machine;
+    figure.machine.free = function () {
+      freed++;
+      free.call(this);
+    };
+    figure.settings.want({ seed: 12 });
     await note('Failed of a refusal', () => runtime.attemptOrFail(() => { throw new RangeError('y is 2'); }));
+    said.push(`Freed ${freed}, kept ${figure.getState().seed}`);
+    // Who failed and is back may trap as often as any other.
+    await note('Back once more', async () => {
+      const { parentNode } = element;
+      element.remove();
+      await new Promise((resolve) => setTimeout(resolve));
+      /** @type {Element} */ (parentNode).append(element);
+      await runtime.hasten();
+    });
+    await note('A trap after that', () => runtime.attemptOrFail(trap));
     return said;
   });
   expectRecorded('trapped', lines);

@@ -84,6 +84,7 @@ test('what is given as properties and attributes is taken, refused and reflected
     note('createMachine', () => base.createMachine());
     note('read', () => base.read());
     note('takeaway', () => base.takeaway);
+    for (const playing of [undefined, 1]) note(`setState playing ${playing}`, () => figure.setState({ widget: 'banana-machine', version: 1, playing }));
     said.push(`otherwise ${[typeof base.content(), JSON.stringify(base.announcement()), base.held]}`);
     const descriptors = ['v', 'overlays', 'command', 'marked', 'poses', 'playing'].map((name) => {
       const { configurable, enumerable, get, set } = /** @type {PropertyDescriptor} */ (Object.getOwnPropertyDescriptor(kind.prototype, name));

@@ -47,6 +47,13 @@ test('what the reader does is told once, and keys go where they are of use', asy
       figure.requestUpdate();
     };
     const buttons = [...root.querySelectorAll('.cloud button')];
+    const moved = () => {
+      const { nextSibling } = element;
+      element.remove();
+      document.body.insertBefore(element, nextSibling);
+    };
+    await note('Moved before anything', moved);
+    await note('An end before any step', slider('v', 1, ['change']));
     await note('A step of v', slider('v', 0.5, ['input']));
     await note('Two more and the end', slider('v', 0.25, ['input', 'input', 'change']));
     await note('An end without a step', slider('v', 0.25, ['change']));
@@ -90,19 +97,34 @@ test('what the reader does is told once, and keys go where they are of use', asy
     const pointer = (/** @type {string} */ type, /** @type {string} */ pointerType, /** @type {number} */ share) => () => {
       canvas.dispatchEvent(new PointerEvent(type, { pointerType, clientX: box.left + share * box.width, clientY: box.top + share * box.height, bubbles: true, composed: true }));
     };
-    await note('Moved over', pointer('pointermove', 'mouse', 0.6));
+    // Where the robot with a number is drawn.
+    const pointed = (/** @type {string} */ type, /** @type {string} */ pointerType, /** @type {number} */ index) => () => {
+      const { poses, pictures: [{ view }] } = figure;
+      const [x, y] = poses.subarray(3 * index);
+      const { left, top } = canvas.getBoundingClientRect();
+      canvas.dispatchEvent(new PointerEvent(type, { pointerType, clientX: left + view.toPixelX(x), clientY: top + view.toPixelY(y), bubbles: true, composed: true }));
+    };
+    await note('Moved over one', pointed('pointermove', 'mouse', 0));
+    await note('Moved over one by a finger', pointed('pointermove', 'touch', 7));
+    await note('A finger on one', pointed('pointerdown', 'touch', 7));
+    await note('One tapped', pointed('click', 'touch', 7));
+    await note('One clicked on', pointed('click', 'mouse', 0));
+    Object.defineProperty(figure, 'held', { value: true, configurable: true });
+    await note('Moved over one with a handle held', pointed('pointermove', 'mouse', 7));
+    delete figure.held;
     await note('Moved over nothing', pointer('pointermove', 'mouse', 0.01));
     await note('Clicked on nothing', pointer('click', 'mouse', 0.01));
-    await note('Moved by a finger', pointer('pointermove', 'touch', 0.6));
-    await note('Tapped', pointer('click', 'touch', 0.6));
     await note('The page', () => (figure.v = 0.5));
     await note('The page, in part', () => figure.setState({ widget: 'banana-machine', version: 1, shown: 10, marked: null }));
     await note('The page asks', () => [figure.stats.n, figure.poses.length, figure.twists.length, figure.toCSV().split('\n').length, figure.toCSV().split('\n').slice(0, 2)]);
     await note('Gone in a step', () => {
       slider('v', 0.75, ['input'])();
-      const { nextSibling } = element;
-      element.remove();
-      document.body.insertBefore(element, nextSibling);
+      moved();
+    });
+    await note('Gone after a step', async () => {
+      slider('v', 0.5, ['input'])();
+      await Promise.resolve();
+      moved();
     });
 
     // Keys that are used stay inside, any other goes on.

@@ -452,6 +452,8 @@ test('the largest grid comes in slices from a state and from its link', FRESH, a
     const squeeze = /** @type {any} */ (element);
     const map = eval(make)('none');
     squeeze.setState({ ...squeeze.getState(), map });
+    // The picture is of what is there.
+    squeeze.toSVG();
     let frames = 0;
     while (squeeze.state.own.map === null) {
       frames++;

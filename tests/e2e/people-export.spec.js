@@ -226,6 +226,19 @@ test('what is taken along shows and says what has just changed, before a frame h
     });
     expect(taken).toBe(shown);
     expect(taken).not.toBe(before);
+    // What the reader has just changed, too.
+    const [was, given, later] = await widget.evaluate(async (element) => {
+      const figure = /** @type {Figure} */ (element);
+      const drawn = [figure.toSVG()];
+      const slider = /** @type {HTMLInputElement} */ (figure.shadowRoot?.querySelector('#v'));
+      slider.value = '1';
+      slider.dispatchEvent(new Event('input', { bubbles: true }));
+      drawn.push(figure.toSVG());
+      for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+      return [...drawn, figure.toSVG()];
+    });
+    expect(given).toBe(later);
+    expect(given).not.toBe(was);
   }
 });
 

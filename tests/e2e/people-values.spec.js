@@ -43,6 +43,10 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await page.keyboard.press('ArrowLeft');
   expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
   await expect(widget.locator('.slider.above')).toHaveCount(0);
+  // At its end, values beyond can be typed.
+  await page.keyboard.press('End');
+  await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');
+  await expect(widget.locator('.slider.above')).toHaveCount(0);
   // Below its least value, none is allowed.
   await page.keyboard.press('Home');
   await expect(help(widget, 'alpha1')).not.toContainText('The slider ends');
@@ -91,6 +95,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
 
 for (const [key, text, complaint] of [
   ['alpha1', '-1', 'α₁ is −1; allowed is 0 to 1\u202f000\u202f000.'],
+  ['alpha1', ' -1 ', 'α₁ is −1; allowed is 0 to 1\u202f000\u202f000.'],
   ['omega', 'quick', 'ω is "quick"; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000.'],
   ['omega', '1,5', 'ω is "1,5"; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000, with a decimal point.'],
   ['omega', '', 'ω is ""; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000.'],
@@ -148,11 +153,13 @@ test('a number that no sample has is refused and kept until it is right or left'
       await expect(field).toHaveValue('7');
       await expect(said).toHaveCount(0);
     }
-    await field.fill('0');
-    await expect(said).toHaveCount(1);
-    await field.fill(String(samples));
-    await expect(said).toHaveCount(0);
-    expect(await property(widget, 'marked')).toBe(samples - 1);
+    for (const number of [1, samples]) {
+      await field.fill('0');
+      await expect(said).toHaveCount(1);
+      await field.fill(String(number));
+      await expect(said).toHaveCount(0);
+      expect(await property(widget, 'marked')).toBe(number - 1);
+    }
     await field.fill('');
     expect(await property(widget, 'marked')).toBe(null);
   }

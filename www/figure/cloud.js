@@ -103,7 +103,7 @@ export class Cloud extends Part {
    * @throws {TypeError} where it is not said whether it grows
    */
   completed(present, given) {
-    const { samples = present.samples, playing = present.playing } = given;
+    const { samples, playing } = { ...present, ...given };
     truth('state.playing', playing);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
     // None is less than any number, and stays none.
@@ -246,7 +246,7 @@ export const cloudState = {
 export const cloudProperties = {
   playing: {
     get() {
-      return this.cloud?.playing;
+      return /** @type {Cloud} */ (this.cloud).playing;
     },
   },
   marked: {

@@ -31,10 +31,10 @@ import { exportMenu } from './takeaway/export.js';
  * @param {Row} [otherwise] what is not as in every row
  */
 export function slider(figure, key, otherwise) {
-  const { looks, declared, attributes } = figure.kind;
+  const { looks, attributes } = figure.kind;
   const { symbol, decimals, value, ...look } = looks[key];
   const { name, effect } = wordsFor(figure, key);
-  const { unit } = declared.find((setting) => setting.key === key) ?? {};
+  const { unit } = declarationOf(figure, key);
   const config = figure.settings.told;
   const setting = /** @type {Setting} */ (attributes[key]);
   return typeable(figure, key, symbol, {
@@ -63,7 +63,7 @@ export function slider(figure, key, otherwise) {
  * @param {(number: number) => string} [print]
  */
 function typeable(figure, key, symbol, row, take = row.input, print = row.show) {
-  const { min = -Infinity, max: declared = Infinity, type, unit } = figure.kind.declared.find((setting) => setting.key === key) ?? {};
+  const { min, max: declared, type, unit } = declarationOf(figure, key);
   const max = row.most ?? declared;
   const [first, last] = row.ends ?? [row.min, row.max];
   const whole = type === 'whole';
@@ -126,7 +126,7 @@ export function sliders(figure, looks) {
  * @param {Record<string, string>} labels of its words
  */
 export function choices(figure, key, labels) {
-  return radioGroup(wordsFor(figure, key).name ?? '', key, labels, figure.settings.told[key], (word) => figure.gesture.decide({ [key]: word }));
+  return radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.told[key], (word) => figure.gesture.decide({ [key]: word }));
 }
 
 /**
@@ -222,6 +222,15 @@ function want(figure, key, value) {
   figure.settings.want((wanted) => setting.change(value, { config: wanted, machine: figure.machine }));
 }
 
+/**
+ * @param {Figure} figure
+ * @param {string} key of a setting that is a number
+ * @returns {import('../settings.js').Declaration & { min: number, max: number }}
+ */
+function declarationOf(figure, key) {
+  return /** @type {any} */ (figure.kind.declared.find((setting) => setting.key === key));
+}
+
 /** @param {Figure} figure */
 function wordsOf(figure) {
   return /** @type {any} */ (words)[figure.kind.vocabulary];
@@ -230,7 +239,7 @@ function wordsOf(figure) {
 /**
  * @param {Figure} figure
  * @param {string} key
- * @returns {{ name?: string, effect?: string }}
+ * @returns {{ name: string, effect?: string }} what has no effect explains itself
  */
 function wordsFor(figure, key) {
   return { .../** @type {any} */ (words.settings)[key], ...wordsOf(figure).settings[key] };

@@ -93,11 +93,11 @@ export class FigureElement extends LitElement {
   static styles = [theme, schemeStyles, presentationStyles, progressStyles];
 
   /** The widget's settings, as declared. @type {import('../settings.js').Declaration[]} */
-  static declared = [];
+  static declared;
   /** How those look that have a slider. @type {Record<string, import('./controls.js').Look>} */
   static looks = {};
-  /** The key of its words in the catalogues. */
-  static vocabulary = '';
+  /** The key of its words in the catalogues. @type {string} */
+  static vocabulary;
   /** Its attributes. @type {import('./attributes.js').Attributes} */
   static attributes = {};
   /** What of its state is the element's and not the machine's. @type {Record<string, import('./state.js').Owned>} */
@@ -128,7 +128,8 @@ export class FigureElement extends LitElement {
   plate;
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
-  #updating = false;
+  /** @type {boolean | undefined} */
+  #updating;
 
   /** The class of the widget, with what it says of all of its kind. */
   get kind() {
@@ -431,7 +432,7 @@ export class FigureElement extends LitElement {
   update(changed) {
     const rendered = () => {
       super.update(changed);
-      return true;
+      return this;
     };
     this.#updating = true;
     try {

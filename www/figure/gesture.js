@@ -10,13 +10,14 @@ import { LONGEST_WORK } from './settings.js';
 
 export class Gesture extends Part {
   #step = false;
-  #end = false;
+  /** @type {boolean | undefined} */
+  #end;
   /** Whether a step was told without its end. */
   #open = false;
 
   /** What leaves the page is let go of. */
   hostDisconnected() {
-    if (this.#open) this.commit();
+    if (this.#open || this.#step) this.commit();
   }
 
   /** Something has changed, and it may go on. */

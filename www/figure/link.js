@@ -11,13 +11,14 @@ export class Link extends Part {
   /** A state from the address that waits for the machine. @type {unknown} */
   #waiting;
   /** The latest look at the address, and the latest text for it: an earlier one that is ready later is void. */
-  #looking = 0;
-  #writing = 0;
+  #looking = {};
+  #writing = {};
 
   hostConnected() {
     addEventListener('hashchange', this.#changed);
     arrive();
-    if (this.#isOf(linked)) {
+    // The reader may have gone elsewhere before it came.
+    if (linked === parts()[0] && this.#isOf(linked)) {
       linked = undefined;
       this.#goTo();
     }
@@ -58,7 +59,7 @@ export class Link extends Part {
 
   /** The page's address may carry another state. */
   follow = async () => {
-    const looking = ++this.#looking;
+    const looking = (this.#looking = {});
     const state = await this.#look();
     if (looking !== this.#looking) return;
     this.#waiting = state;
@@ -79,13 +80,13 @@ export class Link extends Part {
 
   /** Puts the state into the page's address. The page does not move, and going back does not lead through it. */
   async write() {
-    const writing = ++this.#writing;
+    const writing = (this.#writing = {});
     const text = await this.#pack();
     if (writing !== this.#writing || !this.host.isConnected) return;
     const address = addressWith(keyOf(this.host), text);
     if (address === location.href) return;
     try {
-      history.replaceState(history.state, '', address);
+      history.replaceState(history.state, document.title, address);
     } catch {
       // A page that was put together by a script has no address to write.
     }

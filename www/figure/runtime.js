@@ -20,7 +20,8 @@ export class Runtime extends Part {
   failure;
   /** Whether the page was told that it is ready: not once more after a trap. */
   #loaded = false;
-  #near = false;
+  /** @type {boolean | undefined} */
+  #near;
   /** @type {Promise<void> | undefined} */
   #starting;
   #crashes = 0;
@@ -58,9 +59,8 @@ export class Runtime extends Part {
 
   /** @param {any} machine that takes the place of the present one */
   replace(machine) {
-    const former = this.machine;
+    this.machine.free();
     this.machine = machine;
-    former?.free();
   }
 
   /**
@@ -158,7 +158,7 @@ export class Runtime extends Part {
       this.#starting = undefined;
     }
     // It went and came back meanwhile, or trapped again.
-    if (this.#near && !this.machine && this.failure === undefined) this.#start();
+    if (this.failure === undefined) this.#start();
   }
 
   async #show() {
@@ -174,6 +174,7 @@ export class Runtime extends Part {
 
   #stop() {
     this.#loaded = false;
+    this.#crashes = 0;
     this.host.stage.clear();
     this.attempt(() => {
       this.host.settings.settle();

@@ -122,8 +122,8 @@ function whisker({ at, decades }, value, interval, truth) {
   </svg>`;
 }
 
-/** Of what is systematic. @param {number} value */
-const digits = (value) => fixed(value, 3);
+/** Of what is systematic, at most: a micrometre. */
+const MOST_DECIMALS = 6;
 
 /**
  * What is systematic as two texts: what was removed, and what the α's answer for.
@@ -163,7 +163,7 @@ export function systematicTable(figure) {
           <th scope="row">${box}</th>
           <td>${lines(values)}</td>
           <td class="between">${lines(halves.map((half) => `± ${half}`))}</td>
-          ${truth ? html`<td class="muted">${lines([truth[key]].flat().map(digits))}</td>` : nothing}
+          ${truth ? html`<td class="muted">${lines([truth[key]].flat().map((each) => fixed(each, 3)))}</td>` : nothing}
         </tr>`;
       })}
     </tbody>
@@ -180,8 +180,12 @@ const lines = (texts) => texts.map((text) => html`<div>${text}</div>`);
  */
 function digitsOf({ value, interval }) {
   const intervals = typeof interval?.[0] === 'number' ? [/** @type {Interval} */ (interval)] : /** @type {(Interval | null)[]} */ (interval ?? []);
+  const known = intervals.map((each) => each && (each[1] - each[0]) / 2);
   return {
-    values: [value].flat().flatMap((each) => (each === null ? [] : [digits(each)])),
-    halves: intervals.flatMap((each) => (each ? [digits((each[1] - each[0]) / 2)] : [])),
+    values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(known[i]))])),
+    halves: known.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),
   };
 }
+
+/** Three, or as many as tell what is known better than to a thousandth. @param {number | null | undefined} half of an interval */
+const decimalsOf = (half) => (half ? Math.min(MOST_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);

@@ -34,9 +34,12 @@ const squareOf = (x, y) => Math.round(x / FINE) + 2 ** 26 * Math.round(y / FINE)
 /** Dash of what the odometry says, CSS pixels. */
 export const READ_DASH = [2.5, 3.5];
 
+/** Width of the most usual legs, CSS pixels, and the least that a line has. */
+const [USUAL, HAIR] = [1.5, 1];
+
 /** How legs look, the most usual first: the wider, the more unusual. @param {Palette} palette */
 export const stylesOf = ({ truth, cloud, prediction, accent }) => [
-  { colour: truth, width: 1.5, dash: [] },
+  { colour: truth, width: USUAL, dash: [] },
   { colour: between(truth, cloud), width: 2, dash: [] },
   { colour: prediction, width: 3.25, dash: [] },
   { colour: accent, width: 4.5, dash: [] },
@@ -114,7 +117,25 @@ export class WayLayer {
  */
 function* strokesOf(brush, legs, classes) {
   yield* strokesOfReading(brush, legs);
-  for (const [place, style] of stylesOf(brush.palette).entries()) yield* strokesOfLegs(brush, legs.reference, (leg) => classes[leg] === place, style);
+  const thinner = Math.min(1, 1 / layersOf(brush.view, legs.reference));
+  for (const [place, style] of stylesOf(brush.palette).entries()) {
+    const width = HAIR + thinner * (style.width - HAIR);
+    yield* strokesOfLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width });
+  }
+}
+
+/**
+ * How often legs would cover the whole plot, as wide as the most usual: where that is more than once, the widest would hide the
+ * others, and as hairs each class covers what its share of the legs is.
+ *
+ * @param {Bare['view']} view
+ * @param {Float64Array} reference both ends of each leg
+ */
+function layersOf({ scaleY, extent }, reference) {
+  let length = 0;
+  for (let at = 0; at < reference.length; at += 6) length += Math.hypot(reference[at + 3] - reference[at], reference[at + 4] - reference[at + 1]);
+  const area = (extent.xMax - extent.xMin) * (extent.yMax - extent.yMin) * scaleY;
+  return (length * USUAL) / area;
 }
 
 /**

@@ -28,8 +28,11 @@ const FEW_LEGS = 2000;
 /** Of steps that are shorter one is drawn in each square of this side, CSS pixels: nobody sees the others, and they may be a hundred thousand. */
 const FINE = 1;
 
-/** A number for each square of that side. @param {number} x CSS pixels @param {number} y */
-const squareOf = (x, y) => Math.round(x / FINE) + 2 ** 26 * Math.round(y / FINE);
+/** Side of the squares in which it is counted how often legs lie upon each other, CSS pixels. */
+const COARSE = 8;
+
+/** A number for each square of a side. @param {number} x CSS pixels @param {number} y @param {number} side */
+const squareOf = (x, y, side = FINE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
 
 /** Dash of what the odometry says, CSS pixels. */
 export const READ_DASH = [2.5, 3.5];
@@ -117,25 +120,32 @@ export class WayLayer {
  */
 function* strokesOf(brush, legs, classes) {
   yield* strokesOfReading(brush, legs);
-  const thinner = Math.min(1, 1 / layersOf(brush.view, legs.reference));
+  // From one layer to two they get thinner, so that nothing jumps where a plot is resized.
+  const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
   for (const [place, style] of stylesOf(brush.palette).entries()) {
-    const width = HAIR + thinner * (style.width - HAIR);
+    const width = HAIR + extra * (style.width - HAIR);
     yield* strokesOfLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width });
   }
 }
 
 /**
- * How often legs would cover the whole plot, as wide as the most usual: where that is more than once, the widest would hide the
- * others, and as hairs each class covers what its share of the legs is.
+ * How often legs cover where they are, as wide as the most usual: where that is more than once, the widest would hide the others,
+ * and as hairs each class covers what its share of the legs is.
  *
  * @param {Bare['view']} view
  * @param {Float64Array} reference both ends of each leg
  */
-function layersOf({ scaleY, extent }, reference) {
+function layersOf(view, reference) {
+  /** @type {Set<number>} */
+  const squares = new Set();
   let length = 0;
-  for (let at = 0; at < reference.length; at += 6) length += Math.hypot(reference[at + 3] - reference[at], reference[at + 4] - reference[at + 1]);
-  const area = (extent.xMax - extent.xMin) * (extent.yMax - extent.yMin) * scaleY;
-  return (length * USUAL) / area;
+  for (let at = 0; at < reference.length; at += 6) {
+    const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
+    squares.add(squareOf(x, y, COARSE));
+    // Of a longer one, no more is in the square in which it ends.
+    length += Math.min(COARSE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
+  }
+  return (length * USUAL) / (squares.size * COARSE ** 2);
 }
 
 /**

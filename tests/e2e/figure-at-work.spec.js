@@ -97,6 +97,8 @@ test('work that takes long is done in slices of the time that a frame has for it
     });
     figure.settings.stop();
     said.push(`Stopped, playing: ${figure.cloud.playing}`);
+    left = 0;
+    await note('Played after that', () => figure.cloud.play());
     return said;
   });
   expectRecorded('sliced', lines);

@@ -84,6 +84,7 @@ export class Cloud extends Part {
    */
   introduce(state) {
     if (!state && !isCalm()) this.#machine.restart();
+    this.pause();
     this.playing = state ? state.playing : true;
     if (isCalm() && this.playing) {
       this.playing = false;
@@ -179,6 +180,11 @@ export class Cloud extends Part {
     return true;
   }
 
+  /** It stands, and of a step that it has begun with nothing is to come. */
+  pause() {
+    this.playing = this.#begun = false;
+  }
+
   play() {
     this.#turn(!this.playing, () => {
       if (!this.playing && this.complete) this.#machine.restart();
@@ -206,6 +212,7 @@ export class Cloud extends Part {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;
       act();
+      this.pause();
       this.playing = playing;
       this.host.gesture.step();
       this.host.gesture.commit();

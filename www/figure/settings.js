@@ -276,7 +276,7 @@ export class Settings extends Part {
       if (!this.#job || !this.canStop) return;
       if (!this.next) {
         this.host.machine.stop();
-        if (cloud) cloud.playing = false;
+        cloud?.pause();
       }
       this.#drop();
       this.stale = true;

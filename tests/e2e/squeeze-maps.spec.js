@@ -369,6 +369,31 @@ test('what is transparent in a PNG image keeps its shade', async ({ page }) => {
   expect(occupied).toBe(2 * COLUMNS + 2 * (ROWS - 2));
 });
 
+test('while an image is decoded the page answers in between where it takes long, and only there', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await page.evaluate(() => {
+    const counts = { turns: 0, tick: 0 };
+    const now = performance.now();
+    performance.now = () => now + (counts.tick += counts.tick && 200);
+    window.MessageChannel = class extends MessageChannel {
+      constructor() {
+        super();
+        counts.turns++;
+      }
+    };
+    Object.assign(window, { counts });
+  });
+  for (const [name, tick] of /** @type {[string, number][]} */ ([['quick.yaml', 0], ['slow.yaml', 1]])) {
+    await page.evaluate((to) => void Object.assign(Reflect.get(window, 'counts'), { tick: to, turns: 0 }), tick);
+    await choose(widget, [yaml(name, { ...FIELDS, image: 'room.png' }), png('room.png', COLUMNS, ROWS, border)]);
+    await expect(present(widget)).toContainText(name);
+    // A turn for each row of the image where each look at the clock is a fifth of a second later.
+    const turns = await page.evaluate(() => Reflect.get(window, 'counts').turns);
+    if (tick) expect(turns).toBeGreaterThan(3);
+    else expect(turns).toBe(0);
+  }
+});
+
 test('the whole map includes a cloud that has left it', async ({ page }) => {
   const widget = await openSqueeze(page);
   await unfold(widget, 'What is drawn');

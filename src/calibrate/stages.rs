@@ -19,6 +19,12 @@ pub(super) enum Purpose {
     Length(usize),
 }
 
+impl Purpose {
+    pub fn finds_errors(self) -> bool {
+        matches!(self, Self::Round(_) | Self::Scatter(_))
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Stage {
     Align,

@@ -1,6 +1,6 @@
 //! Robots that start, stop and turn off where a leg ends, and stand or hardly move all through some.
 
-use crate::simulated::{ALPHAS, MODELS, Simulation};
+use crate::simulated::{ALPHAS, MODELS, Simulation, Unlike};
 use motion::NoiseKind;
 use motion::calibrate::{ERRORS, Error, LegLength, Robust, Systematic, Trajectory, Verdict, calibrate};
 use motion::geom::se2::SE2;
@@ -104,5 +104,31 @@ fn of_a_robot_without_noise_the_clock_is_found() {
             assert!((1e-6..3e-3).contains(&deviation), "{error:?}: {deviation}, every {every}");
         }
         assert!(told.estimate.alphas.iter().all(|alpha| *alpha < 1e-7), "{:?}", told.estimate);
+    }
+}
+
+/// Of wheels that err by a millimetre and less in a leg, and an exact reference, bad legs are found as of any other: where none is, the α's are
+/// those that are fitted without any, and of such as err by a millimetre the true ones. Both to four deviations, of which a 95 % interval is as
+/// long.
+#[test]
+fn of_a_robot_with_hardly_any_noise_no_leg_passes_for_bad() {
+    for (times, deviation) in [(1e-2, (|_| 0.1) as fn(f64) -> f64), (1e-4, |_| 0.01)] {
+        for model in MODELS {
+            let mut simulation = Simulation::of(model, NoiseKind::Normal, 2000, 3);
+            simulation.unlike = Unlike::Changing(deviation);
+            let [odometry, reference] = simulation.log();
+            let [plain, robust] = [Robust::No, Robust::Estimated].map(|robust| {
+                calibrate(&odometry, &reference, &simulation.options(robust)).expect("legs enough").estimate
+            });
+            for (k, with) in robust.alphas.iter().enumerate() {
+                let alpha = plain.alphas[k];
+                let [low, high] = plain.intervals[k].expect("it is determined");
+                let near = |value: f64| (value - alpha).abs() <= high - low;
+                let case = format!("{model:?}, {times} times, α{}: {alpha} and {with}", k + 1);
+                assert!(near(*with), "{case}");
+                assert!(times < 1e-2 || near(times * ALPHAS[k]), "{case}");
+            }
+            assert!(robust.alphas.iter().any(|alpha| *alpha > 0.0), "{model:?}, {times} times");
+        }
     }
 }

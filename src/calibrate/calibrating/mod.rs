@@ -193,7 +193,7 @@ impl Calibrating {
                     (Purpose::Round(_) | Purpose::Scatter(_), Robust::No) => Robust::Estimated,
                     (_, robust) => robust,
                 };
-                if !self.search(robust) {
+                if !self.search(purpose, robust) {
                     return Ok(None);
                 }
                 match purpose {
@@ -355,10 +355,13 @@ impl Calibrating {
     }
 
     /// Goes on with the search for the likeliest α's; whether they are found.
-    fn search(&mut self, robust: Robust) -> bool {
+    fn search(&mut self, purpose: Purpose, robust: Robust) -> bool {
         let Some(search) = &mut self.search else {
             let near = self.best.map(|(near, _)| near);
-            let near = near.filter(|near| near.bad.is_some() == (robust != Robust::No));
+            // Where a reference was taken to err by all that the wheels err by, their α's were 0, from which nothing leads away.
+            let near = near.filter(|near| {
+                near.bad.is_some() == (robust != Robust::No) && (!self.is_exact || purpose.finds_errors())
+            });
             self.search = Some(Search::new(&self.evidence, robust, near.as_ref()));
             return false;
         };

@@ -19,8 +19,7 @@ const LEAST_ERROR: f64 = 1e-3;
 impl Calibrating {
     /// What the reference errs by at one moment, m and rad.
     pub(super) fn reference_error(&self, purpose: Purpose) -> [f64; 2] {
-        let finds_errors = matches!(purpose, Purpose::Round(_) | Purpose::Scatter(_));
-        let least = if self.is_exact && finds_errors { LEAST_ERROR } else { 0.0 };
+        let least = if self.is_exact && purpose.finds_errors() { LEAST_ERROR } else { 0.0 };
         let ReferenceError { position, heading } = self.options.reference_error;
         [position.max(least), heading.max(least)]
     }

@@ -178,8 +178,10 @@ export async function bundle(changed = (_, script) => script) {
     const text = readFileSync(at(path), 'utf8');
     write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
   }
-  // Before and after: a page that takes all margins away takes this too.
-  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${keptTillThen(await rooms())}\n`);
+  // Before and after: a page that takes all margins away takes this too. Where scripts are off, nothing is to come, and what
+  // stands between the tags is shown.
+  const kept = `@media (scripting:enabled){\n${keptTillThen(await rooms())}\n}`;
+  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };

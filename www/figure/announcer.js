@@ -5,8 +5,8 @@ import { html } from 'lit';
 export class Announcer {
   #due = false;
   #text = '';
-  /** Whether that is said of an outcome, which holds as long as there is no other. */
-  #isOutcome = false;
+  /** Where that is said of an outcome, which holds as long as there is no other. @type {string | undefined} */
+  #outcome;
 
   /** Something has come to rest: its outcome is worth a sentence. */
   expect() {
@@ -15,17 +15,16 @@ export class Announcer {
 
   /** @param {() => string} sentence of the outcome, asked for only where one is expected or was said */
   say(sentence) {
-    if (!this.#due && !this.#isOutcome) return;
+    if (!this.#due && !this.#outcome) return;
     const text = sentence();
     // Of what the page changes it says itself what there is to say.
-    this.#text = this.#due || text === this.#text ? text : '';
-    this.#isOutcome = this.#text !== '';
+    this.#text = this.#outcome = this.#due || text === this.#outcome ? text : '';
     this.#due = false;
   }
 
   /** @param {string} text that is worth saying now */
   tell(text) {
-    this.#isOutcome = false;
+    this.#outcome = undefined;
     this.#text = text;
   }
 

@@ -58,7 +58,7 @@ const TRUTH = {
 };
 
 /** Words with spaces between them. @type {Kind} */
-export const WORDS = { parse: (text) => text.split(/\s+/).filter(Boolean), print: (value) => value.join(' ') };
+export const WORDS = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Of the types that fit into an attribute. @type {Record<string, Kind>} */
 const KINDS = { number: NUMBER, whole: NUMBER, word: WORD, boolean: TRUTH };
@@ -124,7 +124,7 @@ function settingOf({ key, in: group, field = key, index, of, type }) {
     change: (value, { config }) => {
       const { length } = config[group];
       if (index < length) return { [group]: config[group].with(index, value) };
-      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d$/, '')}${length}`);
+      throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${length}`);
     },
   };
 }

@@ -15,10 +15,10 @@ export function refusal(field, value, allowed, Kind = RangeError) {
  *
  * @param {unknown} error
  * @param {string} name
- * @param {string | undefined} path what it is called where it was refused, if not so
+ * @param {string} [path] what it is called where it was refused, if not so
  */
-export function renamed(error, name, path) {
-  if (path && error instanceof Error && error.message.startsWith(path)) {
+export function renamed(error, name, path = name) {
+  if (error instanceof Error && error.message.startsWith(path)) {
     error.message = name + error.message.slice(path.length);
   }
   return error;

@@ -19,7 +19,11 @@ export function placeholder(figure) {
  */
 async function goInto(figure, origin) {
   await figure.runtime.hasten();
-  if (!figure.machine || (document.activeElement !== figure && document.activeElement !== document.body)) return;
+  // What there is to stop at follows the first picture.
+  while (figure.stage.opening) await new Promise(requestAnimationFrame);
+  await figure.updateComplete;
+  // With what was in its place, the focus has gone to nothing.
+  if (!figure.machine || document.activeElement !== document.body) return;
   const stops = [...figure.renderRoot.querySelectorAll(STOPS)].filter((stop) => stop.checkVisibility());
   // Backwards, if the reader came from what is below.
   const below = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;

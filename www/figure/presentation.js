@@ -58,7 +58,7 @@ export class Presentation extends Part {
     this.#uncover = cover(host);
     this.#fit();
     // Where the screen is not to be had, as in most frames and without a key or a press, the window is filled.
-    if (document.fullscreenEnabled && navigator.userActivation?.isActive !== false) host.requestFullscreen().catch(() => {});
+    if (document.fullscreenEnabled && navigator.userActivation.isActive) host.requestFullscreen().catch(() => {});
     host.updateComplete.then(() => this.#focus('.presenting button'));
   }
 

@@ -40,8 +40,9 @@ export class Reflection extends Part {
     super(host);
     this.#attributes = attributes;
     this.#entries = { ...groupsOf(host.kind.declared), ...attributes };
-    // A preset leaves a map, a map puts the robot somewhere, and a sample is marked of as many as there are.
-    this.#order = ['preset', 'map', ...host.kind.declared.map(({ key }) => key), ...Object.keys(attributes), 'marked'];
+    // A preset leaves a map, a map puts the robot somewhere, and a sample is marked of as many as there are; a log
+    // takes long, and whatever comes while it does would wait for it.
+    this.#order = ['preset', 'map', ...host.kind.declared.map(({ key }) => key), ...Object.keys(attributes), 'marked', 'log'];
     this.#basis = basis;
   }
 
@@ -70,7 +71,7 @@ export class Reflection extends Part {
     // Properties too, in whatever order they were given; but a state is entered when it came.
     let since = 0;
     const wishes = [...this.#wishes].map(([name, { take }]) =>
-      ({ take, when: typeof name === 'string' ? since + this.#order.indexOf(name) + 1 : (since += this.#order.length + 1) }));
+      ({ take, when: typeof name === 'string' ? since + this.#order.indexOf(name) : (since += this.#order.length) }));
     this.#wishes.clear();
     wishes.sort((one, other) => one.when - other.when);
     for (const { take } of wishes) this.host.runtime.tolerate(take);
@@ -127,7 +128,7 @@ export class Reflection extends Part {
    */
   say(attribute, value) {
     const { host } = this;
-    const { words = [], property = attribute } = COMMON[attribute];
+    const { words, property = attribute } = /** @type {{ words: readonly string[], property?: string }} */ (COMMON[attribute]);
     if (value === null || value === undefined) host.removeAttribute(attribute);
     else host.runtime.tolerate(() => host.setAttribute(attribute, word(property, typeof value === 'number' ? String(value) : value, words)));
   }
@@ -153,8 +154,11 @@ export class Reflection extends Part {
    */
   #take(name, text) {
     this.#hearing = name;
-    Reflect.set(this.host, name, text);
-    this.#hearing = undefined;
+    try {
+      Reflect.set(this.host, name, text);
+    } finally {
+      this.#hearing = undefined;
+    }
   }
 
   /**
@@ -237,11 +241,11 @@ export class Reflection extends Part {
     const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== told.get(name)));
     for (const [name, entry] of Object.entries(this.#attributes)) {
       if (texts.get(name) !== null || !changed.has(name)) continue;
-      for (const covered of entry.covers?.(null) ?? []) changed.add(covered);
+      entry.covers?.(null).forEach((covered) => changed.add(covered));
     }
-    if (this.#hearing) changed.delete(this.#hearing);
     this.#writing = true;
     for (const name of changed) {
+      if (name === this.#hearing) continue;
       const text = texts.get(name) ?? null;
       if (text === null) this.host.removeAttribute(name);
       else this.host.setAttribute(name, text);
@@ -262,7 +266,7 @@ export class Reflection extends Part {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
       if (text !== usual.get(name) && !covered.has(name)) needed.push([name, text]);
-      for (const each of entry.covers?.(text) ?? []) covered.add(each);
+      entry.covers?.(text).forEach((each) => covered.add(each));
     }
     return needed;
   }

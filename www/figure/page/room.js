@@ -29,8 +29,7 @@ export function roomLength(room, unit) {
 export const highScreen = (selector) => `@media (min-height:37.5em){${selector}{--svh:1svh}}`;
 
 /**
- * The heights of the elements before their script is there. Where scripts are off, nothing is to come, and what stands
- * between the tags is shown.
+ * The heights of the elements before their script is there.
  *
  * @param {Record<string, Room>} rooms by the tag
  */
@@ -38,12 +37,10 @@ export function keptTillThen(rooms) {
   const waiting = (/** @type {string | string[]} */ tags) => `:is(${tags}):not(:defined)`;
   const all = waiting(Object.keys(rooms));
   return [
-    '@media (scripting:enabled){',
     `${all}{display:block;position:relative;min-width:0;max-width:100%}`,
     `${all}::before{${likedWidth}}`,
     `${all}>:not([slot]){position:absolute;top:0;margin:0}`,
     ...Object.entries(rooms).map(([tag, room]) => `${waiting(tag)}::before{padding-top:${roomLength(room, '%')}}`),
     highScreen(all),
-    '}',
   ].join('\n');
 }

@@ -57,9 +57,9 @@ export function watch(element, watcher) {
  * @param {Element} element that is watched
  */
 export function look(element) {
-  const { top, bottom, width } = element.getBoundingClientRect();
-  // What has gone meanwhile has no width.
-  if (width === 0 || top >= innerHeight || bottom <= 0) return;
+  const { top, bottom } = element.getBoundingClientRect();
+  // What has gone meanwhile has no box, and so its bottom is at 0.
+  if (top >= innerHeight || bottom <= 0) return;
   watcherOf(element).sight(true);
   approach(element);
 }

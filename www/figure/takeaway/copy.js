@@ -18,7 +18,7 @@ export class CopyMenu extends Part {
    */
   async #copy(text, missing = '') {
     // Refused in a frame without the permission, and absent where the page came without encryption.
-    const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
+    const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
     this.#copied = { text, done, missing };
     this.host.requestUpdate();
   }

@@ -95,6 +95,26 @@ test.describe('attributes', () => {
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
+  test('that could not be read are written again', async ({ page }) => {
+    await show(page, '<banana-machine v="1"></banana-machine>');
+    const widget = page.locator('banana-machine');
+    await ready(widget);
+    const texts = await widget.evaluate((element) => {
+      const figure = /** @type {any} */ (element);
+      Object.defineProperty(element, 'v', { configurable: true, set: () => { throw new Error('not now'); } });
+      let thrown;
+      try {
+        figure.reflection.hear('v', '2');
+      } catch (error) {
+        thrown = String(error);
+      }
+      delete figure.v;
+      figure.v = 0.5;
+      return [thrown, element.getAttribute('v')];
+    });
+    expect(texts).toEqual(['Error: not now', '0.5']);
+  });
+
   test('and the page that they are copied to shows the same', async ({ page }) => {
     await show(page, '<banana-machine></banana-machine>');
     const widget = page.locator('banana-machine').first();
@@ -277,6 +297,7 @@ test.describe('properties', () => {
         ['banana-machine', { omega: 0.7, preset: 'hard', alpha2: 0.3, alphas: [0.1, 0.1, 0.1, 0.1], model: 'odometry' }, ['omega', 'v', 'dt', 'alphas']],
         ['banana-machine', { marked: 60_000, samples: 70_000 }, ['marked', 'samples']],
         ['map-squeeze', { marked: 3, start: { x: 3, y: 1, theta: 0 }, map }, ['marked', 'start']],
+        ['map-squeeze', { preset: 'wall', map }, ['preset']],
       ]);
       const figures = given.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
         Object.assign(document.createElement(tag), Object.fromEntries(entries))));
@@ -285,7 +306,10 @@ test.describe('properties', () => {
       late.setState({ widget: 'dead-reckoning', version: 1, steps: 10, step: 4 });
       late.step = 7;
       late.setState({ widget: 'dead-reckoning', version: 1, steps: 5 });
-      figures.push(late);
+      const later = /** @type {any} */ (document.createElement('dead-reckoning'));
+      later.setState({ widget: 'dead-reckoning', version: 1, steps: 10 });
+      later.preset = 'fine';
+      figures.push(late, later);
       const loaded = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
       document.body.append(...figures.map((figure) => {
         const box = document.createElement('div');
@@ -303,8 +327,39 @@ test.describe('properties', () => {
       ...Array(2).fill([...hard, alphas]),
       ...Array(2).fill([60_000, 70_000]),
       ...Array(2).fill([3, { x: 3, y: 1, theta: 0 }]),
+      ...Array(2).fill([null]),
       [5, 5],
+      [2, 200],
     ]);
+    expect(await heard(page, ['error'])).toEqual([]);
+  });
+
+  for (const [after, leg] of /** @type {const} */ ([[false, null], [true, 3]])) test(`come before a log that is given with them${after ? ', and a state that is given then comes later' : ''}`, async ({ page }) => {
+    await show(page, '<alpha-calibrator></alpha-calibrator>', { script: '' });
+    const told = await page.evaluate(async (after) => {
+      await import(/** @type {any} */ ('/motion-widgets.js'));
+      const figure = /** @type {any} */ (document.querySelector('alpha-calibrator'));
+      const read = /** @type {number[]} */ ([]);
+      const t = Float64Array.from({ length: 2000 }, (_, i) => i / 20);
+      const poses = { t, x: t.map((time) => time / 2), y: t.map(() => 0), theta: t.map(Math.sin) };
+      const log = {
+        reference: poses,
+        get odometry() {
+          read.push(figure.machine.config.distance);
+          return poses;
+        },
+      };
+      const loaded = new Promise((resolve) => figure.addEventListener('load', resolve));
+      const look = (/** @type {number} */ leg) => figure.setState({ widget: 'alpha-calibrator', version: 1, leg });
+      look(2);
+      figure.log = log;
+      figure.distance = 0.4;
+      if (after) look(3);
+      await loaded;
+      while (figure.settings.next) await new Promise(requestAnimationFrame);
+      return [read.splice(0)[0], figure.log === log, figure.getState().leg];
+    }, after);
+    expect(told).toEqual([0.4, true, leg]);
     expect(await heard(page, ['error'])).toEqual([]);
   });
 
@@ -485,6 +540,8 @@ test.describe('properties', () => {
       [banana, 'preset', 'loop', 'RangeError: preset is "loop"; allowed is "straight" or "gentle" or "hard" or "pivot" or "banana" or "worked"'],
       [banana, 'theme', 'sepia', 'RangeError: theme is "sepia"; allowed is "auto" or "light" or "dark"'],
       [banana, 'marked', 50000, 'RangeError: marked is 50000; allowed is a whole number from 0 to 49999'],
+      // As those begin that it has.
+      [banana, 'alphas', [0.05, 0.05], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
       [banana, 'alphas', [1, 2], 'RangeError: alphas has length 2; allowed is an array of 6 numbers'],
       [banana, 'alpha4', -1, 'RangeError: alpha4 is -1; allowed is a number from 0 to 1000000'],
       [squeeze, 'noise', -1, 'RangeError: noise is -1; allowed is a number from 0 to 1000000'],

@@ -101,7 +101,7 @@ test('what is muted has as much of the text as it takes to be legible, and hues 
   await ready(widget);
   const shares = [75, 80, 85, 90, 95];
   const seen = new Set();
-  for (const [ground, text] of [[255, 0], [255, 60], [255, 80], [255, 89], [255, 98], [255, 106], [255, 130], [238, 1], [246, 2], [249, 3], [0, 255], [0, 150], [0, 128], [30, 145], [0, 9], [9, 255]]) {
+  for (const [ground, text] of [[255, 0], [255, 60], [255, 80], [255, 89], [255, 98], [255, 106], [255, 130], [238, 1], [246, 2], [249, 3], [0, 255], [0, 150], [0, 128], [0, 157], [30, 145], [0, 9], [9, 255]]) {
     await page.evaluate(([ground, text]) => void (document.body.style.cssText = `background: rgb(${ground} ${ground} ${ground}); color: rgb(${text} ${text} ${text})`), [ground, text]);
     await frames(page);
     const [strength, shade] = await widget.locator('.surface').evaluate(({ style }) => ['--strength', '--shade'].map((name) => style.getPropertyValue(name)));

@@ -85,8 +85,9 @@ test.describe('far from the window', () => {
         }
       );
     });
-    const [above, seen, below] = ['position: absolute; top: -4000px', '', 'position: absolute; top: 4000px'];
-    await show(page, [above, seen, below].map((style) => `<div style="width: 600px; ${style}"><banana-machine></banana-machine></div>`).join(''));
+    // What touches the window is not in it.
+    const [above, seen, below] = ['position: absolute; bottom: 100%', '', 'position: absolute; top: 100vh'];
+    await show(page, [above, seen, below].map((style) => `<div style="width: 600px; ${style}"><banana-machine style="margin: 0"></banana-machine></div>`).join(''));
     const widgets = page.locator('banana-machine');
     await ready(widgets.nth(1));
     const plane = widgets.nth(1).locator('canvas.plane');

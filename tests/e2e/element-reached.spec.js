@@ -13,9 +13,10 @@ test.use(STILL);
  *
  * @param {Page} page
  * @param {string} name
+ * @param {boolean} [seen] whether anything tells the figure that it comes in sight then
  */
-async function showFar(page, name) {
-  await page.addInitScript(() => {
+async function showFar(page, name, seen = false) {
+  if (!seen) await page.addInitScript(() => {
     window.IntersectionObserver = /** @type {any} */ (
       class {
         observe() {}
@@ -51,6 +52,21 @@ for (const name of ALL) {
       await page.keyboard.press(key);
       expect(reached).toBe(await stop());
       expect(reached).toBeTruthy();
+    });
+  }
+
+  for (const [way, origin, key] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
+    test(`${name} that is reached from ${way} has the focus as well where its first picture is seen before all else`, async ({ page }) => {
+      const widget = await showFar(page, name, true);
+      const stop = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
+      await page.locator(origin).focus();
+      await page.keyboard.press(key);
+      await expect.poll(stop).toBeTruthy();
+      await ready(widget);
+      const reached = await stop();
+      await page.locator(origin).focus();
+      await page.keyboard.press(key);
+      expect(reached).toBe(await stop());
     });
   }
 

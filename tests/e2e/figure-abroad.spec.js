@@ -242,7 +242,7 @@ test('a figure takes its ground from what is around it, and paper is light', asy
     for (const css of [
       'background: #123; color: #eee', 'background: rgb(0 0 0 / 50%); color: white', 'background: #fffbe6; color: #430', 'background: url(data:,) ; color: #ddd',
       'background: linear-gradient(black, black); color: white; color-scheme: dark', 'background: #bbb; color: #000', 'background: #fff; color: #333',
-      'background: #fff; color: #555', 'background: #fff; color: #606060', 'background: #fff; color: #6a6a6a', 'background: #eee; color: #444', 'background: #eee; color: #505050',
+      'background: #fff; color: #555', 'background: #fff; color: #fff', 'background: #fff; color: #606060', 'background: #fff; color: #6a6a6a', 'background: #eee; color: #444', 'background: #eee; color: #505050',
       'color: #777', '',
     ]) {
       around.style.cssText = css;

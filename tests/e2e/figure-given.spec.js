@@ -30,7 +30,7 @@ test('what is given as properties and attributes is taken, refused and reflected
     };
     const properties = /** @type {[string, unknown][]} */ ([
       ['v', 0.5], ['v', ' 2e0 '], ['v', ' '], ['v', 'fast'], ['v', {}], ['v', [1]], ['v', 1e7], ['v', null],
-      ['alpha5', 0.25], ['alpha1', '0.5'], ['alpha4', -1], ['command', { v: 0.25, omega: 1, dt: 2 }], ['command', { v: 0.25 }],
+      ['alpha5', 0.25], ['alpha1', '0.5'], ['alpha4', -1], ['command', { v: 0.25, omega: 1, dt: 2 }], ['command', { v: 0.25 }], ['command', 5], ['command', true],
       ['alphas', [1, 2, 3, 4, 5, 6]], ['alphas', undefined], ['model', 'odometry'], ['alpha5', 1], ['alpha4', 0.125],
       ['model', 'bicycle'], ['model', 7], ['model', Symbol('x')], ['model', () => 1], ['model', 1n], ['reverseAware', ''],
       ['reverseAware', 'false'], ['reverseAware', 'no'], ['reverseAware', 'true'], ['reverseAware', null], ['isolate', 2],
@@ -38,7 +38,7 @@ test('what is given as properties and attributes is taken, refused and reflected
       ['marked', '7'], ['marked', 100], ['marked', -1], ['marked', 1.5], ['marked', 0], ['samples', 50], ['marked', 49], ['samples', 40],
       ['marked', null], ['overlays', ['ellipse', 'command', 'ellipse']], ['overlays', ' linearized\tcommand '], ['overlays', ['stars']],
       ['overlays', 'stars'], ['overlays', 5], ['overlays', null], ['preset', 'hard'], ['preset', 'soft'], ['preset', null],
-      ['theme', 'dark'], ['theme', 'blue'], ['theme', 'x'.repeat(41)], ['theme', null], ['theme', 3], ['theme', {}], ['theme', () => 1], ['theme', 1n], ['share', true], ['share', false],
+      ['theme', 'dark'], ['theme', 'blue'], ['theme', 'x'.repeat(41)], ['theme', null], ['theme', 3], ['theme', {}], ['theme', () => 1], ['theme', 1n], ['theme', Symbol('x')], ['share', true], ['share', false],
       ['share', ''], ['share', false], ['headingLevel', 3], ['headingLevel', '7'], ['headingLevel', null], ['headingLevel', '2'],
       ['headingLevel', undefined], ['presentation', false],
     ]);
@@ -122,6 +122,7 @@ test('what is rendered is what its parts say', async ({ page }) => {
   const acts = [
     ['With other slots', 'figure.querySelector("[slot=title]").remove(); figure.querySelector("[slot=title]").remove(); figure.headingLevel = null', ['.title-slot', '.machine > :first-child']],
     ['Emptied', 'root.querySelectorAll(".cloud button")[2].click()', cloud],
+    ['Read again', 'figure.refresh(); figure.requestUpdate()', ['p[role=status]']],
     ['A step on', 'root.querySelectorAll(".cloud button")[1].click()', cloud],
     ['Beyond the slider', 'figure.samples = 2_000_000; figure.settings.want({ command: { v: 5, omega: 1, dt: 1 } })', ['.slider:has(#v)', '.slider:has(#samples)']],
     ['Below the slider', 'figure.samples = 3; figure.settings.want({ command: { v: -5, omega: 1, dt: 1 } })', ['.slider:has(#v)', '.slider:has(#samples)']],

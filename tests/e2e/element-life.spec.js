@@ -410,24 +410,38 @@ test.describe('moved and removed', () => {
       await count(page);
       await show(page, `<${name} share></${name}><p>Stays</p>`);
       await ready(page.locator(name));
-      const pixels = await page.evaluate(async (tag) => {
-        const element = /** @type {AnyElement} */ (/** @type {unknown} */ (document.querySelector(tag)));
-        const { machine, motion } = element;
-        Object.assign(window, { freed: 0 });
-        const { free } = machine;
-        /** @this {object} */
-        machine.free = function () {
-          Object.assign(window, { freed: Reflect.get(window, 'freed') + 1 });
-          free.call(this);
+      const pixels = await page.evaluate(async ([tag, slider]) => {
+        const element = /** @type {any} */ (document.querySelector(tag));
+        const { machine, motion, createMachine } = element;
+        Object.assign(window, { made: 1, freed: 0 });
+        const count = (/** @type {string} */ what) => Object.assign(window, { [what]: Reflect.get(window, what) + 1 });
+        const watched = (/** @type {any} */ each) => {
+          const { free } = each;
+          /** @this {object} */
+          each.free = function () {
+            count('freed');
+            free.call(this);
+          };
+          return each;
         };
+        watched(machine);
+        // Others are asked how the figure opens.
+        element.createMachine = (/** @type {any[]} */ ...given) => {
+          count('made');
+          return watched(createMachine.apply(element, given));
+        };
+        element[slider] = null;
+        element.embedCode();
         const refs = [element, machine, motion, element.shadowRoot].map((each) => new WeakRef(each));
         element.remove();
         await new Promise(requestAnimationFrame);
         Object.assign(window, { refs });
         return [...(element.shadowRoot?.querySelectorAll('canvas') ?? [])].map(({ width, height }) => width * height);
-      }, name);
+      }, [name, KNOWN[name].slider]);
       expect(new Set(pixels)).toEqual(new Set([0]));
-      expect(await page.evaluate(() => Reflect.get(window, 'freed'))).toBe(1);
+      const [made, freed] = await page.evaluate(() => ['made', 'freed'].map((what) => Reflect.get(window, what)));
+      expect(made).toBeGreaterThan(2);
+      expect(freed).toBe(made);
       await pass(page);
       const before = await counted(page);
       await pass(page);

@@ -380,6 +380,16 @@ test.describe('the menu', () => {
   });
 });
 
+test('the code to embed has the published script where that of the page is nothing to others', async ({ page }) => {
+  await show(page, '', { script: '' });
+  const code = await page.evaluate(async () => {
+    const script = new Blob([await (await fetch('/motion-widgets.js')).text()], { type: 'text/javascript' });
+    await import(URL.createObjectURL(script));
+    return document.createElement('banana-machine').embedCode();
+  });
+  expect(code).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/motion-widgets.js"></script>\n<banana-machine></banana-machine>\n');
+});
+
 test('a link that is followed while the figure starts is heard', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine>');
   const widget = page.locator('banana-machine');

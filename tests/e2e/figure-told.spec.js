@@ -156,6 +156,11 @@ test('a figure before an audience fills the window, and all is as before when it
   await page.evaluate(() => {
     // It is not asked for.
     Object.defineProperty(document, 'fullscreenEnabled', { value: false });
+    Object.assign(window, { asked: 0 });
+    Element.prototype.requestFullscreen = () => {
+      Object.assign(window, { asked: Reflect.get(window, 'asked') + 1 });
+      return Promise.reject();
+    };
     document.body.style.height = '4000px';
     document.documentElement.style.overflow = 'clip';
     scrollTo(0, 30);
@@ -212,5 +217,25 @@ test('a figure before an audience fills the window, and all is as before when it
     figure.presentation = true;
   }));
   await note('In no full screen', () => widget.evaluate((element) => void element.dispatchEvent(new Event('fullscreenchange'))));
+  await note('Begun and left at once', () => widget.evaluate((element) => {
+    const figure = /** @type {any} */ (element);
+    figure.presentation = true;
+    figure.presentation = false;
+  }));
+  await note('Once more', set(true));
+  await note('Left with the screen, which takes a while and the scrolling with it', () => widget.evaluate(async (element) => {
+    const left = new Promise((resolve) => setTimeout(() => {
+      scrollTo(0, 0);
+      document.body.tabIndex = -1;
+      document.body.focus();
+      resolve(undefined);
+    }, 100));
+    const { matches } = Element.prototype;
+    Object.assign(element, { matches: (/** @type {string} */ selector) => selector === ':fullscreen' || matches.call(element, selector) });
+    document.exitFullscreen = () => /** @type {Promise<any>} */ (left);
+    /** @type {any} */ (element).presentation = false;
+    await left;
+  }));
+  lines.push(`Asked for the screen: ${await page.evaluate(() => Reflect.get(window, 'asked'))}`);
   expectRecorded('presented', lines);
 });

@@ -195,11 +195,11 @@ for (const name of ALL) {
       Reflect.deleteProperty(ResizeObserverEntry.prototype, 'devicePixelContentBoxSize');
       // It leaves out the news as well.
       const { matchMedia } = window;
-      const screens = /** @type {MediaQueryList[]} */ ([]);
+      const screens = /** @type {{ list: MediaQueryList, matches: boolean }[]} */ ([]);
       Object.assign(window, { screens });
       window.matchMedia = (query) => {
         const list = matchMedia.call(window, query);
-        if (query.includes('resolution')) screens.push(list);
+        if (query.includes('resolution')) screens.push({ list, matches: list.matches });
         return list;
       };
     });
@@ -212,7 +212,10 @@ for (const name of ALL) {
     const screen = async (/** @type {number} */ deviceScaleFactor) => {
       await session.send('Emulation.setDeviceMetricsOverride', { width: 1280, height: 720, deviceScaleFactor, mobile: false });
       await page.evaluate(() => {
-        for (const list of Reflect.get(window, 'screens').splice(0)) list.dispatchEvent(new Event('change'));
+        for (const each of [...Reflect.get(window, 'screens')]) {
+          if (each.list.matches !== each.matches) each.list.dispatchEvent(new Event('change'));
+          each.matches = each.list.matches;
+        }
       });
     };
     const size = () => canvas.evaluate((element) => [/** @type {HTMLCanvasElement} */ (element).width, /** @type {HTMLCanvasElement} */ (element).height]);
@@ -223,8 +226,18 @@ for (const name of ALL) {
       await expect.poll(async () => (await size()).map((length, i) => Math.abs(length - ratio * [width, height][i]) < ratio)).toEqual([true, true]);
       expect(await pixelsOf(canvas, 'prior')).toBeGreaterThan(0);
     }
+    await widget.evaluate((element) => {
+      const { stage } = /** @type {any} */ (element);
+      const { measure } = stage;
+      Object.assign(window, { measured: 0 });
+      stage.measure = () => {
+        Object.assign(window, { measured: Reflect.get(window, 'measured') + 1 });
+        measure.call(stage);
+      };
+    });
     await screen(1);
     await expect.poll(() => pictureOf(canvas)).toBe(before);
+    expect(await page.evaluate(() => Reflect.get(window, 'measured'))).toBe(1);
     await session.detach();
   });
 

@@ -175,7 +175,11 @@ for (const name of RESERVED) {
       await coming;
       await route.continue();
     });
-    await page.evaluate((tag) => document.body.append(document.createElement(tag)), name);
+    await page.evaluate((tag) => {
+      const element = document.createElement(tag);
+      element.innerHTML = '<p style="height: 2000px">Meanwhile</p>';
+      document.body.append(element);
+    }, name);
     const widget = page.locator(name);
     const heights = async () => {
       const all = [];
@@ -189,6 +193,8 @@ for (const name of RESERVED) {
     const before = await heights();
     expect(await widget.evaluate((element) => element.matches(':defined'))).toBe(false);
     expect(Math.min(...before)).toBeGreaterThan(300);
+    expect((await boxOf(widget.locator('p'))).y).toBe((await boxOf(widget)).y);
+    expect(await widget.evaluate((element) => [getComputedStyle(element).display, getComputedStyle(element).position])).toEqual(['block', 'relative']);
     come();
     await ready(widget);
     expect(await heights()).toEqual(before);

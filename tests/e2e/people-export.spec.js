@@ -214,6 +214,19 @@ test('the picture on screen stays as it is when it is exported', async ({ page }
   expect(await pixels()).toBe(before);
 });
 
+test('a figure that has no size is taken along in one of its own, and a browser that makes no image of it says so', async ({ page }) => {
+  const widget = await open(page);
+  await page.evaluate(() => void (document.body.style.display = 'none'));
+  await frames(page);
+  expect((await elementsOf(page, await svgOf(widget))).size).toEqual([720, 432]);
+  expect(await pngOf(widget)).toMatchObject({ width: 1440, height: 864, opaque: true });
+  const complaint = await widget.evaluate((element) => {
+    HTMLCanvasElement.prototype.toBlob = (done) => done(null);
+    return /** @type {Figure} */ (element).toPNG().catch(String);
+  });
+  expect(complaint).toBe('Error: The browser makes no PNG image of it.');
+});
+
 test('what is taken along shows and says what has just changed, before a frame has come', async ({ page }) => {
   for (const widget of [await open(page), await openSqueeze(page)]) {
     const [before, taken, shown] = await widget.evaluate(async (element) => {

@@ -99,6 +99,15 @@ for (const name of ALL) {
     const zoom = await zoomOf(widget);
     const sizes = await widget.locator('canvas, .readouts dt, .readouts dd, [part=caption]').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
     for (const size of sizes) expect(size * zoom).toBeGreaterThanOrEqual(24);
+    // What is taken along is not enlarged.
+    const off = await widget.evaluate((element) => {
+      const { plate, pictures: [first], stage } = /** @type {any} */ (element);
+      if (plate) return [];
+      const { documentElement: svg } = new DOMParser().parseFromString(/** @type {any} */ (element).toSVG(), 'image/svg+xml');
+      const { clientWidth, clientHeight } = stage.canvasOf(first);
+      return [Number(svg.getAttribute('width')) - clientWidth, Number(svg.getAttribute('height')) - clientHeight];
+    });
+    for (const length of off) expect(Math.abs(length)).toBeLessThanOrEqual(1);
     // Nothing to scroll, and every control behind the key that is named.
     expect(await widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight)).toBe(true);
     await expect(widget.locator('.slider').first()).toBeHidden();
@@ -225,10 +234,11 @@ for (const name of ALL) {
 
 test('what a page begins ends by its button, and the page stays where it was', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(Document.prototype, 'fullscreenEnabled', { value: false }));
-  await show(page, '<div style="height: 900px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
+  await show(page, '<div style="height: 900px"></div><banana-machine></banana-machine>');
   const widget = page.locator('banana-machine');
   await ready(widget);
-  // The figure begins in sight, and the button that gets the focus at the end is below the window.
+  // The figure begins in sight, and the button that gets the focus at the end is below the window. Without the figure there is
+  // nothing to scroll.
   await page.evaluate(() => scrollTo(0, 250));
   await frames(page);
   await widget.evaluate((element) => void Object.assign(element, { presentation: '' }));

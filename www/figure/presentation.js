@@ -52,7 +52,7 @@ export class Presentation extends Part {
     const { host } = this;
     this.#listening = new AbortController();
     const { signal } = this.#listening;
-    this.#scrolled = scrollY;
+    this.#scrolled = scrolled();
     addEventListener('keydown', this.#key, { signal });
     addEventListener('resize', this.#fit, { signal });
     this.#uncover = cover(host);
@@ -140,6 +140,16 @@ export class Presentation extends Part {
       ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
     </div>`;
   }
+}
+
+/** How far the page is scrolled. Without the figure it may be too short for that already, and asking would scroll it. */
+function scrolled() {
+  const { style } = document.documentElement;
+  const { minHeight } = style;
+  style.minHeight = '1e7px';
+  const top = scrollY;
+  style.minHeight = minHeight;
+  return top;
 }
 
 /**

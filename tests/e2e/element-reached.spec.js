@@ -35,6 +35,23 @@ async function showFar(page, name, seen = false) {
   return widget;
 }
 
+/**
+ * Keeps the core from coming.
+ *
+ * @param {Page} page
+ * @returns {Promise<() => void>} lets it come
+ */
+async function holdCore(page) {
+  /** @type {() => void} */
+  let arrive = () => {};
+  const arrived = new Promise((resolve) => (arrive = () => resolve(undefined)));
+  await page.route('**/*.wasm', async (route) => {
+    await arrived;
+    await route.continue();
+  });
+  return () => arrive();
+}
+
 for (const name of ALL) {
   for (const [way, origin, key] of /** @type {const} */ ([
     ['above', '#before', 'Tab'],
@@ -71,13 +88,7 @@ for (const name of ALL) {
   }
 
   test(`${name} that starts when the reader has gone on leaves the focus where it is`, async ({ page }) => {
-    /** @type {() => void} */
-    let arrive = () => {};
-    const arrived = new Promise((resolve) => (arrive = () => resolve(undefined)));
-    await page.route('**/*.wasm', async (route) => {
-      await arrived;
-      await route.continue();
-    });
+    const arrive = await holdCore(page);
     const widget = await showFar(page, name);
     const asked = page.waitForRequest(/\.wasm$/);
     await page.locator('#before').focus();
@@ -90,3 +101,31 @@ for (const name of ALL) {
     await expect(page.locator('#after')).toBeFocused();
   });
 }
+
+test('a figure that is hidden when it starts has no focus', async ({ page }) => {
+  const arrive = await holdCore(page);
+  const widget = await showFar(page, 'banana-machine');
+  await page.locator('#before').focus();
+  await page.keyboard.press('Tab');
+  await page.evaluate(() => void (document.body.style.display = 'none'));
+  arrive();
+  await ready(widget);
+  await frames(page);
+  expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement)).toBe(null);
+});
+
+test('a figure that is reached as it opens before an audience has the focus where it can be seen', async ({ page }) => {
+  const arrive = await holdCore(page);
+  await show(page, '<dead-reckoning presentation></dead-reckoning>', { script: '<script type="module" src="/external.js"></script>' });
+  const widget = page.locator('dead-reckoning');
+  await widget.locator('.reserved').waitFor({ state: 'attached' });
+  await frames(page);
+  await widget.evaluate((element) => {
+    const root = /** @type {any} */ (element.shadowRoot);
+    root.activeElement.blur();
+    root.querySelector('.reserved').focus();
+  });
+  arrive();
+  await ready(widget);
+  await expect(widget.getByRole('button', { name: 'Controls' })).toBeFocused();
+});

@@ -32,8 +32,8 @@ export function* advancing(machine) {
 }
 
 export class Settings extends Part {
-  /** Whether what is shown is no longer what the machine would say. */
-  stale = true;
+  /** Whether what is shown is no longer what the machine would say. @type {boolean | undefined} */
+  stale;
   /** The reader's changes that wait for the next frame. @type {Values} */
   #pending = {};
   /** Changes that the machine has begun with, and that have not been read of it. @type {Values} */
@@ -212,7 +212,7 @@ export class Settings extends Part {
     if (this.next) {
       this.next.free();
     } else {
-      this.host.machine.stop?.();
+      this.host.machine.stop();
       this.#former = this.#begun;
       this.#begun = {};
     }
@@ -288,7 +288,7 @@ export class Settings extends Part {
   /** Shows what the page changed, also to one who listens while the element is out of sight. */
   show() {
     this.host.stage.wake();
-    if (this.host.stage.inSight || this.#showing) return;
+    if (this.#showing) return;
     this.#showing = true;
     queueMicrotask(this.#showUnseen);
   }

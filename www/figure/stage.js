@@ -40,15 +40,15 @@ export class Stage extends Part {
   #canvases;
   /** Whether the words of the first picture have come. */
   #told = false;
-  /** Whether there is something to draw, as soon as it is in sight. */
-  #due = false;
+  /** Whether there is something to draw, as soon as it is in sight. @type {boolean | undefined} */
+  #due;
   /** When the first picture was drawn whose words have not come yet. @type {number | undefined} */
   #owedSince;
   #printing = false;
-  /** Whether the frame before was too short for what was to be done. */
-  #slicing = false;
-  /** Words of other heights would change the sizes that are being told of: they wait for the next frame. */
-  #resizing = false;
+  /** Whether the frame before was too short for what was to be done. @type {boolean | undefined} */
+  #slicing;
+  /** Words of other heights would change the sizes that are being told of: they wait for the next frame. @type {boolean | undefined} */
+  #resizing;
   /** @type {ResizeObserver | undefined} */
   #sizes;
   /** Ends listening for the printer and for other words. */
@@ -90,12 +90,13 @@ export class Stage extends Part {
 
   /** Tells what size the canvases have, now and whenever it changes. What enlarges them as they are, has to ask for it. */
   measure() {
-    this.#sizes?.disconnect();
-    for (const canvas of this.#canvases ?? []) {
+    if (!this.#sizes || !this.#canvases) return;
+    this.#sizes.disconnect();
+    for (const canvas of this.#canvases) {
       try {
-        this.#sizes?.observe(canvas, { box: 'device-pixel-content-box' });
+        this.#sizes.observe(canvas, { box: 'device-pixel-content-box' });
       } catch {
-        /** @type {ResizeObserver} */ (this.#sizes).observe(canvas);
+        this.#sizes.observe(canvas);
       }
     }
   }
@@ -105,7 +106,7 @@ export class Stage extends Part {
     if (!inSight && (this.opening || this.#owedSince !== undefined)) this.#tell();
     this.inSight = inSight;
     // Of what was skipped nothing tells that its colours changed.
-    if (inSight && this.#canvases) this.recolour();
+    if (inSight) this.recolour();
   }
 
   /** Asks for one drawing in the next frame, when there is somebody to see it. */
@@ -142,7 +143,7 @@ export class Stage extends Part {
   /** @param {number} elapsed milliseconds since the frame before */
   frame(elapsed) {
     if (this.#due) this.#drawNow(elapsed);
-    else if (this.#owedSince !== undefined) this.#tell();
+    else this.#tell();
   }
 
   /** @param {number} elapsed milliseconds since the frame before */
@@ -200,7 +201,8 @@ export class Stage extends Part {
 
   /** @param {import('../scene/picture.js').Picture<any>} picture */
   canvasOf({ name }) {
-    return /** @type {HTMLCanvasElement} */ (this.#canvases?.find(({ className }) => className === name));
+    const canvases = /** @type {HTMLCanvasElement[]} */ (this.#canvases);
+    return /** @type {HTMLCanvasElement} */ (canvases.find(({ className }) => className === name));
   }
 
   /** Whether there is something to draw on: not before a canvas has its pixels, nor inside a closed tab, where everything has size 0. */

@@ -139,14 +139,14 @@ export class State extends Part {
 }
 
 /**
- * Plain data, for whoever may change it; what is frozen nobody can.
+ * Plain data, for whoever may change it; what is frozen nobody can, nor what is no object.
  *
  * @template Data
  * @param {Data} data
  * @returns {Data}
  */
 export function copyOf(data) {
-  if (typeof data !== 'object' || data === null || Object.isFrozen(data)) return data;
-  const copies = Object.entries(data).map(([key, part]) => [key, copyOf(part)]);
+  if (Object.isFrozen(data)) return data;
+  const copies = Object.entries(/** @type {object} */ (data)).map(([key, part]) => [key, copyOf(part)]);
   return /** @type {any} */ (Array.isArray(data) ? copies.map(([, copy]) => copy) : Object.fromEntries(copies));
 }

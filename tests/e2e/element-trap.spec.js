@@ -91,16 +91,22 @@ for (const [i, name] of ALL.entries()) {
         'a question',
         () =>
           widget.evaluate((element) => {
-            void (/** @type {AnyElement} */ (element).stats);
+            const widget = /** @type {AnyElement} */ (element);
+            Object.assign(window, { damaged: widget.machine });
+            if (widget.machine) widget.machine.__wbg_ptr = 0x7ffffff0;
+            void widget.stats;
             // While it is mended, paper has what is shown.
             for (const name of ['beforeprint', 'afterprint']) dispatchEvent(new Event(name));
+            // What the reader does then is lost.
+            const key = { key: 'ArrowUp', bubbles: true, composed: true, cancelable: true };
+            element.shadowRoot?.querySelectorAll('.handle').forEach((handle) => handle.dispatchEvent(new KeyboardEvent('keydown', key)));
           }),
       ],
     ]);
     for (const [way, go] of ways) {
       // Step has something to do where not all of the cloud is shown.
       await heard(page);
-      if (way !== 'a property') await damage(widget);
+      if (!['a property', 'a question'].includes(way)) await damage(widget);
       if (way === 'a button') await widget.evaluate((element) => void element.shadowRoot?.querySelectorAll('button').forEach((button) => (button.disabled = false)));
       await go();
       await mended(widget);
@@ -109,6 +115,7 @@ for (const [i, name] of ALL.entries()) {
       expect(errors.map(({ target }) => target), way).toEqual([name]);
       expect(errors[0].message, way).toMatch(/memory access out of bounds|unreachable/);
       expect(told.some(({ name }) => name === 'load')).toBe(false);
+      if (way === 'a question') expect(told.map(({ name }) => name)).toEqual(['error']);
       expect(await stateOf(widget), way).toEqual(before);
       // It is not freed in its damaged memory when nothing refers to it any more.
       expect(await page.evaluate(() => Reflect.get(window, 'damaged').__wbg_ptr), way).toBe(0);

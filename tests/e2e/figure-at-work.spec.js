@@ -63,6 +63,8 @@ test('work that takes long is done in slices of the time that a frame has for it
     });
     left = 0;
     await note('Nothing more to do', () => {});
+    left = 26;
+    await note('Two slices in the last frame, and a picture in the next', () => figure.gesture.decide({ seed: 3 }));
     left = 50;
     await note('Fifty, and asked for at once', () => {
       figure.seed = 8;
@@ -248,7 +250,7 @@ test('a core that traps is made again three times, and then a sentence says that
     const figure = /** @type {any} */ (element);
     const said = /** @type {string[]} */ ([]);
     let told = /** @type {string[]} */ ([]);
-    for (const name of ['load', 'error', 'change']) element.addEventListener(name, (event) => void told.push(`${name} ${Reflect.get(event, 'message') ?? ''}`.trim()));
+    for (const name of ['load', 'error', 'input', 'change']) element.addEventListener(name, (event) => void told.push(`${name} ${Reflect.get(event, 'message') ?? ''}`.trim()));
     const { runtime } = figure;
     const trap = () => {
       throw new WebAssembly.RuntimeError('unreachable');
@@ -281,6 +283,20 @@ test('a core that traps is made again three times, and then a sentence says that
     await note('Tolerated well', () => runtime.tolerate(() => 5));
     await note('A trap', () => runtime.attempt(trap));
     await note('A tolerated trap', () => runtime.tolerate(trap));
+    await note('Decided while it is mended', () => {
+      runtime.attempt(trap);
+      figure.gesture.decide({ seed: 4 });
+    });
+    await note('A trap in a frame, which proves nothing', async () => {
+      const { machine } = figure;
+      let proven = false;
+      runtime.prove = () => void (proven ||= !figure.machine);
+      machine.begin = trap;
+      figure.settings.want({ seed: 4 });
+      while (figure.machine === machine) await new Promise(requestAnimationFrame);
+      delete runtime.prove;
+      return proven;
+    });
     await note('Traps that are proven wrong', () => {
       for (let i = 0; i < 2; i++) runtime.attempt(trap);
       runtime.prove();

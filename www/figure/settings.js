@@ -72,13 +72,13 @@ export class Settings extends Part {
 
   /**
    * Those in effect, or that the machine has begun with: its copy of them takes long, and is not asked for where nothing has
-   * changed since the last.
+   * changed since the last, nor can it be while the core is mended.
    *
    * @returns {Values}
    */
   get present() {
     const { machine, reading } = this.host;
-    return this.stale ? machine?.config : reading.config;
+    return this.stale && machine ? machine.config : reading.config;
   }
 
   /** Those in effect with the changes that are on their way; a machine in the making was made with all before it. @returns {Values} */

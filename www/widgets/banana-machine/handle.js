@@ -19,7 +19,7 @@ export class ArcHandle extends Handle {
         const way = WAYS.get(key);
         if (!way) return false;
         const step = shiftKey ? LONG_KEY_STEP : KEY_STEP;
-        const [x, y] = figure.runtime.attempt(() => figure.fresh.end) ?? [0, 0];
+        const [x, y] = figure.runtime.attempt(() => figure.machine && figure.fresh.end) ?? [0, 0];
         figure.reach(x + step * way[0], y + step * way[1]);
         return true;
       },

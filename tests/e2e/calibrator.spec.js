@@ -65,6 +65,31 @@ for (const [width, language] of /** @type {[number, string][]} */ ([[375, 'en'],
   });
 }
 
+test('a fit that takes long is stopped, and all is as it was', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  await widget.evaluate((element) => {
+    const figure = /** @type {any} */ (element);
+    let time = performance.now();
+    // It never ends, and each of its slices takes ten milliseconds.
+    performance.now = () => time;
+    figure.machine.advance = () => {
+      time += 10;
+      return false;
+    };
+    figure.distance = 0.4;
+  });
+  await expect(widget.locator('[part=progress]')).toBeVisible();
+  await page.keyboard.press('Escape');
+  await widget.evaluate((element) => {
+    Reflect.deleteProperty(performance, 'now');
+    Reflect.deleteProperty(/** @type {any} */ (element).machine, 'advance');
+  });
+  await settled(widget);
+  await expect(widget.locator('[part=progress]')).toHaveCount(0);
+  expect(await stateOf(widget)).toEqual(before);
+});
+
 test('a few bad legs decide where none may be bad', async ({ page }) => {
   const widget = await openCalibrator(page);
   const before = await stats(widget);

@@ -59,6 +59,23 @@ anyway('where WebAssembly is forbidden, a sentence names the directive that is m
   await expect(page.locator('banana-machine').getByRole('alert')).toContainText("lacks 'wasm-unsafe-eval'");
 });
 
+anyway('where there is no WebAssembly, a sentence says that it cannot run, in the colours of the page', async ({ page }) => {
+  const errors = /** @type {Error[]} */ ([]);
+  page.on('pageerror', (error) => errors.push(error));
+  await page.addInitScript(() => void Reflect.deleteProperty(globalThis, 'WebAssembly'));
+  const html = '<style>body { background: #123; color: #eee }</style><script type="module" src="./motion-widgets.js"></script><banana-machine></banana-machine>';
+  await page.route('**/dark.html', (route) => route.fulfill({ contentType: 'text/html', body: html }));
+  await openUnder(page, "script-src 'self'", 'dark.html');
+  const widget = page.locator('banana-machine');
+  await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
+  expect(errors).toEqual([]);
+  const { scheme, ground } = await widget.locator('.surface').evaluate((element) => {
+    const { style } = /** @type {HTMLElement} */ (element);
+    return { scheme: style.colorScheme, ground: style.getPropertyValue('--ground') };
+  });
+  expect([scheme, ground]).toEqual(['dark', 'rgb(17,34,51)']);
+});
+
 anyway('where the module in a file of its own is forbidden, so does one', async ({ page }) => {
   const html = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
   await page.route('**/external.html', (route) =>

@@ -257,6 +257,61 @@ test('words come with a quick picture, and under a hand that goes on with some o
   expect(slow).toBeLessThan(15);
 });
 
+test('words of a slow picture come in the next frame, which draws nothing, or at once where the reader leaves', async ({ page }) => {
+  await show(page, '<banana-machine samples="300"></banana-machine><main></main>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const told = await widget.evaluate(async (element) => {
+    const figure = /** @type {any} */ (element);
+    const slider = figure.shadowRoot.querySelector('#v');
+    const [picture] = figure.pictures;
+    const { draw } = picture;
+    let now = performance.now();
+    let drawn = 0;
+    picture.draw = function (/** @type {any[]} */ ...given) {
+      drawn++;
+      return draw.apply(this, given);
+    };
+    const look = async () => {
+      await figure.updateComplete;
+      const seen = `${drawn} ${slider.getAttribute('aria-valuetext')} ${figure.getAttribute('v')}`;
+      drawn = 0;
+      return seen;
+    };
+    const want = (/** @type {string} */ v) => {
+      slider.value = v;
+      slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+    };
+    const seen = [];
+    // Each look at the clock is later.
+    performance.now = () => (now += 10);
+    want('0.5');
+    for (let i = 0; i < 3; i++) {
+      await new Promise(requestAnimationFrame);
+      seen.push(await look());
+    }
+    want('0.75');
+    await new Promise(requestAnimationFrame);
+    figure.stage.sight(false);
+    seen.push(await look());
+    Reflect.deleteProperty(performance, 'now');
+    return seen;
+  });
+  expect(told).toEqual(['1 1.00 m/s null', '0 0.50 m/s 0.5', '0 0.50 m/s 0.5', '1 0.75 m/s 0.75']);
+  // So has who leaves before the first picture.
+  const controls = await page.evaluate(async () => {
+    const figure = /** @type {any} */ (document.createElement('banana-machine'));
+    const loaded = new Promise((resolve) => figure.addEventListener('load', () => {
+      for (const inSight of [true, false]) figure.stage.sight(inSight);
+      figure.updateComplete.then(() => resolve(figure.shadowRoot.querySelectorAll('input').length));
+    }, { once: true }));
+    document.querySelector('main')?.append(figure);
+    figure.runtime.hasten();
+    return loaded;
+  });
+  expect(controls).toBeGreaterThan(0);
+});
+
 test('a key that was used goes no further; any other does', async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = ['banana-machine', 'map-squeeze'].map((name) => page.locator(name));

@@ -53,7 +53,10 @@ test('work that takes long is done in slices of the time that a frame has for it
     left = 100;
     await note('A hundred slices by the reader', () => figure.gesture.decide({ seed: 6 }));
     await note('What is wanted meanwhile', () => figure.settings.want({ seed: 7 }));
-    await note('A key that is another', () => void root.querySelector('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: 'x', bubbles: true, composed: true })));
+    await note('A key that is another, and other words', () => {
+      root.querySelector('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: 'x', bubbles: true, composed: true }));
+      figure.announcer.tell('Other words.');
+    });
     await note('Escape', () => {
       const event = new KeyboardEvent('keydown', { key: 'Escape', bubbles: true, composed: true, cancelable: true });
       let heard = false;
@@ -101,6 +104,8 @@ test('work that takes long is done in slices of the time that a frame has for it
     said.push(`Stopped, playing: ${figure.cloud.playing}`);
     left = 0;
     await note('Played after that', () => figure.cloud.play());
+    figure.setState({ ...figure.getState(), map: { name: 'hut', bounds: [0, 0, 4, 4], walls: [[0, 0, 4, 0], [0, 0, 0, 4]] } });
+    said.push(`A state that needs no slices: ${figure.state.own.map?.name} ${figure.settings.next}`);
     return said;
   });
   expectRecorded('sliced', lines);
@@ -415,4 +420,50 @@ test('what takes long from the first picture on is done in slices too', async ({
   });
   // 300 ms of work, of which a frame does no more than 25 and a step.
   expect(frames).toBeGreaterThanOrEqual(10);
+});
+
+test('a machine that another is to replace is drawn meanwhile; the other is stopped, or what fails where it arrives ends in the sentence', async ({ page }) => {
+  await show(page, '<main></main>');
+  const seen = await page.evaluate(async () => {
+    const figure = /** @type {any} */ (document.createElement('banana-machine'));
+    const [picture] = figure.pictures;
+    const { draw } = picture;
+    let [time, drawn, slices] = [performance.now(), 0, 300];
+    picture.draw = function (/** @type {any[]} */ ...given) {
+      drawn++;
+      return draw.apply(this, given);
+    };
+    const give = () => figure.setState({ ...figure.getState(), samples: 200, shown: 200 });
+    const loaded = new Promise((resolve) => figure.addEventListener('load', (/** @type {Event} */ event) => {
+      // The page asks nothing.
+      event.stopPropagation();
+      const { prototype } = figure.machine.constructor;
+      const { advance } = prototype;
+      // A clock that goes on by ten milliseconds with each slice of work.
+      performance.now = () => time;
+      prototype.advance = function () {
+        time += 10;
+        return --slices > 0 ? false : advance.call(this, 1e9);
+      };
+      give();
+      resolve(undefined);
+    }, { once: true }));
+    document.querySelector('main')?.append(figure);
+    await loaded;
+    while (figure.settings.next && drawn === 0) await new Promise(requestAnimationFrame);
+    const seen = [drawn, figure.settings.next !== undefined];
+    const stop = () => figure.shadowRoot.querySelector('[part=progress] button');
+    while (figure.settings.next && !stop()) await new Promise(requestAnimationFrame);
+    stop()?.click();
+    seen.push(figure.settings.next, figure.machine.config.samples === 200);
+    slices = 10;
+    give();
+    figure.machineChanged = () => {
+      throw new Error('It does not fit.');
+    };
+    while (figure.settings.next) await new Promise(requestAnimationFrame);
+    await figure.updateComplete;
+    return [...seen, figure.shadowRoot.querySelector('.failure')?.textContent];
+  });
+  expect(seen).toEqual([1, true, undefined, false, 'This interactive figure cannot run here. It does not fit.']);
 });

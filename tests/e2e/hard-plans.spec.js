@@ -317,6 +317,7 @@ test('what is said of the work is in sight, moves nothing and is accessible', as
     await giveStar(widget);
     await expect(progress(widget)).toHaveAccessibleName('Computing');
     await expect(widget.getByRole('button', { name: 'Stop' })).toBeInViewport();
+    await expect(widget.getByRole('button', { name: 'Stop' })).toHaveAttribute('title', 'Everything stays as it was (Escape)');
     expect(await boxOf(widget)).toEqual(before);
     await expectAccessible(page);
   });

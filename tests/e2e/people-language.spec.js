@@ -144,6 +144,15 @@ test('the nearest lang decides, whenever it changes; a language without words is
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';
   });
   await play('Abspielen');
+  // What is said of a reading too.
+  await unfold(widget);
+  await widget.getByLabel(de.banana.isolate).check();
+  await widget.getByRole('button', { name: de.banana.presets.straight }).click();
+  const german = await widget.locator('.note').innerText();
+  await widget.evaluate((element) => element.setAttribute('lang', 'en'));
+  await expect(widget.locator('.note')).toContainText(' multiplies ');
+  await widget.evaluate((element) => element.removeAttribute('lang'));
+  await expect(widget.locator('.note')).toHaveText(german);
 });
 
 test('a catalogue of another shape is refused by name, and what is shorter does', async ({ page }) => {

@@ -181,15 +181,23 @@ test.describe('the robot', () => {
       const begin = machine.begin.bind(machine);
       let count = 0;
       machine.begin = (settings) => (count++, begin(settings));
+      const noise = /** @type {HTMLInputElement} */ (root.querySelector('#noise'));
+      for (const value of [10, 20, 30, 40]) {
+        noise.value = String(value);
+        noise.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+      }
+      await new Promise(requestAnimationFrame);
+      const ofNoise = count;
+      count = 0;
       for (let i = 1; i <= 12; i++) {
         handle.dispatchEvent(new PointerEvent('pointermove', { clientX: from.x + 2 * i, clientY: from.y }));
       }
       await new Promise(requestAnimationFrame);
       await new Promise(requestAnimationFrame);
-      return count;
+      return [ofNoise, count];
     }, { x, y });
     await page.mouse.up();
-    expect(calls).toBe(1);
+    expect(calls).toEqual([1, 1]);
   });
 });
 

@@ -69,11 +69,18 @@ anyway('where there is no WebAssembly, a sentence says that it cannot run, in th
   const widget = page.locator('banana-machine');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(errors).toEqual([]);
-  const { scheme, ground } = await widget.locator('.surface').evaluate((element) => {
-    const { style } = /** @type {HTMLElement} */ (element);
-    return { scheme: style.colorScheme, ground: style.getPropertyValue('--ground') };
+  const colours = await widget.evaluate(async (element) => {
+    // One that nobody sees yet, too.
+    const other = /** @type {HTMLElement} */ (element.cloneNode());
+    other.style.marginTop = '5000px';
+    document.body.append(other);
+    await Reflect.get(other, 'updateComplete');
+    return [element, other].map(({ shadowRoot }) => {
+      const style = /** @type {HTMLElement | undefined} */ (shadowRoot?.querySelector('.surface'))?.style;
+      return [style?.colorScheme, style?.getPropertyValue('--ground')];
+    });
   });
-  expect([scheme, ground]).toEqual(['dark', 'rgb(17,34,51)']);
+  expect(colours).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
 });
 
 anyway('where the module in a file of its own is forbidden, so does one', async ({ page }) => {

@@ -297,6 +297,8 @@ test('a core that traps is made again three times, and then a sentence says that
       let proven = false;
       runtime.prove = () => void (proven ||= !figure.machine);
       machine.begin = trap;
+      // The page asks nothing.
+      element.addEventListener('input', (event) => event.stopPropagation(), { once: true });
       figure.settings.want({ seed: 4 });
       while (figure.machine === machine) await new Promise(requestAnimationFrame);
       delete runtime.prove;

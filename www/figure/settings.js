@@ -212,7 +212,7 @@ export class Settings extends Part {
     if (this.next) {
       this.next.free();
     } else {
-      this.host.machine.stop();
+      this.host.machine.stop?.();
       this.#former = this.#begun;
       this.#begun = {};
     }

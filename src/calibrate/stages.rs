@@ -20,6 +20,7 @@ pub(super) enum Purpose {
 }
 
 impl Purpose {
+    /// Whether what comes of it are systematic errors, or how far they may be off, and no α's.
     pub fn finds_errors(self) -> bool {
         matches!(self, Self::Round(_) | Self::Scatter(_))
     }

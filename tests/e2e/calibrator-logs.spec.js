@@ -504,6 +504,10 @@ test('where legs lie upon each other many times, the unusual ones do not hide th
   expect(share).toBeGreaterThan(0.05);
   // As lines of four and a half pixels they had two thirds of what is drawn.
   expect((await pixelsOf(canvas, 'accent')) / covered).toBeLessThan(2 * share);
+  // So many legs know systematic errors better than to a thousandth, and each is told by how much.
+  const halves = await widget.locator('table.systematic td.between > div').allTextContents();
+  expect(halves.filter((half) => /^± 0\.\d*[1-9]/.test(half))).toEqual(halves);
+  expect(halves.filter((half) => half.length > '± 0.000'.length)).not.toEqual([]);
 });
 
 test('without a log of the page’s own there is the simulated one again', async ({ page }) => {

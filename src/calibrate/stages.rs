@@ -19,13 +19,6 @@ pub(super) enum Purpose {
     Length(usize),
 }
 
-impl Purpose {
-    /// Whether what comes of it are systematic errors, or how far they may be off, and no α's.
-    pub fn finds_errors(self) -> bool {
-        matches!(self, Self::Round(_) | Self::Scatter(_))
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Stage {
     Align,

@@ -28,6 +28,8 @@ pub enum Unlike {
     Tails(usize),
     /// That of a leg is this share of that of the one before, and otherwise its own.
     Autoregressive(f64),
+    /// Its deviation is this many times as large.
+    Times(f64),
     /// Its deviation is another one in the course of the log, from 0 to 1.
     Changing(fn(f64) -> f64),
     /// The logarithm of its variance wanders with this deviation, and forgets a tenth of it from leg to leg; the mean of the variance is 1.
@@ -163,6 +165,7 @@ impl Simulation {
                     own * f64::sqrt((freedom as f64 - 2.0) / square)
                 }
                 Unlike::Autoregressive(share) => share * before + (1.0 - share * share).sqrt() * own,
+                Unlike::Times(times) => times * own,
                 Unlike::Changing(deviation) => deviation(course) * own,
             }
         })

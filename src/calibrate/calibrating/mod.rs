@@ -40,8 +40,8 @@ pub struct Calibrating {
     begun: Systematic,
     systematic: Systematic,
     deviations: [Option<f64>; ERRORS],
-    /// Whether the wheels err by less than a reference shows.
-    is_exact: bool,
+    /// What the reference is taken to err by at least, m and rad, once the wheels turn out to err by less than a reference shows.
+    least_error: Option<f64>,
     /// Of the last round.
     known: [[f64; ERRORS]; ERRORS],
     removed: Systematic,
@@ -85,7 +85,7 @@ impl Calibrating {
             begun: Systematic::NONE,
             systematic: Systematic::NONE,
             deviations: [None; ERRORS],
-            is_exact: false,
+            least_error: None,
             known: [[0.0; ERRORS]; ERRORS],
             removed: Systematic::NONE,
             of_length: ([None; ERRORS], [[0.0; ERRORS]; ERRORS]),
@@ -193,7 +193,7 @@ impl Calibrating {
                     (Purpose::Round(_) | Purpose::Scatter(_), Robust::No) => Robust::Estimated,
                     (_, robust) => robust,
                 };
-                if !self.search(purpose, robust) {
+                if !self.search(robust) {
                     return Ok(None);
                 }
                 match purpose {
@@ -210,7 +210,9 @@ impl Calibrating {
                 } else {
                     let stays = self.improve(&step);
                     match purpose {
-                        Purpose::Round(round) if !stays && round + 1 < ROUNDS => {
+                        Purpose::Round(round)
+                            if self.is_now_exact(round, stays) || !stays && round + 1 < ROUNDS =>
+                        {
                             Stage::Cut(Purpose::Round(round + 1))
                         }
                         _ => {
@@ -311,7 +313,7 @@ impl Calibrating {
         let clock = Error::ClockOffset as usize;
         // As long as no leg has told it, by how the turns did.
         let unsure = if estimated[clock] { deviations[clock].unwrap_or(KNOWN_TO) } else { 0.0 };
-        let [place, heading] = self.reference_error(purpose).map(|deviation| deviation * deviation);
+        let [place, heading] = self.reference_error().map(|deviation| deviation * deviation);
         let from = self.observations.len();
         let until = self.legs.len().min(from + LEGS);
         let legs = &self.legs[from..until];
@@ -355,13 +357,10 @@ impl Calibrating {
     }
 
     /// Goes on with the search for the likeliest α's; whether they are found.
-    fn search(&mut self, purpose: Purpose, robust: Robust) -> bool {
+    fn search(&mut self, robust: Robust) -> bool {
         let Some(search) = &mut self.search else {
             let near = self.best.map(|(near, _)| near);
-            // Where a reference was taken to err by all that the wheels err by, their α's were 0, from which nothing leads away.
-            let near = near.filter(|near| {
-                near.bad.is_some() == (robust != Robust::No) && (!self.is_exact || purpose.finds_errors())
-            });
+            let near = near.filter(|near| near.bad.is_some() == (robust != Robust::No));
             self.search = Some(Search::new(&self.evidence, robust, near.as_ref()));
             return false;
         };

@@ -4,29 +4,32 @@ use super::{ARCS, Calibrating, LEGS};
 use crate::calibrate::calibration::ReferenceError;
 use crate::calibrate::legs::FEWEST;
 use crate::calibrate::mismatch::DRIVES;
-use crate::calibrate::stages::Purpose;
-use crate::calibrate::systematic::{Error, LeastSquares, Step};
+use crate::calibrate::stages::{Purpose, ROUNDS};
+use crate::calibrate::systematic::{ERRORS, Error, LeastSquares, Step};
 use crate::calibrate::trajectory::sort;
 use crate::geom::se2::wrap_angle;
 
 /// A change that is so small a part of its deviation is none.
 const STAYS: f64 = 0.01;
 
-/// What a reference errs by at least (m, rad) where wheels err by less than that in a quarter of the legs. These would be exact, whatever the
-/// clocks, and those that tell the clocks' offset, in which the robot starts, stops or turns off, would pass for bad.
+/// What a reference is taken to err by at least (m, rad), where wheels err by less than that in a quarter of the legs, until the errors stay.
+/// These would be exact, whatever the clocks, and those that tell the clocks' offset, in which the robot starts, stops or turns off, would
+/// pass for bad.
 const LEAST_ERROR: f64 = 1e-3;
+
+/// Rounds that are left at least for how well errors are known, once the reference is taken for as good as it is.
+const LAST: usize = 3;
 
 impl Calibrating {
     /// What the reference errs by at one moment, m and rad.
-    pub(super) fn reference_error(&self, purpose: Purpose) -> [f64; 2] {
-        let least = if self.is_exact && purpose.finds_errors() { LEAST_ERROR } else { 0.0 };
+    pub(super) fn reference_error(&self) -> [f64; 2] {
         let ReferenceError { position, heading } = self.options.reference_error;
-        [position.max(least), heading.max(least)]
+        [position, heading].map(|error| error.max(self.least_error.unwrap_or(0.0)))
     }
 
     /// Whether it has just turned out that a quarter of the legs that drive end where the wheels say, as near as a reference shows.
     pub(super) fn turns_out_exact(&mut self, purpose: Purpose) -> bool {
-        if self.is_exact || !matches!(purpose, Purpose::Round(_)) {
+        if self.least_error.is_some() || !matches!(purpose, Purpose::Round(_)) {
             return false;
         }
         let without = self.without(purpose);
@@ -40,8 +43,21 @@ impl Calibrating {
             .collect();
         self.work.add(ARCS * off.len());
         sort(&mut off);
-        self.is_exact = off.len() >= FEWEST && off[off.len() / 4] < LEAST_ERROR;
-        self.is_exact
+        if off.len() < FEWEST || off[off.len() / 4] >= LEAST_ERROR {
+            return false;
+        }
+        self.least_error = Some(LEAST_ERROR);
+        true
+    }
+
+    /// Whether the reference was taken to err by more than is said until now, and the errors are near enough to take it for what it is. What
+    /// was fitted with it is no beginning: the α's of wheels that err by less are 0, from which nothing leads away.
+    pub(super) fn is_now_exact(&mut self, round: usize, stays: bool) -> bool {
+        let is_now = self.least_error == Some(LEAST_ERROR) && (stays || round + 1 + LAST >= ROUNDS);
+        if is_now {
+            (self.least_error, self.best, self.known) = (Some(0.0), None, [[0.0; ERRORS]; ERRORS]);
+        }
+        is_now
     }
 
     /// Goes on with the step to better systematic errors.

@@ -53,6 +53,21 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   expect(await heard(other, ['error', 'input', 'change'])).toEqual([]);
 });
 
+test('figures in a frame and in a shadow root have parts of the fragment that are their own', FRESH, async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><iframe srcdoc="<!doctype html><body></body>" width="1100" height="900"></iframe><div></div>');
+  await page.waitForFunction(() => document.querySelector('iframe')?.contentDocument?.body);
+  const widget = page.locator('banana-machine').first();
+  await ready(widget);
+  const keys = await page.evaluate(async () => {
+    const [inFrame, inShadow] = [0, 1].map(() => document.createElement('banana-machine'));
+    document.querySelector('iframe')?.contentDocument?.body.append(inFrame);
+    document.querySelector('div')?.attachShadow({ mode: 'open' }).append(inShadow);
+    const links = [document.querySelector('banana-machine'), inFrame, inShadow].map((element) => /** @type {any} */ (element).shareLink());
+    return (await Promise.all(links)).map((link) => new URL(link).hash.replace(/=.*/, ''));
+  });
+  expect(keys).toEqual(['#banana-machine.1', '#iframe.1/banana-machine.1', '#div.1/banana-machine.1']);
+});
+
 test('the page’s own anchor is gone to once, whatever it is called', FRESH, async ({ page }) => {
   await show(page, '<banana-machine></banana-machine><h2 id="100%" style="margin: 3000px 0">All of it</h2>', { fragment: '#100%&theme=a' });
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);

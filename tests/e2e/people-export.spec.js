@@ -225,6 +225,15 @@ test('a figure that has no size is taken along in one of its own, and a browser 
     return /** @type {Figure} */ (element).toPNG().catch(String);
   });
   expect(complaint).toBe('Error: The browser makes no PNG image of it.');
+  // The menu has nobody else to tell.
+  const told = await widget.evaluate((element) => new Promise((resolve) => {
+    element.addEventListener('error', (event) => {
+      event.preventDefault();
+      resolve(/** @type {ErrorEvent} */ (event).message);
+    });
+    /** @type {HTMLElement | undefined | null} */ (element.shadowRoot?.querySelector('.exports button'))?.click();
+  }));
+  expect(told).toBe('The browser makes no PNG image of it.');
 });
 
 test('what is taken along shows and says what has just changed, before a frame has come', async ({ page }) => {

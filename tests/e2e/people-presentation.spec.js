@@ -265,6 +265,44 @@ test('what the browser ends by a key of its own has ended, and the pictures have
   expect(Math.abs(Number(await canvas.evaluate((element) => Reflect.get(element, 'width'))) - width)).toBeLessThanOrEqual(2);
 });
 
+test('a screen that is granted when the presentation has ended is given back', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await page.evaluate(() => {
+    const { requestFullscreen } = Element.prototype;
+    Element.prototype.requestFullscreen = function () {
+      const asked = requestFullscreen.call(this);
+      Object.assign(window, { asked });
+      return asked;
+    };
+    addEventListener('click', () => (/** @type {any} */ (document.querySelector('banana-machine')).presentation = false), { once: true });
+  });
+  await widget.getByRole('button', { name: 'Present' }).click();
+  await page.evaluate(() => Reflect.get(window, 'asked'));
+  await expect(widget).not.toHaveAttribute('presentation');
+  await expect.poll(() => page.evaluate(() => document.fullscreenElement)).toBe(null);
+});
+
+test('of two figures that are presented the second one takes the place of the first', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><p></p><map-squeeze></map-squeeze>');
+  const [first, second] = [page.locator('banana-machine'), page.locator('map-squeeze')];
+  await ready(first);
+  await ready(second);
+  const present = (/** @type {import('@playwright/test').Locator} */ widget, presentation = true) =>
+    widget.evaluate((element, presentation) => void Object.assign(element, { presentation }), presentation);
+  const reach = () => page.evaluate(() => ['banana-machine', 'p', 'map-squeeze'].map((name) => document.querySelector(name)?.matches('[inert]')));
+  await present(first);
+  expect(await reach()).toEqual([false, true, true]);
+  await present(second);
+  await expect(first).not.toHaveAttribute('presentation');
+  expect(await reach()).toEqual([true, true, false]);
+  await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('map-squeeze');
+  await present(second, false);
+  expect(await reach()).toEqual([false, false, false]);
+  expect(await page.evaluate(() => document.documentElement.style.overflow)).toBe('');
+});
+
 test('a handle stays under the pointer while the picture is enlarged', async ({ page }) => {
   await show(page, '<banana-machine presentation></banana-machine>');
   const widget = page.locator('banana-machine');

@@ -103,17 +103,17 @@ export class Link extends Part {
 }
 
 /**
- * The name of an element's part: its id, or where it has none, its place among its kind on the page; in a shadow root, where
- * it is its place there, after the name of what that belongs to.
+ * The name of an element's part: its id, or where it has none, its place among its kind on the page. In a shadow root or a frame
+ * that is its place there, after the name of what that belongs to.
  *
  * @param {Element} element
  * @returns {string}
  */
 function keyOf(element) {
   const { localName, id } = element;
-  const root = /** @type {ParentNode & Node} */ (element.getRootNode());
-  const around = root instanceof ShadowRoot ? `${keyOf(root.host)}/` : '';
-  const name = around + encodeURIComponent(localName);
+  const root = /** @type {any} */ (element.getRootNode());
+  const around = root === document ? undefined : (root.host ?? root.defaultView?.frameElement);
+  const name = (around ? `${keyOf(around)}/` : '') + encodeURIComponent(localName);
   if (id) return `${name}:${encodeURIComponent(id)}`;
   const kind = [...root.querySelectorAll(CSS.escape(localName))];
   return `${name}.${kind.indexOf(element) + 1}`;

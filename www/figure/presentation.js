@@ -17,6 +17,9 @@ const LAYOUT = { width: 960, height: 540 };
 /** With the controls, the smallest in which all of them stand beside and below a large picture. */
 const WITH_CONTROLS = { width: 1280, height: 720 };
 
+/** The event of a window by which a figure that fills it hears that another does, which may be of another script. */
+const FILLED = 'motion-widgets-filled';
+
 export class Presentation extends Part {
   /** Whether the controls are shown. */
   #controls = false;
@@ -24,6 +27,8 @@ export class Presentation extends Part {
   #listening;
   /** How far the page was scrolled. */
   #scrolled = 0;
+  /** That the screen is left, since it was last. @type {Promise<void> | undefined} */
+  #leaving;
   /** How much larger everything is. */
   zoom = 1;
   /** Brings the page back. */
@@ -50,36 +55,54 @@ export class Presentation extends Part {
 
   #begin() {
     const { host } = this;
+    /** @type {(Promise<void> | undefined)[]} */
+    const leaving = [];
+    dispatchEvent(new CustomEvent(FILLED, { detail: leaving }));
     this.#listening = new AbortController();
     const { signal } = this.#listening;
+    addEventListener(FILLED, this.#giveWay, { signal });
     this.#scrolled = scrolled();
     addEventListener('keydown', this.#key, { signal });
     addEventListener('resize', this.#fit, { signal });
     this.#uncover = cover(host);
     this.#fit();
     // Where the screen is not to be had, as in most frames and without a key or a press, the window is filled.
-    if (document.fullscreenEnabled && navigator.userActivation.isActive) host.requestFullscreen().catch(() => {});
+    if (document.fullscreenEnabled && navigator.userActivation.isActive) this.#fill(leaving);
     host.updateComplete.then(() => this.#focus('.presenting button'));
+  }
+
+  /** @param {(Promise<void> | undefined)[]} leaving that the screen is left by who had it */
+  async #fill(leaving) {
+    await Promise.allSettled(leaving);
+    await this.host.requestFullscreen().catch(() => {});
+    // It may have ended before that was granted.
+    if (!this.#listening) this.#empty();
+  }
+
+  /** Leaves the screen, if the figure has it. @returns {Promise<void> | undefined} */
+  #empty() {
+    return this.host.matches(':fullscreen') ? document.exitFullscreen() : undefined;
   }
 
   #end() {
     if (!this.#listening) return;
-    const { host } = this;
     this.#listening.abort();
     this.#listening = undefined;
     this.#controls = false;
     this.#uncover();
     this.#enlarge(1);
-    this.#restore(host.matches(':fullscreen') ? document.exitFullscreen() : undefined);
+    this.#leaving = this.#empty();
+    this.#restore();
   }
 
-  /**
-   * Brings the reader back to where they were: the page was shorter meanwhile.
-   *
-   * @param {Promise<void>} [left] that the screen is left
-   */
-  async #restore(left) {
-    await Promise.allSettled([left, this.host.updateComplete]);
+  #giveWay = (/** @type {any} */ { detail: leaving }) => {
+    this.host.presentation = false;
+    leaving.push(this.#leaving);
+  };
+
+  /** Brings the reader back to where they were: the page was shorter meanwhile. */
+  async #restore() {
+    await Promise.allSettled([this.#leaving, this.host.updateComplete]);
     await new Promise(requestAnimationFrame);
     scrollTo({ top: this.#scrolled, behavior: 'instant' });
     this.#focus('.to-present');

@@ -126,7 +126,7 @@ export function exportMenu(element, mark, csvTitle = words.exports.csvTitle) {
   return html`<details class="exports" part="exports">
     <summary>${say.label}</summary>
     <div class="buttons">
-      ${button(say.png, async () => save(`${name}.png`, await element.toPNG()), { title: say.pngTitle })}
+      ${button(say.png, () => element.toPNG().then((blob) => save(`${name}.png`, blob), (error) => element.runtime.report(error)), { title: say.pngTitle })}
       ${button(say.svg, () => text('svg', 'image/svg+xml', element.toSVG()), { title: say.svgTitle })}
       ${button(say.csv, () => text('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
     </div>

@@ -17,8 +17,11 @@ const LAYOUT = { width: 960, height: 540 };
 /** With the controls, the smallest in which all of them stand beside and below a large picture. */
 const WITH_CONTROLS = { width: 1280, height: 720 };
 
-/** The event of a window by which a figure that fills it hears that another does, which may be of another script. */
-const FILLED = 'motion-widgets-filled';
+/** Who the screen is given to. @type {import('./figure.js').Figure | undefined} */
+let presented;
+
+/** That it is left, since it last was. @type {Promise<void> | undefined} */
+let left;
 
 export class Presentation extends Part {
   /** Whether the controls are shown. */
@@ -27,8 +30,6 @@ export class Presentation extends Part {
   #listening;
   /** How far the page was scrolled. */
   #scrolled = 0;
-  /** That the screen is left, since it was last. @type {Promise<void> | undefined} */
-  #leaving;
   /** How much larger everything is. */
   zoom = 1;
   /** Brings the page back. */
@@ -55,54 +56,47 @@ export class Presentation extends Part {
 
   #begin() {
     const { host } = this;
-    /** @type {(Promise<void> | undefined)[]} */
-    const leaving = [];
-    dispatchEvent(new CustomEvent(FILLED, { detail: leaving }));
+    if (presented) presented.presentation = false;
+    presented = host;
     this.#listening = new AbortController();
     const { signal } = this.#listening;
-    addEventListener(FILLED, this.#giveWay, { signal });
     this.#scrolled = scrolled();
     addEventListener('keydown', this.#key, { signal });
     addEventListener('resize', this.#fit, { signal });
     this.#uncover = cover(host);
     this.#fit();
     // Where the screen is not to be had, as in most frames and without a key or a press, the window is filled.
-    if (document.fullscreenEnabled && navigator.userActivation.isActive) this.#fill(leaving);
+    if (document.fullscreenEnabled && navigator.userActivation.isActive) this.#fill();
     host.updateComplete.then(() => this.#focus('.presenting button'));
   }
 
-  /** @param {(Promise<void> | undefined)[]} leaving that the screen is left by who had it */
-  async #fill(leaving) {
-    await Promise.allSettled(leaving);
+  async #fill() {
+    await left;
     await this.host.requestFullscreen().catch(() => {});
     // It may have ended before that was granted.
     if (!this.#listening) this.#empty();
   }
 
-  /** Leaves the screen, if the figure has it. @returns {Promise<void> | undefined} */
+  /** Leaves the screen, if the figure has it. */
   #empty() {
-    return this.host.matches(':fullscreen') ? document.exitFullscreen() : undefined;
+    if (this.host.matches(':fullscreen')) left = document.exitFullscreen().catch(() => {});
   }
 
   #end() {
     if (!this.#listening) return;
     this.#listening.abort();
-    this.#listening = undefined;
+    this.#listening = presented = undefined;
     this.#controls = false;
     this.#uncover();
     this.#enlarge(1);
-    this.#leaving = this.#empty();
+    this.#empty();
     this.#restore();
   }
 
-  #giveWay = (/** @type {any} */ { detail: leaving }) => {
-    this.host.presentation = false;
-    leaving.push(this.#leaving);
-  };
-
   /** Brings the reader back to where they were: the page was shorter meanwhile. */
   async #restore() {
-    await Promise.allSettled([this.#leaving, this.host.updateComplete]);
+    await left;
+    await this.host.updateComplete;
     await new Promise(requestAnimationFrame);
     scrollTo({ top: this.#scrolled, behavior: 'instant' });
     this.#focus('.to-present');

@@ -2,7 +2,7 @@
 //! that.
 
 use super::legs::Leg;
-use super::likelihood::LegDensity;
+use super::likelihood::{Alphas, LegDensity};
 use super::systematic::{MOST_LEVERAGE, Systematic};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
@@ -119,6 +119,8 @@ pub struct Uncertainty {
     pub bearing: Matrix2<f64>,
     /// The variances of the headings at both ends, rad², independent.
     pub headings: [f64; 2],
+    /// The α's as far as they are known, 0 before that: they tell how much of what a leg is too long is the robot's own.
+    pub alphas: Alphas,
 }
 
 impl Uncertainty {
@@ -132,10 +134,30 @@ impl Uncertainty {
         variance_along(&self.place, direction)
     }
 
-    /// The variance (rad²) of the direction of a motion: at most that of a direction of which nothing is known.
-    fn of_bearing(&self, bearing: f64, distance: f64) -> f64 {
-        (variance_along(&self.bearing, bearing + FRAC_PI_2) / (distance * distance)).min(PI * PI / 3.0)
+    /// What a motion says that leads so far toward a bearing, of a leg that should have led as far as was read and whose way varies by so much
+    /// (m²) by the α's. Of a way t whose end is off by σ each way, the distance d has Rice's distribution, σ²/2t longer and of variance
+    /// σ²(1 − σ²/2t²) to second order; and given that, the bearing has von Mises' of κ = dt/σ², and the variance (1 + 1/2κ)/κ.
+    fn polar(&self, bearing: f64, distance: f64, read: f64, variance: f64) -> Polar {
+        let place = self.along(bearing);
+        let longer = place / (2.0 * read);
+        // The part that is the robot's own of what it is too long.
+        let own = if place > 0.0 { variance / (variance + place) } else { 1.0 };
+        let way = read + own * (distance - read);
+        let off = variance_along(&self.bearing, bearing + FRAC_PI_2) / (distance * way);
+        Polar {
+            distance: distance - longer,
+            of_distance: place * (1.0 - longer / read),
+            // At most that of a direction of which nothing is known.
+            of_bearing: (off * (1.0 + 0.5 * off)).min(PI * PI / 3.0),
+        }
     }
+}
+
+/// How far a motion led, m, and the variances of that, m², and of its direction, rad², that are none of the robot's.
+struct Polar {
+    distance: f64,
+    of_distance: f64,
+    of_bearing: f64,
 }
 
 fn variance_along(covariance: &Matrix2<f64>, direction: f64) -> f64 {
@@ -260,6 +282,8 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
         };
     }
     let [bearing, distance] = [libm::atan2(motion.y(), motion.x()), libm::hypot(motion.x(), motion.y())];
+    let variance = along[0] * error.alphas[2] + along[1] * error.alphas[3];
+    let Polar { distance, of_distance, of_bearing } = error.polar(bearing, distance, trans, variance);
     let off = wrap_angle(bearing - rot1);
     let facing = [off, distance - trans, wrap_angle(turned - off)];
     let away = [wrap_angle(off - PI), -distance - trans, wrap_angle(turned - off + PI)];
@@ -268,14 +292,14 @@ fn hinged(rule: OdometryRule, expected: &SE2, motion: &SE2, error: &Uncertainty)
     let other_way = (rule == OdometryRule::Table && rot1.abs() > FRAC_PI_2).then_some(other);
     let across = RowVector3::new(-sin, cos, 0.0) / trans;
     let off = across.x * motion.x() + across.y * motion.y();
-    let bearing_error = error.headings[0] + error.of_bearing(bearing, distance);
+    let bearing_error = error.headings[0] + of_bearing;
     Observation {
         residuals,
         first_order: [off, residuals[1], wrap_angle(turned - off)],
         other_way,
         unknown: [0.0; 3],
         coefficients: [first, along, second],
-        floors: [bearing_error, place, bearing_error],
+        floors: [bearing_error, of_distance, bearing_error],
         reading,
         expected: *expected,
         slopes: Matrix3::from_rows(&[across, drive, RowVector3::new(0.0, 0.0, 1.0) - across]),
@@ -357,18 +381,25 @@ fn driven(dt: f64, read: &SE2, motion: &SE2, error: &Uncertainty) -> Observation
     let bearing = RowVector3::new(-sin, cos, 0.0) / distance;
     // v̂Δt = d/sinc β, and d(ln sinc)/dβ = cot β − 1/β.
     let log_slope = if half.abs() < 1e-4 { -half / 3.0 } else { cos / sin - 1.0 / half };
-    let bearing_error =
-        error.of_bearing(libm::atan2(motion.y(), motion.x()), libm::hypot(motion.x(), motion.y()));
+    let variance = (v2 * error.alphas[0] + omega2 * error.alphas[1]) * dt * dt;
+    let seen = libm::hypot(motion.x(), motion.y());
+    let polar = error.polar(libm::atan2(motion.y(), motion.x()), seen, distance.abs(), variance);
     let off = 2.0 * (bearing.x * motion.x() + bearing.y * motion.y());
-    let v_off = executed.v_hat - v;
+    // An arc to the side of its end is longer too, β/sin β = 1 + β²/6 times a chord.
+    let longer = seen - polar.distance + seen * polar.of_bearing / 6.0;
+    let v_off = executed.v_hat - v - longer.copysign(v) / dt;
     Observation {
         first_order: [v_off, off / dt, wrap_angle(motion.theta() - turn - off) / dt],
         residuals: [v_off, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat],
         other_way: None,
         unknown: [0.0; 3],
         coefficients: [[v2, omega2]; 3],
-        floors: [place, 4.0 * (bearing_error + error.headings[0]), 4.0 * bearing_error + error.of_turn()]
-            .map(|floor| floor * per_time),
+        floors: [
+            polar.of_distance,
+            4.0 * (polar.of_bearing + error.headings[0]),
+            4.0 * polar.of_bearing + error.of_turn(),
+        ]
+        .map(|floor| floor * per_time),
         reading: [v, omega, dt],
         expected,
         slopes: Matrix3::from_rows(&[

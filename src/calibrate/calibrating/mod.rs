@@ -9,7 +9,7 @@ use super::clock::{Alignment, KNOWN_TO};
 use super::judging::{Judge, Judging};
 use super::leg_lengths::{ASKED, AtLength, FACTORS, MOST, have_rows};
 use super::legs::{Cutting, FEWEST, Leg};
-use super::likelihood::{Evidence, LegDensity, Parameters, Slope};
+use super::likelihood::{Alphas, Evidence, LegDensity, Parameters, Slope};
 use super::model::{Observation, Uncertainty};
 use super::profile::{Ends, Estimate, Fitted, Search};
 use super::stages::{Purpose, ROUNDS, Stage, parts};
@@ -314,6 +314,7 @@ impl Calibrating {
         // As long as no leg has told it, by how the turns did.
         let unsure = if estimated[clock] { deviations[clock].unwrap_or(KNOWN_TO) } else { 0.0 };
         let [place, heading] = self.reference_error().map(|deviation| deviation * deviation);
+        let alphas = self.best.map_or(Alphas::default(), |(best, _)| best.alphas);
         let from = self.observations.len();
         let until = self.legs.len().min(from + LEGS);
         let legs = &self.legs[from..until];
@@ -324,7 +325,8 @@ impl Calibrating {
             let place = Matrix2::identity() * (place * (from + to)) + off.xy() * off.xy().transpose();
             let bearing = place + without.uncertainty(leg, &deviations);
             let headings = [from * heading, to * heading + off.z * off.z];
-            let mut observation = model.observe(leg, &without, &Uncertainty { place, bearing, headings });
+            let mut observation =
+                model.observe(leg, &without, &Uncertainty { place, bearing, headings, alphas });
             observation.hide(&(kink * unsure));
             let own = without.own_share(leg, &deviations);
             observation.coefficients = observation.coefficients.map(|pair| pair.map(|each| own * each));

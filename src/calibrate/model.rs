@@ -136,17 +136,18 @@ impl Uncertainty {
 
     /// What a motion says that leads so far toward a bearing, of a leg that should have led as far as was read and whose way varies by so much
     /// (m²) by the α's. Of a way t whose end is off by σ each way, the distance d has Rice's distribution, σ²/2t longer and of variance
-    /// σ²(1 − σ²/2t²) to second order; and given that, the bearing has von Mises' of κ = dt/σ², and the variance (1 + 1/2κ)/κ.
+    /// σ²(1 − σ²/2t²) to second order, where it leads; and given that, the bearing has von Mises' of κ = dt/σ², and the variance (1 + 1/2κ)/κ.
     fn polar(&self, bearing: f64, distance: f64, read: f64, variance: f64) -> Polar {
         let place = self.along(bearing);
-        let longer = place / (2.0 * read);
-        // The part that is the robot's own of what it is too long.
-        let own = if place > 0.0 { variance / (variance + place) } else { 1.0 };
+        let blurred = place > 0.0 && read > LEADS * place.sqrt();
+        // And the part that is the robot's own of what it is too long.
+        let (longer, own) =
+            if blurred { (place / (2.0 * read), 1.0 / (1.0 + place / variance)) } else { (0.0, 1.0) };
         let way = read + own * (distance - read);
         let off = variance_along(&self.bearing, bearing + FRAC_PI_2) / (distance * way);
         Polar {
             distance: distance - longer,
-            of_distance: place * (1.0 - longer / read),
+            of_distance: if blurred { place * (1.0 - longer / read) } else { place },
             // At most that of a direction of which nothing is known.
             of_bearing: (off * (1.0 + 0.5 * off)).min(PI * PI / 3.0),
         }
@@ -385,8 +386,8 @@ fn driven(dt: f64, read: &SE2, motion: &SE2, error: &Uncertainty) -> Observation
     let seen = libm::hypot(motion.x(), motion.y());
     let polar = error.polar(libm::atan2(motion.y(), motion.x()), seen, distance.abs(), variance);
     let off = 2.0 * (bearing.x * motion.x() + bearing.y * motion.y());
-    // An arc to the side of its end is longer too, β/sin β = 1 + β²/6 times a chord.
-    let longer = seen - polar.distance + seen * polar.of_bearing / 6.0;
+    // An arc whose end is off to the side is longer than its chord besides, β/sin β = 1 + β²/6 times.
+    let longer = 4.0 / 3.0 * (seen - polar.distance);
     let v_off = executed.v_hat - v - longer.copysign(v) / dt;
     Observation {
         first_order: [v_off, off / dt, wrap_angle(motion.theta() - turn - off) / dt],

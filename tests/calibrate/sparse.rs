@@ -240,3 +240,37 @@ fn where_an_end_is_blurred_distance_and_bearing_have_the_variances_that_are_told
         }
     }
 }
+
+proptest! {
+    /// And what is not known of clock and lever arm moves none: the rounds that find them would follow that.
+    #[test]
+    fn however_a_leg_leads_its_residuals_are_numbers_and_its_variances_none_or_more(
+        way in -5.0..5.0_f64,
+        turn in -8.0..8.0_f64,
+        off in prop::array::uniform3(-0.1..0.1_f64),
+        deviation in prop_oneof![Just(0.0), 1e-6..0.2_f64],
+        alpha in prop_oneof![Just(0.0), 1e-9..10.0_f64, Just(f64::INFINITY)],
+    ) {
+        const ROWS: u32 = 40;
+        let part = |twist: Vector3<f64>, row: u32| SE2::exp(&(twist * (f64::from(row) / f64::from(ROWS))));
+        let along = |row| part(Vector3::new(way, 0.0, turn), row);
+        let read = (0..=ROWS).map(|row| (f64::from(row), along(row)));
+        let seen = (0..=ROWS).map(|row| (f64::from(row), along(row) * part(Vector3::from(off), row)));
+        let [read, seen] = [Trajectory::new(read).expect("times rise"), Trajectory::new(seen).expect("times rise")];
+        let place = Matrix2::identity() * (deviation * deviation);
+        let error = Uncertainty { place, bearing: place, headings: [deviation; 2], alphas: [alpha; 6] };
+        let legs = cut(&read, &seen, LegLength::Lasted { duration: f64::from(ROWS) - 0.5 }, 0.0);
+        prop_assert_eq!(legs.len(), 1);
+        for leg in legs {
+            for model in [Model::Velocity, Model::Odometry(OdometryRule::Table), Model::Odometry(OdometryRule::Omni)] {
+                let told = model.observe(&leg, &Systematic::NONE, &error);
+                prop_assert!(told.floors.iter().all(|floor| *floor >= 0.0 && floor.is_finite()), "{told:?}");
+                prop_assert!(told.residuals.iter().all(|residual| !residual.is_infinite()), "{told:?}");
+                prop_assert!(told.slopes.iter().all(|slope| slope.is_finite()), "{told:?}");
+                let unsure = Uncertainty { bearing: place + Matrix2::identity() * 0.1, ..error };
+                let same = model.observe(&leg, &Systematic::NONE, &unsure).residuals;
+                prop_assert_eq!(same.map(f64::to_bits), told.residuals.map(f64::to_bits));
+            }
+        }
+    }
+}

@@ -294,7 +294,7 @@ test('the lines for Nav2 say what they are of', async ({ page }) => {
   await fold(widget, 'For Nav2').locator('summary').click();
   const { alphas } = await stats(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
-  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals\n/);
+  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals by bootstrap\n/);
   expect(yaml).toContain('    robot_model_type: "nav2_amcl::DifferentialMotionModel"\n');
   alphas.forEach((alpha, i) => expect(yaml).toMatch(new RegExp(`^ {4}alpha${i + 1}: ${Number(alpha).toFixed(3).slice(0, -1)}\\d*  # [\\d.]+ to [\\d.]+$`, 'm')));
   expect(yaml).toContain('    update_min_d: 0.3\n    update_min_a: 0.2\n');
@@ -372,7 +372,7 @@ test('α’s of other lengths of legs are fitted where they are asked for, and d
 
 test('an α that a log does not tell from 0 is no result of 0', async ({ page }) => {
   // Few legs: what turning adds is not seen beside what driving does.
-  const widget = await openCalibrator(page, 'model="velocity" distance="3" angle="1.5" bylength');
+  const widget = await openCalibrator(page, 'model="velocity" distance="1" angle="1.5" bylength');
   const { alphas, intervals } = await stats(widget);
   const zeros = alphas.flatMap((alpha, i) => (alpha !== null && alpha < 0.01 * (intervals[i]?.[1] ?? 0) ? [i] : []));
   expect(zeros.length).toBeGreaterThan(0);
@@ -394,7 +394,7 @@ test('an α that a log does not tell from 0 is no result of 0', async ({ page })
   expect([...told].sort()).toEqual(zeros.map((i) => `α${i + 1} is not told from 0; to tell it, ${drive[i % 2]}`));
   const lengths = fold(widget, 'Other lengths');
   await lengths.locator('summary').click();
-  for (const i of zeros) await expect(lengths.locator('svg.plot').nth(i)).toHaveAttribute('aria-label', /≤ [\d.]+ at (3\.00|1\.50),/);
+  for (const i of zeros) await expect(lengths.locator('svg.plot').nth(i)).toHaveAttribute('aria-label', /≤ [\d.]+ at (1\.00|1\.50),/);
 });
 
 test('of an α that a log does not determine it says why, and what to drive', async ({ page }) => {

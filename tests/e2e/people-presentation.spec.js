@@ -298,6 +298,7 @@ test('of two figures that are presented the second one takes the place of the fi
   await expect(first).not.toHaveAttribute('presentation');
   expect(await reach()).toEqual([true, true, false]);
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('map-squeeze');
+  await expect(second.getByRole('button', { name: 'C Controls' })).toBeFocused();
   await present(second, false);
   expect(await reach()).toEqual([false, false, false]);
   expect(await page.evaluate(() => document.documentElement.style.overflow)).toBe('');

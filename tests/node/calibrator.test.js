@@ -150,28 +150,28 @@ test('numbers of files: as many digits as the interval has a meaning in, with an
 
 test('lines for Nav2: an α without an interval has no empty comment', () => {
   const fitted = { count: 9, model: 'odometry', rule: 'nav2', legs: { duration: 1 }, log: 'a.csv', date: '2026-01-02', verdict: 'fits', systematic: {} };
-  const lines = nav2Lines({ ...fitted, alphas: [1e-8, 0.1, null, 0.2], intervals: [null, [0.05, 0.16], null, null] }, en.nav2);
+  const lines = nav2Lines({ ...fitted, alphas: [1e-8, 0.1, null, 0.2], intervals: [null, [0.05, 0.16], null, null], bootstrap: [null, [0.04, 0.17], null, null] }, en.nav2);
   assert.deepEqual(lines.filter((line) => /alpha[1-4]/.test(line)).map((line) => line.trim()), [
-    'alpha1: 1.0e-8', 'alpha2: 0.10  # 0.05 to 0.16', `# alpha3: ${en.nav2.undetermined}`, 'alpha4: 0.2',
+    'alpha1: 1.0e-8', 'alpha2: 0.10  # 0.04 to 0.17', `# alpha3: ${en.nav2.undetermined}`, 'alpha4: 0.2',
   ]);
   // Of a log that tells nothing there is nothing to paste.
   for (const verdict of ['few-legs', 'unrelated']) {
-    const none = nav2Lines({ ...fitted, verdict, alphas: [0.1, 0.1, 0.1, 0.1], intervals: [null, null, null, null] }, en.nav2);
+    const none = nav2Lines({ ...fitted, verdict, alphas: [0.1, 0.1, 0.1, 0.1], intervals: [null, null, null, null], bootstrap: [null, null, null, null] }, en.nav2);
     assert.deepEqual(none.filter((line) => /^ *alpha/.test(line)), []);
     assert.deepEqual(none.filter((line) => /alpha1/.test(line)), [`    # alpha1: ${en.nav2.useless}`]);
   }
   // Nor is 0 a result, however it is written; inflated, the most of it is too.
   // Of a robot whose error is larger than its motion nobody would want the lines; that the reader inflates them is the reader's.
-  const large = nav2Lines({ ...fitted, inflation: 2, alphas: [103, 0.8, 1.2, 0.1], intervals: [[50, 200], [0.5, 1.5], null, [0.05, 0.2]] }, en.nav2)
+  const large = nav2Lines({ ...fitted, inflation: 2, alphas: [103, 0.8, 1.2, 0.1], intervals: [[50, 200], [0.5, 1.5], null, [0.05, 0.2]], bootstrap: [[40, 300], [0.5, 1.5], null, [0.05, 0.2]] }, en.nav2)
     .filter((line) => line.includes('alpha')).slice(0, 4);
   assert.deepEqual(large.map((line) => line.trim().startsWith('#')), [true, false, true, false]);
   assert.equal(large[0].trim(), `# alpha1: 206, ${en.nav2.tooLarge}`);
-  const zeros = nav2Lines({ ...fitted, inflation: 2, alphas: [0, 1e-7, 0, 0.1], intervals: [[0, 0.00123], [0, 0.0016], null, [0.05, 0.16]] }, en.nav2);
+  const zeros = nav2Lines({ ...fitted, inflation: 2, alphas: [0, 1e-7, 0, 0.1], intervals: [[0, 0.00123], [0, 0.0016], null, [0.05, 0.16]], bootstrap: [[0, 0.0013], [0, 0.0018], null, [0.05, 0.16]] }, en.nav2);
   assert.deepEqual(zeros.filter((line) => /alpha[1-4]/.test(line)).map((line) => line.trim()), [
-    '# alpha1: not told from 0 by this log, 0.0025 at most', '# alpha2: not told from 0 by this log, 0.0032 at most',
+    '# alpha1: not told from 0 by this log, 0.0026 at most', '# alpha2: not told from 0 by this log, 0.0036 at most',
     '# alpha3: not told from 0 by this log, – at most', 'alpha4: 0.20  # 0.10 to 0.32',
   ]);
-  const corrected = nav2Lines({ ...fitted, alphas: [0.1], intervals: [null], systematic: {
+  const corrected = nav2Lines({ ...fitted, alphas: [0.1], intervals: [null], bootstrap: [null], systematic: {
     mountYaw: { value: 0.05, interval: [0.04, 0.06], removed: true }, turnScale: { value: 1.01, interval: [1, 1.02], removed: false },
   } }, en.nav2);
   assert.ok(corrected.includes('    # with these errors removed: mountYaw 0.050'));

@@ -12,6 +12,7 @@ import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.js';
 import { run } from '../../www/cli/run.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
+import { between } from '../../www/widgets/alpha-calibrator/lines.js';
 import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
 import { odometry, poseOf, recordingOf, stampOf, twistOf, transform } from '../mcap.js';
 
@@ -320,13 +321,14 @@ test('a recording says the same as tables of the same drive', async () => {
 test('as text: a table of the α’s, what is systematic, the doubts, a verdict, and lines for Nav2', async () => {
   const { code, out } = await said(['calibrate', ...FILES, '--rule', 'nav2']);
   assert.equal(code, 0);
-  const { alphas } = JSON.parse((await said(['calibrate', ...FILES, '--rule', 'nav2', '--json'])).out);
+  const { alphas, bootstrap } = JSON.parse((await said(['calibrate', ...FILES, '--rule', 'nav2', '--json'])).out);
   for (const [i, alpha] of alphas.entries()) {
     const [, value] = out.match(new RegExp(`^    alpha${i + 1}: (\\S+)  # \\S+ to \\S+$`, 'm')) ?? [];
     assert.ok(Math.abs(Number(value) / alpha - 1) < 0.01, `${value} ${alpha}`);
     assert.match(out, new RegExp(`^alpha${i + 1}  +${value}  `, 'm'));
+    assert.ok(out.includes(`  # ${between(bootstrap[i])}\n`), `alpha${i + 1}`);
   }
-  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals\n {4}# with these errors removed: clockOffset 0\.1\d+; [^\n]+\n {4}# Heavy tails: [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
+  assert.match(out, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.25 m or 0\.2 rad of odometry\.csv and reference\.csv, 2026-01-02; 95 % intervals by bootstrap\n {4}# with these errors removed: clockOffset 0\.1\d+; [^\n]+\n {4}# Heavy tails: [^\n]+\n {4}robot_model_type: "nav2_amcl::DifferentialMotionModel"\n/m);
   for (const line of [/^odometry\.csv: \d+ of \d+ rows, /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m, /^held-out residuals inside of 95 % +\S+ % /m]) assert.match(out, line);
   const { out: byTable } = await said(['calibrate', ...FILES]);
   assert.match(byTable, /^the reference is taken to be exact; .* --position-deviation and --heading-deviation$/m);

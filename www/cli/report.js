@@ -162,11 +162,11 @@ const verdictOf = ({ doubts: { verdict, heldOut } }) => en.verdicts[/** @type {k
 
 /** @param {Result} result @returns {string[]} */
 function nav2Of({ calibration, fit, logs, date }) {
-  const { alphas, intervals, legs: { count }, doubts: { verdict }, systematic } = calibration;
+  const { alphas, intervals, bootstrap, legs: { count }, doubts: { verdict }, systematic } = calibration;
   const { model = 'odometry', rule = 'table', legs } = fit;
   const log = [...new Set(logs.map(({ name }) => name))].join(' and ');
   const doubt = verdict === 'fits' ? undefined : verdictOf(calibration);
-  const lines = nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, verdict, doubt, systematic }, en.nav2);
+  const lines = nav2Lines({ alphas, intervals, bootstrap, count, model, rule, legs, log, date, verdict, doubt, systematic }, en.nav2);
   return lines.length ? ['# nav2_params.yaml', ...lines] : ['nav2_params.yaml has no lines for the velocity model.'];
 }
 

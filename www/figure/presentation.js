@@ -75,6 +75,8 @@ export class Presentation extends Part {
     await this.host.requestFullscreen().catch(() => {});
     // It may have ended before that was granted.
     if (!this.#listening) this.#empty();
+    // Nothing else takes the focus while another figure has the screen.
+    else if (!this.host.matches(':focus-within')) this.#focus('.presenting button');
   }
 
   /** Leaves the screen, if the figure has it. */

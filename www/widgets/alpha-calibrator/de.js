@@ -185,7 +185,7 @@ export const de = {
     useless: 'weggelassen, aus dem Grund darüber',
     zero: (most) => `hier nicht von 0 zu unterscheiden, höchstens ${most}`,
     tooLarge: 'mehr als 1, was kein Roboter hat: siehe die Zweifel und die robuste Einstellung',
-    of: (legs, length, log, date) => `${parts(legs)} ${length}, ${log}, ${date}; 95-%-Intervalle`,
+    of: (legs, length, log, date) => `${parts(legs)} ${length}, ${log}, ${date}; 95-%-Intervalle nach dem Bootstrap`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,
     lasted: (duration) => `von ${duration} s`,
     inflated: (factor) => `alle mit ${factor} vervielfacht`,

@@ -184,7 +184,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     useless: 'left out, for the reason above',
     zero: (most) => `not told from 0 by this log, ${most} at most`,
     tooLarge: 'more than 1, which no robot has: look at the doubts, and the robust option',
-    of: (legs, length, log, date) => `${of(legs, 'leg')} ${length} of ${log}, ${date}; 95 % intervals`,
+    of: (legs, length, log, date) => `${of(legs, 'leg')} ${length} of ${log}, ${date}; 95 % intervals by bootstrap`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
     lasted: (duration) => `of ${duration} s`,
     inflated: (factor) => `all multiplied by ${factor}`,

@@ -5,7 +5,8 @@
  *
  * @typedef {object} Fitted
  * @property {(number | null)[]} alphas
- * @property {Interval[]} intervals
+ * @property {Interval[]} intervals by the likelihood, as the values are told by
+ * @property {Interval[]} bootstrap those that are told with them, which are right too where legs have something in common
  * @property {number} count of legs
  * @property {string} model
  * @property {string} rule
@@ -114,7 +115,7 @@ export const neededFor = (model, index) => (driverOf(model, index) === 'turn' ? 
  * @param {Words} say
  * @returns {string[]} none where Nav2 has no such model
  */
-export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, date, verdict, doubt, systematic, inflation = 1 }, say) {
+export function nav2Lines({ alphas, intervals, bootstrap, count, model, rule, legs, log, date, verdict, doubt, systematic, inflation = 1 }, say) {
   if (!Object.hasOwn(NAV2, model)) return [];
   const { distance, angle, duration } = legs;
   const notes = [
@@ -125,11 +126,11 @@ export function nav2Lines({ alphas, intervals, count, model, rule, legs, log, da
     ...(doubt ? [doubt] : []),
   ];
   const lines = alphas.map((alpha, i) => {
-    const ends = /** @type {Interval} */ (intervals[i]?.map((end) => inflation * end) ?? null);
+    const [interval, ends] = [intervals, bootstrap].map((all) => /** @type {Interval} */ (all[i]?.map((end) => inflation * end) ?? null));
     if (USELESS.includes(verdict)) return `# alpha${i + 1}: ${say.useless}`;
     if (alpha === null) return `# alpha${i + 1}: ${say.undetermined}`;
-    if (isZero(inflation * alpha, ends)) return `# alpha${i + 1}: ${say.zero(mostOf(ends))}`;
-    const value = fixed(inflation * alpha, ends);
+    if (isZero(inflation * alpha, interval)) return `# alpha${i + 1}: ${say.zero(mostOf(ends))}`;
+    const value = fixed(inflation * alpha, interval);
     return alpha > MOST ? `# alpha${i + 1}: ${value}, ${say.tooLarge}` : `alpha${i + 1}: ${double(value)}${ends ? `  # ${between(ends)}` : ''}`;
   });
   // A name may have lines of its own, which would end the comment.

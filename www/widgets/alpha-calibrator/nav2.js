@@ -19,10 +19,10 @@ import { legsOf } from './settings.js';
  */
 function yamlOf({ reading: { config, stats, legs: { count } }, logName }) {
   const { model, rule, inflation } = config;
-  const { alphas, intervals, systematic, doubts: { verdict, heldOut } } = stats;
+  const { alphas, intervals, bootstrap, systematic, doubts: { verdict, heldOut } } = stats;
   const doubt = verdict === 'fits' ? undefined : words.calibrator.verdicts[verdict](percent(heldOut.coverage));
   const date = new Date().toISOString().slice(0, 10);
-  const fitted = { alphas, intervals, count, model, rule, legs: legsOf(config), log: logName, date, verdict, doubt, systematic, inflation };
+  const fitted = { alphas, intervals, bootstrap, count, model, rule, legs: legsOf(config), log: logName, date, verdict, doubt, systematic, inflation };
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 

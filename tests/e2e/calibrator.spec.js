@@ -4,6 +4,7 @@ import { caption, fold, openCalibrator, rows, settled, stats } from './calibrato
 import { expectAccessible } from './axe.js';
 import { stateOf } from './element-support.js';
 import { STILL, frames, pixelsOf, test, unfold } from './support.js';
+import { between } from '../../www/widgets/alpha-calibrator/lines.js';
 
 /** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
 
@@ -292,11 +293,13 @@ test('a log of turns on the spot alone: no doubt has an interval without an end'
 test('the lines for Nav2 say what they are of', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await fold(widget, 'For Nav2').locator('summary').click();
-  const { alphas } = await stats(widget);
+  const { alphas, intervals, bootstrap } = await stats(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
   expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals by bootstrap\n/);
   expect(yaml).toContain('    robot_model_type: "nav2_amcl::DifferentialMotionModel"\n');
   alphas.forEach((alpha, i) => expect(yaml).toMatch(new RegExp(`^ {4}alpha${i + 1}: ${Number(alpha).toFixed(3).slice(0, -1)}\\d*  # [\\d.]+ to [\\d.]+$`, 'm')));
+  for (const pair of bootstrap) expect(yaml).toContain(`  # ${between(pair)}\n`);
+  expect(bootstrap.map(between)).not.toEqual(intervals.map(between));
   expect(yaml).toContain('    update_min_d: 0.3\n    update_min_a: 0.2\n');
   await widget.getByRole('radio', { name: 'omnidirectional' }).check();
   await settled(widget);

@@ -257,7 +257,7 @@ impl Profile<'_> {
             }
             // By what is near a point far away, all falls too far but the maximum itself.
             *moved = None;
-            value = bracket.between(true);
+            value = bracket.between(step % 3 == 2);
         }
         let near = moved.as_ref().unwrap_or(about);
         let (alphas, _) = self.beside(near, value);

@@ -118,6 +118,9 @@ pub const MANY: usize = size_of::<u128>();
 /// Each of them 1.
 const ONES: u128 = u128::from_ne_bytes([1; MANY]);
 
+/// Cells whose marks are made at once: those of millions would be a copy as large as the grid.
+pub const PIECE: usize = 1 << 16;
+
 /// Of the codes of many cells, a byte each: 1 where they are of this kind, and 0 elsewhere.
 fn marked(codes: u128, kind: Cell) -> u128 {
     // Two codes differ in one of their two bits.
@@ -202,11 +205,10 @@ impl OccupancyGrid {
         self.cells.iter().map(|code| Cell::ALL[usize::from(*code)])
     }
 
-    /// Of each cell 1 where it is of this kind and 0 elsewhere, as `cells`; None where memory does not suffice.
-    pub fn marks(&self, kind: Cell) -> Option<Vec<u8>> {
-        let mut marks = Vec::new();
-        marks.try_reserve_exact(self.cells.len()).ok()?;
-        marks.extend_from_slice(&self.cells);
+    /// Of at most [`PIECE`] cells from one on, as `cells`: 1 where they are of this kind and 0 elsewhere.
+    pub fn marks(&self, kind: Cell, from: usize) -> Vec<u8> {
+        let cells = self.cells.get(from..).unwrap_or_default();
+        let mut marks = cells[..cells.len().min(PIECE)].to_vec();
         let (many, rest) = marks.as_chunks_mut();
         for codes in many {
             *codes = marked(u128::from_ne_bytes(*codes), kind).to_ne_bytes();
@@ -214,7 +216,7 @@ impl OccupancyGrid {
         for code in rest {
             *code = marked(u128::from(*code), kind) as u8;
         }
-        Some(marks)
+        marks
     }
 
     /// Whether a point of the plane lies in a cell that is in a robot's way.

@@ -5,7 +5,8 @@ use super::held::Held;
 use super::maps::{read_map, read_plan};
 use super::pictures::{place_of, read_disc, read_grid, read_ramps, view_of};
 use super::values::{
-    Plain, bytes, doubles, float64_array, gathered, group_to_js, number_or_null, object, settings_to_js,
+    Plain, bytes, bytes_in_pieces, doubles, float64_array, gathered, group_to_js, number_or_null, object,
+    settings_to_js,
 };
 use crate::geom::segment::Segment;
 use crate::map::{Cell, Cost, FloorPlan, MAX_DRAWS, OccupancyGrid, Sampler, Wedged};
@@ -171,21 +172,25 @@ impl JsMapSqueeze {
     /// The cells that the walls of the plan outline; null for a plan of walls alone.
     #[wasm_bindgen(getter, unchecked_return_type = "Grid | null")]
     pub fn grid(&self) -> Result<JsValue, JsValue> {
-        let read = |grid: &OccupancyGrid| {
-            let (occupied, unknown) = (grid.marks(Cell::Occupied), grid.marks(Cell::Unknown));
-            (grid.size(), grid.resolution(), grid.origin(), occupied, unknown)
-        };
+        let read = |grid: &OccupancyGrid| (grid.size(), grid.resolution(), grid.origin());
         let grid = self.0.with(move |machine| machine.plan().grid().map(read));
-        let Some(([columns, rows], resolution, origin, occupied, unknown)) = grid else {
+        let Some(([columns, rows], resolution, origin)) = grid else {
             return Ok(JsValue::NULL);
+        };
+        let cells = |kind| {
+            bytes_in_pieces(columns * rows, |from| {
+                self.0
+                    .with(move |machine| machine.plan().grid().map(|grid| grid.marks(kind, from)))
+                    .unwrap_or_default()
+            })
         };
         object(&[
             ("columns", (columns as f64).into()),
             ("rows", (rows as f64).into()),
             ("resolution", resolution.into()),
             ("origin", float64_array(&[origin.x(), origin.y(), origin.theta()])?.into()),
-            ("occupied", bytes("grid", occupied)?.into()),
-            ("unknown", bytes("grid", unknown)?.into()),
+            ("occupied", cells(Cell::Occupied)?.into()),
+            ("unknown", cells(Cell::Unknown)?.into()),
         ])
     }
 

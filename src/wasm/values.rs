@@ -102,6 +102,19 @@ pub fn bytes(field: &str, items: Option<Vec<u8>>) -> Result<Uint8Array, JsValue>
     Ok(Bytes::of(&items)?.unchecked_into())
 }
 
+/// So many bytes, of which `piece` has the next ones from each place on: here there is no second copy of all of them.
+pub fn bytes_in_pieces(length: usize, piece: impl Fn(usize) -> Vec<u8>) -> Result<Uint8Array, JsValue> {
+    let bytes = Bytes::zeros(length)?;
+    let mut from = 0;
+    while from < length {
+        let next = piece(from);
+        bytes.set(&next, from)?;
+        // There is always one, and without one there would be no end.
+        from += next.len().max(1);
+    }
+    Ok(bytes.unchecked_into())
+}
+
 // Those of js-sys let what a failed allocation throws pass through Rust.
 #[wasm_bindgen]
 extern "C" {
@@ -119,6 +132,10 @@ extern "C" {
     type Bytes;
     #[wasm_bindgen(constructor, catch, js_class = "Uint8Array")]
     fn of(bytes: &[u8]) -> Result<Bytes, JsValue>;
+    #[wasm_bindgen(constructor, catch, js_class = "Uint8Array")]
+    fn zeros(length: usize) -> Result<Bytes, JsValue>;
+    #[wasm_bindgen(method, catch, js_class = "Uint8Array")]
+    fn set(this: &Bytes, bytes: &[u8], from: usize) -> Result<(), JsValue>;
 }
 
 /// A plain object. Its properties are defined, not assigned: what all objects inherit may have setters of the page's.

@@ -1,3 +1,4 @@
+import { expect } from '@playwright/test';
 import { cloudOn, expectRecorded, plain } from './figure-contract.js';
 import { STILL, frames, test, unfold } from './support.js';
 
@@ -157,4 +158,46 @@ test('what is rendered is what its parts say', async ({ page }) => {
   });
   lines.push(...failed.map(plain));
   expectRecorded('rendered', lines);
+});
+
+test('of a map and a place in another that are given before there is a figure, the map stays, whichever came last', async ({ page }) => {
+  await page.goto('/');
+  const maps = await page.evaluate(async () => {
+    const room = { name: 'room', bounds: [0, 0, 6, 4], walls: [[0, 0, 6, 0]] };
+    const found = [];
+    for (const order of [['map', 'preset'], ['preset', 'map']]) {
+      const figure = /** @type {any} */ (document.createElement('map-squeeze'));
+      const given = /** @type {Record<string, unknown>} */ ({ map: room, preset: 'corridor' });
+      for (const name of order) figure[name] = given[name];
+      const loaded = new Promise((resolve) => figure.addEventListener('load', resolve));
+      document.body.prepend(figure);
+      scrollTo(0, 0);
+      await loaded;
+      // What takes long is done for it.
+      found.push([figure.getState().map?.name, figure.preset]);
+      figure.remove();
+    }
+    return found;
+  });
+  expect(maps).toEqual([['room', null], ['room', null]]);
+});
+
+test('who turns away from a figure before its first picture comes back to all of it', async ({ page }) => {
+  await page.goto('/');
+  const controls = await page.evaluate(async () => {
+    const figure = /** @type {any} */ (document.createElement('banana-machine'));
+    const count = () => figure.renderRoot.querySelectorAll('[part=controls]').length;
+    const turned = new Promise((resolve) =>
+      figure.addEventListener('load', async () => {
+        const before = count();
+        figure.stage.sight(false);
+        await figure.updateComplete;
+        resolve([before, count()]);
+      }),
+    );
+    document.body.prepend(figure);
+    scrollTo(0, 0);
+    return turned;
+  });
+  expect(controls).toEqual([0, 1]);
 });

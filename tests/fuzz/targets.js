@@ -11,7 +11,7 @@ import { attributesOf, isSetting } from '../../www/figure/attributes.js';
 import { pack, unpack } from '../../www/figure/packing.js';
 import { settings } from '../../www/settings.js';
 import { LogError, readLog, topicsOf } from '../../www/widgets/alpha-calibrator/log/read.js';
-import { applyMap, mapData } from '../../www/widgets/map-squeeze/maps/data.js';
+import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.js';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { description, file, refusalOf } from '../node/map-support.js';
 import { SIGNATURE, chunk, header, pngOf, rasterOf } from '../png.js';
@@ -283,9 +283,9 @@ export const targets = {
       const { map = null, ...rest } = Object(state);
       // An element has looked at it already.
       delete rest.widget;
-      const before = mapData(squeeze, '');
+      const before = mapOf(squeeze, '');
       const taken = map === null || isTaken(() => enter(map));
-      if (!taken) assert.deepEqual(mapData(squeeze, ''), before);
+      if (!taken) assert.deepEqual(mapOf(squeeze, ''), before);
       const configured = isTaken(() => squeeze.configure(rest));
       squeeze.configure(machines[1].opening);
       return taken && configured;
@@ -309,13 +309,22 @@ export const targets = {
   },
 };
 
+/** The map that a machine has, as data. @param {InstanceType<typeof motion.MapSqueeze>} machine @param {string} name */
+function mapOf(machine, name) {
+  const job = mapData(machine, name, cellsOf(machine));
+  for (;;) {
+    const { done, value } = job.next();
+    if (done) return value;
+  }
+}
+
 /** States that links carry. */
 function states() {
   const machine = new motion.MapSqueeze({ samples: 1 });
   const { config } = machine;
   const plan = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
   machine.setGrid({ resolution: 0.5, origin: [0, 0, 0.5] }, Buffer.from('P5 3 2 255\n\0\xff\x80\0\xff\xff', 'latin1'));
-  const grid = mapData(machine, 'map.yaml');
+  const grid = mapOf(machine, 'map.yaml');
   machine.free();
   return [{ ...config, map: null }, { ...config, map: plan }, { widget: 'map-squeeze', samples: 1, map: grid }];
 }

@@ -12,7 +12,7 @@ import { isTrap } from './trap.js';
  * @typedef {Generator<number | typeof LONG, void>} Job a few milliseconds' work a step; how much of it is done, from 0 to 1
  */
 
-/** Of a job: its next step may take as long as a frame has, and is begun in the first half of one. */
+/** Of a job: its next step may take as long as a frame has, and is begun in the first quarter of one. */
 export const LONG = Symbol('long');
 
 /** Longest work in a frame, milliseconds: with the pictures, a touch is answered within 50. */
@@ -40,6 +40,8 @@ export class Settings extends Part {
   #begun = {};
   /** What is being done. @type {Job | undefined} */
   #job;
+  /** What was begun last: the machine gives it up for what comes next. @type {Job | undefined} */
+  #latest;
   /** What the machine in the making was made with, and the present one was not: it is wanted of that if the other is stopped. @type {Values} */
   #former = {};
   /** The machine that it is done with, where that is to take the place of the present one. @type {any} */
@@ -128,7 +130,8 @@ export class Settings extends Part {
    */
   assign(values) {
     this.host.runtime.attempt(() => {
-      this.settle();
+      if (this.#job && this.#job !== this.#latest) this.settle();
+      else this.#beginPending();
       this.#begin(values);
       this.#proceed(LONGEST_WORK);
       this.host.reflection.tell();
@@ -144,12 +147,15 @@ export class Settings extends Part {
    */
   settle(limit = Infinity) {
     if (limit === Infinity) this.#proceed(limit);
-    if (!this.#job && Object.keys(this.#pending).length > 0) {
-      const pending = this.#pending;
-      this.#pending = {};
-      this.host.runtime.tolerate(() => this.#begin(pending));
-    }
+    if (!this.#job) this.#beginPending();
     return this.#proceed(limit);
+  }
+
+  #beginPending() {
+    const pending = this.#pending;
+    if (Object.keys(pending).length === 0) return;
+    this.#pending = {};
+    this.host.runtime.tolerate(() => this.#begin(pending));
   }
 
   /** @param {Values} values */
@@ -159,7 +165,10 @@ export class Settings extends Part {
     // A machine that has all at once needs no slices.
     if (machine.begin) machine.begin(values);
     else machine.configure(values);
+    // What it was doing, it goes on with as it is to be now.
+    this.#job = undefined;
     this.work();
+    this.#latest = this.#job;
     Object.assign(this.#begun, values);
     this.stale = true;
   }
@@ -235,7 +244,7 @@ export class Settings extends Part {
       }
       if (!step.done) {
         if (step.value !== LONG) this.done = step.value;
-        if (performance.now() - began < (step.value === LONG ? limit / 2 : limit)) continue;
+        if (performance.now() - began < (step.value === LONG ? limit / 4 : limit)) continue;
         this.host.progress.tell();
         return false;
       }

@@ -3,6 +3,7 @@
  * only with the map, the view or the colours.
  */
 
+import { clamp } from '../ui/clamp.js';
 import { channels } from '../ui/theme.js';
 import { A_LINE, LONGEST_SIDE, STROKED, hiddenContext } from './canvas.js';
 
@@ -36,13 +37,21 @@ const ALIKE = 0.25;
 /** So few are stroked with every picture: to copy a layer takes longer. */
 const FEW_WALLS = 50;
 
+/** Cells of a picture beyond what its view shows, as a share of that: for a view that moves. */
+const BEYOND = 0.25;
+
+/**
+ * @typedef {Omit<Grid, 'unknown'> & { unknown?: Uint8Array }} Cells of a grid; without the unknown ones where there are none
+ *
+ * @typedef {number[]} Block of cells: the first column and row, and those after the last
+ */
+
 /** @typedef {Pick<Brush, 'view' | 'palette'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} Bare */
 
 export class WallLayer {
   #plan;
-  /** The grid, if its cells are drawn. @type {Grid | undefined} */
+  /** The grid, if its cells are drawn. @type {Cells | undefined} */
   #grid;
-  #hasUnknown;
   #width;
   /** By kinds of cells: the one that is drawn, and the one that is to be. @type {Record<string, { complete?: Mask, coming?: Mask }>} */
   #masks = {};
@@ -54,7 +63,7 @@ export class WallLayer {
 
   /**
    * @param {Plan} plan
-   * @param {Grid | null} grid the cells that the walls outline, if they do
+   * @param {Cells | null} grid the cells that the walls outline, if they do
    * @param {number} [width] of a wall that has none, CSS pixels
    */
   constructor(plan, grid, width = WALL) {
@@ -62,7 +71,6 @@ export class WallLayer {
     // Cells of a longer grid are outlined only.
     if (grid && Math.max(grid.columns, grid.rows) <= LONGEST_SIDE) this.#grid = grid;
     this.#width = grid ? OUTLINE : width;
-    this.#hasUnknown = grid?.unknown.includes(1) ?? false;
     this.solid = grid !== null;
   }
 
@@ -82,7 +90,7 @@ export class WallLayer {
     const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
     let coming = false;
     if (wanted !== this.#shown) {
-      const unknown = this.#grid && this.#hasUnknown ? this.#mask('unknown', palette.muted, brush) : undefined;
+      const unknown = this.#grid?.unknown && this.#mask('unknown', palette.muted, brush);
       const occupied = this.#grid && this.#mask('occupied', palette.truth, brush);
       coming = Object.values(this.#masks).some((mask) => mask.coming);
       this.#shown = coming ? '' : wanted;
@@ -131,16 +139,17 @@ export class WallLayer {
    * @param {Brush} brush
    */
   #mask(kind, colour, { view, ratio, piecemeal }) {
-    const grid = /** @type {Grid} */ (this.#grid);
+    const grid = /** @type {Cells} */ (this.#grid);
     // What is smaller than a pixel is not drawn apart: of a map of millions of cells a view shows thousands.
     // By powers of two, or every step of a view on its way would want another one.
     const cells = Math.min(1 / (grid.resolution * view.scaleX * ratio), LONGEST_SIDE);
     const side = 2 ** Math.max(0, Math.floor(Math.log2(cells)));
-    const isRight = (/** @type {Mask | undefined} */ mask) => mask?.colour === colour && mask.side === side;
+    const seen = cellsIn(view, grid, 1, 0);
+    const isRight = (/** @type {Mask | undefined} */ mask) => mask?.colour === colour && mask.side === side && mask.covers(seen);
     let { complete, coming } = this.#masks[kind] ?? {};
     if (isRight(complete)) coming = undefined;
     else {
-      if (!isRight(coming)) coming = new Mask(grid, grid[kind], colour, side);
+      if (!isRight(coming)) coming = new Mask(grid, /** @type {Uint8Array} */ (grid[kind]), colour, side, cellsIn(view, grid, side, BEYOND));
       // One after the other.
       if (kind === 'unknown' || !this.#masks.unknown?.coming) coming?.grow(piecemeal ? COUNTING : Infinity);
       if (coming?.complete) [complete, coming] = [coming, undefined];
@@ -202,23 +211,31 @@ class Mask {
   canvas;
   colour;
   side;
+  block;
   #cells;
   #columns;
   /** The first row of pixels that is not drawn yet. */
   #row = 0;
 
   /**
-   * @param {Grid} grid
+   * @param {Cells} grid
    * @param {Uint8Array} cells 1 where they are
    * @param {string} colour
    * @param {number} side of the square, in cells
+   * @param {Block} block of them that are in it, from a multiple of that on
    */
-  constructor({ columns, rows }, cells, colour, side) {
+  constructor({ columns }, cells, colour, side, block) {
     this.colour = colour;
     this.side = side;
+    this.block = block;
     this.#cells = cells;
     this.#columns = columns;
-    this.canvas = new OffscreenCanvas(Math.ceil(columns / side), Math.ceil(rows / side));
+    this.canvas = new OffscreenCanvas(Math.ceil((block[2] - block[0]) / side), Math.ceil((block[3] - block[1]) / side));
+  }
+
+  /** Whether all these cells are in it. @param {Block} cells */
+  covers(cells) {
+    return this.block.every((end, i) => (i < 2 ? end <= cells[i] : end >= cells[i]));
   }
 
   /** Whether all of it is drawn. */
@@ -236,8 +253,9 @@ class Mask {
   /** Some rows of pixels. */
   #some() {
     const [cells, columns, side] = [this.#cells, this.#columns, this.side];
+    const [left, bottom, right, top] = this.block;
     const { width, height } = this.canvas;
-    const rows = Math.min(height - this.#row, Math.ceil(COUNTED / (columns * side)));
+    const rows = Math.min(height - this.#row, Math.ceil(COUNTED / ((right - left) * side)));
     const image = new ImageData(width, rows);
     const pixels = new Uint32Array(image.data.buffer);
     const [colour] = new Uint32Array(Uint8Array.of(...channels(this.colour), 0).buffer);
@@ -245,10 +263,11 @@ class Mask {
     const counts = new Uint32Array(width);
     for (let row = 0; row < rows; row++) {
       counts.fill(0);
-      const from = (this.#row + row) * side * columns;
-      const last = Math.min(from + side * columns, cells.length);
-      for (let end = from + columns; end <= last; end += columns) {
-        for (let i = end - columns, pixel = 0; i < end; pixel++) {
+      const first = bottom + (this.#row + row) * side;
+      const last = Math.min(first + side, top);
+      for (let at = first; at < last; at++) {
+        const end = at * columns + right;
+        for (let i = at * columns + left, pixel = 0; i < end; pixel++) {
           let count = 0;
           for (const next = Math.min(i + side, end); i < next; i++) count += cells[i];
           counts[pixel] += count;
@@ -283,20 +302,46 @@ function hatch(context, { width, height }, colour) {
 }
 
 /**
+ * The cells that a view shows, in whole squares, of which there is always one.
+ *
+ * @param {View} view
+ * @param {Cells} grid
+ * @param {number} side of a square, in cells
+ * @param {number} beyond as a share of what it shows: so much more, on each side
+ * @returns {Block}
+ */
+function cellsIn({ extent: { xMin, xMax, yMin, yMax } }, { columns, rows, resolution, origin: [x, y, yaw] }, side, beyond) {
+  const [along, up] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
+  const corners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * along + dy * up, dy * along - dx * up]));
+  const ends = [columns, rows].map((count, i) => {
+    const all = corners.map((corner) => clamp(corner[i], 0, count));
+    const [from, to] = [Math.min(...all), Math.max(...all)];
+    const more = beyond * (to - from);
+    return [Math.max(0, Math.ceil((from - more) / side) - 1) * side, Math.min(count, Math.floor((to + more) / side + 1) * side)];
+  });
+  return [0, 1].flatMap((end) => ends.map((each) => each[end]));
+}
+
+/** Where the corner of a cell is, m. @param {Cells} grid @param {number} column @param {number} row */
+export function cornerOf({ resolution, origin: [x, y, yaw] }, column, row) {
+  const [along, up] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
+  return [x + column * along - row * up, y + column * up + row * along];
+}
+
+/**
  * @param {OffscreenCanvasRenderingContext2D} context
  * @param {View} view
- * @param {Grid} grid
+ * @param {Cells} grid
  * @param {Mask} mask
  */
-function fillCells(context, view, grid, { canvas, side }) {
-  const [x, y, yaw] = grid.origin;
-  const [along, up] = [grid.resolution * Math.cos(yaw), grid.resolution * Math.sin(yaw)];
+function fillCells(context, view, grid, { canvas, side, block }) {
   /** Where a corner of a cell is drawn. */
-  const corner = (/** @type {number} */ column, /** @type {number} */ row) => [
-    view.toPixelX(x + column * along - row * up),
-    view.toPixelY(y + column * up + row * along),
-  ];
-  const [from, right, above] = [corner(0, 0), corner(1, 0), corner(0, 1)];
+  const corner = (/** @type {number} */ column, /** @type {number} */ row) => {
+    const [x, y] = cornerOf(grid, column, row);
+    return [view.toPixelX(x), view.toPixelY(y)];
+  };
+  const [left, bottom] = block;
+  const [from, right, above] = [corner(left, bottom), corner(left + 1, bottom), corner(left, bottom + 1)];
   context.save();
   context.transform(
     right[0] - from[0],

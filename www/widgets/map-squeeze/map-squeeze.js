@@ -14,7 +14,7 @@ import { fold } from '../../ui/fold.js';
 import { PoseHandles } from '../shared/pose-handles.js';
 import { judgeControls, motionControls, ownMap, placeControls, unknownChoice, viewChoice } from './controls.js';
 import { CostMeter } from './cost.js';
-import { applyMap, mapData } from './maps/data.js';
+import { applyMap, cellsOf, mapData } from './maps/data.js';
 import { FOLD, MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
@@ -25,6 +25,7 @@ import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
 
 /**
  * @import { Job } from '../../figure/settings.js'
+ * @import { Cells } from '../../scene/walls.js'
  * @import { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts'
  * @import { OwnMap } from './maps/files.js'
  * @import { Reading } from './reading.js'
@@ -60,7 +61,7 @@ export class MapSqueezeElement extends FigureElement {
   });
   /** What unknown cells are in the map of the picture. */
   #unknown = '';
-  /** The grid of the machine that was asked for it last. @type {{ of: Machine, grid: Machine['grid'] } | undefined} */
+  /** The grid of the machine that was asked for it last. @type {{ of: Machine, grid: Cells | null } | undefined} */
   #grid;
   /** The machine in the making of a map that the page gave. @type {Machine | undefined} */
   #given;
@@ -100,16 +101,14 @@ export class MapSqueezeElement extends FigureElement {
    */
   *#mapOf(machine, name) {
     yield LONG;
-    const grid = this.#gridOf(machine);
-    yield LONG;
-    const data = mapData(machine, name, grid);
+    const data = yield* mapData(machine, name, this.#gridOf(machine));
     yield LONG;
     return data;
   }
 
-  /** The grid of a machine: to ask for it takes long where it is large. @param {Machine} machine */
+  /** @param {Machine} machine */
   #gridOf(machine) {
-    if (this.#grid?.of !== machine) this.#grid = { of: machine, grid: machine.grid };
+    if (this.#grid?.of !== machine) this.#grid = { of: machine, grid: cellsOf(machine) };
     return this.#grid.grid;
   }
 
@@ -322,8 +321,10 @@ export class MapSqueezeElement extends FigureElement {
   *#entering(machine, reading, { name, start }, arrived) {
     yield* reading;
     yield LONG;
+    const isGrid = this.#gridOf(machine) !== null;
+    yield LONG;
     if (start) machine.configure({ start });
-    else if (!machine.startFree || this.#gridOf(machine)) machine.configure({ start: this.#putInTheOpen(machine) });
+    else if (isGrid || !machine.startFree) machine.configure({ start: this.#putInTheOpen(machine) });
     machine.beginToGrow(this.cloud.asked);
     yield 0;
     yield* advancing(machine);

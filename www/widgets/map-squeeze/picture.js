@@ -5,16 +5,17 @@ import { clipped, drawAxes } from '../../scene/axes.js';
 import { densityRamp, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
-import { WallLayer } from '../../scene/walls.js';
+import { WallLayer, cornerOf } from '../../scene/walls.js';
 import { clamp } from '../../ui/clamp.js';
 import { COMMAND_DASH } from '../shared/command.js';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
 import { keptWords } from './words.js';
 
 /**
- * @import { Grid, MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
+ * @import { MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Extent } from '../../scene/view.js'
+ * @import { Cells } from '../../scene/walls.js'
  * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
@@ -73,16 +74,16 @@ export class FloorPicture extends Picture {
 
   /**
    * @param {Plan} plan
-   * @param {Grid | null} grid
+   * @param {Cells | null} grid
    * @param {FloorPicture} [former] the picture whose place it takes: where the map is as large, the views stay where they are
    */
   constructor(plan, grid, former) {
     super('plane', new View());
     this.plan = plan;
-    this.hasUnknown = grid?.unknown.includes(1) ?? false;
+    this.hasUnknown = grid?.unknown !== undefined;
     this.#walls = new WallLayer(plan, grid);
     this.#overview = new WallLayer(plan, grid, OVERVIEW.wall);
-    this.#known = grid && this.hasUnknown ? knownCorners(grid) : plan.walls;
+    this.#known = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
     if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
       this.#near = former.#near;
       this.#whole = former.#whole;
@@ -255,8 +256,14 @@ function freeCorner(view, width, height, commanded) {
   return corner;
 }
 
-/** The corners of the box of cells of which a grid says something, as x, y pairs. @param {Grid} grid */
-function knownCorners({ columns, unknown, resolution, origin: [x, y, yaw] }) {
+/**
+ * The corners of the box of cells of which a grid says something, as x, y pairs.
+ *
+ * @param {Cells} grid
+ * @param {Uint8Array} unknown
+ */
+function knownCorners(grid, unknown) {
+  const { columns } = grid;
   const box = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
   for (let row = 0; row * columns < unknown.length; row++) {
     const cells = unknown.subarray(row * columns, (row + 1) * columns);
@@ -269,9 +276,7 @@ function knownCorners({ columns, unknown, resolution, origin: [x, y, yaw] }) {
   }
   if (box.left > box.right) return [];
   const { left, bottom, right, top } = box;
-  const [along, up] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
-  const corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
-  return corners.flatMap(([column, row]) => [x + column * along - row * up, y + column * up + row * along]);
+  return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cornerOf(grid, column, row)));
 }
 
 /**

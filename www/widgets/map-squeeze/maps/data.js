@@ -2,10 +2,12 @@
 
 import { object, refusal, renamed, wholeNumber } from '../../../figure/checks.js';
 import { fromBase64, toBase64 } from '../../../figure/packing.js';
+import { LONG } from '../../../figure/settings.js';
 import { limits } from '../../../settings.js';
 
 /**
  * @import { Job } from '../../../figure/settings.js'
+ * @import { Cells } from '../../../scene/walls.js'
  * @import { MapData, MapSqueeze } from '../../../types.d.ts'
  */
 
@@ -35,19 +37,27 @@ const SHADED = 200_000;
 /** Times four cells, all four bits are the highest of 28, in their order. */
 const GATHER = 0x08040201;
 
+/** The grid of a machine, if it has one: to ask for it takes long where it is large. @param {MapSqueeze} machine @returns {Cells | null} */
+export function cellsOf({ grid }) {
+  return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
+}
+
 /**
  * The map that a machine has, frozen: a page may look at what an element has, and changes that by another one.
  *
  * @param {MapSqueeze} machine
  * @param {string} name
- * @param {MapSqueeze['grid']} [grid] of the machine, by who has it: to ask for it takes long where it is large
- * @returns {MapData}
+ * @param {Cells | null} grid of the machine
+ * @returns {Generator<typeof LONG, MapData>}
  */
-export function mapData(machine, name, grid = machine.grid) {
+export function* mapData(machine, name, grid) {
   if (grid) {
-    const { columns, rows, resolution, origin, occupied, unknown } = grid;
-    const data = { name, columns, rows, resolution, origin: frozen([...origin]), occupied: packBits(occupied) };
-    return frozen(unknown.includes(1) ? { ...data, unknown: packBits(unknown) } : data);
+    const { columns, rows, resolution, origin } = grid;
+    yield LONG;
+    const occupied = packBits(grid.occupied);
+    yield LONG;
+    const unknown = grid.unknown && { unknown: packBits(grid.unknown) };
+    return frozen({ name, columns, rows, resolution, origin: frozen([...origin]), occupied, ...unknown });
   }
   const { bounds, walls } = machine.plan;
   const listed = [];

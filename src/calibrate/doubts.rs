@@ -8,6 +8,7 @@ use super::profile::Search;
 use super::systematic::{Square, inverted};
 use super::trajectory::sort;
 use crate::noise::NoiseKind;
+use std::f64::consts::FRAC_PI_2;
 
 /// What there is to doubt about a fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,8 +71,10 @@ pub enum Verdict {
     LongLegs,
     /// The reference errs less than is stated: residuals are smaller than its error alone would make them, and the α's with them.
     Overstated,
-    /// Neighbouring legs have something in common: they err alike, or, where no tails explain it, opposite.
+    /// Neighbouring legs err alike.
     Correlated,
+    /// The reference errs by more than is stated: what it errs by where two legs meet is in both, with opposite signs.
+    Understated,
     /// Residuals are far out more often than the noise explains.
     HeavyTails,
     /// Held-out residuals are outside of their intervals more often than they should be.
@@ -107,6 +110,9 @@ const FACTORS: i32 = 12;
 
 /// A correlation that is too small to matter for a filter, however sure it is.
 const SLIGHT_CORRELATION: f64 = 0.1;
+
+/// And so many times the limit that 19 of 20 logs are below: three kinds of residuals are asked.
+const SURE_CORRELATION: f64 = 1.5;
 
 /// So much kurtosis more than the noise has does no harm, however sure it is.
 const SLIGHT_KURTOSIS: f64 = 0.5;
@@ -340,18 +346,15 @@ pub(super) fn doubts(
         worst.truncate(WORST);
     }
     let held_out = halves.held_out();
-    // What the reference errs by where two legs meet is in both, with opposite signs.
-    let shared = [0, 1, 2].map(|k| {
-        let shares = judged
+    let is_understated = (0..3).any(|k| {
+        let of_kind: Vec<f64> = standardized.iter().map(|leg| leg[k]).collect();
+        let stated = judged
             .iter()
             .zip(observations)
             .map(|(leg, observation)| observation.floors[k] / (leg.deviations[k] * leg.deviations[k]));
-        let (count, sum) = shares
-            .filter(|share| share.is_finite())
-            .fold((0.0, 0.0), |(n, sum), share| (n + 1.0, sum + share));
-        if count > 0.0 { -0.5 * sum / count } else { 0.0 }
+        turn_back(pairs(&of_kind, neighbours), stated.filter(|share| share.is_finite()))
     });
-    let verdict = verdict(observations.len(), &kinds, shared, &held_out);
+    let verdict = verdict(observations.len(), &kinds, is_understated, &held_out);
     Doubts { kinds, held_out, worst, verdict }
 }
 
@@ -389,12 +392,8 @@ fn kind_doubts(
         .sum::<f64>()
         / count as f64;
     let square = halves.iter().map(|[_, square, _]| square).sum::<f64>() / count as f64;
-    let pairs = || {
-        let both = standardized.windows(2).zip(neighbours.get(1..).unwrap_or(&[]));
-        both.filter(|(pair, next)| **next && pair.iter().all(|z| z.is_finite()))
-            .map(|(pair, _)| pair[0] * pair[1])
-    };
-    let neighbouring = pairs().count() as f64;
+    let neighbouring = pairs(standardized, neighbours).count() as f64;
+    let products: f64 = pairs(standardized, neighbours).map(|[one, next]| one * next).sum();
     let at = |share: f64| {
         let place = share * (count as f64 - 1.0);
         let below = place as usize;
@@ -406,30 +405,51 @@ fn kind_doubts(
         count,
         kurtosis,
         kurtosis_expected,
-        autocorrelation: pairs().sum::<f64>() / neighbouring / square,
+        autocorrelation: products / neighbouring / square,
         autocorrelation_limit: if neighbouring > 0.0 { NORMAL_95 / neighbouring.sqrt() } else { f64::NAN },
         quantiles: if count > 0 { (1..100).map(|i| at(f64::from(i) / 100.0)).collect() } else { Vec::new() },
     }
 }
 
-/// `shared` is what the autocorrelation of each kind may go down to because of the reference's stated error.
-fn verdict(legs: usize, kinds: &[KindDoubts], shared: [f64; 3], held_out: &HeldOut) -> Verdict {
+/// Residuals of legs of which the next began where the one before ended.
+fn pairs<'a>(standardized: &'a [f64], neighbours: &'a [bool]) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let both = standardized.windows(2).zip(neighbours.get(1..).unwrap_or(&[]));
+    both.filter(|(pair, next)| **next && pair.iter().all(|z| z.is_finite()))
+        .map(|(pair, _)| [pair[0], pair[1]])
+}
+
+/// Whether neighbours are opposite by more than a reference's stated error makes them, which is these shares of their variances and half of
+/// the correlation. By their signs, which agree in ½ + asin(ρ)/π of normal pairs: a reference that jumps now and then makes few of them opposite,
+/// however far it jumps.
+fn turn_back(pairs: impl Iterator<Item = [f64; 2]>, stated: impl Iterator<Item = f64>) -> bool {
+    let (count, sum) =
+        pairs.fold((0.0, 0.0), |(n, sum), [one, next]| (n + 1.0, sum + one.signum() * next.signum()));
+    let (shares, shared) = stated.fold((0.0, 0.0), |(n, sum), share| (n + 1.0, sum + share));
+    let correlation = libm::sin(FRAC_PI_2 * sum / count);
+    // Of none there is nothing to tell.
+    correlation < -0.5 * shared / f64::max(shares, 1.0) - most(FRAC_PI_2 * NORMAL_95 / count.sqrt())
+}
+
+/// A correlation that matters, of which this is beyond in one of twenty logs by chance.
+fn most(limit: f64) -> f64 {
+    SLIGHT_CORRELATION.max(SURE_CORRELATION * limit)
+}
+
+fn verdict(legs: usize, kinds: &[KindDoubts], is_understated: bool, held_out: &HeldOut) -> Verdict {
     // Of three kinds one is beyond two deviations by chance in every seventh log, beyond three in every hundredth.
     let tails = |kind: &KindDoubts| {
         kind.kurtosis - kind.kurtosis_expected > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
     };
-    let most = |kind: &KindDoubts| SLIGHT_CORRELATION.max(1.5 * kind.autocorrelation_limit);
-    let alike = |kind: &KindDoubts| kind.autocorrelation > most(kind);
-    let opposite = |(kind, shared): (&KindDoubts, f64)| kind.autocorrelation < shared - most(kind);
+    let alike = |kind: &KindDoubts| kind.autocorrelation > most(kind.autocorrelation_limit);
     let HeldOut { count, coverage, coverage_interval: [from, to], .. } = *held_out;
     match () {
         // Legs that tell nothing are none.
         _ if legs < FEW || count < FEW / 2 => Verdict::FewLegs,
-        // What is systematic makes tails too, for it is large on some legs and small on others, but no tail makes neighbours alike. A
-        // reference that jumps makes them opposite, and then the tails are what to mend.
+        // What is systematic makes tails too, for it is large on some legs and small on others, and so does what a reference errs by, but no tail
+        // makes neighbours alike, or opposite.
         _ if kinds.iter().any(alike) => Verdict::Correlated,
+        _ if is_understated => Verdict::Understated,
         _ if kinds.iter().any(tails) => Verdict::HeavyTails,
-        _ if kinds.iter().zip(shared).any(opposite) => Verdict::Correlated,
         _ if coverage < 0.95 - (BEYOND * (0.95 - from)).max(SLIGHT_COVERAGE) => Verdict::Overconfident,
         _ if coverage > 0.95 + (BEYOND * (to - 0.95)).max(SLIGHT_COVERAGE) => Verdict::Lazy,
         _ => Verdict::Fits,

@@ -74,7 +74,7 @@ export interface Calibration {
     squaredError: { mean: number; interval: Interval };
     /** Places of the legs that are furthest from what was expected, the worst first. */
     worst: number[];
-    verdict: 'few-legs' | 'unrelated' | 'long-legs' | 'overstated' | 'heavy-tails' | 'correlated' | 'overconfident' | 'lazy' | 'fits';
+    verdict: 'few-legs' | 'unrelated' | 'long-legs' | 'overstated' | 'correlated' | 'understated' | 'heavy-tails' | 'overconfident' | 'lazy' | 'fits';
   };
   /** What α's larger by a factor make of the held-out half: the share inside of 95 % intervals, and nats a leg. */
   inflation: { factors: Float64Array; coverage: Float64Array; logLikelihood: Float64Array };
@@ -272,6 +272,7 @@ fn verdict_word(verdict: Verdict) -> &'static str {
         Verdict::Unrelated => "unrelated",
         Verdict::LongLegs => "long-legs",
         Verdict::Overstated => "overstated",
+        Verdict::Understated => "understated",
         Verdict::HeavyTails => "heavy-tails",
         Verdict::Correlated => "correlated",
         Verdict::Overconfident => "overconfident",

@@ -13,4 +13,5 @@ mod simulated;
 mod sparse;
 mod standing;
 mod steps;
+mod understated;
 mod undetermined;

@@ -15,7 +15,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 const STATED: ReferenceError = ReferenceError { position: 0.02, heading: 0.02 };
 
 /// Each row independently off.
-fn off_by(error: ReferenceError, trajectory: &Trajectory, seed: u64) -> Trajectory {
+pub fn off_by(error: ReferenceError, trajectory: &Trajectory, seed: u64) -> Trajectory {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [place, heading] = [error.position, error.heading].map(|deviation| Variance(deviation * deviation));
     let mut off = |variance| NoiseKind::Normal.sample(variance, &mut rng);

@@ -11,6 +11,7 @@ import { load } from '../../dist/core.js';
 import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.js';
 import { run } from '../../www/cli/run.js';
+import { de } from '../../www/widgets/alpha-calibrator/de.js';
 import { en } from '../../www/widgets/alpha-calibrator/en.js';
 import { between } from '../../www/widgets/alpha-calibrator/lines.js';
 import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
@@ -193,7 +194,10 @@ test('tables with decimal commas are refused by a sentence that says what is exp
 
 test('each verdict has its sentence, and stands beside the lines for Nav2 where there is something to doubt', async () => {
   const motion = /** @type {any} */ (await load());
-  for (const verdict of /** @type {(keyof typeof en.verdicts)[]} */ (Object.keys(en.verdicts))) {
+  const declared = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/verdict: ('.*');/)?.[1];
+  const known = /** @type {(keyof typeof en.verdicts)[]} */ (declared?.split(' | ').map((each) => each.slice(1, -1)));
+  for (const { verdicts } of [en, de]) assert.deepEqual(Object.keys(verdicts).sort(), known.toSorted());
+  for (const verdict of known) {
     const calibrate = (/** @type {any} */ options) => {
       const told = motion.calibrate(options);
       return { ...told, doubts: { ...told.doubts, verdict } };

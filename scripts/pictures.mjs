@@ -13,7 +13,7 @@ const DIRECTORY = join(ROOT, 'doc/calibration');
 /** As wide as those of README. */
 const VIEW = { viewport: { width: 1000, height: 900 }, reducedMotion: /** @type {const} */ ('reduce') };
 
-/** Around a fold, pixels: letters of its charts are wider than it. */
+/** On both sides of a fold, pixels: letters of its charts are wider than it. */
 const ROOM = 8;
 
 /** Each with the attributes of the figure, the fold that it is of, and what is chosen there. @type {Record<string, [attributes: string, fold: string, choice?: string]>} */
@@ -48,7 +48,7 @@ async function take() {
       await page.locator('alpha-calibrator').evaluate((element) => /** @type {any} */ (element).stats);
       await page.evaluate('new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(drawn))))');
       const { x, y, width, height } = /** @type {NonNullable<Awaited<ReturnType<typeof details.boundingBox>>>} */ (await details.boundingBox());
-      const clip = { x: x - ROOM, y: y - ROOM, width: width + 2 * ROOM, height: height + 2 * ROOM };
+      const clip = { x: x - ROOM, y, width: width + 2 * ROOM, height };
       await page.screenshot({ path: join(DIRECTORY, `${name}.png`), clip, fullPage: true });
       await page.close();
     }

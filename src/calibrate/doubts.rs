@@ -7,6 +7,7 @@ use super::model::{Model, Observation};
 use super::profile::Search;
 use super::systematic::{Square, inverted};
 use super::trajectory::sort;
+use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
 use std::f64::consts::FRAC_PI_2;
 
@@ -346,15 +347,11 @@ pub(super) fn doubts(
         worst.truncate(WORST);
     }
     let held_out = halves.held_out();
-    let is_understated = (0..3).any(|k| {
-        let of_kind: Vec<f64> = standardized.iter().map(|leg| leg[k]).collect();
-        let stated = judged
-            .iter()
-            .zip(observations)
-            .map(|(leg, observation)| observation.floors[k] / (leg.deviations[k] * leg.deviations[k]));
-        turn_back(pairs(&of_kind, neighbours), stated.filter(|share| share.is_finite()))
-    });
-    let verdict = verdict(observations.len(), &kinds, is_understated, &held_out);
+    let meetings: Vec<Meeting> = met_in(model)
+        .iter()
+        .map(|ends| Meeting::of(*ends, observations, judged, &standardized, neighbours))
+        .collect();
+    let verdict = verdict(observations.len(), &kinds, &meetings, &held_out);
     Doubts { kinds, held_out, worst, verdict }
 }
 
@@ -392,8 +389,8 @@ fn kind_doubts(
         .sum::<f64>()
         / count as f64;
     let square = halves.iter().map(|[_, square, _]| square).sum::<f64>() / count as f64;
-    let neighbouring = pairs(standardized, neighbours).count() as f64;
-    let products: f64 = pairs(standardized, neighbours).map(|[one, next]| one * next).sum();
+    let (neighbouring, products) = pairs(standardized, standardized, neighbours)
+        .fold((0.0, 0.0), |(n, sum), [one, next]| (n + 1.0, sum + one * next));
     let at = |share: f64| {
         let place = share * (count as f64 - 1.0);
         let below = place as usize;
@@ -411,23 +408,95 @@ fn kind_doubts(
     }
 }
 
-/// Residuals of legs of which the next began where the one before ended.
-fn pairs<'a>(standardized: &'a [f64], neighbours: &'a [bool]) -> impl Iterator<Item = [f64; 2]> + 'a {
-    let both = standardized.windows(2).zip(neighbours.get(1..).unwrap_or(&[]));
-    both.filter(|(pair, next)| **next && pair.iter().all(|z| z.is_finite()))
-        .map(|(pair, _)| [pair[0], pair[1]])
+/// Residuals of legs, each with one of the next leg, where that began where it ended.
+fn pairs<'a>(
+    ends: &'a [f64],
+    begins: &'a [f64],
+    neighbours: &'a [bool],
+) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let met = ends.iter().zip(begins.iter().zip(neighbours).skip(1));
+    met.map(|(end, (begin, next))| ([*end, *begin], *next))
+        .filter(|(pair, next)| *next && pair.iter().all(|z| z.is_finite()))
+        .map(|(pair, _)| pair)
 }
 
-/// Whether neighbours are opposite by more than a reference's stated error makes them, which is these shares of their variances and half of
-/// the correlation. By their signs, which agree in ½ + asin(ρ)/π of normal pairs: a reference that jumps now and then makes few of them opposite,
-/// however far it jumps.
-fn turn_back(pairs: impl Iterator<Item = [f64; 2]>, stated: impl Iterator<Item = f64>) -> bool {
-    let (count, sum) =
-        pairs.fold((0.0, 0.0), |(n, sum), [one, next]| (n + 1.0, sum + one.signum() * next.signum()));
-    let (shares, shared) = stated.fold((0.0, 0.0), |(n, sum), share| (n + 1.0, sum + share));
-    let correlation = libm::sin(FRAC_PI_2 * sum / count);
-    // Of none there is nothing to tell.
-    correlation < -0.5 * shared / f64::max(shares, 1.0) - most(FRAC_PI_2 * NORMAL_95 / count.sqrt())
+/// The kinds of residuals of a leg and of the next one that hold what the reference errs by between them: each kind itself, and where a leg has two
+/// rotations the second and the first, which hold its heading.
+fn met_in(model: Model) -> &'static [[usize; 2]] {
+    const ALL: [[usize; 2]; 4] = [[0, 0], [1, 1], [2, 2], [2, 0]];
+    match model {
+        Model::Odometry(OdometryRule::Omni) | Model::Velocity => &ALL[..3],
+        Model::Odometry(_) => &ALL,
+    }
+}
+
+/// A kind of residuals and one of the legs that follow, both of which hold what the reference errs by where two legs meet, with opposite signs.
+#[derive(Clone, Copy, Debug)]
+struct Meeting {
+    correlation: f64,
+    /// That of normal residuals whose signs agree so often, in ½ + asin(ρ)/π of pairs: a few that are far out do not decide on it.
+    by_signs: f64,
+    /// Whether it is of one kind.
+    of_one: bool,
+    /// What the reference's stated error makes of it.
+    stated: f64,
+    /// Within this is the correlation in 95 of 100 logs of which the model is true and nothing is stated.
+    limit: f64,
+}
+
+impl Meeting {
+    fn of(
+        [ended, begun]: [usize; 2],
+        observations: &[Observation],
+        judged: &[Judged],
+        standardized: &[[f64; 3]],
+        neighbours: &[bool],
+    ) -> Self {
+        let [ends, begins] =
+            [ended, begun].map(|k| standardized.iter().map(|leg| leg[k]).collect::<Vec<_>>());
+        let square = |of: &[f64]| {
+            let (count, sum) =
+                of.iter().filter(|z| z.is_finite()).fold((0.0, 0.0), |(n, sum), z| (n + 1.0, sum + z * z));
+            sum / count
+        };
+        let (count, products, signs) =
+            pairs(&ends, &begins, neighbours).fold((0.0, 0.0, 0.0), |(n, products, signs), [one, next]| {
+                (n + 1.0, products + one * next, signs + one.signum() * next.signum())
+            });
+        // Of a kind by itself both ends of a leg are in a residual, of two kinds one of each.
+        let most = if ended == begun { 0.5 } else { 1.0 };
+        let shares = judged.iter().zip(observations).map(|(leg, observation)| {
+            let [one, other] =
+                [ended, begun].map(|k| observation.floors[k] / (leg.deviations[k] * leg.deviations[k]));
+            (one * other).sqrt()
+        });
+        let (told, shared) = shares
+            .filter(|share| share.is_finite())
+            .fold((0.0, 0.0), |(n, sum), share| (n + 1.0, sum + share));
+        Self {
+            correlation: products / count / (square(&ends) * square(&begins)).sqrt(),
+            by_signs: libm::sin(FRAC_PI_2 * signs / count),
+            of_one: ended == begun,
+            stated: -most * shared / f64::max(told, 1.0),
+            limit: NORMAL_95 / count.sqrt(),
+        }
+    }
+
+    /// Whether its residuals err alike, and not a few of them alone.
+    fn is_alike(&self) -> bool {
+        self.of_one && self.correlation > most(self.limit) && 2.0 * self.by_signs > self.correlation
+    }
+
+    /// Whether its residuals are opposite by more than is stated.
+    fn is_opposite(&self) -> bool {
+        self.correlation < self.stated - most(self.limit)
+    }
+
+    /// Whether they are so by their signs too: a reference that jumps now and then makes few of them opposite, however far it jumps.
+    fn is_opposite_throughout(&self) -> bool {
+        self.correlation < self.stated - self.limit
+            && self.by_signs < self.stated - most(FRAC_PI_2 * self.limit)
+    }
 }
 
 /// A correlation that matters, of which this is beyond in one of twenty logs by chance.
@@ -435,21 +504,21 @@ fn most(limit: f64) -> f64 {
     SLIGHT_CORRELATION.max(SURE_CORRELATION * limit)
 }
 
-fn verdict(legs: usize, kinds: &[KindDoubts], is_understated: bool, held_out: &HeldOut) -> Verdict {
+fn verdict(legs: usize, kinds: &[KindDoubts], meetings: &[Meeting], held_out: &HeldOut) -> Verdict {
     // Of three kinds one is beyond two deviations by chance in every seventh log, beyond three in every hundredth.
     let tails = |kind: &KindDoubts| {
         kind.kurtosis - kind.kurtosis_expected > SLIGHT_KURTOSIS.max(3.0 * (24.0 / kind.count as f64).sqrt())
     };
-    let alike = |kind: &KindDoubts| kind.autocorrelation > most(kind.autocorrelation_limit);
     let HeldOut { count, coverage, coverage_interval: [from, to], .. } = *held_out;
     match () {
         // Legs that tell nothing are none.
         _ if legs < FEW || count < FEW / 2 => Verdict::FewLegs,
-        // What is systematic makes tails too, for it is large on some legs and small on others, and so does what a reference errs by, but no tail
-        // makes neighbours alike, or opposite.
-        _ if kinds.iter().any(alike) => Verdict::Correlated,
-        _ if is_understated => Verdict::Understated,
+        // What is systematic makes tails too, for it is large on some legs and small on others, and so does what a reference errs by, but tails
+        // make few neighbours alike, or opposite.
+        _ if meetings.iter().any(Meeting::is_alike) => Verdict::Correlated,
+        _ if meetings.iter().any(Meeting::is_opposite_throughout) => Verdict::Understated,
         _ if kinds.iter().any(tails) => Verdict::HeavyTails,
+        _ if meetings.iter().any(Meeting::is_opposite) => Verdict::Understated,
         _ if coverage < 0.95 - (BEYOND * (0.95 - from)).max(SLIGHT_COVERAGE) => Verdict::Overconfident,
         _ if coverage > 0.95 + (BEYOND * (to - 0.95)).max(SLIGHT_COVERAGE) => Verdict::Lazy,
         _ => Verdict::Fits,

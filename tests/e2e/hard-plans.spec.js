@@ -664,6 +664,31 @@ test('what the reader wants meanwhile is there when the page asks', async ({ pag
     squeeze.samples = 200_000;
     const isUnderWay = /** @type {any} */ (squeeze).machine.stats.attempts < 200_000;
     Object.assign(/** @type {HTMLInputElement} */ (slider), { value: '0.7' }).dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
-    return [isUnderWay, squeeze.v, squeeze.samples, squeeze.stats?.attempts];
-  }, slider)).toEqual([true, 0.7, 200_000, 200_000]);
+    return [isUnderWay, squeeze.stats?.attempts, squeeze.v, squeeze.samples];
+  }, slider)).toEqual([true, 200_000, 0.7, 200_000]);
+});
+
+test('what a setting is does not wait for what is computed with it', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const slider = await widget.getByRole('slider', { name: /^v, / }).elementHandle();
+  expect(await widget.evaluate((element, slider) => {
+    const squeeze = /** @type {Element} */ (element);
+    const machine = /** @type {any} */ (squeeze).machine;
+    squeeze.samples = 1_000_000;
+    squeeze.v = 0.9;
+    const said = [squeeze.v, squeeze.samples];
+    Object.assign(/** @type {HTMLInputElement} */ (slider), { value: '0.7' }).dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
+    said.push(squeeze.v);
+    const isUnderWay = machine.stats.attempts < 1_000_000;
+    squeeze.samples = 2000;
+    return [...said, isUnderWay, squeeze.stats?.attempts];
+  }, slider)).toEqual([0.9, 1_000_000, 0.7, true, 2000]);
+});
+
+test('who chooses steps has as many fewer samples where there would be too many', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await widget.evaluate((element) => void Object.assign(element, { samples: 2000, steps: 1000 }));
+  await widget.getByRole('radio', { name: 'sub-stepped' }).check();
+  const { config } = await squeezed(widget);
+  expect([config.sampler, config.samples]).toEqual(['sub-stepped', 1000]);
 });

@@ -302,7 +302,12 @@ export function define(tag, Widget) {
       property(name, {
         get() {
           if (!this.machine) return this.reflection.wished(name);
-          return this.ask((/** @type {any} */ machine) => entry.get({ config: machine.config, machine }));
+          // That is known before anything is computed with it.
+          return this.runtime.attempt(() => {
+            this.settings.takeUp();
+            const { machine } = this;
+            return machine && entry.get({ config: machine.config, machine });
+          }) ?? null;
         },
         set(value) {
           this.reflection.give(name, value, (/** @type {unknown} */ given) => this.reflection.assign(name, entry, given));

@@ -130,8 +130,7 @@ export class Settings extends Part {
    */
   assign(values) {
     this.host.runtime.attempt(() => {
-      if (this.#job && this.#job !== this.#latest) this.settle();
-      else this.#beginPending();
+      this.takeUp();
       this.#begin(values);
       this.#proceed(LONGEST_WORK);
       this.host.reflection.tell();
@@ -149,6 +148,12 @@ export class Settings extends Part {
     if (limit === Infinity) this.#proceed(limit);
     if (!this.#job) this.#beginPending();
     return this.#proceed(limit);
+  }
+
+  /** The machine begins with what the reader wants: its settings are as they will be, and what it does with them goes on as it did. */
+  takeUp() {
+    if (this.#job && this.#job !== this.#latest) this.settle();
+    else this.#beginPending();
   }
 
   #beginPending() {

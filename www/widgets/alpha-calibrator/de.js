@@ -42,7 +42,7 @@ export const de = {
     correlated: (coverage) => `Noch ein fester Fehler: Der einer Etappe verrät den der nächsten. ${coverage} liegen in den 95 %.`,
     unrelated: () => 'Die Referenz folgt dieser Odometrie nicht: Ist sie von einer anderen Fahrt, in Grad oder in Millimetern?',
     'long-legs': (coverage) => `Die Etappen sind länger als verlangt: zu wenige Zeilen. Von neuen Residuen liegen ${coverage} in den 95 %.`,
-    understated: () => 'Die Referenz irrt mehr als angegeben: Nachbaretappen irren entgegengesetzt, und die α sind zu groß. Ihren Fehler angeben.',
+    understated: () => 'Zwischen Etappen irren Referenz, Zeiten oder Rundung mehr als angegeben: Die α sind zu groß. Den Fehler der Referenz angeben.',
     overstated: () => 'Von einem Ende einer Etappe zum anderen irrt die Referenz weniger als angegeben: Die α sind zu klein. Einen kleineren Fehler angeben.',
     'few-legs': () => 'Zu wenige Etappen, um über das Modell zu urteilen: weiterfahren oder kürzere nehmen.',
   },

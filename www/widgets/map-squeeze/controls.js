@@ -9,7 +9,7 @@ import { words } from '../../messages/registry.js';
 import { button, choice, longest, radioGroup, rich } from '../../ui/controls.js';
 import { fileInput } from '../shared/files.js';
 import { EXTENSIONS } from './maps/open.js';
-import { MOTION, PRESETS, SAMPLERS } from './settings.js';
+import { MOST_SAMPLES, MOTION, PRESETS, SAMPLERS } from './settings.js';
 
 /** @typedef {import('./map-squeeze.js').MapSqueezeElement} Figure */
 
@@ -56,8 +56,10 @@ export function unknownChoice(figure) {
 
 /** @param {Figure} figure */
 export function judgeControls(figure) {
-  const { conditioned, sampler } = figure.reading.config;
+  const { conditioned, sampler, samples, steps } = figure.reading.config;
   const say = words.squeeze;
+  // In steps there are as many fewer.
+  const most = (/** @type {string} */ name) => (name === 'sub-stepped' ? Math.floor(MOST_SAMPLES / steps) : MOST_SAMPLES);
   const effect = say.samplerEffects[conditioned ? sampler : 'off'];
   return html`<fieldset class="judge">
     <legend class="visually-hidden">${say.map}</legend>
@@ -68,7 +70,7 @@ export function judgeControls(figure) {
           group: 'sampler',
           label: say.samplers[name],
           checked: name === sampler,
-          choose: () => figure.gesture.decide({ sampler: name }),
+          choose: () => figure.gesture.decide({ sampler: name, ...(samples > most(name) && { samples: most(name) }) }),
         }),
       )}
     </div>

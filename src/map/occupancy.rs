@@ -205,7 +205,7 @@ impl OccupancyGrid {
         self.cells.iter().map(|code| Cell::ALL[usize::from(*code)])
     }
 
-    /// Of at most [`PIECE`] cells from one on, as `cells`: 1 where they are of this kind and 0 elsewhere.
+    /// Of the next cells from one on, in the order of `cells`, as many as are marked at once: 1 where they are of this kind and 0 elsewhere.
     pub fn marks(&self, kind: Cell, from: usize) -> Vec<u8> {
         let cells = self.cells.get(from..).unwrap_or_default();
         let mut marks = cells[..cells.len().min(PIECE)].to_vec();

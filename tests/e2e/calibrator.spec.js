@@ -124,6 +124,8 @@ test('a leg is chosen in the picture, by its slider, and from worst to worst', a
   expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
   await button.click();
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] });
+  // Its thumb is where the button has put it with the next picture.
+  await frames(page);
   await widget.locator('#leg').press('ArrowRight');
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
   const canvas = widget.locator('canvas.plane');

@@ -41,7 +41,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     correlated: (coverage) => `Something is left: one leg’s error tells the next one’s. Of unseen residuals, ${coverage} are inside its 95 %.`,
     unrelated: () => 'The reference does not follow this odometry: is it of another drive, in degrees, or in millimetres?',
     'long-legs': (coverage) => `Legs are longer than asked, as a log has too few rows for them. Of unseen residuals, ${coverage} are inside its 95 %.`,
-    understated: () => 'Where legs meet, reference, stamps or rounding err by more than is stated: the α’s are too large. State what the reference errs by.',
+    understated: () => 'Where legs meet, reference, stamps or rounding err more than is stated: the α’s are too large. State that error.',
     overstated: () => 'From one end of a leg to the other the reference errs less than is stated: the α’s are too small. State a smaller error.',
     'few-legs': () => 'Too few legs to say whether the model is any good. Drive on, or take shorter legs.',
   },

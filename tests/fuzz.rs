@@ -47,6 +47,14 @@ fn no_target_is_left_out() {
     assert_eq!(found, known);
 }
 
+/// Of legs that triangles fit without an error nothing is likely but the maximum: an interval that is halved on its way there takes 810 steps.
+#[test]
+fn an_interval_of_next_to_nothing_is_found_soon() {
+    let file = root().join("fuzz/corpus/calibrate/3df166ae2b8057eb97f03d5ff645de1d3ac00c7a");
+    let steps = targets::calibrate::steps_of(&read(file).expect("a file"));
+    assert!((1..600).contains(&steps), "{steps}");
+}
+
 fn on_corpus_and_mutations(name: &str, target: Target, mutations: u32) {
     let corpus = corpus(name);
     corpus.iter().for_each(|bytes| run(target, bytes));

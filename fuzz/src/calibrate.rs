@@ -30,6 +30,11 @@ const MODELS: [Model; 5] = [
 ];
 
 pub fn run(bytes: &[u8]) {
+    steps_of(bytes);
+}
+
+/// How many steps the calibration takes; 0 where the logs are none.
+pub fn steps_of(bytes: &[u8]) -> usize {
     let mut input = Input(bytes);
     let options = options(&mut input);
     // Legs of other lengths take five calibrations, and searches among triangles and bad legs several times as long as of normal noise.
@@ -44,21 +49,28 @@ pub fn run(bytes: &[u8]) {
     edit(&mut seen, &mut input);
     let (Some(odometry), Some(reference)) = (trajectory(&driven, &mut input), trajectory(&seen, &mut input))
     else {
-        return;
+        return 0;
     };
     let mut calibrating = Calibrating::new(options);
     let mut progress = 0.0;
-    for _ in 0..STEPS {
+    for step in 1..=STEPS {
         let now = calibrating.progress();
         assert!((progress..=1.0).contains(&now), "{progress}, then {now}");
         progress = now;
         match calibrating.step(&odometry, &reference) {
             Ok(None) => {}
-            Ok(Some(told)) => return makes_sense(&told, &options, [&odometry, &reference]),
-            Err(CalibrateError::FewLegs { legs }) => return assert!(legs < FEWEST),
+            Ok(Some(told)) => {
+                makes_sense(&told, &options, [&odometry, &reference]);
+                return step;
+            }
+            Err(CalibrateError::FewLegs { legs }) => {
+                assert!(legs < FEWEST);
+                return step;
+            }
             Err(CalibrateError::Apart) => {
                 let [one, other] = [&odometry, &reference].map(|each| each.span().expect("a row at least"));
-                return assert!(one[1] < other[0] || other[1] < one[0], "{one:?} {other:?}");
+                assert!(one[1] < other[0] || other[1] < one[0], "{one:?} {other:?}");
+                return step;
             }
         }
     }

@@ -408,7 +408,7 @@ fn kind_doubts(
     }
 }
 
-/// Residuals of legs, each with one of the next leg, where that began where it ended.
+/// Residuals of legs, each with one of the next leg, where this began where the former ended.
 fn pairs<'a>(
     ends: &'a [f64],
     begins: &'a [f64],
@@ -464,7 +464,7 @@ impl Meeting {
                 (n + 1.0, products + one * next, signs + one.signum() * next.signum())
             });
         // Of a kind by itself both ends of a leg are in a residual, of two kinds one of each.
-        let most = if ended == begun { 0.5 } else { 1.0 };
+        let part = if ended == begun { 0.5 } else { 1.0 };
         let shares = judged.iter().zip(observations).map(|(leg, observation)| {
             let [one, other] =
                 [ended, begun].map(|k| observation.floors[k] / (leg.deviations[k] * leg.deviations[k]));
@@ -477,7 +477,7 @@ impl Meeting {
             correlation: products / count / (square(&ends) * square(&begins)).sqrt(),
             by_signs: libm::sin(FRAC_PI_2 * signs / count),
             of_one: ended == begun,
-            stated: -most * shared / f64::max(told, 1.0),
+            stated: -part * shared / f64::max(told, 1.0),
             limit: NORMAL_95 / count.sqrt(),
         }
     }

@@ -598,6 +598,7 @@ test('the walls of a large grid are not stroked while its cells are being drawn'
 test('of a large grid what is near the robot is drawn at once, and all of it in the corner afterwards', async ({ page }) => {
   const widget = await openSqueeze(page);
   const [first, ...others] = (await drawnOf(widget, 'close')).split(/w+/).filter(Boolean).map(({ length }) => length);
+  // A picture of a thousand pixels by four hundred shows some hundred thousand cells of this map, and more around it.
   expect(first).toBeLessThan(12);
   expect(Math.max(...others)).toBeGreaterThan(100);
   // And wherever the robot goes: where it came from, the picture is the one that it was.

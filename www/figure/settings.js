@@ -150,7 +150,7 @@ export class Settings extends Part {
     return this.#proceed(limit);
   }
 
-  /** The machine begins with what the reader wants: its settings are as they will be, and what it does with them goes on as it did. */
+  /** The machine begins with what the reader wants, so that its settings can be asked for before all is done with them. */
   takeUp() {
     if (this.#job && this.#job !== this.#latest) this.settle();
     else this.#beginPending();
@@ -170,7 +170,7 @@ export class Settings extends Part {
     // A machine that has all at once needs no slices.
     if (machine.begin) machine.begin(values);
     else machine.configure(values);
-    // What it was doing, it goes on with as it is to be now.
+    // What it was doing it has given up by itself.
     this.#job = undefined;
     this.work();
     this.#latest = this.#job;

@@ -21,13 +21,22 @@ declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
 export default cores;
 `;
 
-/** Brings dist/ up to date with the sources. */
-export async function build() {
+/**
+ * Brings dist/ up to date with the sources.
+ *
+ * @param {object} [options]
+ * @param {boolean} [options.local] for a server on this machine: all figures share the whole core, unless their own modules
+ *   are there already. That is one compilation instead of seven.
+ */
+export async function build({ local = false } = {}) {
   const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/licences.mjs', 'scripts/modules.mjs', 'scripts/bind']);
-  const products = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', ...WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`])];
-  await together([ensurePackages(), whenStale('build/core.sha256', core, products, buildCore)]);
-  const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core);
-  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], bundle);
+  const whole = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json'];
+  const figures = WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
+  await together([ensurePackages(), whenStale('build/core.sha256', core, whole, () => buildCores(['motion']))]);
+  if (!local) await whenStale('build/figures.sha256', core, figures, () => buildCores(WIDGETS));
+  const tags = isCurrent('build/figures.sha256', core, figures) ? WIDGETS : [];
+  const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core + tags);
+  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags }));
 }
 
 /**
@@ -48,27 +57,40 @@ function digest(paths, seed = '') {
  * @param {() => Promise<void>} work
  */
 async function whenStale(stamp, sources, products, work) {
-  const current = [stamp, ...products].every((path) => existsSync(at(path)));
-  if (current && readFileSync(at(stamp), 'utf8') === sources) return;
+  if (isCurrent(stamp, sources, products)) return;
   mkdirSync(at('build'), { recursive: true });
   rmSync(at(stamp), { force: true });
   await work();
   writeFileSync(at(stamp), sources);
 }
 
-/** Builds the whole core, and for each widget one with its machine alone, each as a module and its glue. */
-async function buildCore() {
+/**
+ * @param {string} stamp
+ * @param {string} sources
+ * @param {string[]} products
+ */
+function isCurrent(stamp, sources, products) {
+  return [stamp, ...products].every((path) => existsSync(at(path))) && readFileSync(at(stamp), 'utf8') === sources;
+}
+
+/**
+ * Builds cores, each a module and its glue.
+ *
+ * @param {string[]} names "motion" for the whole core, or the tags of figures, whose cores have their own machine alone
+ */
+async function buildCores(names) {
   // All three at a time: one waits for the network while another computes.
   const [rust, bind] = await together([wasmRust(), binder(), ensurePackages()]);
-  progress(`Compiling the core to WebAssembly (${rust.description}), whole and for each widget`);
+  progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
   const finished = [];
-  for (const name of ['motion', ...WIDGETS]) {
+  for (const name of names) {
     // Cargo puts all of them in one place: each is bound before the next is compiled, and finished meanwhile.
     const wasm = await compileCore(rust, name);
     await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at(`build/bound/${name}`)]);
     finished.push(finish(name));
   }
   await together(finished);
+  if (!names.includes('motion')) return;
   copyFileSync(at('build/bound/motion/motion.d.ts'), at('build/core.d.ts'));
   writeFileSync(at('build/motion.wasm.d.ts'), CARRIED);
 }
@@ -197,6 +219,6 @@ async function writeGlue(name) {
 }
 
 await runAsScript(import.meta.url, async () => {
-  await build();
+  await build({ local: process.argv.includes('--local') });
   console.log('\ndist/ is up to date.');
 });

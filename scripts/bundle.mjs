@@ -42,9 +42,13 @@ const MODULE = {
       'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; } } };'
     );
   },
-  /** Bundlers know this form, and carry the files along. It stands in a chunk: external.js and the widgets share it. */
-  external: () => {
-    const files = [['motion', '../motion.wasm'], ...WIDGETS.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
+  /**
+   * Bundlers know this form, and carry the files along. It stands in a chunk: external.js and the widgets share it.
+   *
+   * @param {string[]} tags of the figures that have a module of their own
+   */
+  external: (tags) => {
+    const files = [['motion', '../motion.wasm'], ...tags.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
     const carried = files.map(([name, path]) => `'${name}': { glue: () => import('./${name}.js'), source: () => new URL('${path}', import.meta.url) }`);
     return `export default {${carried}};`;
   },
@@ -92,9 +96,11 @@ export default widget;
 /**
  * Bundles everything anew.
  *
- * @param {(path: string, script: string) => string} [changed] what becomes of a script of www/
+ * @param {object} [options]
+ * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
+ * @param {(path: string, script: string) => string} [options.changed] what becomes of a script of www/
  */
-export async function bundle(changed = (_, script) => script) {
+export async function bundle({ tags = WIDGETS, changed = (_, script) => script } = {}) {
   progress('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -124,7 +130,7 @@ export async function bundle(changed = (_, script) => script) {
         {
           name: 'wasm',
           setup({ onLoad }) {
-            onLoad({ filter: /\.wasm$/ }, () => ({ contents: MODULE[form](wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']), loader: 'js' }));
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: form === 'external' ? MODULE.external(tags) : MODULE.inlined(wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.js$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESS.classic : options.splitting ? ADDRESS.chunk : readFileSync(path, 'utf8'),
@@ -183,7 +189,7 @@ export async function bundle(changed = (_, script) => script) {
   const kept = `@media (scripting:enabled){\n${keptTillThen(await rooms())}\n}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);
-  for (const { path, contents } of WIDGETS.map(moduleOf)) write(at(path), contents);
+  for (const { path, contents } of tags.map(moduleOf)) write(at(path), contents);
   const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts' };
   for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
   for (const name of ['motion-widgets', 'external']) write(at(`dist/${name}.d.ts`), DECLARATIONS);

@@ -99,7 +99,7 @@ function wantedPort() {
 
 await runAsScript(import.meta.url, async () => {
   const port = wantedPort();
-  await build();
+  await build({ local: true });
   const { address } = await serve(join(ROOT, 'dist'), { port });
   console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);
 });

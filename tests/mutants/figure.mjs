@@ -89,9 +89,9 @@ async function prepare() {
   writeFileSync(inCopy('www/switch.js'), SWITCH);
   const contents = new Map(instrumented.files.map(({ name, content }) => [inCopy(name), content]));
   const { bundle } = await import(inCopy('scripts/bundle.mjs'));
-  await bundle((/** @type {string} */ path, /** @type {string} */ script) =>
+  await bundle({ changed: (/** @type {string} */ path, /** @type {string} */ script) =>
     contents.has(path) ? `import { stryCov_9fa48, stryMutAct_9fa48 } from '${inCopy('www/switch.js')}';\n${contents.get(path)}` : script,
-  );
+  });
 
   for (const path of readdirSync(inCopy('tests/e2e'))) {
     const specs = readFileSync(inCopy(`tests/e2e/${path}`), 'utf8');

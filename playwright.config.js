@@ -7,8 +7,6 @@ export default defineConfig({
   forbidOnly: true,
   fullyParallel: true,
   workers: '100%',
-  // A test that passes at its second try is told with its error (scripts/test.mjs): one in a run is let pass, two are not.
-  retries: 1,
   reporter: [['list'], ['json', { outputFile: 'test-results/e2e.json' }]],
   use: {
     baseURL: process.env.SERVED_AT,

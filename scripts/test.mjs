@@ -1,5 +1,8 @@
-// `npm test`: every check. `npm test -- PART` runs one of them, and gives what follows to the program behind it. One that
-// fails does not keep the others from running.
+// `npm test`: the checks of every change. `npm run test:all`: those and the nightly ones, which take longer. `npm test -- PART`
+// runs one part and gives the remaining arguments to its program. A part that fails does not keep the others from running.
+//
+// Nightly tests are marked where they stand: `#[ignore = "nightly: …"]` in Rust, `*.nightly.test.js` for Node, `@nightly` in the
+// title of a browser test.
 
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
@@ -17,7 +20,7 @@ import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.m
  * @property {number} passed
  * @property {number} failed
  * @property {number} skipped
- * @property {string[]} [complaints] of tests that failed, be it once: which, and why
+ * @property {string[]} [complaints] the tests that failed, each with its error
  */
 /** @typedef {{ name: string, ok: boolean, seconds: number, tally?: Tally, note?: string }} Outcome */
 /** @typedef {() => Promise<{ ok: boolean, output: string, timedOut: boolean }>} Job */
@@ -28,13 +31,17 @@ import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.m
  * @property {(output: string) => Tally} [count] where tests run, counts them in what was printed
  */
 
-/** Seconds that a part may take: a test that hangs must not hang what waits for the result. */
-const LIMIT = 1200;
+/** Runs the nightly tests as well. */
+const ALL = process.argv.includes('--all');
+
+/** Seconds that a part may take, so that a test that hangs does not hang the run. */
+const LIMIT = ALL ? 3600 : 1200;
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
-const built = once(build);
+/** The quick tier tests the whole core in all figures; the modules of single figures are built for the nightly one. */
+const built = once(() => build({ local: !ALL }));
 
-/** What the parts ran with. */
+/** Versions of the tools that the parts ran with. */
 const versions = new Set([`Node ${process.versions.node}`]);
 
 async function native() {
@@ -123,7 +130,7 @@ const PARTS = {
     prepare: async (more) => cargo(await native(), ['doc', '--locked', '--no-deps', ...more], { RUSTDOCFLAGS: '-D warnings' }),
   },
   rust: {
-    prepare: async (more) => cargo(await native(), ['test', '--locked', '--no-fail-fast', ...more]),
+    prepare: async (more) => cargo(await native(), ['test', '--locked', '--no-fail-fast', ...more, ...(ALL ? ['--', '--include-ignored'] : [])]),
     count: rustTally,
   },
   wasm: {
@@ -151,7 +158,8 @@ const PARTS = {
   browser: {
     async prepare(more) {
       await built();
-      return npmProgram('@playwright/test/cli.js', ['test', ...more], { CHROME: (await browser()).chrome });
+      const tier = ALL ? [] : ['--grep-invert', '@nightly'];
+      return npmProgram('@playwright/test/cli.js', ['test', ...tier, ...more], { CHROME: (await browser()).chrome });
     },
     count: playwrightTally,
   },
@@ -176,7 +184,8 @@ const LAST = 'browser';
  * @param {string[]} args of the command line
  * @returns {Promise<boolean>} whether all is well
  */
-async function test([only, ...more]) {
+async function test(args) {
+  const [only, ...more] = args.filter((each) => each !== '--all');
   if (only !== undefined && !Object.hasOwn(PARTS, only)) {
     throw new Missing(`"${only}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(PARTS).join(', ')}.`);
   }
@@ -246,7 +255,7 @@ function inBrowser(runner, { chrome, driver }) {
  * @returns {string[]} the command that runs its tests
  */
 function nodeTests(directory, more) {
-  const files = filesOf(directory).filter((path) => path.endsWith('.test.js'));
+  const files = filesOf(directory).filter((path) => path.endsWith('.test.js') && (ALL || !path.endsWith('.nightly.test.js')));
   // By itself it leaves a core idle.
   return [process.execPath, '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...more, ...files];
 }
@@ -274,12 +283,6 @@ function tapTally(output) {
   return { passed: last('pass'), failed: last('fail') + last('cancelled'), skipped: last('skipped') + last('todo') };
 }
 
-/**
- * Browser tests that may pass at their second try alone. They wait for what a browser does when it pleases: of some nine hundred,
- * one a run is chance; more are a defect, of the figures or of the tests.
- */
-const UNSTEADY = 1;
-
 /** Characters of an error in the summary: what was expected and what was there, without what follows. */
 const ERROR = 1500;
 
@@ -294,24 +297,16 @@ function playwrightTally() {
   const report = at('test-results/e2e.json');
   if (!existsSync(report)) return { passed: 0, failed: 0, skipped: 0 };
   const { stats, suites } = /** @type {{ stats: Record<string, number>, suites: Suite[] }} */ (JSON.parse(readFileSync(report, 'utf8')));
-  const complaints = suites.flatMap(complaintsOf);
-  const steady = stats.flaky <= UNSTEADY;
-  return {
-    passed: stats.expected + (steady ? stats.flaky : 0),
-    failed: stats.unexpected + (steady ? 0 : stats.flaky),
-    skipped: stats.skipped,
-    complaints,
-  };
+  return { passed: stats.expected, failed: stats.unexpected, skipped: stats.skipped, complaints: suites.flatMap(complaintsOf) };
 }
 
 /** @param {Suite} suite @returns {string[]} */
 function complaintsOf({ suites = [], specs = [] }) {
   const own = specs.flatMap(({ title, file, line, tests }) => tests
-    .filter(({ status }) => status === 'unexpected' || status === 'flaky')
-    .map(({ status, results }) => {
-      const error = results.flatMap(({ errors }) => errors)[0]?.message ?? 'no error is told';
-      const once = status === 'flaky' ? 'passed at the second try' : 'failed twice';
-      return `${file}:${line} ${title}: ${once}\n${stripVTControlCharacters(error).slice(0, ERROR)}`;
+    .filter(({ status }) => status === 'unexpected')
+    .map(({ results }) => {
+      const error = results.flatMap(({ errors }) => errors)[0]?.message ?? 'failed without an error message';
+      return `${file}:${line} ${title}\n${stripVTControlCharacters(error).slice(0, ERROR)}`;
     }));
   return [...own, ...suites.flatMap(complaintsOf)];
 }

@@ -19,5 +19,5 @@ export default [
   { files: ['benches/**', 'tests/digest/**'], languageOptions: { globals: { ...globals['shared-node-browser'], ...globals.browser } } },
   { files: ['scripts/**', 'tests/fuzz/**', 'tests/node/**', '*.config.js', 'examples/**/*.config.js'], languageOptions: { globals: globals.node } },
   // Browser tests run in Node and pass functions into the page.
-  { files: ['tests/e2e/**', 'tests/embeddings/**', 'tests/engines/**', 'tests/mutants/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
+  { files: ['tests/e2e/**', 'tests/embeddings/**', 'tests/engines/**', 'tests/package/**'], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 ];

@@ -72,7 +72,7 @@ export async function instantiateFor(name) {
       { cause: error },
     );
   }
-  for (const [name, each] of Object.entries(motion)) if ('free' in (/** @type {any} */ (each).prototype ?? {})) makeSafe(name, /** @type {any} */ (each));
+  for (const { prototype } of /** @type {any[]} */ (Object.values(motion))) if (prototype?.free) makeDisposable(prototype);
   return motion;
 }
 
@@ -173,52 +173,15 @@ function fileAt(source) {
 }
 
 /**
- * Machines that are at work: what calls them meanwhile is code of the caller's, run by reading its arguments.
+ * Makes a class of the generated glue disposable: `free()` may be called again, which does nothing, and so may
+ * `[Symbol.dispose]()`, in engines without that symbol too.
  *
- * @type {WeakSet<object>}
+ * @param {any} prototype of the class
  */
-const busy = new WeakSet();
-
-/** Takes, as arguments, room on the stack: 8 kB, four times what the core was seen to need, in a microsecond or two. */
-const ROOM = Array(1024).fill(0);
-const fits = () => {};
-
-/**
- * Lets the methods of a class of the generated glue be called on its own machines alone, and one at a time: the glue hands
- * an address to the core, whatever is there. `m.free()` and `m[Symbol.dispose]()` may be called again, which does nothing;
- * engines without `Symbol.dispose` are given one.
- *
- * @param {string} name of the class, which bundlers shorten
- * @param {{ new (): object, prototype: { free(): void } }} Machine
- */
-function makeSafe(name, { prototype }) {
-  if (!Symbol.dispose) {
-    Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
-  }
+function makeDisposable(prototype) {
+  if (!Symbol.dispose) Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
   const { free } = prototype;
-  Object.defineProperty(prototype, Symbol.dispose, { value: free, configurable: true, writable: true });
-  for (const key of Reflect.ownKeys(prototype)) {
-    const property = /** @type {any} */ (Object.getOwnPropertyDescriptor(prototype, key));
-    const kind = property.get ? 'get' : 'value';
-    const work = property[kind];
-    // The glue's own begin with __.
-    if (/^(constructor$|__)/.test(String(key))) continue;
-    property[kind] = function (/** @type {unknown[]} */ ...args) {
-      // The address in the core's memory, 0 once it is freed. What has it of another object would free that one's machine.
-      const own = Object.prototype.isPrototypeOf.call(prototype, this) && Object.hasOwn(this, '__wbg_ptr');
-      const address = own ? this.__wbg_ptr : undefined;
-      if (address === 0 && work === free) return undefined;
-      const what = address === undefined ? 'something else' : address === 0 ? 'a freed one' : busy.has(this) && 'one that is reading its arguments';
-      if (what) throw new TypeError(`${name}.${String(key)} is called on ${what}; allowed is a ${name} of the same core, in use`);
-      // Without it this throws while nothing has begun. Within the core it would leave things half done.
-      Reflect.apply(fits, undefined, ROOM);
-      busy.add(this);
-      try {
-        return work.apply(this, args);
-      } finally {
-        busy.delete(this);
-      }
-    };
-    Object.defineProperty(prototype, key, property);
-  }
+  prototype.free = prototype[Symbol.dispose] = function () {
+    if (this.__wbg_ptr) free.call(this);
+  };
 }

@@ -13,7 +13,7 @@ import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
-const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
 
 /** What scripts/bundle.mjs gives to who imports the module. */
 const CARRIED = `type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Uint8Array<ArrayBuffer> | URL };

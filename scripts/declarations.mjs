@@ -2,6 +2,7 @@
 // the core, from each widget's settings.js, and from the comments of the elements' classes.
 
 import { presets, settings } from '../www/settings.js';
+import { scriptName } from './names.mjs';
 import { ROOT } from './process.mjs';
 
 /**
@@ -39,8 +40,8 @@ const OF_CLOUDS = {
   },
 };
 
-/** @param {string} name of a tag or key */
-export const pascal = (name) => name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase());
+/** The name of the class or type that belongs to a tag or key. @param {string} name */
+export const pascal = (name) => scriptName(name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
 
 /** @param {readonly string[]} words */
 export const union = (words) => words.map((word) => `'${word}'`).join(' | ');

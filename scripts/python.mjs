@@ -5,6 +5,7 @@ import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
 import { comments, oneLine, widgets } from './declarations.mjs';
+import { pythonName } from './names.mjs';
 import { ROOT } from './process.mjs';
 
 /**
@@ -49,9 +50,9 @@ export async function elements() {
   ];
   for (const { machine, tag, sentence, traits } of all) {
     lines.push('', '', '@t.signature_has_traits', `class ${machine}(Figure):`, `    """${sentence}`, '');
-    for (const { name, description, trait } of traits) lines.push(`    ${snake(name)}:`, `        ${inPython(description)}${wordsOf(trait)}`);
+    for (const { name, description, trait } of traits) lines.push(`    ${pythonName(name)}:`, `        ${inPython(description)}${wordsOf(trait)}`);
     lines.push('    """', '', `    widget = t.Unicode(${text(tag)}, read_only=True).tag(sync=True)`);
-    for (const { name, trait } of traits) lines.push(`    ${snake(name)} = ${trait}`);
+    for (const { name, trait } of traits) lines.push(`    ${pythonName(name)} = ${trait}`);
   }
   return `${lines.join('\n')}\n`;
 }
@@ -99,15 +100,12 @@ function wordsOf(trait) {
   return words ? ` ${words[1] === 'Word' ? 'One' : 'Some'} of ${words[2]}.` : '';
 }
 
-/** @param {string} name */
-const snake = (name) => name.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
-
 /** What is called otherwise in Python. @type {Record<string, string>} */
 const WORDS = { null: 'None', true: 'True', false: 'False' };
 
 /** @param {string} description in which what stands between backticks may be a property */
 const inPython = (description) =>
-  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${snake(name)}\``).replaceAll(/\b(null|true|false)\b/g, (word) => WORDS[word]);
+  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${pythonName(name)}\``).replaceAll(/\b(null|true|false)\b/g, (word) => WORDS[word]);
 
 /** @param {string} value */
 const text = (value) => JSON.stringify(value);

@@ -66,6 +66,12 @@ async function aptInstallNow(packages, sentence) {
   await mustRun(sentence, command, [...before, 'install', ...options, ...packages], { seconds: 900 });
 }
 
+/** Makes sure of Python and its pip, which the Python package is built by. */
+export async function ensurePip() {
+  if ((await run('python3', ['-m', 'pip', '--version'], { quiet: true })).ok) return;
+  await aptInstall(['python3', 'python3-pip'], 'Python 3 or its pip is missing: install them as python.org says and start again.');
+}
+
 /**
  * @typedef {object} Rust
  * @property {string} bin the directory of cargo, cargo-fmt and cargo-clippy

@@ -140,7 +140,9 @@ function traitsOf(element) {
   const names = { ...attributes, ...groupsOf(declared), ...own, ...COMMON, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
   return Object.entries(names).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
-    const spellings = new Set([name, property, property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`)]);
+    const inPython = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+    // With the underscore of a keyword, as in `from_`.
+    const spellings = new Set([name, property, inPython, `${inPython}_`]);
     return [...spellings].map((trait) => /** @type {[string, string]} */ ([trait, property]));
   });
 }

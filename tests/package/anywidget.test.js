@@ -1,11 +1,8 @@
-// The module for notebooks, with models that notebooks and books give it, and the classes of the Python package.
+// The module for notebooks, with models that notebooks and books give it.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { elements } from '../../scripts/python.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 import { launch } from './support.js';
@@ -136,6 +133,19 @@ test('traits become what the figure shows, by whichever of their names, and thos
   await page.close();
 });
 
+test('a trait with the underscore of a Python keyword sets the property of that name, and gets its value', async () => {
+  const from = { x: 1, y: 2, theta: 0.5 };
+  const { page, complaints } = await shown({ ...KERNEL, widget: 'odometry-decomposer', from_: from }, 'notebook');
+  await page.locator('canvas').first().waitFor();
+  assert.deepEqual((await saidOf(page, ['from'])).figure, { from });
+  await change(page, { from_: null });
+  const { figure, traits } = await saidOf(page, ['from', 'from_']);
+  assert.notDeepEqual(figure.from, from);
+  assert.deepEqual(traits.from_, figure.from);
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
 test('statistics come as JSON has it', async () => {
   // Without noise no skew is defined.
   const { page } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 10, alphas: [0, 0, 0, 0, 0, 0] }, 'notebook');
@@ -238,25 +248,4 @@ test('a model of no widget says what is allowed in the place of the figure', asy
     await page.getByText(`This cell shows no figure: widget is ${said}; allowed is banana-machine or map-squeeze or arc-anatomy or odometry-decomposer or dead-reckoning or alpha-calibrator.`).waitFor();
     await page.close();
   }
-});
-
-const SOURCES = join(ROOT, 'python/src/motion_widgets');
-const read = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
-
-test('the Python package has the classes of the declarations, the built module and the version of the others', async () => {
-  const generated = readFileSync(join(SOURCES, '_elements.py'), 'utf8');
-  assert.equal(generated, await elements());
-  assert.match(generated, /^class MapSqueeze\(Figure\):$/m);
-  assert.match(generated, /^ {4}steps = Whole\(1, 1000\)$/m);
-  assert.match(generated, /^ {4}reverse_aware = Truth\(\)$/m);
-  assert.equal(readFileSync(join(SOURCES, 'anywidget.js'), 'utf8'), read('dist/anywidget.js'));
-  const { version } = JSON.parse(read('package.json'));
-  assert.equal(read('python/pyproject.toml').match(/^version = "(.+)"$/m)?.[1], version);
-});
-
-test('what git does not have of the Python package is what its build asks for', () => {
-  const ignored = execFileSync('git', ['-C', ROOT, 'ls-files', '--others', '--ignored', '--exclude-standard', 'python'], { encoding: 'utf8' });
-  const made = read('python/hatch_build.py').match(/^MADE = (\[.*\])$/m)?.[1] ?? '[]';
-  const here = ignored.split('\n').filter((path) => path && !/__pycache__|^python\/dist\//.test(path)).map((path) => path.replace('python/', ''));
-  assert.deepEqual(JSON.parse(made).sort(), here.sort());
 });

@@ -1,0 +1,41 @@
+// Names of generated code. Each target language forbids some; a name that it forbids is spelled otherwise, or refused.
+
+/** Keywords of Python that are lower-case letters alone, as settings are. */
+const PYTHON = new Set(
+  ('and as assert async await break class continue def del elif else except finally for from global if import in is lambda ' +
+    'nonlocal not or pass raise return try while with yield').split(' '),
+);
+
+/** Names that widgets of ipywidgets have already and a trait would hide: tests/package/python.test.js looks for more. */
+const WIDGET = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
+
+/** Reserved words of JavaScript and TypeScript that cannot name a declaration. */
+const JAVASCRIPT = new Set(
+  ('arguments await break case catch class const continue debugger default delete do else enum eval export extends false finally ' +
+    'for function if implements import in instanceof interface let new null package private protected public return static super ' +
+    'switch this throw true try typeof var void while with yield').split(' '),
+);
+
+/**
+ * Returns the name of a property in Python: in snake case, and with an underscore behind a name that is taken, as PEP 8
+ * recommends. www/anywidget.js reads traits by this spelling too.
+ *
+ * @param {string} property
+ */
+export function pythonName(property) {
+  const name = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+  if (!/^[a-z]\w*$/.test(name)) throw new Error(`${property} cannot be the name of a trait in Python: rename it.`);
+  return PYTHON.has(name) || WIDGET.has(name) ? `${name}_` : name;
+}
+
+/**
+ * Returns the name of a declaration, such as a class, type or constant, if JavaScript and TypeScript allow it.
+ *
+ * @param {string} name
+ */
+export function scriptName(name) {
+  if (!/^[A-Za-z_$][\w$]*$/.test(name) || JAVASCRIPT.has(name)) throw new Error(`${name} cannot name a declaration in JavaScript: rename it.`);
+  // A type of this name would hide the one that every script has, as Map or Event.
+  if (name in globalThis) throw new Error(`${name} is a global of JavaScript: give the setting or element another name.`);
+  return name;
+}

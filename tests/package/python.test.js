@@ -1,0 +1,85 @@
+// The Python package as pip builds it: its wheel is installed, imported and used.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { existsSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { delimiter, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { ROOT } from '../../scripts/process.mjs';
+import { CACHE, ensurePip } from '../../scripts/toolchain.mjs';
+
+const SOURCES = join(ROOT, 'python');
+const project = readFileSync(join(SOURCES, 'pyproject.toml'), 'utf8');
+
+/** @type {string} */
+let scratch;
+/** The search path of Python: the package and what it depends on. @type {string} */
+let path;
+
+/** @param {string[]} args @param {string} [search] */
+const python = (args, search = '') => {
+  const env = { ...process.env, PYTHONPATH: search, PIP_ROOT_USER_ACTION: 'ignore', PIP_DISABLE_PIP_VERSION_CHECK: '1' };
+  return execFileSync('python3', args, { encoding: 'utf8', env });
+};
+
+/** @param {string[]} args @param {string} [search] */
+const pip = (args, search) => python(['-m', 'pip', '--quiet', ...args], search);
+
+/** Installs what the package needs to be built and to run, once for all clones. */
+function dependencies() {
+  const lists = project.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
+  const names = lists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
+  assert.ok(names.length >= 2, project);
+  const version = python(['--version']);
+  const directory = join(CACHE, `python-${createHash('sha256').update(names + version).digest('hex').slice(0, 12)}`);
+  if (existsSync(directory)) return directory;
+  const incomplete = `${directory}-${process.pid}`;
+  pip(['install', '--target', incomplete, ...names]);
+  renameSync(incomplete, directory);
+  return directory;
+}
+
+before(async () => {
+  await ensurePip();
+  scratch = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
+  const installed = dependencies();
+  pip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', scratch, SOURCES], installed);
+  const [wheel] = readdirSync(scratch);
+  const { version } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+  assert.equal(wheel, `motion_widgets-${version}-py3-none-any.whl`);
+  const site = join(scratch, 'site');
+  pip(['install', '--no-deps', '--target', site, join(scratch, wheel)]);
+  path = [site, installed].join(delimiter);
+});
+
+after(() => rmSync(scratch, { recursive: true, force: true }));
+
+test('the wheel is imported, and a setting that is a keyword of Python has an underscore', () => {
+  const lines = [
+    'import json, motion_widgets as m',
+    'figure = m.OdometryDecomposer(from_={"x": 1, "y": 2, "theta": 0.5})',
+    'm.BananaMachine(reverse_aware=True); m.MapSqueeze(steps=4)',
+    'print(json.dumps([m.__file__, figure.get_state(["widget", "from_"])]))',
+  ];
+  const [file, state] = JSON.parse(python(['-c', lines.join('\n')], path));
+  assert.ok(file.startsWith(scratch), file);
+  assert.deepEqual(state, { widget: 'odometry-decomposer', from_: { x: 1, y: 2, theta: 0.5 } });
+});
+
+test('no trait hides what every widget has', () => {
+  const lines = [
+    'import motion_widgets as m',
+    'from motion_widgets._figure import Figure',
+    'from motion_widgets._traits import Setting',
+    'print([f"{name}.{each}" for name in m.__all__ for each, trait in vars(getattr(m, name)).items()',
+    '       if isinstance(trait, Setting) and hasattr(Figure, each)])',
+  ];
+  assert.equal(python(['-c', lines.join('\n')], path).trim(), '[]');
+});
+
+test('a value out of its range is refused with what is allowed', () => {
+  const lines = ['import motion_widgets as m, traitlets', 'try: m.MapSqueeze(steps=0)', 'except traitlets.TraitError as error: print(error)'];
+  assert.equal(python(['-c', lines.join('\n')], path).trim(), 'steps is 0; allowed is a whole number from 1 to 1000, or None');
+});

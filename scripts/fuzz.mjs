@@ -1,115 +1,102 @@
-// `npm run test:fuzz -- RUNS SEED TARGETS`: coverage-guided fuzzing of everything that reads what others wrote. cargo-fuzz
-// runs each target of fuzz/fuzz_targets RUNS times, from the corpus in fuzz/corpus, and tests/fuzz/guided.mjs what
-// JavaScript parses; of all of them, or of those that are named. What they find worth keeping is in build/fuzz, and the
-// figures in build/fuzz/results.json.
+// `npm run test:fuzz -- RUNS SEED TARGETS`: runs targets of fuzz/fuzz_targets (default: all) with cargo-fuzz, RUNS inputs each.
+// Each run starts from the packed inputs in fuzz/corpus. `npm run test:fuzz -- keep TARGETS` adds inputs of build/fuzz to them
+// that reach new code.
 
-import { mkdirSync, readdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { Missing, ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
 import { nativeRust } from './toolchain.mjs';
 
-/** @typedef {{ runs?: number, slowest?: number, megabytes?: number, inputs?: number }} Figures with others beside them */
-/** @typedef {{ target: string, ok: boolean } & Figures} Outcome */
+const TARGETS = readdirSync(join(ROOT, 'fuzz/fuzz_targets')).map((file) => file.replace(/\.rs$/, ''));
 
-const OUTPUT = join(ROOT, 'build/fuzz');
+/** Limits of one input: seconds, allocated megabytes, and bytes. The program itself takes 30 MB. */
+const LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=160'];
 
-/** What no input may exceed: seconds, and megabytes at once and in all, of which the program itself has 30. */
-const LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286'];
-
-/** Bytes of an input: what the longest sequence of calls takes. Longer ones would be slower and tell nothing else. */
-const LENGTH = '-max_len=160';
-
-const rust = readdirSync(join(ROOT, 'fuzz/fuzz_targets')).map((file) => file.replace(/\.rs$/, ''));
-
-/** @param {string[]} args */
-async function fuzz([runs = '10000000', seed = '1', ...named]) {
-  for (const [name, number] of Object.entries({ RUNS: runs, SEED: seed })) {
-    if (!/^[1-9]\d*$/.test(number)) throw new Missing(`${name} is "${number}", and has to be a whole number from 1.`);
-  }
-  // Runs what is built.
-  const { targets: parsers } = await import('../tests/fuzz/targets.js');
-  const all = [...rust, ...Object.keys(parsers).map((name) => `js-${name}`)];
-  const stranger = named.find((name) => !all.includes(name));
-  if (stranger !== undefined) throw new Missing(`TARGETS has "${stranger}"; allowed are ${all.join(', ')}.`);
-  const targets = all.filter((name) => named.length === 0 || named.includes(name));
-  progress(`${runs} runs of each of ${targets.join(', ')}, seed ${seed}`);
-  const versions = { node: process.version, rust: await compileTargets(targets.filter((name) => rust.includes(name))) };
-  /** @type {Outcome[]} */
-  const outcomes = [];
-  const waiting = [...targets];
-  const lane = async () => {
-    for (let target = waiting.shift(); target !== undefined; target = waiting.shift()) {
-      const outcome = rust.includes(target) ? await inRust(target, runs, seed) : await inJavaScript(target, runs, seed);
-      console.log(told(outcome));
-      outcomes.push(outcome);
-    }
-  };
-  // A second is a second of a processor only where each has its own.
-  await Promise.all(Array.from({ length: availableParallelism() }, lane));
-  mkdirSync(OUTPUT, { recursive: true });
-  writeFileSync(join(OUTPUT, 'results.json'), `${JSON.stringify({ seed, versions, outcomes }, null, 2)}\n`);
-  return outcomes.every(({ ok }) => ok);
-}
-
-// Safe Rust has no need of a sanitizer, which would make all of it twice as slow, as would a look at every comparison: the
-// numbers at which something begins are among the inputs.
+/** Options of the build. Safe Rust needs no sanitizer, and tracing of comparisons would halve the speed. */
 const OPTIONS = ['--sanitizer', 'none', '--no-trace-compares'];
 
-/** @param {string[]} targets @returns the versions of what compiled them, if there are any */
-async function compileTargets(targets) {
-  if (targets.length === 0) return '';
+/** Packed inputs of a target: hexadecimal, one input a line. @param {string} target */
+const packed = (target) => join(ROOT, 'fuzz/corpus', `${target}.txt`);
+
+/** @param {string} target @param {'known' | 'found' | 'merged'} kind */
+const folder = (target, kind) => join(ROOT, 'build/fuzz', target, kind);
+
+/** Writes the packed inputs of a target as files for libFuzzer. @param {string} target */
+function unpack(target) {
+  const known = folder(target, 'known');
+  rmSync(known, { recursive: true, force: true });
+  mkdirSync(known, { recursive: true });
+  mkdirSync(folder(target, 'found'), { recursive: true });
+  const lines = readFileSync(packed(target), 'latin1').split('\n').slice(0, -1);
+  lines.forEach((line, i) => writeFileSync(join(known, String(i)), Buffer.from(line, 'hex')));
+}
+
+/** @param {string[]} args of cargo-fuzz */
+async function cargoFuzz(...args) {
+  const { bin, env } = await nativeRust();
+  return run(join(bin, 'cargo'), ['+nightly', 'fuzz', ...args], { env, quiet: true });
+}
+
+async function compile() {
   const { bin, env } = await nativeRust();
   const cargo = join(bin, 'cargo');
   const sentence =
     'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
-  const { stdout } = await mustRun(sentence, cargo, ['+nightly', 'fuzz', '--version'], { env, quiet: true });
-  const compiler = await run(join(bin, 'rustc'), ['+nightly', '--version'], { env, quiet: true });
+  await mustRun(sentence, cargo, ['+nightly', 'fuzz', '--version'], { env, quiet: true });
   await mustRun('The targets do not compile: see above.', cargo, ['+nightly', 'fuzz', 'build', ...OPTIONS], { env });
-  return `${stdout.trim()}, ${compiler.stdout.trim()}`;
 }
 
-/** @param {string} target @param {string} runs @param {string} seed @returns {Promise<Outcome>} */
-async function inRust(target, runs, seed) {
-  const { bin, env } = await nativeRust();
-  const found = join(OUTPUT, target);
-  mkdirSync(found, { recursive: true });
-  const limits = [`-runs=${runs}`, `-seed=${seed}`, LENGTH, ...LIMITS, '-print_final_stats=1'];
-  const command = ['+nightly', 'fuzz', 'run', ...OPTIONS, target, found, join('fuzz/corpus', target), '--', ...limits];
-  const { ok, output } = await run(join(bin, 'cargo'), command, { env, quiet: true });
+/** @param {string} target @param {string} runs @param {string} seed @returns {Promise<boolean>} false if an input failed */
+async function fuzz(target, runs, seed) {
+  unpack(target);
+  const limits = [`-runs=${runs}`, `-seed=${seed}`, ...LIMITS, '-print_final_stats=1'];
+  const { ok, output } = await cargoFuzz('run', ...OPTIONS, target, folder(target, 'found'), folder(target, 'known'), '--', ...limits);
   if (!ok) console.error(output.split('\n').slice(-60).join('\n'));
-  return { target, ok, ...figures(output) };
+  const last = (/** @type {string} */ pattern) => [...output.matchAll(new RegExp(pattern, 'g'))].pop()?.[1];
+  const figures = [
+    `inputs ${last('stat::number_of_executed_units: *(\\d+)')}`,
+    `slowest ${last('stat::slowest_unit_time_sec: *(\\d+)')} s`,
+    `memory ${last('stat::peak_rss_mb: *(\\d+)')} MB`,
+    `edges ${last(' cov: (\\d+)')}`,
+  ];
+  console.log(`${ok ? 'ok    ' : 'FAILED'} ${target.padEnd(12)} ${figures.join(', ')}`);
+  return ok;
 }
 
-/** @param {string} target @param {string} runs @param {string} seed @returns {Promise<Outcome>} */
-async function inJavaScript(target, runs, seed) {
-  const { ok, output, stdout } = await run(process.execPath, ['tests/fuzz/guided.mjs', target.replace('js-', ''), runs, seed], { quiet: true });
-  if (!ok) console.error(output);
-  return { target, ok, ...(ok ? JSON.parse(stdout.trimEnd().split('\n').pop() ?? '') : {}) };
-}
-
-/**
- * @param {string} output of libFuzzer
- * @returns {Record<string, number>} NaN where it did not come to say
- */
-function figures(output) {
-  const last = (/** @type {string} */ pattern) => Number([...output.matchAll(new RegExp(pattern, 'g'))].pop()?.[1]);
-  return {
-    runs: last('stat::number_of_executed_units: *(\\d+)'),
-    inputs: last(' corp: (\\d+)'),
-    slowest: last('stat::slowest_unit_time_sec: *(\\d+)'),
-    megabytes: last('stat::peak_rss_mb: *(\\d+)'),
-    edges: last(' cov: (\\d+)'),
-    features: last(' ft: (\\d+)'),
-  };
-}
-
-/** @param {Outcome} outcome */
-function told({ target, ok, ...figures }) {
-  const list = Object.entries(figures).map(([name, value]) => `${name} ${value}`);
-  return `${ok ? 'ok    ' : 'FAILED'} ${target.padEnd(14)} ${list.join(', ')}`;
+/** Packs the smallest set of known and found inputs that reaches the same code. @param {string} target */
+async function keep(target) {
+  unpack(target);
+  const merged = folder(target, 'merged');
+  rmSync(merged, { recursive: true, force: true });
+  mkdirSync(merged);
+  // Hit counts of edges would keep five times as many inputs.
+  const options = ['-set_cover_merge=1', '-use_counters=0', ...LIMITS];
+  const { ok, output } = await cargoFuzz('run', ...OPTIONS, target, merged, folder(target, 'known'), folder(target, 'found'), '--', ...options);
+  if (!ok) throw new Missing(output);
+  const lines = readdirSync(merged).map((name) => readFileSync(join(merged, name)).toString('hex'));
+  writeFileSync(packed(target), lines.sort().map((line) => `${line}\n`).join(''));
+  console.log(`${target}: ${lines.length} inputs`);
+  return true;
 }
 
 await runAsScript(import.meta.url, async () => {
-  if (!(await fuzz(process.argv.slice(2)))) process.exitCode = 1;
+  const args = process.argv.slice(2);
+  const keeps = args[0] === 'keep';
+  const [runs, seed] = keeps ? [] : [args[0] ?? '1000000', args[1] ?? '1'];
+  const named = args.slice(keeps ? 1 : 2);
+  for (const [name, number] of Object.entries({ RUNS: runs, SEED: seed })) {
+    if (number !== undefined && !/^[1-9]\d*$/.test(number)) throw new Missing(`${name} must be a whole number from 1 (got "${number}").`);
+  }
+  const stranger = named.find((name) => !TARGETS.includes(name));
+  if (stranger !== undefined) throw new Missing(`"${stranger}" is not a target; targets are ${TARGETS.join(', ')}.`);
+  const waiting = named.length > 0 ? named : [...TARGETS];
+  progress(`${keeps ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waiting.join(', ')}`);
+  await compile();
+  const lane = async () => {
+    for (let target = waiting.shift(); target !== undefined; target = waiting.shift()) {
+      if (!(await (keeps ? keep(target) : fuzz(target, /** @type {string} */ (runs), /** @type {string} */ (seed))))) process.exitCode = 1;
+    }
+  };
+  await Promise.all(Array.from({ length: availableParallelism() }, lane));
 });

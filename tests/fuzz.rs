@@ -1,6 +1,6 @@
-//! The targets of cargo-fuzz without it: on the inputs that fuzzing found worth keeping, and on seeded mutations of them.
+//! Targets of cargo-fuzz, run natively on the inputs that reach new code, and on seeded mutations of them.
 //!
-//! `fuzz/src` holds what is to be true of any bytes. A failure names the bytes; they are to be kept in `fuzz/corpus`.
+//! `fuzz/src` holds the properties. A failure prints its bytes: give them a test with a name in `found!`.
 #![allow(
     clippy::disallowed_methods,
     reason = "an expected value may come from the platform's own mathematics"
@@ -12,13 +12,13 @@ mod targets;
 
 use common::seeded;
 use rand::Rng;
-use std::fs::{read, read_dir};
+use std::fs::{read_dir, read_to_string};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 type Target = fn(&[u8]);
 
-/// A test for each target, with how many mutations it takes: a second's worth.
+/// Tests of the targets, each with its number of mutations: about a quarter of a second each.
 macro_rules! tests {
     ($($name:ident: $mutations:literal,)+) => {
         const NAMES: &[&str] = &[$(stringify!($name)),+];
@@ -29,34 +29,71 @@ macro_rules! tests {
     };
 }
 tests! {
-    anatomy: 50_000,
-    banana: 15_000,
-    calibrate: 400,
-    decomposer: 50_000,
-    grid: 15_000,
-    pgm: 200_000,
-    plan: 10_000,
-    reckoning: 2_000,
-    squeeze: 5_000,
+    anatomy: 10_000,
+    banana: 4_000,
+    calibrate: 100,
+    decomposer: 10_000,
+    grid: 4_000,
+    pgm: 40_000,
+    plan: 2_000,
+    reckoning: 500,
+    squeeze: 1_000,
 }
 
 #[test]
-fn no_target_is_left_out() {
-    let found: Vec<_> = files("fuzz/fuzz_targets").iter().map(|file| file.with_extension("")).collect();
+fn every_target_of_cargo_fuzz_has_a_test() {
+    let directory = read_dir(root().join("fuzz/fuzz_targets")).expect("a directory");
+    let mut found: Vec<_> = directory.map(|entry| entry.expect("a file").path().with_extension("")).collect();
+    found.sort();
     let known: Vec<_> = NAMES.iter().map(|name| root().join("fuzz/fuzz_targets").join(name)).collect();
     assert_eq!(found, known);
 }
 
-/// Of legs that triangles fit without an error nothing is likely but the maximum: an interval that is halved on its way there takes 810 steps.
+/// Tests of inputs that once failed, each with its target.
+macro_rules! found {
+    ($($name:ident: $target:ident $hex:literal,)+) => {
+        $(#[test]
+        fn $name() {
+            run(targets::$target::run, &bytes_of($hex));
+        })+
+    };
+}
+found! {
+    exact_covariances_are_symmetric: banana "5dd51609e9ffb2b2b20e093f0a31b25db2b2b2b22ce6",
+    variances_of_the_cloud_are_not_negative: banana "26c02ffbc02ffbfb5d262100474747fb5d21e91c1c1c1c1c211c1c4d1c1c1cdbe9\
+        26663f420100000001006000f526",
+    gain_of_a_cloud_as_narrow_as_rounding_is_zero: banana "9a6f2c172991e65acbbe1567f08e8e41153ac1054f4fffff4f4f4f4f4f4f4f\
+        ff66f0ffff8e8e1791e65acbbe1567f08eedec",
+    negative_variance_of_the_clock_offset_determines_nothing: calibrate "a5ffffffff244b2be50000000000000000ffffffffffffffff\
+        0000ffffffffffffffffffffffffffff0000ffffffffffffffff0000ffffffffffffffffffffffffffffffffffffffffffff4d982dba\
+        ffffffffffffffff4d982dbade57922f78ffffffffb57f9689163d4937",
+    interval_without_an_end_stays_unbounded: calibrate "7b1579430b1dab32dc99beca4e41c71ee35a7b1579430b1dab3adc99beca4e0ac7\
+        1ee35aae684f1456e1cfdf41f5c4aaae709008ebeba9655452c48aaeae684f1456e1cfdf41f5c4aaae709008ebeba9655452c48aaea4\
+        ef81852c9047",
+    interval_of_an_infinite_alpha_is_a_number: calibrate "a50000000000000000ffffffff974b2b218f23232323232323232323232323\
+        232323232323232323232323232323232323232323230103a2aa92b5897f2f967832",
+    kurtosis_of_subnormal_fourth_powers_is_unknown: calibrate "6a16e5a89362d40c00404a4b83ffffffffffffffff2d570d777b5686aa\
+        837021b52b8fffff5dff982dba8310de5796370100f5813ca7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7\
+        a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a7a76258a7a7104545cd83ca4545454545",
+    command_of_negative_zero_replaces_one_of_zero: reckoning "009107c4c49191919121ffff91919191919191919191919191d9d9d9d991\
+        919191d991919191919191919191919121ffff91919191919191919191919191919191d9d9d99191912cc400000000000091919191919191\
+        919191bfff91919191c400ffd9116f9191919191919121ffff91919191919191919191919191d9d9d9d991919191d991919191919191",
+}
+
+/// A log that triangular noise fits without an error. Bisecting its interval takes 810 steps.
 #[test]
-fn an_interval_of_next_to_nothing_is_found_soon() {
-    let file = root().join("fuzz/corpus/calibrate/3df166ae2b8057eb97f03d5ff645de1d3ac00c7a");
-    let steps = targets::calibrate::steps_of(&read(file).expect("a file"));
+fn interval_of_an_exact_log_takes_fewer_than_600_steps() {
+    let steps = targets::calibrate::steps_of(&bytes_of(
+        "056ab30000db01005c72e4fb44ffffffff28d7d7d7d7f7d7d7d7d7d7d7d7d7d7d7d7d7d7d7d7d7e3db01005c72e4fb44ffffffff28d7d7d7\
+         d7f7d7d7d7d7d7d7d7d7d7d7d7d7d7d7d7d7e3532cb9f73a25163564daf33adbbdca7053b9f73a25163564daf33adbbdca703812639ffca777",
+    ));
     assert!((1..600).contains(&steps), "{steps}");
 }
 
 fn on_corpus_and_mutations(name: &str, target: Target, mutations: u32) {
-    let corpus = corpus(name);
+    let packed = read_to_string(root().join("fuzz/corpus").join(name).with_extension("txt")).expect("a file");
+    let corpus: Vec<_> = packed.lines().map(bytes_of).collect();
+    assert!(corpus.len() > 20, "{} inputs of {name}", corpus.len());
     corpus.iter().for_each(|bytes| run(target, bytes));
     let mut rng = seeded(2911);
     for _ in 0..mutations {
@@ -72,23 +109,14 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// In the same order everywhere.
-fn files(directory: &str) -> Vec<PathBuf> {
-    let all = read_dir(root().join(directory)).expect("a directory");
-    let mut files: Vec<_> = all.map(|entry| entry.expect("a file").path()).collect();
-    files.sort();
-    files
-}
-
-fn corpus(name: &str) -> Vec<Vec<u8>> {
-    let files = files(&format!("fuzz/corpus/{name}"));
-    assert!(files.len() > 20, "{} files of {name}", files.len());
-    files.iter().map(|file| read(file).expect("a file")).collect()
+fn bytes_of(hex: &str) -> Vec<u8> {
+    let byte = |at| u8::from_str_radix(&hex[at..at + 2], 16).expect("two hexadecimal digits");
+    (0..hex.len()).step_by(2).map(byte).collect()
 }
 
 fn run(target: Target, bytes: &[u8]) {
     catch_unwind(AssertUnwindSafe(|| target(bytes))).unwrap_or_else(|panic| {
-        eprintln!("on the bytes {bytes:?}");
+        eprintln!("on the bytes {bytes:02x?}");
         resume_unwind(panic);
     });
 }

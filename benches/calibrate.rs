@@ -1,6 +1,6 @@
 //! `cargo bench --bench calibrate`: how long α's and their intervals take of 100 000 legs, and how many passes over them.
 
-#[path = "../tests/calibrate/simulated.rs"]
+#[path = "../tests/native/calibrate/simulated.rs"]
 #[allow(dead_code, reason = "the tests need more of it")]
 mod simulated;
 

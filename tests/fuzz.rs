@@ -1,16 +1,11 @@
 //! Targets of cargo-fuzz, run natively on the inputs that reach new code, and on seeded mutations of them.
 //!
 //! `fuzz/src` holds the properties. A failure prints its bytes: give them a test with a name in `found!`.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "an expected value may come from the platform's own mathematics"
-)]
 
-mod common;
 #[path = "../fuzz/src/lib.rs"]
 mod targets;
 
-use common::seeded;
+use crate::common::seeded;
 use rand::Rng;
 use std::fs::{read_dir, read_to_string};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};

@@ -1,4 +1,4 @@
-// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test settings_js`: not to be edited.
+// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
 
 /**
  * What is said of a setting where it is declared.

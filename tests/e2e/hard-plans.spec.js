@@ -275,7 +275,7 @@ test('a large cloud in a state comes in slices too', async ({ page }) => {
 
 /**
  * Slices that the hardest plans are made ready in at most: each is 50,000 steps, and they take twenty million
- * (tests/hard_plans.rs).
+ * (tests/native/map/hard_plans.rs).
  */
 const SLICES = 20_000_000 / 50_000;
 

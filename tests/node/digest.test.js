@@ -13,7 +13,7 @@ const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}
 const all = JSON.parse(read('tests/digest/configurations.json'));
 const motion = await (await freshModule()).load();
 
-/** What has no seed, or draws as the models in Rust do, one pose after the other: homework.test.js, calibrate.test.js and tests/distributions.rs. */
+/** What has no seed, or draws as the models in Rust do, one pose after the other: homework.test.js, calibrate.test.js and tests/native/models/distributions.rs. */
 const HOMEWORK = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** As core.js has them, by tags. @type {Map<string, any>} */
@@ -86,7 +86,7 @@ test('every map is used, and what differs is named', () => {
   ]);
 });
 
-/** What tells nothing, or nothing twice, or comes to what another way comes to as well: tests/banana.rs, tests/squeeze.rs and tests/alpha_calibrator.rs hold it to that. */
+/** What tells nothing, or nothing twice, or comes to what another way comes to as well: tests/native/simulations/banana.rs, tests/native/simulations/squeeze.rs and tests/native/simulations/alpha_calibrator.rs hold it to that. */
 const OTHERWISE = new Set([
   'constructor', 'free', '__destroy_into_raw', 'config', 'configure', 'begin', 'beginGrid', 'beginLog', 'advance', 'grow', 'beginToGrow', 'restart', 'progress', 'stop', 'alphasOfModels',
   'randomSeed',

@@ -1,0 +1,98 @@
+//! Logs that are not what they are taken for.
+
+use super::simulated::Simulation;
+use motion::NoiseKind;
+use motion::calibrate::{
+    Calibration, Error, Model, Options, ReferenceError, Robust, Systematic, Trajectory, Verdict, calibrate,
+};
+use motion::geom::se2::SE2;
+use motion::models::OdometryRule;
+use motion::noise::Variance;
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
+
+fn simulation(seed: u64) -> Simulation {
+    Simulation::of(NAV2, NoiseKind::Normal, 600, seed)
+}
+
+fn told(odometry: &Trajectory, reference: &Trajectory, reference_error: ReferenceError) -> Calibration {
+    let options = Options { reference_error, ..simulation(0).options(Robust::No) };
+    calibrate(odometry, reference, &options).expect("legs enough")
+}
+
+/// The poses made others, each with the number of its sample.
+fn edited(
+    trajectory: &Trajectory,
+    edit: impl FnMut((usize, (f64, SE2))) -> Option<(f64, SE2)>,
+) -> Trajectory {
+    Trajectory::new(trajectory.samples().enumerate().filter_map(edit).collect::<Vec<_>>())
+        .expect("times rise")
+}
+
+#[test]
+fn a_reference_of_another_drive_or_in_other_units_is_told() {
+    let [odometry, reference] = simulation(1).log();
+    let [_, of_another] = simulation(2).log();
+    let in_millimetres = |log: &Trajectory| {
+        edited(log, |(_, (t, pose))| Some((t, SE2::new(1000.0 * pose.x(), 1000.0 * pose.y(), pose.theta()))))
+    };
+    let in_degrees = |log: &Trajectory| {
+        edited(log, |(_, (t, pose))| Some((t, SE2::new(pose.x(), pose.y(), pose.theta().to_degrees()))))
+    };
+    let mirrored =
+        edited(&reference, |(_, (t, pose))| Some((t, SE2::new(-pose.x(), pose.y(), pose.theta()))));
+    for (name, odometry, reference) in [
+        ("another", &odometry, &of_another),
+        ("millimetres", &odometry, &in_millimetres(&reference)),
+        ("degrees", &odometry, &in_degrees(&reference)),
+        ("mirrored", &odometry, &mirrored),
+        ("odometry in millimetres", &in_millimetres(&odometry), &reference),
+        ("odometry in degrees", &in_degrees(&odometry), &reference),
+    ] {
+        let verdict = told(odometry, reference, ReferenceError::default()).doubts.verdict;
+        assert_eq!(verdict, Verdict::Unrelated, "{name}");
+    }
+    assert_eq!(told(&odometry, &reference, ReferenceError::default()).doubts.verdict, Verdict::Fits);
+}
+
+#[test]
+fn legs_that_are_longer_than_asked_are_told() {
+    let [odometry, reference] = simulation(3).log();
+    // A pose every two seconds.
+    let sparse = edited(&reference, |(sample, row)| (sample % 40 == 0).then_some(row));
+    assert_eq!(told(&odometry, &sparse, ReferenceError::default()).doubts.verdict, Verdict::LongLegs);
+}
+
+#[test]
+fn what_is_not_determined_is_not_removed() {
+    let straight = Simulation { straight: 1.0, ..simulation(4) };
+    let [odometry, reference] = straight.log();
+    let calibration = told(&odometry, &reference, ReferenceError::default());
+    let left: Vec<Error> =
+        Error::ALL.into_iter().filter(|error| calibration.deviations[*error as usize].is_none()).collect();
+    assert!(left.contains(&Error::TurnScale), "{left:?}");
+    for error in left.into_iter().filter(|error| *error != Error::ClockOffset) {
+        assert_eq!(calibration.removed.get(error), Systematic::NONE.get(error), "{error:?}");
+    }
+}
+
+/// Legs share the error of the reference where they meet, with opposite signs: their correlation says nothing against the model.
+#[test]
+fn a_stated_error_of_the_reference_is_nothing_systematic() {
+    let stated = ReferenceError { position: 0.02, heading: 0.02 };
+    let mut correlated = 0;
+    for seed in 10..20 {
+        let [odometry, reference] = simulation(seed).log();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let mut shake = || NoiseKind::Normal.sample(Variance(0.02 * 0.02), &mut rng);
+        let shaken = edited(&reference, |(_, (t, pose))| {
+            Some((t, SE2::new(pose.x() + shake(), pose.y() + shake(), pose.theta() + shake())))
+        });
+        let doubts = told(&odometry, &shaken, stated).doubts;
+        assert!(doubts.kinds.iter().all(|kind| kind.autocorrelation < -1.5 * kind.autocorrelation_limit));
+        correlated += usize::from([Verdict::Correlated, Verdict::Understated].contains(&doubts.verdict));
+    }
+    assert!(correlated <= 1, "{correlated} of 10");
+}

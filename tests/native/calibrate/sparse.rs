@@ -1,0 +1,276 @@
+//! Trajectories of which one has far fewer samples than the other.
+
+use super::simulated::Simulation;
+use motion::calibrate::{
+    Calibration, Error, LegLength, Model, Options, ReferenceError, Robust, Systematic, Trajectory,
+    Uncertainty, calibrate, cut,
+};
+use motion::geom::se2::SE2;
+use motion::models::OdometryRule;
+use motion::{NoiseKind, Variance};
+use nalgebra::{Matrix2, Vector3};
+use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+const REAL: Systematic = Systematic {
+    clock_offset: 0.0,
+    mount_yaw: 0.07,
+    lever_arm: [0.1, -0.05],
+    distance_scale: 1.02,
+    turn_scale: 0.99,
+};
+
+/// A robot that winds its way for 800 s, with errors that walk as it drives: odometry and reference, 20 samples a second.
+fn winding(seed: u64) -> [Vec<(f64, SE2)>; 2] {
+    const STEP: f64 = 0.05;
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut noise = |variance: f64| NoiseKind::Normal.sample(Variance(variance), &mut rng);
+    let (mut read, mut truth) = (SE2::identity(), SE2::new(1.0, 2.0, 0.5));
+    let mount = SE2::new(REAL.lever_arm[0], REAL.lever_arm[1], REAL.mount_yaw);
+    let mut log = [Vec::new(), Vec::new()];
+    for row in 0..16_000 {
+        let time = STEP * f64::from(row);
+        log[0].push((time, read));
+        log[1].push((time, truth * mount));
+        let way = STEP * (0.35 + 0.2 * libm::sin(0.31 * time));
+        let turn = STEP * 0.6 * libm::sin(0.83 * time) * libm::sin(0.137 * time);
+        read = read.boxplus(Vector3::new(way / REAL.distance_scale, 0.0, turn / REAL.turn_scale));
+        let off = Vector3::new(noise(0.0017 * way), 0.0, noise(0.002 * way + 0.003 * turn.abs()));
+        truth = truth.boxplus(Vector3::new(way, 0.0, turn) + off);
+    }
+    log
+}
+
+/// Of its samples each so many-th.
+fn thinned(samples: &[(f64, SE2)], first: usize, every: usize) -> Trajectory {
+    Trajectory::new(samples.iter().copied().skip(first).step_by(every)).expect("times rise")
+}
+
+fn calibrated(odometry: &Trajectory, reference: &Trajectory) -> Calibration {
+    let options = Options {
+        model: Model::Odometry(OdometryRule::Nav2),
+        legs: LegLength::Lasted { duration: 1.0 },
+        noise: NoiseKind::Normal,
+        robust: Robust::No,
+        remove: [true; 6],
+        reference_error: ReferenceError::default(),
+        seed: 0,
+        by_length: false,
+    };
+    calibrate(odometry, reference, &options).expect("legs enough")
+}
+
+#[test]
+fn one_of_them_may_have_a_sample_a_leg() {
+    // Of 20 logs of 780 legs the mean of an α is known to √(2/780/20) = 0.011, α₄, that has a third of the noise, to 0.04: means may be apart by
+    // three deviations of a difference. Of 240 intervals a share of 0.95 has the deviation 0.014, and is allowed three.
+    const LOGS: u64 = 20;
+    const APART: [f64; 4] = [0.05, 0.05, 0.05, 0.17];
+    let (mut sums, mut covered) = ([[0.0; 4]; 3], 0);
+    for seed in 0..LOGS {
+        let [odometry, reference] = winding(seed);
+        let whole = calibrated(&thinned(&odometry, 0, 5), &thinned(&reference, 0, 1));
+        // A reference of a sample a second, halfway between those at which a leg would end; and likewise of the odometry.
+        let sparse = [
+            calibrated(&thinned(&odometry, 0, 1), &thinned(&reference, 10, 20)),
+            calibrated(&thinned(&odometry, 10, 20), &thinned(&reference, 0, 1)),
+        ];
+        for (sums, told) in sums.iter_mut().zip([&whole, &sparse[0], &sparse[1]]) {
+            sums.iter_mut().zip(&told.estimate.alphas).for_each(|(sum, alpha)| *sum += alpha);
+        }
+        for (told, error) in sparse.iter().flat_map(|told| Error::ALL.map(|error| (told, error))) {
+            let [from, to] = told.interval_of(error).expect("determined");
+            covered += u32::from((from..=to).contains(&REAL.get(error)));
+        }
+    }
+    for sparse in [sums[1], sums[2]] {
+        for (k, apart) in APART.into_iter().enumerate() {
+            let times = sparse[k] / sums[0][k];
+            assert!((times - 1.0).abs() < apart, "α{} times {times}", k + 1);
+        }
+    }
+    let share = f64::from(covered) / (12.0 * LOGS as f64);
+    assert!(share > 0.95 - 3.0 * 0.014, "{share}");
+}
+
+#[test]
+fn a_leg_ends_where_the_sparser_one_has_a_sample() {
+    let [odometry, reference] = winding(0);
+    let length = LegLength::Lasted { duration: 1.0 };
+    let has = |samples: &Trajectory, time: f64| samples.samples().any(|(at, _)| (at - time).abs() < 1e-9);
+    // The clock of the reference is ahead by 5 s.
+    let ahead = |samples: Vec<(f64, SE2)>| {
+        samples.into_iter().map(|(time, pose)| (time + 5.0, pose)).collect::<Vec<_>>()
+    };
+    let reference = ahead(reference);
+    for (every, step) in [(1, 1.0), (6, 0.9), (30, 1.5)] {
+        let [read, seen] = [thinned(&odometry, 0, 1), thinned(&reference, 7, every)];
+        let legs = cut(&read, &seen, length, 5.0);
+        assert!(legs.len() > 500);
+        for leg in &legs {
+            // Next to a reading after a second, or, with a sample each second and a half, at each of these.
+            assert!(leg.times.iter().all(|time| has(&seen, time + 5.0)), "{every}: {:?}", leg.times);
+            assert!((leg.duration() - step).abs() < 0.301, "{every}: {}", leg.duration());
+            for (end, truth) in leg.times.iter().zip(leg.reference) {
+                assert_eq!(
+                    seen.pose_at(end + 5.0).map(|pose| pose.boxminus(&truth).norm() < 1e-9),
+                    Some(true)
+                );
+            }
+            for (end, at) in leg.times.iter().zip(leg.odometry) {
+                assert_eq!(read.pose_at(*end), Some(at));
+            }
+        }
+        assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
+    }
+    // With as many of both it is at the reading, and so it is where the odometry has fewer.
+    for (first, odd) in [(0, 1), (3, 20)] {
+        let [read, seen] = [thinned(&odometry, first, odd), thinned(&reference, 0, 1)];
+        let legs = cut(&read, &seen, length, 5.01);
+        assert!(legs.len() > 500 && legs.iter().all(|leg| leg.times.iter().all(|time| has(&read, *time))));
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_usual_step_is_in_the_middle_of_all_when_they_are_sorted(
+        steps in prop::collection::vec(
+            prop_oneof![1e-6_f64..1e6, Just(0.01), 0.01_f64..0.0101, (1_u64..9).prop_map(f64::from_bits)],
+            0..200,
+        ),
+    ) {
+        let mut times = vec![0.0];
+        for step in steps {
+            let next = times[times.len() - 1] + step;
+            if next > times[times.len() - 1] {
+                times.push(next);
+            }
+        }
+        let mut sorted: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let expected = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let trajectory = Trajectory::new(times.into_iter().map(|time| (time, SE2::identity())));
+        let told = trajectory.expect("times that rise").usual_step();
+        prop_assert_eq!(told.to_bits(), expected.to_bits());
+    }
+}
+
+/// Between two samples of a reference the mean of their errors is at work, whose variance is down to half as large: all of it taken off would
+/// leave α's that are a tenth too small.
+#[test]
+fn between_two_samples_a_reference_errs_less_than_at_one() {
+    let stated = ReferenceError { position: 0.002, heading: 0.003 };
+    let mut ratios = Vec::new();
+    for seed in 0..10 {
+        let made = Simulation::of(Model::Odometry(OdometryRule::Omni), NoiseKind::Normal, 1000, 40 + seed);
+        let [odometry, reference] = made.log();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let mut noise = |deviation: f64| NoiseKind::Normal.sample(Variance(deviation * deviation), &mut rng);
+        // Half a step later, so that no sample is where a leg ends.
+        let times: Vec<f64> = reference.samples().map(|(time, _)| time).collect();
+        let mut late = |stated: ReferenceError| {
+            let shaken = times.windows(2).map(|pair| {
+                let time = 0.5 * (pair[0] + pair[1]);
+                let pose = reference.pose_at(time).expect("inside");
+                let [x, y, theta] = [stated.position, stated.position, stated.heading].map(&mut noise);
+                (time, SE2::new(pose.x() + x, pose.y() + y, pose.theta() + theta))
+            });
+            let late = Trajectory::new(shaken).expect("times rise");
+            let options = Options { reference_error: stated, remove: [false; 6], ..made.options(Robust::No) };
+            calibrate(&odometry, &late, &options).expect("legs enough").estimate.alphas
+        };
+        let [without, with] = [ReferenceError::default(), stated].map(&mut late);
+        ratios.extend(with.iter().zip(without).map(|(with, without)| with / without));
+    }
+    // Of 1000 legs an α has a deviation of some 7 hundredths, of which the reference's error is less than half; the mean of 50 has half
+    // of a hundredth.
+    let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+    assert!((mean - 1.0).abs() < 0.02, "{mean}");
+}
+
+/// A leg of a way t whose ends are blurred has a distance and a bearing of another spread than to first order: by 5 parts in a hundred where the
+/// variance of the blur is a twentieth of t². Of 40,000 legs a mean square is known to √(2/40000), and legs that share an end have something in
+/// common: 2 parts in a hundred are allowed, and for the mean distance four of its deviations.
+#[test]
+fn where_an_end_is_blurred_distance_and_bearing_have_the_variances_that_are_told() {
+    const LEGS: u32 = 40_000;
+    const WAY: f64 = 0.25;
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(11);
+    let mut noise = |variance: f64| NoiseKind::Normal.sample(Variance(variance), &mut rng);
+    // Of the robot's own noise there is none, or that of a way alone.
+    for (blur, alpha) in [(0.04, 0.0), (0.01, 0.1)] {
+        let (mut read, mut truth) = (SE2::identity(), SE2::identity());
+        let mut log = [Vec::new(), Vec::new()];
+        for row in 0..=LEGS {
+            let seen = SE2::new(truth.x() + noise(blur * blur), noise(blur * blur), 0.0);
+            log[0].push((f64::from(row), read));
+            log[1].push((f64::from(row), seen));
+            read = read * SE2::new(WAY, 0.0, 0.0);
+            truth = truth * SE2::new(WAY + noise(alpha * WAY * WAY), 0.0, 0.0);
+        }
+        let [odometry, reference] = log.map(|samples| Trajectory::new(samples).expect("times rise"));
+        let legs = cut(&odometry, &reference, LegLength::Lasted { duration: 1.0 }, 0.0);
+        assert!(legs.len() > 39_000, "{}", legs.len());
+        let place = Matrix2::identity() * (2.0 * blur * blur);
+        for (model, distance, bearing) in
+            [(Model::Odometry(OdometryRule::Nav2), 1, 0), (Model::Velocity, 0, 1)]
+        {
+            let mut alphas = [0.0; 6];
+            alphas[if distance == 1 { 2 } else { 0 }] = alpha;
+            let error = Uncertainty { place, bearing: place, headings: [0.0; 2], alphas };
+            let told: Vec<[f64; 3]> = legs
+                .iter()
+                .map(|leg| model.observe(leg, &Systematic::NONE, &error))
+                // Of those that hardly lead anywhere there is no bearing.
+                .map(|leg| {
+                    let variance = leg.floors[distance] + alpha * leg.coefficients[distance][0];
+                    let off = leg.residuals[distance];
+                    [
+                        off / variance.sqrt(),
+                        off * off / variance,
+                        leg.residuals[bearing].powi(2) / leg.floors[bearing],
+                    ]
+                })
+                .collect();
+            let mean = |k: usize| told.iter().map(|each| each[k]).sum::<f64>() / told.len() as f64;
+            let case = format!("{model:?}, {blur} m, {alpha}: {} {} {}", mean(0), mean(1), mean(2));
+            assert!(mean(0).abs() < 4.0 / f64::from(LEGS).sqrt(), "{case}");
+            assert!((mean(1) - 1.0).abs() < 0.02 && (mean(2) - 1.0).abs() < 0.02, "{case}");
+        }
+    }
+}
+
+proptest! {
+    /// And what is not known of clock and lever arm moves none: the rounds that find them would follow that.
+    #[test]
+    fn however_a_leg_leads_its_residuals_are_numbers_and_its_variances_none_or_more(
+        way in -5.0..5.0_f64,
+        turn in -8.0..8.0_f64,
+        off in prop::array::uniform3(-0.1..0.1_f64),
+        deviation in prop_oneof![Just(0.0), 1e-6..0.2_f64],
+        alpha in prop_oneof![Just(0.0), 1e-9..10.0_f64, Just(f64::INFINITY)],
+    ) {
+        const ROWS: u32 = 40;
+        let part = |twist: Vector3<f64>, row: u32| SE2::exp(&(twist * (f64::from(row) / f64::from(ROWS))));
+        let along = |row| part(Vector3::new(way, 0.0, turn), row);
+        let read = (0..=ROWS).map(|row| (f64::from(row), along(row)));
+        let seen = (0..=ROWS).map(|row| (f64::from(row), along(row) * part(Vector3::from(off), row)));
+        let [read, seen] = [Trajectory::new(read).expect("times rise"), Trajectory::new(seen).expect("times rise")];
+        let place = Matrix2::identity() * (deviation * deviation);
+        let error = Uncertainty { place, bearing: place, headings: [deviation; 2], alphas: [alpha; 6] };
+        let legs = cut(&read, &seen, LegLength::Lasted { duration: f64::from(ROWS) - 0.5 }, 0.0);
+        prop_assert_eq!(legs.len(), 1);
+        for leg in legs {
+            for model in [Model::Velocity, Model::Odometry(OdometryRule::Table), Model::Odometry(OdometryRule::Omni)] {
+                let told = model.observe(&leg, &Systematic::NONE, &error);
+                prop_assert!(told.floors.iter().all(|floor| *floor >= 0.0 && floor.is_finite()), "{told:?}");
+                prop_assert!(told.residuals.iter().all(|residual| !residual.is_infinite()), "{told:?}");
+                prop_assert!(told.slopes.iter().all(|slope| slope.is_finite()), "{told:?}");
+                let unsure = Uncertainty { bearing: place + Matrix2::identity() * 0.1, ..error };
+                let same = model.observe(&leg, &Systematic::NONE, &unsure).residuals;
+                prop_assert_eq!(same.map(f64::to_bits), told.residuals.map(f64::to_bits));
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! A reader's own models, written to the trait as the chapter prints it: two methods and a type, in the chapter's names.
+
+use motion::geom::se2::{SE2, wrap_angle};
+use motion::{
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, Variance, VelocityAlphas, VelocityCmd,
+    VelocityModel, invert_arc,
+};
+use nalgebra::{Matrix3, Vector3};
+use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+/// The velocity model by centre and radius, as a first solution of exercise 1 has it.
+struct ByRadius {
+    alphas: VelocityAlphas,
+    noise: NoiseKind,
+}
+
+impl ByRadius {
+    fn variances(&self, u: &VelocityCmd) -> [Variance; 3] {
+        let a = self.alphas.0;
+        [0, 2, 4].map(|i| Variance(a[i] * u.v.powi(2) + a[i + 1] * u.omega.powi(2)))
+    }
+}
+
+impl MotionModel for ByRadius {
+    type Control = VelocityCmd;
+
+    fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
+        let [v, omega, gamma] = self.variances(u).map(|variance| self.noise.sample(variance, rng));
+        let (v_hat, omega_hat) = (u.v + v, u.omega + omega);
+        let (radius, heading) = (v_hat / omega_hat, x.theta() + omega_hat * u.dt);
+        SE2::new(
+            x.x() + radius * (heading.sin() - x.theta().sin()),
+            x.y() - radius * (heading.cos() - x.theta().cos()),
+            wrap_angle(heading + gamma * u.dt),
+        )
+    }
+
+    fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
+        let hat = invert_arc(x, x_next, u.dt);
+        let residuals = [u.v - hat.v_hat, u.omega - hat.omega_hat, hat.gamma_hat];
+        self.variances(u)
+            .iter()
+            .zip(residuals)
+            .map(|(variance, residual)| self.noise.prob(residual, *variance))
+            .product()
+    }
+
+    fn tangent_cov(&self, u: &VelocityCmd) -> Option<Matrix3<f64>> {
+        let [v, omega, _] = self.variances(u).map(|variance| variance.0 * u.dt * u.dt);
+        Some(Matrix3::from_diagonal(&Vector3::new(v, 0.0, omega)))
+    }
+}
+
+/// The odometry model, with nothing but what the trait asks for.
+struct Rotations {
+    alphas: OdomAlphas,
+}
+
+impl MotionModel for Rotations {
+    type Control = OdomDelta;
+
+    fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
+        OdometryModel { alphas: self.alphas, noise: NoiseKind::Normal }.sample(u, x, rng)
+    }
+
+    fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
+        OdometryModel { alphas: self.alphas, noise: NoiseKind::Normal }.prob(x_next, u, x)
+    }
+}
+
+const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
+
+#[test]
+fn a_readers_velocity_model_is_the_crates() {
+    let reader = ByRadius { alphas: ALPHAS, noise: NoiseKind::Normal };
+    let ours = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
+    let x = SE2::new(2.0, -1.0, 0.4);
+    let (mut theirs, mut rng) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
+    for _ in 0..1000 {
+        let (by_radius, by_chord) =
+            (reader.sample(&COMMAND, &x, &mut theirs), ours.sample(&COMMAND, &x, &mut rng));
+        // The radius loses digits where ω̂ is small: it multiplies the rounding of two sines, 2e-16 each, by v̂/ω̂.
+        let lost = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &by_chord, 1.0).omega_hat.abs());
+        assert!((by_radius.x() - by_chord.x()).abs() < lost && (by_radius.y() - by_chord.y()).abs() < lost);
+        assert!((by_radius.theta() - by_chord.theta()).abs() < 1e-15 * 4.0);
+        let [prob, expected] = [reader.prob(&by_chord, &COMMAND, &x), ours.prob(&by_chord, &COMMAND, &x)];
+        assert!((prob - expected).abs() <= 1e-14 * expected);
+    }
+    assert_eq!(reader.tangent_cov(&COMMAND), ours.tangent_cov(&COMMAND));
+}
+
+#[test]
+fn what_a_reader_does_not_say_is_none() {
+    let reader = Rotations { alphas: OdomAlphas([0.1; 4]) };
+    let x = SE2::identity();
+    let u = OdomDelta::from_poses(&x, &SE2::new(1.0, 0.2, 0.3));
+    assert_eq!((reader.pose_density(&u.apply(&x), &u, &x), reader.tangent_cov(&u)), (None, None));
+    assert!(reader.prob(&u.apply(&x), &u, &x) > 0.0);
+    assert!(reader.sample(&u, &x, &mut SmallRng::seed_from_u64(1)).x().is_finite());
+}

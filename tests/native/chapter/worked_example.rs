@@ -1,0 +1,189 @@
+//! The chapter's worked example, figure by figure: v = 1, ω = 0.5, Δt = 1, α₁₋₄ = 0.02, α₅,₆ = 0, from the origin.
+//!
+//! The first half uses the crate as the chapter's own listing does, `SmallRng` and all. Printed figures are checked to
+//! half a unit of their last digit; measured ones to 4.5 standard errors, taken from the spread over 100 batches of
+//! the sample. The chapter's measurements come from another sample of the same size, which makes that √2 times as much.
+
+use crate::common::{SIGMAS, with_standard_error};
+use approx::assert_relative_eq;
+use motion::geom::se2::SE2;
+use motion::stats::{CartesianMoments, CrossTrack, ExactMoments, ExponentialMoments};
+use motion::{
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas,
+    VelocityCmd, VelocityModel,
+};
+use nalgebra::{Matrix3, Vector3};
+use rand::{SeedableRng, rngs::SmallRng};
+
+const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
+const MODEL: VelocityModel = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
+const SAMPLES: usize = 200_000;
+
+fn cloud_of(model: &VelocityModel) -> Vec<SE2> {
+    let mut rng = SmallRng::seed_from_u64(7);
+    (0..SAMPLES).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
+}
+
+/// Equal to a printed figure of this many decimals.
+fn assert_printed(value: f64, printed: f64, decimals: i32, what: &str) {
+    let half_unit = 0.5 * 10f64.powi(-decimals) * (1.0 + 1e-9);
+    assert!((value - printed).abs() <= half_unit, "{what}: {value}, printed {printed}");
+}
+
+#[test]
+fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
+    let noiseless = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
+    let by_arc = noiseless.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
+    let by_exp = SE2::exp(&Vector3::new(U.v * U.dt, 0.0, U.omega * U.dt));
+    for end in [by_arc, by_exp] {
+        assert_relative_eq!(end.x(), 0.958_851_077_208, epsilon = 1e-12);
+        assert_relative_eq!(end.y(), 0.244_834_876_219, epsilon = 1e-12);
+        assert_eq!(end.theta(), 0.5);
+    }
+    assert_relative_eq!(by_arc.x(), 2.0 * 0.5f64.sin(), epsilon = 1e-15);
+    assert_relative_eq!(by_arc.y(), 2.0 * (1.0 - 0.5f64.cos()), epsilon = 1e-15);
+}
+
+#[test]
+fn exponential_coordinates_have_the_mean_and_covariance_of_the_command() {
+    let x0 = SE2::identity();
+    let xis: Vec<Vector3<f64>> = cloud_of(&MODEL).iter().map(|pose| pose.boxminus(&x0)).collect();
+    let n = xis.len() as f64;
+    let mean = xis.iter().sum::<Vector3<f64>>() / n;
+    let cov = xis.iter().map(|xi| (xi - mean) * (xi - mean).transpose()).sum::<Matrix3<f64>>() / (n - 1.0);
+
+    let r_u = MODEL.tangent_cov(&U).unwrap();
+    assert_relative_eq!(r_u, Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025)), epsilon = 1e-17);
+    // A mean has the standard error σ/√n, a Gaussian variance √(2/n) of itself.
+    let mean_error = SIGMAS * (0.025 / n).sqrt();
+    assert_relative_eq!(mean, Vector3::new(1.0, 0.0, 0.5), epsilon = mean_error);
+    let relative_error = SIGMAS * (2.0 / n).sqrt();
+    assert_relative_eq!(cov[(0, 0)], r_u[(0, 0)], max_relative = relative_error);
+    assert_relative_eq!(cov[(2, 2)], r_u[(2, 2)], max_relative = relative_error);
+    assert!(cov[(1, 1)] < 1e-30, "no lateral noise, only rounding: {}", cov[(1, 1)]);
+
+    let moments = ExponentialMoments::from_poses(&cloud_of(&MODEL), &x0);
+    assert_relative_eq!(moments.mean, mean, epsilon = 1e-12);
+    assert_relative_eq!(moments.cov, cov, epsilon = 1e-12);
+}
+
+#[test]
+fn the_linearized_table() {
+    let cov = MODEL.cartesian_cov(&U, &SE2::identity());
+    for (entry, printed, what) in [
+        ((0, 0), 0.023645, "Σxx"),
+        ((1, 1), 0.007002, "Σyy"),
+        ((2, 2), 0.025000, "Σθθ"),
+        ((0, 1), 0.003963, "Σxy"),
+        ((0, 2), -0.004063, "Σxθ"),
+        ((1, 2), 0.011730, "Σyθ"),
+    ] {
+        assert_printed(cov[entry], printed, 6, what);
+        assert_relative_eq!(cov[entry], cov[(entry.1, entry.0)], epsilon = 1e-17);
+    }
+    assert_printed(cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt(), 0.887, 3, "ρyθ");
+    // Its two columns: the arc differentiated by v and by ω. One α at a time leaves √α times one of them.
+    let column = |alphas: [f64; 6]| {
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        model.cartesian_cov(&U, &SE2::identity())
+    };
+    let by_v = column([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let by_omega = column([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    assert_printed(by_v[(0, 0)].sqrt(), 0.958851, 6, "∂x/∂v");
+    assert_printed(by_v[(1, 0)] / by_v[(0, 0)].sqrt(), 0.244835, 6, "∂y/∂v");
+    assert_eq!(by_v[(2, 2)], 0.0);
+    assert_printed(by_omega[(0, 2)], -0.162537, 6, "∂x/∂ω");
+    assert_printed(by_omega[(1, 2)], 0.469181, 6, "∂y/∂ω");
+    assert_relative_eq!(by_omega[(2, 2)], 1.0, epsilon = 1e-15);
+}
+
+#[test]
+fn the_exact_table() {
+    let exact = ExactMoments::of_velocity(&MODEL, &U);
+    assert_printed(exact.mean.x, 0.955006501, 9, "mean x");
+    assert_printed(exact.mean.y, 0.243321663, 9, "mean y");
+    assert_eq!(exact.mean.z, 0.5);
+    assert_printed(exact.cov[(0, 0)], 0.023497983, 9, "Σxx");
+    assert_printed(exact.cov[(1, 1)], 0.007057304, 9, "Σyy");
+    assert_printed(exact.cross_track_skew, -0.30056, 5, "skew");
+    let opening = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+    let opening = ExactMoments::of_velocity(&VelocityModel { alphas: opening, ..MODEL }, &U);
+    assert_printed(opening.cross_track_skew, -0.43093, 5, "skew of the opening command");
+}
+
+/// The chapter's column of 200 000 samples, and the exact value where there is one.
+#[test]
+fn the_measured_table() {
+    let cloud = cloud_of(&MODEL);
+    let exact = ExactMoments::of_velocity(&MODEL, &U);
+    let exact_rho = exact.cov[(1, 2)] / (exact.cov[(1, 1)] * exact.cov[(2, 2)]).sqrt();
+    let cov = |i, j| move |poses: &[SE2]| CartesianMoments::from_poses(poses).cov[(i, j)];
+    let xi_mean = |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).mean[i];
+    let xi_cov = |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
+    let rho = |poses: &[SE2]| {
+        let cov = CartesianMoments::from_poses(poses).cov;
+        cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt()
+    };
+    type Statistic = Box<dyn Fn(&[SE2]) -> f64>;
+    let rows: [(&str, Statistic, f64, i32, f64); 10] = [
+        ("Σxx", Box::new(cov(0, 0)), 0.02355, 5, exact.cov[(0, 0)]),
+        ("Σyy", Box::new(cov(1, 1)), 0.00710, 5, exact.cov[(1, 1)]),
+        ("Σxθ", Box::new(cov(0, 2)), -0.00403, 5, exact.cov[(0, 2)]),
+        ("ρyθ", Box::new(rho), 0.878, 3, exact_rho),
+        ("E ξ along", Box::new(xi_mean(0)), 1.0005, 4, 1.0),
+        ("E ξ heading", Box::new(xi_mean(2)), 0.4994, 4, 0.5),
+        ("Cov ξ along", Box::new(xi_cov(0)), 0.02508, 5, 0.025),
+        ("Cov ξ heading", Box::new(xi_cov(2)), 0.02505, 5, 0.025),
+        ("skew", Box::new(motion::stats::cross_track_skew), -0.301, 3, exact.cross_track_skew),
+        ("E x", Box::new(|poses| CartesianMoments::from_poses(poses).mean.x), 0.955, 3, exact.mean.x),
+    ];
+    for (what, statistic, printed, decimals, exact) in rows {
+        let (measured, error) = with_standard_error(&cloud, statistic);
+        assert!((measured - exact).abs() < SIGMAS * error, "{what}: {measured} ± {error}, exactly {exact}");
+        let allowed = SIGMAS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
+        assert!((measured - printed).abs() < allowed, "{what}: {measured} ± {error}, printed {printed}");
+    }
+    let lateral = ExponentialMoments::from_poses(&cloud, &SE2::identity());
+    assert!(lateral.mean.y.abs() < 1e-15 && lateral.cov[(1, 1)] < 1e-30, "printed 0.0000 and 0.00000");
+}
+
+/// The same cloud is no Gaussian in (x, y): its skew is forty standard errors from 0.
+#[test]
+fn the_cloud_is_skewed_in_the_plane() {
+    let figures = CrossTrack::from_poses(&cloud_of(&MODEL));
+    assert!(figures.skew < -0.25 && figures.skew < -40.0 * figures.skew_error, "{figures:?}");
+    assert!((figures.skew - -0.30056).abs() < SIGMAS * figures.skew_error, "{figures:?}");
+}
+
+/// γ̂ folded into R_u: the heading variance comes out right, and a little leaks into the lateral coordinate.
+#[test]
+fn a_last_turn_leaks_into_the_lateral_coordinate() {
+    let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };
+    let cloud = cloud_of(&model);
+    let tangent = TangentNoiseModel::from_velocity(&model, &U).unwrap();
+    let predicted = tangent.compound(&Matrix3::zeros(), &TangentNoiseModel::twist(&U));
+    assert_relative_eq!(predicted[(2, 2)], 0.03125, epsilon = 1e-16);
+    assert_eq!(predicted[(1, 1)], 0.0);
+    let variance =
+        |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
+    for (axis, printed, decimals) in [(2, 0.0312, 4), (1, 0.0016, 4)] {
+        let (measured, error) = with_standard_error(&cloud, variance(axis));
+        let allowed = SIGMAS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
+        assert!((measured - printed).abs() < allowed, "axis {axis}: {measured} ± {error}, printed {printed}");
+    }
+}
+
+/// The names and fields that the chapter prints, for both models.
+#[test]
+fn the_odometry_model_is_used_in_the_same_way() {
+    let model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: NoiseKind::Triangular };
+    let (before, after) = (SE2::identity(), SE2::new(0.958_851, 0.244_835, 0.5));
+    let reading = OdomDelta::from_poses(&before, &after);
+    assert_relative_eq!(reading.rot1, 0.25, epsilon = 1e-6);
+    assert_relative_eq!(reading.trans, 2.0 * 2.0 * 0.25f64.sin(), epsilon = 1e-6);
+    assert_relative_eq!(reading.rot2, 0.25, epsilon = 1e-6);
+    let end = model.sample(&reading, &before, &mut SmallRng::seed_from_u64(1));
+    assert_relative_eq!(end.x(), after.x(), epsilon = 1e-15);
+    assert_relative_eq!(end.y(), after.y(), epsilon = 1e-15);
+}

@@ -1,0 +1,173 @@
+//! What the tests share: reference tables, seeded randomness, and the arithmetic of statistical tolerances.
+
+pub mod density;
+pub mod distance;
+pub mod told;
+
+use motion::NoiseKind;
+use motion::geom::se2::SE2;
+use motion::sim::banana::{PRESETS, Settings};
+use rand::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+pub const KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
+
+/// Sample size of the distribution tests.
+pub const MILLION: usize = 1_000_000;
+
+/// How many standard errors a seeded estimate may be off. A fresh seed would fail one comparison in 150 000.
+pub const SIGMAS: f64 = 4.5;
+
+/// The seed is part of the test: the same robots on every run.
+pub fn seeded(seed: u64) -> Xoshiro256PlusPlus {
+    Xoshiro256PlusPlus::seed_from_u64(seed)
+}
+
+/// Uniform in [low, high).
+pub fn uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
+    low + (high - low) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Either sign, magnitude log-uniform in [low, high).
+pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
+    let magnitude = uniform(rng, low.ln(), high.ln()).exp();
+    if rng.next_u64() >> 63 == 0 { magnitude } else { -magnitude }
+}
+
+/// The largest difference in x, y and heading (on the circle).
+pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
+    let turn = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
+    (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
+}
+
+/// The Banana Machine as it opens with one of its presets.
+pub fn preset(name: &str) -> Settings {
+    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
+    let opening = Settings::default();
+    Settings {
+        command: preset.command,
+        velocity_alphas: preset.alphas.unwrap_or(opening.velocity_alphas),
+        ..opening
+    }
+}
+
+/// Whether a closed outline winds around a point.
+pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let turns: i32 = outline
+        .windows(2)
+        .map(|ends| {
+            let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
+            let left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
+            i32::from(ay <= y && by > y && left) - i32::from(ay > y && by <= y && !left)
+        })
+        .sum();
+    turns != 0
+}
+
+// ------------------------------------------------------------------------------------------- reference tables
+
+/// A table of tests/reference, written by generate.py.
+pub struct Table {
+    columns: Vec<&'static str>,
+    rows: Vec<Vec<&'static str>>,
+}
+
+pub struct Row<'a> {
+    table: &'a Table,
+    cells: &'a [&'static str],
+}
+
+impl Table {
+    pub fn parse(text: &'static str) -> Self {
+        let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let columns = lines.next().expect("a header");
+        Self { columns, rows: lines.collect() }
+    }
+
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.rows.iter().map(|cells| Row { table: self, cells })
+    }
+
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+}
+
+impl Row<'_> {
+    pub fn text(&self, column: &str) -> &'static str {
+        let index = self.table.columns.iter().position(|name| *name == column);
+        self.cells[index.unwrap_or_else(|| panic!("no column {column}"))]
+    }
+
+    pub fn get(&self, column: &str) -> f64 {
+        self.text(column).parse().expect("a number")
+    }
+
+    pub fn all<const N: usize>(&self, columns: [&str; N]) -> [f64; N] {
+        columns.map(|column| self.get(column))
+    }
+
+    pub fn kind(&self) -> NoiseKind {
+        match self.text("kind") {
+            "normal" => NoiseKind::Normal,
+            "triangular" => NoiseKind::Triangular,
+            other => panic!("unknown kind {other}"),
+        }
+    }
+
+    /// How far `computed` is from a reference told as its nearest double and the rest, free of the double's rounding.
+    pub fn error(&self, column: &str, computed: f64) -> f64 {
+        ((computed - self.get(column)) - self.get(&format!("{column}_lo"))).abs()
+    }
+}
+
+// ------------------------------------------------------------------------------------------------- statistics
+
+/// √n times the Kolmogorov–Smirnov distance stays below this with probability 1 − 2·exp(−2·1.95²) = 0.999.
+pub const KOLMOGOROV: f64 = 1.95;
+
+/// √n times the Kolmogorov–Smirnov distance between a sample and a distribution function.
+pub fn kolmogorov_smirnov(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64 {
+    sample.sort_by(f64::total_cmp);
+    let n = sample.len() as f64;
+    let distance = sample.iter().enumerate().map(|(i, &value)| {
+        let probability = cdf(value);
+        (probability - i as f64 / n).max((i + 1) as f64 / n - probability)
+    });
+    distance.fold(0.0, f64::max) * n.sqrt()
+}
+
+/// P(Z < z) for the unit-variance noise of a kind, by formulas that src/ does not use.
+pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
+    match kind {
+        NoiseKind::Normal => 0.5 * libm::erfc(-z / 2f64.sqrt()),
+        NoiseKind::Triangular => {
+            let edge = 6f64.sqrt();
+            let tail = (edge - z.abs()).max(0.0).powi(2) / 12.0;
+            if z < 0.0 { tail } else { 1.0 - tail }
+        }
+    }
+}
+
+/// The χ² value that `cells` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of
+/// freedom goes to the fixed total.
+pub fn chi_square_limit(cells: usize) -> f64 {
+    let k = (cells - 1) as f64;
+    k * (1.0 - 2.0 / (9.0 * k) + 3.719 * (2.0 / (9.0 * k)).sqrt()).powi(3)
+}
+
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+pub fn variance(values: &[f64]) -> f64 {
+    let centre = mean(values);
+    values.iter().map(|value| (value - centre).powi(2)).sum::<f64>() / (values.len() - 1) as f64
+}
+
+/// A statistic of a whole sample and its standard error, from the spread of the statistic over 100 equal batches.
+pub fn with_standard_error<T>(sample: &[T], statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
+    let batch = sample.len() / 100;
+    let parts: Vec<f64> = sample.chunks_exact(batch).map(&statistic).collect();
+    (statistic(sample), (variance(&parts) / parts.len() as f64).sqrt())
+}

@@ -1,0 +1,296 @@
+//! doc/exercises.md, computed: its numbers are read from there.
+
+use crate::common::told::{Number, Told};
+use crate::common::{SIGMAS, preset, seeded, unit_cdf, variance};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::map::Sampler;
+use motion::sim::banana::{BananaMachine, Settings};
+use motion::sim::squeeze::{self, MapSqueeze, alphas_of_noise};
+use motion::stats::CartesianMoments;
+use motion::{
+    Compounding, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, Variance,
+    VelocityAlphas, VelocityCmd, VelocityModel,
+};
+use nalgebra::{Matrix3, Vector3};
+use rand::RngExt;
+use std::f64::consts::PI;
+
+fn document() -> Told {
+    Told::in_document(include_str!("../../../doc/exercises.md"))
+}
+
+const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+
+fn velocity(alphas: [f64; 6]) -> VelocityModel {
+    VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
+}
+
+/// Root mean square error (m) of the arc form over all headings, at v = 1 m/s. Where the turn is small the end is known by
+/// its series, to the last digit.
+fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
+    let (radius, phi) = (1.0 / omega, omega * dt);
+    let (ahead, aside) = (dt * (1.0 - phi * phi / 6.0), dt * phi * (0.5 - phi * phi / 24.0));
+    let headings = 4001;
+    let squares = (0..headings).map(|i| {
+        let theta = 2.0 * PI * f64::from(i) / f64::from(headings) - PI;
+        let (sin, cos) = theta.sin_cos();
+        let (x, y) = (ahead * cos - aside * sin, ahead * sin + aside * cos);
+        let next = theta + phi;
+        (radius * next.sin() - radius * sin - x).powi(2) + (radius * cos - radius * next.cos() - y).powi(2)
+    });
+    (squares.sum::<f64>() / f64::from(headings)).sqrt()
+}
+
+/// Exercise 1.
+#[test]
+fn the_straight_line_branch() {
+    let dt = 0.1;
+    let straight = |omega: f64| 0.5 * omega * dt * dt;
+    // The error jumps about with ω: over a tenth of a decade it is what one would call it there.
+    let ratio = |omega: f64| {
+        let near = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
+        (near.map(|omega| (error_of_arc_form(omega, dt) / straight(omega)).ln()).sum::<f64>() / 20.0).exp()
+    };
+    let crossover =
+        (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| ratio(*omega) < 1.0);
+    let [found, estimated]: [Number; 2] =
+        document().numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
+    found.assert(crossover.expect("a crossover") / 1e-7, 0.0);
+    estimated.assert((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
+    let [line, arc, times]: [Number; 3] = document().numbers(
+        "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
+    );
+    let (line_error, arc_error) = (straight(1e-6), error_of_arc_form(1e-6, dt));
+    line.assert(line_error / 1e-9, 0.0);
+    arc.assert(arc_error / 1e-9, 0.0);
+    times.assert(line_error / arc_error, 0.0);
+    document().says("up to half a micrometre where Δt is a second");
+    let end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
+    assert!(((end.x() - 1.0).hypot(end.y()) - 0.5e-6).abs() < 1e-12, "{end:?}");
+}
+
+/// Exercise 2. A power fitted to the logarithms of four variances of 100 000 draws is off by less than 4.5 errors of √(2/n)/ln 2.
+#[test]
+fn why_bananas_bend() {
+    let model = velocity([1e-4, 0.0, 1e-4, 0.0, 0.0, 0.0]);
+    let samples = 100_000;
+    let mut rng = seeded(1);
+    let durations = [0.5, 1.0, 2.0, 4.0];
+    let logs = durations.map(|dt| {
+        let poses: Vec<SE2> = (0..samples)
+            .map(|_| model.sample(&VelocityCmd { v: 1.0, omega: 0.0, dt }, &SE2::identity(), &mut rng))
+            .collect();
+        let cov = CartesianMoments::from_poses(&poses).cov;
+        [cov[(0, 0)], cov[(1, 1)]].map(f64::log2)
+    });
+    let [along, across]: [Number; 2] = document().numbers("grows with the power # of Δt, across it with #. ");
+    for (axis, told) in [along, across].into_iter().enumerate() {
+        // By least squares over −1.5, −0.5, 0.5, 1.5 octaves about the middle.
+        let weights = [-1.5, -0.5, 0.5, 1.5];
+        let power = logs.iter().zip(weights).map(|(log, weight)| log[axis] * weight).sum::<f64>() / 5.0;
+        let error = (2.0 / samples as f64).sqrt() / 2f64.ln() / 5f64.sqrt();
+        told.assert(power, SIGMAS * error);
+    }
+    let crossing = |v: f64, [along, turn]: [f64; 2]| 2.0 / v * (along / turn).sqrt();
+    let [equal, four]: [Number; 2] =
+        document().numbers("with α₁ = α₃ after # s, and with α₃ four times as large after # s");
+    equal.assert(crossing(1.0, [0.02, 0.02]), 0.0);
+    four.assert(crossing(1.0, [0.02, 0.08]), 0.0);
+    // The two variances are equal there, to first order.
+    for ([along, turn], dt) in [([1e-6, 1e-6], 2.0), ([1e-6, 4e-6], 1.0)] {
+        let cov = velocity([along, 0.0, turn, 0.0, 0.0, 0.0])
+            .cartesian_cov(&VelocityCmd { v: 1.0, omega: 0.0, dt }, &SE2::identity());
+        assert!((cov[(0, 0)] / cov[(1, 1)] - 1.0).abs() < 1e-12, "{cov}");
+    }
+}
+
+/// Exercise 3. The determinant by differences, of an error of the square of the step.
+#[test]
+fn the_unpaid_jacobian() {
+    let model = velocity([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
+    let x = SE2::identity();
+    let end = x.boxplus(TangentNoiseModel::twist(&U));
+    let [told]: [Number; 1] =
+        document().numbers("At the noise-free end of the worked example's command it is #, and");
+    let deviations = model.variances(&U).map(|variance| variance.0.sqrt());
+    let step = 1e-5;
+    let column = |k: usize| {
+        let at = |noise: f64| {
+            let pose = model.apply_noise(
+                &U,
+                &x,
+                std::array::from_fn(|i| if i == k { noise / deviations[i] } else { 0.0 }),
+            );
+            Vector3::new(pose.x(), pose.y(), pose.theta())
+        };
+        (at(step) - at(-step)) / (2.0 * step)
+    };
+    let determinant = Matrix3::from_columns(&[column(0), column(1), column(2)]).determinant();
+    told.assert(determinant, 0.0);
+    let ratio = model.prob(&end, &U, &x) / model.pose_density(&end, &U, &x).expect("noise of full rank");
+    assert!((ratio / determinant - 1.0).abs() < 1e-8, "{ratio} {determinant}");
+
+    let odometry = OdometryModel { alphas: OdomAlphas([0.02; 4]), noise: NoiseKind::Normal };
+    let u = OdomDelta { rot1: 0.3, trans: 0.8, rot2: 0.2 };
+    let density = odometry.pose_density(&u.apply(&x), &u, &x).expect("noise of full rank");
+    let factors: f64 =
+        odometry.variances(&u).map(|variance| NoiseKind::Normal.prob(0.0, variance)).iter().product();
+    assert!((density / factors * u.trans - 1.0).abs() < 1e-12);
+}
+
+/// Exercise 4.
+#[test]
+fn what_each_alpha_does() {
+    let exact = |index: usize, command: VelocityCmd| {
+        let mut alphas = [0.0; 6];
+        alphas[index] = 0.09;
+        let settings = Settings { command, velocity_alphas: alphas, samples: 1000, ..preset("straight") };
+        let machine = BananaMachine::new(settings).expect("valid settings");
+        let end = machine.poses().next();
+        (machine.table().exact, machine.poses().all(|pose| Some(pose) == end))
+    };
+    let straight = preset("straight").command;
+    assert_eq!(straight.omega, 0.0);
+    assert!([3, 5].iter().all(|i| exact(*i, straight).1));
+    let turning = VelocityCmd { omega: 0.5, ..straight };
+    let [alpha, variance, skew]: [Number; 3] = [
+        "Δt = 2 s as they are, with # for the one and 0",
+        "headings spread with a variance of # rad²",
+        "its curve has a cross-track skew of #, of",
+    ]
+    .map(|sentence| document().numbers::<1>(sentence)[0]);
+    assert_eq!(alpha.value, 0.09);
+    let ([fan, _], [blur, _]) =
+        ([exact(3, turning).0, exact(3, turning).0], [exact(5, turning).0, exact(5, turning).0]);
+    variance.assert(fan.cov[(2, 2)], 0.0);
+    variance.assert(blur.cov[(2, 2)], 0.0);
+    skew.assert(fan.cross_track_skew, 0.0);
+    assert_eq!(blur.cov.fixed_rows::<2>(0).amax(), 0.0);
+}
+
+/// Exercise 5: the same seed is the same motions, so that shares are those of the table, to a digit.
+#[test]
+fn the_pose_that_the_model_cannot_see_through() {
+    let settings = |n: f64, omega: f64, sampler: Sampler| {
+        let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
+        let alphas = alphas_of_noise(n);
+        squeeze::Settings {
+            command,
+            alphas,
+            sampler,
+            steps: sampler.parts(),
+            samples: 20_000,
+            ..Default::default()
+        }
+    };
+    let stats = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
+    for n in ["0.02", "0.05", "0.12", "0.4"] {
+        let told: [Number; 5] = document().numbers(&format!("| {n} | # | # | # | # | # |"));
+        for (told, omega) in told.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
+            let settings = settings(n.parse().expect("a number"), omega, Sampler::Endpoint);
+            told.assert_percent(stats(settings).through_wall_rate, 0.0);
+        }
+    }
+    document().says("Noise alone, up to 0.4, never gets it to 40 %.");
+    for i in 1..=80 {
+        let stats = stats(settings(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
+        assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
+    }
+    let [arc, four, left, eight]: [Number; 4] = [
+        "Judging the whole arc costs # draws",
+        "a quarter of the time cost # draws",
+        "draws, and # % still go through one",
+        "eight cost # draws",
+    ]
+    .map(|sentence| document().numbers::<1>(sentence)[0]);
+    let at = |sampler| stats(settings(0.12, 0.6, sampler));
+    let whole = at(Sampler::WholeArc);
+    arc.assert(whole.draws_per_accepted, 0.0);
+    assert_eq!(whole.through_wall, 0);
+    let [quarters, eighths] = [4, 8].map(|parts| at(Sampler::SubStepped(parts)));
+    four.assert(quarters.draws_per_accepted, 0.0);
+    left.assert_percent(quarters.through_wall_rate, 0.0);
+    eight.assert(eighths.draws_per_accepted, 0.0);
+    let [a_second]: [Number; 1] = document().numbers("at 20 Hz that is # draws a second");
+    // Told in thousands.
+    assert!((a_second.value - 2000.0 * 20.0 * whole.draws_per_accepted).abs() <= 500.0);
+}
+
+/// Exercise 6.
+#[test]
+fn the_triangular_sampler() {
+    let b2 = Variance(0.025);
+    let mut rng = seeded(7);
+    let mut uniform = || rng.random::<f64>() * 2.0 - 1.0;
+    let samples = 1_000_000;
+    let draws: Vec<f64> = (0..samples).map(|_| (6.0 * b2.0).sqrt() / 2.0 * (uniform() + uniform())).collect();
+    // A triangle's fourth moment is 2.4 b⁴.
+    assert!((variance(&draws) / b2.0 - 1.0).abs() < SIGMAS * (1.4 / f64::from(samples)).sqrt());
+    let [bound, beyond]: [Number; 2] =
+        document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
+    bound.assert((6.0 * b2.0).sqrt(), 0.0);
+    assert!(draws.iter().all(|draw| draw.abs() <= (6.0 * b2.0).sqrt()));
+    let poses = |noise| {
+        let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]), noise };
+        let mut rng = seeded(7);
+        (0..200_000).map(move |_| model.sample(&U, &SE2::identity(), &mut rng))
+    };
+    beyond.assert_percent(2.0 * unit_cdf(NoiseKind::Normal, -6f64.sqrt()), 0.0);
+    assert!(
+        poses(NoiseKind::Triangular).all(|pose| (pose.theta() - 0.5).abs() <= bound.value + bound.rounding)
+    );
+    let told: [Number; 2] = document().numbers("the skew is # with normal noise and # with triangular noise");
+    for (told, noise) in told.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
+        let machine =
+            BananaMachine::new(Settings { noise, samples: 10, ..preset("worked") }).expect("valid settings");
+        told.assert(machine.table().exact.cross_track_skew, 0.0);
+    }
+}
+
+/// Exercise 7. A ratio of variances of 50 000 rollouts has the error √(2/n), more where the tails are heavier.
+#[test]
+fn compounding() {
+    let rollouts = 50_000;
+    let error = SIGMAS * (2.3 / f64::from(rollouts)).sqrt();
+    let step = VelocityCmd { dt: 0.2, ..U };
+    let twist = TangentNoiseModel::twist(&step);
+    let mut crossings = Vec::new();
+    for spread in [1.0, 2.0] {
+        let turn = 0.02 * spread * spread;
+        let model = velocity([0.02, 0.02, turn, turn, 0.005 * spread * spread, 0.005 * spread * spread]);
+        let noise = TangentNoiseModel::from_velocity(&model, &step).expect("variances of 0 or more");
+        let mut rng = seeded(7);
+        let mut poses = vec![SE2::identity(); rollouts as usize];
+        let (mut nominal, mut sigmas, mut crossing) = (SE2::identity(), [Matrix3::zeros(); 3], None);
+        for k in 1..=20 {
+            poses.iter_mut().for_each(|pose| *pose = model.sample(&step, pose, &mut rng));
+            nominal = nominal.boxplus(twist);
+            let orders = [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
+            for (sigma, order) in sigmas.iter_mut().zip(orders) {
+                *sigma = noise.propagate(sigma, &twist, order);
+            }
+            let squares = poses.iter().map(|pose| pose.boxminus(&nominal)).map(|xi| xi.component_mul(&xi));
+            let measured = squares.sum::<Vector3<f64>>() / f64::from(rollouts);
+            let exact = sigmas[2].diagonal();
+            let fourth = exact.component_div(&measured);
+            let [chapter, with_jacobian, _] = sigmas.map(|sigma| sigma.diagonal().component_div(&exact));
+            // The fourth order is right to the rollouts' own error, and so what the others are held against.
+            assert!(fourth.iter().all(|ratio| (ratio - 1.0).abs() < error), "{k}: {fourth}");
+            if crossing.is_none() && (chapter.x - 1.0).abs() > 0.05 {
+                crossing = Some(k);
+            }
+            if spread == 1.0 && [1, 2, 5, 10, 20].contains(&k) {
+                let told: [Number; 6] = document().numbers(&format!("| {k} | # | # | # | # | # | # |"));
+                let computed: Vec<f64> = chapter.iter().chain(with_jacobian.iter()).copied().collect();
+                told.iter().zip(computed).for_each(|(told, ratio)| told.assert(ratio, 0.0));
+            }
+        }
+        crossings.push(f64::from(crossing.expect("a crossing")));
+    }
+    let [usual, doubled]: [Number; 2] =
+        document().numbers("off by more than 5 % from step # on. With the heading's standard deviation doubled (α₃ to α₆ four times as large) it is from step # on");
+    usual.assert(crossings[0], 0.0);
+    doubled.assert(crossings[1], 0.0);
+    assert!(crossings[1] > crossings[0] / 2.0, "not in proportion");
+}

@@ -1,0 +1,9 @@
+//! Numbers and statements in the page and in doc/, computed.
+
+mod arc_anatomy;
+mod banana;
+mod dead_reckoning;
+mod exercises;
+mod model;
+mod odometry_decomposer;
+mod squeeze;

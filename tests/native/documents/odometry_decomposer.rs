@@ -1,0 +1,126 @@
+//! What the page says under "What to try" of the Odometry Decomposer, and doc/model.md of the rules, computed: the numbers
+//! are read there.
+
+use crate::common::told::Told;
+use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
+use motion::sim::odometry_decomposer::{OdometryDecomposer, OdometryPose, PRESETS, RuleFigures, Settings};
+use std::f64::consts::PI;
+
+fn page() -> Told {
+    Told::on_page(include_str!("../../../www/index.html"))
+}
+
+fn document() -> Told {
+    Told::in_document(include_str!("../../../doc/model.md"))
+}
+
+fn of_preset(name: &str) -> Settings {
+    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
+    Settings { from: preset.from, to: preset.to, ..Settings::default() }
+}
+
+fn machine(settings: Settings) -> OdometryDecomposer {
+    OdometryDecomposer::new(settings).expect("a valid setting")
+}
+
+fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {
+    machine(settings).rules().into_iter().find(|figures| figures.rule == rule).expect("all rules")
+}
+
+#[test]
+fn the_lever_grows_faster_than_the_drive() {
+    // What the figure itself says: by the exact curve, of which the lever alone is the tangent.
+    let [deviation, across, times] = page().numbers(
+        "± # rad at the start are ± # m across the way at the end. Drag the later pose twice as far the same way: # times as much",
+    );
+    let stats = machine(Settings::default()).stats();
+    deviation.assert(figures(Settings::default(), Table).deviations[0], 0.0);
+    across.assert(stats.exact_cross_track, 0.0);
+    let OdometryPose([x, y, theta]) = Settings::default().to;
+    let far = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..Settings::default() };
+    times.assert(machine(far).stats().exact_cross_track / stats.exact_cross_track, 0.0);
+}
+
+#[test]
+fn backing_up_is_two_half_turns_for_the_table_alone() {
+    let [table, deployed] =
+        page().numbers("the table charges ± # rad and more; AMCL of Nav2 and Beluga charge ± # for either.");
+    let of = |rule| figures(of_preset("reverse"), rule).deviations;
+    let [first, _, second, _] = of(Table);
+    table.assert(first, 0.0);
+    assert!(second > first);
+    for rule in [Nav2, Beluga] {
+        let [first, _, second, _] = of(rule);
+        deployed.assert(first, 0.0);
+        deployed.assert(second, 0.0);
+    }
+}
+
+#[test]
+fn jitter_turns_and_moves_a_robot_at_rest_for_the_table_alone() {
+    page().says("the encoders have jittered by half a centimetre.");
+    let [heading] = page().numbers("uncertain of its heading by ± # rad, and of its place by half a metre");
+    let rest = of_preset("rest");
+    assert!((machine(rest).reading().trans - 0.005).abs() < 1e-15);
+    let table = figures(rest, Table);
+    heading.assert(table.heading, 0.0);
+    assert!((table.deviations[1] - 0.5).abs() < 0.005);
+    for rule in [Nav2, Beluga, Omni] {
+        let RuleFigures { deviations, heading, cross_track, .. } = figures(rest, rule);
+        assert!(deviations.iter().chain([&heading, &cross_track]).all(|figure| *figure < 0.0015), "{rule:?}");
+    }
+}
+
+#[test]
+fn a_half_turn_on_the_spot_costs_nav2_nothing() {
+    page().says("beyond a quarter turn the noise shrinks, and a half turn has none.");
+    let noise = |turn: f64| {
+        let spun = Settings { to: OdometryPose([0.0, 0.0, turn]), ..of_preset("spin") };
+        figures(spun, Nav2).deviations
+    };
+    let turns: Vec<[f64; 4]> = (0..=20).map(|i| noise(PI / 2.0 + PI / 40.0 * f64::from(i))).collect();
+    for pair in turns.windows(2) {
+        assert!(pair[1][1] < pair[0][1] && pair[1][2] < pair[0][2], "{pair:?}");
+    }
+    assert_eq!(noise(PI), [0.0; 4]);
+    assert!(noise(PI / 4.0)[2] < noise(PI / 2.0)[2]);
+}
+
+#[test]
+fn correlation_takes_the_heading_from_difference_to_sum() {
+    let [least, most] =
+        page().numbers("No outcome leaves its place, and the heading’s deviation goes from # to # rad.");
+    let of = |correlation| machine(Settings { correlation, ..Settings::default() });
+    least.assert(of(-1.0).stats().exact_heading, 0.0);
+    most.assert(of(1.0).stats().exact_heading, 0.0);
+    for (a, b) in of(-1.0).poses().iter().zip(of(1.0).poses()) {
+        assert_eq!((a.x(), a.y()), (b.x(), b.y()));
+    }
+}
+
+/// The table of doc/model.md: deviations of the first rotation, the drive and the second rotation of its three readings.
+#[test]
+fn the_document_tells_what_the_rules_charge() {
+    for (preset, rule, row) in [
+        ("reverse", Table, "| reverse | Table 5.6 | # | # | # | # |"),
+        ("reverse", Nav2, "| reverse | Nav2, Beluga | # | # | # | # |"),
+        ("reverse", Omni, "| reverse | omnidirectional | # | # | # | # |"),
+        ("spin", Table, "| spin | Table 5.6 | # | # | # | # |"),
+        ("spin", Nav2, "| spin | Nav2, Beluga | # | # | # | # |"),
+        ("spin", Omni, "| spin | omnidirectional | # | # | # | # |"),
+        ("rest", Table, "| at rest | Table 5.6 | # | # | # | # |"),
+        ("rest", Nav2, "| at rest | Nav2, Beluga | # | # | # | # |"),
+        ("rest", Omni, "| at rest | omnidirectional | # | # | # | # |"),
+    ] {
+        let told: [_; 4] = document().numbers(row);
+        for (told, computed) in told.iter().zip(figures(of_preset(preset), rule).deviations) {
+            told.assert(computed, 0.0);
+        }
+        if rule == Nav2 {
+            assert_eq!(
+                figures(of_preset(preset), Beluga).deviations,
+                figures(of_preset(preset), Nav2).deviations
+            );
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! What the page, the widget and doc/model.md say of motion in the apartment, computed: every "more", "less" and "first",
+//! and every share to the digits it is told in, which are read there.
+
+use crate::common::told::{Number, Told};
+use crate::common::{SIGMAS, mean, seeded};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::map::{FloorPlan, MapConditioned, Sampler};
+use motion::noise::centred_uniform;
+use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise};
+use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
+
+/// Which of the presets.
+const DOORWAY: usize = 0;
+const WALL: usize = 1;
+const CORRIDOR: usize = 2;
+
+/// The opening, elsewhere, with another sampler and another turn rate.
+fn settings(place: usize, sampler: Sampler, omega: f64) -> Settings {
+    let command = VelocityCmd { omega, ..Settings::default().command };
+    let steps = sampler.parts();
+    let samples = 100_000.min(800_000 / steps as usize);
+    Settings { start: PRESETS[place].1, sampler, steps, command, samples, seed: 3, ..Settings::default() }
+}
+
+fn machine(settings: Settings) -> MapSqueeze {
+    MapSqueeze::new(settings).expect("valid settings")
+}
+
+/// The share through a wall, and its standard error.
+fn through(settings: Settings) -> (f64, f64) {
+    let machine = machine(settings);
+    assert!(!machine.gave_up(), "{settings:?}");
+    let (share, count) = (machine.tally().through_wall_rate(), machine.tally().accepted as f64);
+    // Of a share of 0, that of one in all.
+    (share, ((share * (1.0 - share)).max(1.0 / count) / count).sqrt())
+}
+
+fn in_parts(place: usize, parts: u32, omega: f64) -> (f64, f64) {
+    through(settings(place, Sampler::SubStepped(parts), omega))
+}
+
+/// A share that is told in per cent.
+fn assert_told((share, error): (f64, f64), told: Number) {
+    told.assert_percent(share, SIGMAS * error);
+}
+
+fn page() -> Told {
+    Told::on_page(include_str!("../../../www/index.html"))
+}
+
+fn document() -> Told {
+    Told::in_document(include_str!("../../../doc/model.md"))
+}
+
+/// Beyond the errors of both.
+fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
+    assert!(other.0 - one.0 > SIGMAS * one.1.hypot(other.1), "{what}: {one:?} is not less than {other:?}");
+}
+
+#[test]
+fn facing_the_wall_most_of_what_is_accepted_lies_behind_it() {
+    let [share] = page().numbers(
+        "Press Facing a wall: # % of what is accepted went through a wall, where the robot could never have gone. \
+         Choose whole arc: only what stopped short of the wall is left.",
+    );
+    assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), share);
+    let behind = |sampler| {
+        let machine = machine(settings(WALL, sampler, 0.0));
+        let accepted: Vec<f64> =
+            machine.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
+        // The wall ahead stands at y = 3.8; those who turn aside end before it too.
+        accepted.iter().filter(|y| **y > 3.8).count() as f64 / accepted.len() as f64
+    };
+    assert!(behind(Sampler::Endpoint) > 0.8);
+    assert_eq!(behind(Sampler::WholeArc), 0.0);
+}
+
+#[test]
+fn forty_per_cent_is_reached_by_turning_and_not_by_noise() {
+    let [forty, n] = page().numbers(
+        "Push the share through a wall above # % with n alone, then with ω alone from n = #. One of the two climbs and \
+         stalls just below; the other gets there before half a radian a second, and falls again.",
+    );
+    let (forty, opening) = (forty.value / 100.0, n.value);
+    let at = |n: f64, omega: f64| {
+        through(Settings { alphas: alphas_of_noise(n), ..settings(DOORWAY, Sampler::Endpoint, omega) })
+    };
+    let by_noise = [0.04, 0.08, 0.12, 0.2].map(|n| at(n, 0.0));
+    by_noise.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more noise, more through the wall"));
+    // To the end of the slider.
+    for n in [0.24, 0.28, 0.32, 0.36, 0.4] {
+        let many = Settings { samples: 1_000_000, ..settings(DOORWAY, Sampler::Endpoint, 0.0) };
+        let (share, error) = through(Settings { alphas: alphas_of_noise(n), ..many });
+        assert!(share > forty - 0.015 && share + SIGMAS * error < forty, "n = {n}: {share} ± {error}");
+    }
+    let (share, error) = at(opening, 0.4);
+    assert!(share - SIGMAS * error > forty, "{share} ± {error}");
+    let by_turning = [0.0, 0.2, 0.4].map(|omega| at(opening, omega));
+    by_turning.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "up to there it climbs"));
+    let beyond = [0.5, 0.7, 1.0, 1.5].map(|omega| at(opening, omega));
+    beyond.windows(2).for_each(|pair| assert_less(pair[1], pair[0], "and falls again"));
+}
+
+#[test]
+fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
+    page().says("raise k at the doorway until nothing passes a wall. Straight ahead fewer and fewer do.");
+    let [doorway, corridor] = document().numbers(
+        "Facing the doorway and in the corridor it falls with k on a straight command, to # % and # % at 16.",
+    );
+    for (place, at_sixteen) in [(DOORWAY, doorway), (CORRIDOR, corridor)] {
+        let endpoint = through(settings(place, Sampler::Endpoint, 0.0));
+        let shares: Vec<(f64, f64)> =
+            [2, 4, 8, 16].map(|parts| in_parts(place, parts, 0.0)).into_iter().collect();
+        assert_less(shares[0], endpoint, "two parts");
+        shares.windows(2).for_each(|pair| assert_less(pair[1], pair[0], "more parts"));
+        assert_told(shares[3], at_sixteen);
+        assert!(in_parts(place, 64, 0.0).0 < 1e-3, "next to nothing at the end of the slider");
+    }
+    // The numbers of samples that the page asks for, or opens with.
+    for samples in [600, 10_000] {
+        let opening =
+            Settings { sampler: Sampler::SubStepped(64), steps: 64, samples, ..Settings::default() };
+        assert_eq!(machine(opening).tally().through_wall, 0);
+    }
+
+    let [omega, on_page, at_worst, worst] = page().numbers(
+        "Now turn ω up to #: more and more pass at first, from # % judged by the endpoint to # % at k = #, and only \
+         then fewer.",
+    );
+    let bend = |place, parts| in_parts(place, parts, omega.value);
+    assert_told(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
+    assert_told(bend(DOORWAY, worst.value as u32), at_worst);
+    let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = document().numbers(
+        "with ω = 0.5, from # % judged by the endpoint over # % at k = 4 to # % at 6, and falls over # % at 8 to # % at \
+         16 (doorway); from # % over # and # % to # % at 8, and falls to # % at 12 (corridor).",
+    );
+    for (place, endpoint, told) in [
+        (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
+        (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
+    ] {
+        let first = through(settings(place, Sampler::Endpoint, omega.value));
+        assert_told(first, endpoint);
+        for (parts, share) in told {
+            assert_told(bend(place, parts), share);
+        }
+        assert_less(first, bend(place, 4), "four parts on a bend let more pass");
+        assert_less(bend(place, 4), bend(place, 6), "and six still more");
+    }
+    assert_less(bend(DOORWAY, 8), bend(DOORWAY, 6), "at the doorway six are the worst");
+    assert_less(
+        bend(DOORWAY, 16),
+        through(settings(DOORWAY, Sampler::Endpoint, 0.5)),
+        "and sixteen better than one",
+    );
+    assert_less(bend(CORRIDOR, 6), bend(CORRIDOR, 8), "in the corridor it is eight");
+    assert_less(bend(CORRIDOR, 12), bend(CORRIDOR, 8), "and then fewer pass");
+}
+
+#[test]
+fn facing_the_wall_more_parts_make_it_worse() {
+    let shares = [2, 4, 8].map(|parts| in_parts(WALL, parts, 0.0));
+    shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
+    let [one, two, four, eight, wedged] = document().numbers(
+        "the share through it rises from # % at k = 1 to # %, # % and # % at k = 2, 4, 8; from k = # on so few parts \
+         reach across that the widget gives up",
+    );
+    assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), one);
+    shares.into_iter().zip([two, four, eight]).for_each(|(share, told)| assert_told(share, told));
+    let [from, to, at_two, at_eight] =
+        page().numbers("go from k = # to #. The share through the wall rises, from # % to # %:");
+    assert_eq!((from.value, to.value), (2.0, 8.0));
+    assert_told(shares[0], at_two);
+    assert_told(shares[2], at_eight);
+    page().says(
+        "From k = 16 on hardly a part is long enough to jump, and the robot stands wedged before the wall.",
+    );
+    assert_eq!(wedged.value, 16.0);
+    assert!(!machine(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
+    for parts in [16, 24, 32, 64] {
+        for samples in [600, 10_000] {
+            let many = Settings { samples, ..settings(WALL, Sampler::SubStepped(parts), 0.0) };
+            assert!(machine(many).gave_up(), "{parts} parts");
+        }
+    }
+}
+
+#[test]
+fn the_spread_shrinks_with_the_root_of_the_parts() {
+    page().says("the noise of one part is independent of the others' and averages out, so that the spread shrinks as 1/√k.");
+    let plan = FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field");
+    for parts in [1u32, 4, 16, 64] {
+        let along = Settings {
+            start: [0.0; 3],
+            alphas: [0.12, 0.0, 0.0, 0.0, 0.0, 0.0],
+            samples: 12_500,
+            ..settings(DOORWAY, Sampler::SubStepped(parts), 0.0)
+        };
+        let mut machine = machine(along);
+        machine.set_plan(plan.clone());
+        let x: Vec<f64> = machine.attempts().iter().map(|attempt| attempt.pose.x()).collect();
+        let middle = mean(&x);
+        let variance = mean(&x.iter().map(|x| (x - middle) * (x - middle)).collect::<Vec<_>>());
+        // α₁v²Δt²/k; of a Gaussian's variance, the relative error is √(2/n).
+        let expected = 0.12 * 4.0 / f64::from(parts);
+        let error = (2.0 / 12_500.0_f64).sqrt();
+        assert!((variance / expected - 1.0).abs() < SIGMAS * error, "{parts}: {variance} of {expected}");
+    }
+}
+
+/// "A wider one fits in fewer places and meets more walls", draw by draw.
+#[test]
+fn a_wider_robot_meets_more() {
+    for place in [DOORWAY, WALL, CORRIDOR] {
+        let clouds = [0.05, 0.13, 0.2, 0.4].map(|clearance| {
+            machine(Settings { clearance, samples: 20_000, ..settings(place, Sampler::Endpoint, 0.3) })
+        });
+        for pair in clouds.windows(2) {
+            let both = pair[0].attempts().iter().zip(pair[1].attempts());
+            assert!(both.clone().all(|(thin, wide)| thin.end_free || !wide.end_free));
+            assert!(both.clone().all(|(thin, wide)| thin.path_free || !wide.path_free));
+            assert!(pair[1].tally().accepted < pair[0].tally().accepted);
+        }
+    }
+}
+
+/// Judged by the geodesic instead of the arc.
+#[test]
+fn judged_by_the_geodesic_some_get_the_other_verdict() {
+    let [least, most, doorway_least, doorway_most] = document().numbers(
+        "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
+         # to # %)",
+    );
+    assert_eq!(most.value, doorway_most.value);
+    let plan = FloorPlan::apartment();
+    for (place, [x, y, theta]) in PRESETS {
+        let start = SE2::new(x, y, theta);
+        for (n, omega) in [(0.12, 0.0), (0.12, 0.5), (0.12, 1.0), (0.2, 0.0), (0.2, 0.5), (0.2, 1.0)] {
+            let model =
+                VelocityModel { alphas: VelocityAlphas(alphas_of_noise(n)), noise: NoiseKind::Normal };
+            let conditioned =
+                MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
+            let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
+            let judging = conditioned.judging(&command, &start);
+            let mut rng = seeded(93);
+            let (mut accepted, mut differ) = (0u32, 0u32);
+            for _ in 0..40_000 {
+                let noise = std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
+                let draw = judging.judge(noise);
+                if !draw.end.free {
+                    continue;
+                }
+                // exp(s·ξ), 0 ≤ s ≤ 1, is an arc too: it leaves in the direction of (ξ along, ξ lateral).
+                let xi = draw.pose.boxminus(&start);
+                let leaving = SE2::new(x, y, theta + xi.y.atan2(xi.x));
+                let geodesic = Arc { start: leaving, length: xi.xy().norm(), turn: xi.z };
+                accepted += 1;
+                differ += u32::from(plan.arc_free(&geodesic, 0.13).free != draw.path.free);
+            }
+            let share = f64::from(differ) / f64::from(accepted);
+            let error = SIGMAS * (share * (1.0 - share) / f64::from(accepted)).sqrt();
+            let least = if place == "doorway" { doorway_least } else { least };
+            let (least, most) = (least.value / 100.0, most.value / 100.0);
+            assert!(share + error > least && share - error < most, "{place}, n = {n}, ω = {omega}: {share}");
+        }
+    }
+}

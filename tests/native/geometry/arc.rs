@@ -1,0 +1,392 @@
+//! The distance between a driven arc and a wall, against two references that know nothing of circles' equations.
+
+use crate::common::distance::{Point, along, by_halving, minus, norm, point_to_line, scale};
+use crate::common::{seeded, signed_log_uniform, uniform};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use parry2d_f64::math::Vector;
+use parry2d_f64::query::PointQuery;
+use parry2d_f64::shape::Segment as ParrySegment;
+use rand::Rng;
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+
+// -------------------------------------------------------------------------------------------------- references
+
+/// The distance by dense sampling, each sample measured by parry2d, and the least of them refined by ternary search. Not
+/// below the true distance, and above it by at most half the spacing of the samples.
+fn by_sampling(arc: &Arc, wall: &Segment, samples: u32) -> f64 {
+    let start = [arc.start.x(), arc.start.y()];
+    let [a, b] = [minus(wall.from, start), minus(wall.to, start)];
+    let wall = ParrySegment::new(Vector::new(a[0], a[1]), Vector::new(b[0], b[1]));
+    let at = |f: f64| {
+        let p = along(arc, f);
+        wall.distance_to_local_point(Vector::new(p[0], p[1]), true)
+    };
+    let step = 1.0 / f64::from(samples);
+    let best = (0..=samples).map(|i| f64::from(i) * step).min_by(|f, g| at(*f).total_cmp(&at(*g))).unwrap();
+    let (mut low, mut high) = ((best - step).max(0.0), (best + step).min(1.0));
+    for _ in 0..80 {
+        let third = (high - low) / 3.0;
+        if at(low + third) < at(high - third) { high -= third } else { low += third }
+    }
+    at(best).min(at(0.5 * (low + high)))
+}
+
+// ------------------------------------------------------------------------------------------------- random pairs
+
+fn point(rng: &mut impl Rng, reach: f64) -> Point {
+    [uniform(rng, -reach, reach), uniform(rng, -reach, reach)]
+}
+
+fn arc(rng: &mut impl Rng, length: f64, turn: f64) -> Arc {
+    let [x, y] = point(rng, 5.0);
+    Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn }
+}
+
+/// Any length up to 8 m, either direction, up to two circles to either side.
+fn any_arc(rng: &mut impl Rng) -> Arc {
+    let (length, turn) = (uniform(rng, -8.0, 8.0), uniform(rng, -2.0 * TAU, 2.0 * TAU));
+    arc(rng, length, turn)
+}
+
+fn nearly_straight(rng: &mut impl Rng) -> Arc {
+    let (length, turn) = (uniform(rng, -8.0, 8.0), signed_log_uniform(rng, 1e-18, 1e-3));
+    arc(rng, length, turn)
+}
+
+/// A turn almost on the spot.
+fn pirouette(rng: &mut impl Rng) -> Arc {
+    let (length, turn) = (signed_log_uniform(rng, 1e-15, 1e-1), uniform(rng, -2.0 * TAU, 2.0 * TAU));
+    arc(rng, length, turn)
+}
+
+fn any_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
+    Segment { from: point(rng, 8.0), to: point(rng, 8.0) }
+}
+
+fn world(arc: &Arc, local: Point) -> Point {
+    [arc.start.x() + local[0], arc.start.y() + local[1]]
+}
+
+/// A wall along the arc's tangent somewhere, moved off it by next to nothing.
+fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
+    let f = uniform(rng, 0.0, 1.0);
+    let heading = arc.start.theta() + f * arc.turn;
+    let [x, y] = along(arc, f);
+    let off = signed_log_uniform(rng, 1e-15, 1e-1);
+    let foot = [x - off * heading.sin(), y + off * heading.cos()];
+    let mut end = || {
+        let reach = uniform(rng, -5.0, 5.0);
+        world(arc, [foot[0] + reach * heading.cos(), foot[1] + reach * heading.sin()])
+    };
+    Segment { from: end(), to: end() }
+}
+
+/// A wall that ends almost where the arc does, or goes on past it.
+fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
+    let [x, y] = along(arc, f64::from(rng.next_u32() % 2));
+    let mut off = || signed_log_uniform(rng, 1e-15, 1e-1);
+    let from = world(arc, [x + off(), y + off()]);
+    let to = if rng.next_u32().is_multiple_of(2) {
+        point(rng, 8.0)
+    } else {
+        let (heading, reach) = (uniform(rng, -PI, PI), uniform(rng, -3.0, 3.0));
+        [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()]
+    };
+    Segment { from, to }
+}
+
+/// A wall with an end almost at the centre of the arc's circle: everywhere on the circle is as near.
+fn wall_from_the_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
+    let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
+    let mut off = || signed_log_uniform(rng, 1e-16, 1e-1);
+    let from = world(arc, [off() - radius * theta.sin(), off() + radius * theta.cos()]);
+    let reach = uniform(rng, 0.0, 1.2) * radius;
+    let heading = uniform(rng, -PI, PI);
+    Segment { from, to: [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()] }
+}
+
+/// A wall that is a point.
+fn point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
+    let from = point(rng, 8.0);
+    Segment { from, to: from }
+}
+
+type MakeArc = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
+type MakeWall = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
+
+const STRAIGHT: MakeArc = |rng| {
+    let length = uniform(rng, -8.0, 8.0);
+    arc(rng, length, 0.0)
+};
+const ON_THE_SPOT: MakeArc = |rng| {
+    let turn = uniform(rng, -TAU, TAU);
+    arc(rng, 0.0, turn)
+};
+/// Up to a kilometre round a circle of any radius.
+const FAR: MakeArc = |rng| {
+    let (length, turn) = (signed_log_uniform(rng, 1.0, 1e3), signed_log_uniform(rng, 1e-6, 30.0));
+    arc(rng, length, turn)
+};
+
+const FAMILIES: [(&str, MakeArc, MakeWall, u32); 14] = [
+    ("any arc, any wall", any_arc, any_wall, 40_000),
+    ("any arc, tangent", any_arc, tangent_wall, 30_000),
+    ("any arc, by its end", any_arc, wall_by_the_end, 15_000),
+    ("any arc, from its centre", any_arc, wall_from_the_centre, 15_000),
+    ("any arc, point", any_arc, point_wall, 10_000),
+    ("nearly straight, any wall", nearly_straight, any_wall, 15_000),
+    ("nearly straight, tangent", nearly_straight, tangent_wall, 20_000),
+    ("nearly straight, by its end", nearly_straight, wall_by_the_end, 10_000),
+    ("straight, any wall", STRAIGHT, any_wall, 10_000),
+    ("straight, parallel", STRAIGHT, tangent_wall, 10_000),
+    ("on the spot", ON_THE_SPOT, any_wall, 5_000),
+    ("pirouette, any wall", pirouette, any_wall, 10_000),
+    ("pirouette, tangent", pirouette, tangent_wall, 15_000),
+    ("far", FAR, tangent_wall, 15_000),
+];
+
+// --------------------------------------------------------------------------------------------------------- tests
+
+/// The analytic distance and the reference each round coordinates of the figure a few times: eight units in the last
+/// place of its size are enough for both, which is a hundredth of a picometre in the apartment.
+#[test]
+fn the_distance_is_that_of_the_reference() {
+    let (mut pairs, mut touching, mut closed) = (0, 0, 0);
+    for (seed, (name, make_arc, make_wall, count)) in (0..).zip(FAMILIES) {
+        let mut rng = seeded(9000 + seed);
+        for _ in 0..count {
+            let arc = make_arc(&mut rng);
+            let wall = make_wall(&mut rng, &arc);
+            let exact = wall.distance_to_arc(&arc);
+            let [low, high] = by_halving(&arc, &wall);
+            let tolerance = 8.0 * f64::EPSILON * scale(&arc, &wall);
+            assert!(
+                (low - tolerance..=high + tolerance).contains(&exact),
+                "{name}: {exact:e} instead of {low:e} to {high:e}: {arc:?} {wall:?}"
+            );
+            touching += u32::from(exact == 0.0);
+            closed += u32::from(high - low <= tolerance);
+            pairs += 1;
+        }
+    }
+    assert!(pairs >= 100_000 && touching > pairs / 10 && touching < pairs / 2, "{touching} of {pairs}");
+    assert!(closed > pairs * 9 / 10, "the reference was sharp for {closed} of {pairs}");
+}
+
+/// parry2d's distances from densely sampled points of the arc agree with both.
+#[test]
+fn the_distance_is_that_of_parry() {
+    const SAMPLES: u32 = 500;
+    for (seed, (name, make_arc, make_wall, _)) in (0..).zip(FAMILIES) {
+        let mut rng = seeded(9100 + seed);
+        for _ in 0..200 {
+            let arc = make_arc(&mut rng);
+            let wall = make_wall(&mut rng, &arc);
+            let exact = wall.distance_to_arc(&arc);
+            let sampled = by_sampling(&arc, &wall, SAMPLES);
+            let spacing = arc.length.abs() / f64::from(SAMPLES);
+            let rounding = 1e-12 * scale(&arc, &wall);
+            assert!(
+                (sampled - 0.5 * spacing - rounding..=sampled + rounding).contains(&exact),
+                "{name}: {exact:e} instead of {sampled:e}: {arc:?} {wall:?}"
+            );
+        }
+    }
+}
+
+/// The distance depends on nothing but the two sets of points.
+#[test]
+fn the_distance_is_the_same_from_either_end_and_in_every_frame() {
+    let mut rng = seeded(9200);
+    for _ in 0..20_000 {
+        let arc =
+            if rng.next_u32().is_multiple_of(2) { any_arc(&mut rng) } else { nearly_straight(&mut rng) };
+        let wall = any_wall(&mut rng, &arc);
+        let distance = wall.distance_to_arc(&arc);
+        let back = Arc { start: arc.end(), length: -arc.length, turn: -arc.turn };
+        let swapped = Segment { from: wall.to, to: wall.from };
+        let moved =
+            SE2::new(uniform(&mut rng, -9.0, 9.0), uniform(&mut rng, -9.0, 9.0), uniform(&mut rng, -PI, PI));
+        let move_point = |[x, y]: Point| {
+            let there = moved * SE2::new(x, y, 0.0);
+            [there.x(), there.y()]
+        };
+        let moved_wall = Segment { from: move_point(wall.from), to: move_point(wall.to) };
+        let moved_arc = Arc { start: moved * arc.start, ..arc };
+        // Rounding the heading moves the far end of a figure of 20 m by several units in its last place.
+        let near = |other: f64| (other - distance).abs() < 64.0 * f64::EPSILON * 20.0;
+        assert!(near(swapped.distance_to_arc(&arc)), "{arc:?} {wall:?}");
+        assert!(near(wall.distance_to_arc(&back)), "{arc:?} {wall:?}");
+        assert!(near(moved_wall.distance_to_arc(&moved_arc)), "{arc:?} {wall:?}");
+    }
+}
+
+/// Kilometres from the origin the wall's own coordinates are rounded, and nothing worse happens.
+#[test]
+fn large_coordinates_cost_their_own_rounding_only() {
+    let mut rng = seeded(9300);
+    for _ in 0..20_000 {
+        let [x, y] = point(&mut rng, 1e6);
+        let arc = Arc { start: SE2::new(x, y, uniform(&mut rng, -PI, PI)), ..any_arc(&mut rng) };
+        let wall = tangent_wall(&mut rng, &arc);
+        let [low, high] = by_halving(&arc, &wall);
+        let exact = wall.distance_to_arc(&arc);
+        let tolerance = 8.0 * f64::EPSILON * 20.0;
+        assert!((low - tolerance..=high + tolerance).contains(&exact), "{exact:e}: {arc:?} {wall:?}");
+    }
+}
+
+#[test]
+fn known_distances() {
+    let quarter = Arc { start: SE2::identity(), length: FRAC_PI_2, turn: FRAC_PI_2 };
+    let half = Arc { length: PI, turn: PI, ..quarter };
+    let most = Arc { length: 1.75 * PI, turn: 1.75 * PI, ..quarter };
+    let circle = Arc { length: TAU, turn: TAU, ..quarter };
+    let twice = Arc { length: 2.0 * TAU, turn: 2.0 * TAU, ..quarter };
+    let right = Arc { length: FRAC_PI_2, turn: -FRAC_PI_2, ..quarter };
+    let reverse = Arc { length: -FRAC_PI_2, turn: FRAC_PI_2, ..quarter };
+    let line = Arc { length: 2.0, turn: 0.0, ..quarter };
+    let backwards = Arc { length: -2.0, ..line };
+    let spot = Arc { length: 0.0, turn: 2.0, ..quarter };
+    // The circles have radius 1 and their centre at (0, 1), or (0, −1) where they turn right or reverse to the left.
+    let cases: [(&str, &Arc, [f64; 4], f64); 26] = [
+        ("a wall outside, touching the circle", &circle, [-3.0, 2.0, 3.0, 2.0], 0.0),
+        ("a wall outside, parallel", &circle, [-3.0, 2.25, 3.0, 2.25], 0.25),
+        ("a wall across", &circle, [-3.0, 1.0, 3.0, 1.0], 0.0),
+        ("a wall inside", &circle, [-0.5, 1.0, 0.25, 1.0], 0.5),
+        ("a wall from the centre", &circle, [0.0, 1.0, 0.0, 1.0], 1.0),
+        ("a wall all inside, past the centre", &twice, [-0.5, 1.5, 0.5, 1.5], 1.0 - SQRT_2 / 2.0),
+        ("twice round is once round", &twice, [3.0, 1.0, 4.0, 1.0], 2.0),
+        ("the half that is driven", &half, [1.5, 0.0, 1.5, 2.0], 0.5),
+        ("the half that is not", &half, [-1.5, 0.0, -1.5, 2.0], 1.5),
+        ("through the missing half", &half, [-1.0, 1.0, -0.5, 1.0], 1.25f64.sqrt()),
+        ("past a half: at its end", &most, [-1.0, 0.0, -1.0, 0.0], 2f64.sqrt() - 1.0),
+        ("through the gap of an eighth", &most, [-0.25, 0.0, -0.5, -0.5], 0.25),
+        ("a quarter, behind its start", &quarter, [-3.0, -1.0, -3.0, 1.0], 3.0),
+        ("a quarter, under it", &quarter, [-1.0, -0.5, 1.0, -0.5], 0.5),
+        ("a quarter, a corner beyond", &quarter, [2.0, 0.0, 3.0, 0.0], 5f64.sqrt() - 1.0),
+        ("a quarter, from inside", &quarter, [0.0, 0.5, 0.0, 1.0], 0.5),
+        ("a right turn", &right, [-1.0, 0.5, 1.0, 0.5], 0.5),
+        ("a right turn, beyond its end", &right, [1.0, -3.0, 2.0, -3.0], 2.0),
+        ("reversing to the left goes behind, on the right", &reverse, [-2.0, -1.0, -2.0, 1.0], 1.0),
+        ("straight, a wall ahead", &line, [3.0, -1.0, 3.0, 1.0], 1.0),
+        ("straight, a wall across", &line, [1.0, -1.0, 1.0, 1.0], 0.0),
+        ("straight, a wall along it", &line, [0.5, 0.0, 9.0, 0.0], 0.0),
+        ("straight, a wall behind", &line, [-3.0, -1.0, -3.0, 1.0], 3.0),
+        ("backwards, a wall behind", &backwards, [-3.0, -1.0, -3.0, 1.0], 1.0),
+        ("on the spot", &spot, [3.0, -9.0, 3.0, 9.0], 3.0),
+        ("on the spot, standing in the wall", &spot, [-1.0, -1.0, 1.0, 1.0], 0.0),
+    ];
+    for (name, arc, [x0, y0, x1, y1], expected) in cases {
+        let wall = Segment { from: [x0, y0], to: [x1, y1] };
+        let distance = wall.distance_to_arc(arc);
+        assert!((distance - expected).abs() < 4e-16 * 9.0, "{name}: {distance} instead of {expected}");
+    }
+    assert!((quarter.end().x() - 1.0).abs() < 1e-15 && (half.end().y() - 2.0).abs() < 1e-15);
+}
+
+/// At lengths and turns that no robot drives the distance is still one: from a circle too small to be told from a
+/// point, from one too large to be told from a line, and after a million turns.
+#[test]
+fn extreme_arcs_have_a_distance() {
+    let wall = Segment { from: [3.0, -4.0], to: [3.0, 4.0] };
+    for exponent in (-320..=0).step_by(5) {
+        for length in [10f64.powi(exponent), -(10f64.powi(exponent))] {
+            for turn in [1.0, -1.0, 100.0, 1e-30, -1e-300, 0.0] {
+                let arc = Arc { start: SE2::new(1.0, 0.5, 0.3), length, turn };
+                let distance = wall.distance_to_arc(&arc);
+                assert!((distance - 2.0).abs() <= length.abs() + 1e-15, "{length:e} {turn:e}: {distance}");
+            }
+        }
+    }
+    let circle = Arc { start: SE2::new(1.0, 0.0, FRAC_PI_2), length: -1e6, turn: 1e6 };
+    assert!((wall.distance_to_arc(&circle) - 0.0).abs() < 1e-15, "its circle is about (2, 0)");
+    let flat = Arc { start: SE2::new(1.0, 0.0, FRAC_PI_2), length: 1e6, turn: 1e-20 };
+    assert!((wall.distance_to_arc(&flat) - 2.0).abs() < 1e-15);
+}
+
+#[test]
+fn the_distance_to_a_point_is_exact() {
+    let mut rng = seeded(9400);
+    for _ in 0..100_000 {
+        let size = signed_log_uniform(&mut rng, 1e-9, 10.0).abs();
+        let wall = Segment { from: point(&mut rng, size), to: point(&mut rng, size) };
+        let at = if rng.next_u32().is_multiple_of(2) {
+            point(&mut rng, 2.0 * size)
+        } else {
+            // Next to the wall, or next to the line beyond it.
+            let (t, off) = (uniform(&mut rng, -0.5, 1.5), signed_log_uniform(&mut rng, 1e-15, 1.0) * size);
+            [
+                wall.from[0] + t * (wall.to[0] - wall.from[0]),
+                wall.from[1] + t * (wall.to[1] - wall.from[1]) + off,
+            ]
+        };
+        let (exact, reference) = (wall.distance_to_point(at), point_to_line(at, [wall.from, wall.to]));
+        assert!(
+            (exact - reference).abs() < 16.0 * f64::EPSILON * size,
+            "{exact:e}, {reference:e}: {at:?} {wall:?}"
+        );
+        let spot = Arc { start: SE2::new(at[0], at[1], 1.0), length: 0.0, turn: 0.0 };
+        assert!((wall.distance_to_arc(&spot) - reference).abs() < 16.0 * f64::EPSILON * size);
+    }
+    let wall = Segment { from: [0.0, 0.0], to: [4.0, 0.0] };
+    for (at, distance) in
+        [([2.0, 3.0], 3.0), ([7.0, 4.0], 5.0), ([-3.0, -4.0], 5.0), ([1.0, 0.0], 0.0), ([4.0, 0.0], 0.0)]
+    {
+        assert_eq!(wall.distance_to_point(at), distance);
+    }
+    assert_eq!(Segment { from: [1.0, 1.0], to: [1.0, 1.0] }.distance_to_point([4.0, 5.0]), 5.0);
+}
+
+#[test]
+fn the_bounding_box_holds_the_arc_and_its_points_lie_on_it() {
+    for (seed, (name, make_arc, _, _)) in (0..).zip(FAMILIES) {
+        let mut rng = seeded(9500 + seed);
+        for _ in 0..200 {
+            let arc = make_arc(&mut rng);
+            let [left, bottom, right, top] = arc.bounding_box();
+            let slack = 8.0 * f64::EPSILON * arc.length.abs().max(5.0);
+            for i in 0..=100 {
+                let [x, y] = world(&arc, along(&arc, f64::from(i) / 100.0));
+                let held = (left - slack..=right + slack).contains(&x)
+                    && (bottom - slack..=top + slack).contains(&y);
+                assert!(held, "{name}: ({x}, {y}) of {arc:?}");
+            }
+            // A box that holds everything would be no help.
+            let reach = arc.length.abs().min(4.0 * (arc.length / arc.turn).abs());
+            assert!(right - left <= reach + slack && top - bottom <= reach + slack, "{name}: {arc:?}");
+            for [x, y] in arc.points().into_iter().step_by(7) {
+                let at = Segment { from: [x, y], to: [x, y] };
+                assert!(at.distance_to_arc(&arc) <= 4.0 * slack, "{name}: ({x}, {y}) of {arc:?}");
+            }
+            let points = arc.points();
+            let (last, end) = (points[points.len() - 1], world(&arc, along(&arc, 1.0)));
+            assert_eq!(points[0], [arc.start.x(), arc.start.y()]);
+            assert!(norm(minus(last, end)) <= slack, "{name}: {arc:?}");
+        }
+    }
+}
+
+/// Between two points that are drawn, an arc of a metre that turns by a radian rises by 0.05 mm: a fiftieth of a radian each,
+/// s·φ/8 of it. Beyond two turns the circle repeats itself, and its chords may be longer.
+#[test]
+fn an_arc_is_drawn_by_chords_of_a_degree() {
+    for (length, turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {
+        let arc = Arc { start: SE2::new(1.0, -2.0, 0.7), length, turn };
+        let points = arc.points();
+        let chords = points.len() - 1;
+        let middle = |i: usize| along(&arc, (i as f64 + 0.5) / chords as f64);
+        for (i, ends) in points.windows(2).enumerate() {
+            let [x, y] = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
+            let [mx, my] = middle(i);
+            let rise = norm([x - arc.start.x() - mx, y - arc.start.y() - my]);
+            assert!(
+                rise <= 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001,
+                "{turn}: {rise}"
+            );
+        }
+        assert!(chords <= 640);
+    }
+}

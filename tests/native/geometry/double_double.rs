@@ -1,0 +1,115 @@
+//! Twice the digits: against tables of fifty digits, and the identities that exact arithmetic has.
+
+use crate::common::told::{Number, Told};
+use crate::common::{seeded, signed_log_uniform, uniform};
+use motion::geom::double_double::DoubleDouble;
+use motion::sim::arc_anatomy::{CHAPTERS_THRESHOLD, FormErrors, form_errors, reference};
+use nalgebra::Complex;
+
+/// A row of the reference: an angle, and high and low of its sine, cosine and sinc.
+fn rows() -> impl Iterator<Item = [f64; 7]> {
+    include_str!("../../reference/double_double.csv")
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .skip(1)
+        .map(|line| {
+            let mut numbers = line.split(',').map(|number| number.parse().expect("a number"));
+            std::array::from_fn(|_| numbers.next().expect("seven numbers"))
+        })
+}
+
+fn off(value: DoubleDouble, high: f64, low: f64) -> f64 {
+    (value - DoubleDouble { high, low }).to_f64().abs()
+}
+
+#[test]
+fn sine_cosine_and_sinc_are_those_of_fifty_digits() {
+    let mut count = 0;
+    for [angle, sin_high, sin_low, cos_high, cos_low, sinc_high, sinc_low] in rows() {
+        let angle = DoubleDouble::from(angle);
+        let (sin, cos) = angle.sin_cos();
+        assert!(off(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
+        assert!(off(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
+        assert!(off(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
+        count += 1;
+    }
+    assert!(count >= 60);
+    assert_eq!(DoubleDouble::from(0.0).sinc().to_f64(), 1.0);
+}
+
+/// Exact by whole numbers of 128 bits.
+#[test]
+fn sums_and_products_lose_nothing() {
+    let mut rng = seeded(31);
+    for _ in 0..20_000 {
+        let whole = |rng: &mut _| uniform(rng, -9e15, 9e15).trunc();
+        let (a, b) = (whole(&mut rng), whole(&mut rng));
+        let product = DoubleDouble::product(a, b);
+        assert_eq!(product.high as i128 + product.low as i128, a as i128 * b as i128);
+        let sum = DoubleDouble::from(a) + DoubleDouble::from(b / 1024.0);
+        // In 1024ths both are whole.
+        assert_eq!((sum.high * 1024.0) as i128 + (sum.low * 1024.0) as i128, a as i128 * 1024 + b as i128);
+        assert!(sum.low.abs() <= 0.5 * sum.high.abs() * f64::EPSILON);
+    }
+}
+
+#[test]
+fn the_square_of_sine_and_cosine_is_one_and_a_quotient_returns() {
+    let mut rng = seeded(32);
+    for _ in 0..5000 {
+        let angle = DoubleDouble { high: signed_log_uniform(&mut rng, 1e-14, 6.2), low: 0.0 };
+        let angle = angle + DoubleDouble::from(angle.high * 1e-17);
+        let (sin, cos) = angle.sin_cos();
+        let one = sin * sin + cos * cos;
+        assert!((one - DoubleDouble::from(1.0)).to_f64().abs() < 1e-30);
+        assert!((angle.sinc() * angle - sin).to_f64().abs() < 1e-30 * angle.high.abs());
+        let divisor = uniform(&mut rng, 0.1, 9.0);
+        let back = sin.over(divisor) * DoubleDouble::from(divisor);
+        assert!((back - sin).to_f64().abs() <= 1e-30 * sin.high.abs());
+    }
+}
+
+/// The end of a motion is the integral of e^(i(θ + ωt)) over time; here by the midpoint rule's series in ω, in doubles.
+#[test]
+fn the_reference_is_the_integral_of_the_velocity() {
+    for omega in [0.0, 1e-9, 1e-3, 0.5, 10.0] {
+        for theta in [-3.0, -0.4, 1.1, 2.9] {
+            let [x, y] = reference(theta, omega).map(DoubleDouble::to_f64);
+            let steps = 20_000;
+            let step = 0.1 / f64::from(steps);
+            let sum: Complex<f64> = (0..steps)
+                .map(|i| Complex::from_polar(step, theta + omega * (f64::from(i) + 0.5) * step))
+                .sum();
+            // The rule is off by (ωh)²/24 of the length, and the sum by half a unit of its last digit a step at most.
+            let allowed = 0.1 * (omega * step).powi(2) / 24.0 + f64::from(steps) * 0.1 * 0.5 * f64::EPSILON;
+            assert!((sum - Complex::new(x, y)).norm() < allowed, "{omega} {theta}");
+        }
+    }
+}
+
+#[test]
+fn the_three_forms_lose_what_exercise_1_says() {
+    let FormErrors { omega, arc, straight, chord, estimated_crossover } = form_errors();
+    // The chord loses nothing anywhere: the last digit of a tenth of a metre, from its product and two sums.
+    assert!(chord.iter().all(|error| *error < 3e-17), "{chord:?}");
+    for (i, omega) in omega.iter().enumerate() {
+        let bend = 0.5 * omega * 0.01;
+        if (1e-9..1e-2).contains(omega) {
+            assert!((straight[i] / bend - 1.0).abs() < 1e-3, "{omega} {}", straight[i]);
+        }
+        // ε/ω but for luck.
+        let ratio = arc[i] / (f64::EPSILON / omega);
+        if (1e-11..0.1).contains(omega) {
+            assert!((0.05..3.0).contains(&ratio), "{omega} {ratio}");
+        }
+    }
+    let document = Told::in_document(include_str!("../../../doc/exercises.md"));
+    let [found, estimated]: [Number; 2] =
+        document.numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
+    estimated.assert(estimated_crossover / 1e-7, 0.0);
+    // The curves cross where the document says, to a point of theirs, of which there are eight a decade, either way.
+    let crossing = (0..omega.len()).rev().find(|i| arc[*i] > straight[*i]).expect("a crossing");
+    let decades = (omega[crossing] / (found.value * 1e-7)).log10();
+    assert!(decades.abs() < 2.0 / 8.0, "{}", omega[crossing]);
+    assert_eq!(CHAPTERS_THRESHOLD, 1e-6);
+}

@@ -1,0 +1,99 @@
+//! Sine and cosine in lanes: their accuracy over the whole range, and that a lane does not depend on its neighbours.
+
+use crate::common::seeded;
+use motion::geom::lanes::{ACCURACY, Trigonometry};
+use motion::geom::se2::wrap_angle;
+use rand::RngExt;
+use std::f64::consts::{FRAC_PI_2, PI};
+use wide::f64x4;
+
+/// Angles of either sign, log-uniform over 32 decades, and dense around the ends of the ranges.
+fn angles() -> Vec<f64> {
+    let mut rng = seeded(9);
+    let mut angles = vec![0.0, -0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI, f64::MIN_POSITIVE, 3e6, -3e6, 3.1e6];
+    for _ in 0..200_000 {
+        let size = libm::pow(10.0, rng.random_range(-17.0..15.0));
+        angles.push(if rng.random() { size } else { -size });
+        angles.push(rng.random_range(-2.0 * PI..2.0 * PI));
+        // Multiples of a quarter turn, and a little beside.
+        let quarter = f64::from(rng.random_range(-2000..2000)) * FRAC_PI_2;
+        angles.push(quarter + libm::pow(10.0, rng.random_range(-16.0..0.0)));
+    }
+    angles
+}
+
+fn first(lanes: f64x4) -> f64 {
+    lanes.to_array()[0]
+}
+
+#[test]
+fn circles_agree_with_libm_over_the_whole_range() {
+    let trigonometry = Trigonometry::default();
+    for angle in angles() {
+        let circle = trigonometry.any_circle(f64x4::splat(angle));
+        let sinc = if angle == 0.0 { 1.0 } else { libm::sin(angle) / angle };
+        assert!((first(circle.sin) - libm::sin(angle)).abs() <= ACCURACY, "sin {angle}");
+        assert!((first(circle.cos) - libm::cos(angle)).abs() <= ACCURACY, "cos {angle}");
+        assert!((first(circle.sinc) - sinc).abs() <= ACCURACY, "sinc {angle}");
+        if angle.abs() <= FRAC_PI_2 {
+            // No digits are lost towards 0.
+            assert!((first(circle.sin) - libm::sin(angle)).abs() <= ACCURACY * angle.abs(), "sin {angle}");
+        }
+    }
+}
+
+#[test]
+fn half_turns_are_those_of_the_branch() {
+    let trigonometry = Trigonometry::default();
+    for near in [0.0, 0.25, -1.5, 1.7, -2.9] {
+        for half in angles().into_iter().step_by(7) {
+            let turn = trigonometry.any_half_turn(f64x4::splat(half), near);
+            let expected = near + 0.5 * wrap_angle(2.0 * (half - near));
+            let found = first(turn.half);
+            // Half circles taken off cost half of theirs in digits; where the branch ends, either side will do.
+            let digits = ACCURACY * (1.0 + half.abs());
+            let beside = (found - expected).abs().min(((found - expected).abs() - PI).abs());
+            assert!(beside <= digits, "{half} near {near}: {found} is not {expected}");
+            assert!((found - near).abs() <= FRAC_PI_2 + digits, "{half} near {near}: {found}");
+            let (sin, cos) = libm::sincos(found);
+            assert!((first(turn.sin).abs() - sin.abs()).abs() <= digits);
+            assert!((first(turn.sin) * first(turn.cos) - sin * cos).abs() <= 2.0 * digits);
+            let cotangent = if found == 0.0 { 1.0 } else { found * cos / sin };
+            // As the error of the sine, divided by it twice.
+            let tolerance =
+                4.0 * digits * (1.0 + found.abs()) / (sin * sin / (found * found).min(1.0)).max(1e-300);
+            assert!(
+                (first(turn.cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
+                "{half} {near}"
+            );
+        }
+    }
+}
+
+/// The short formulas and those for any angle give the same bits, beside whatever neighbours.
+#[test]
+fn a_lane_does_not_depend_on_its_neighbours() {
+    let trigonometry = Trigonometry::default();
+    let bits = |lanes: f64x4, lane: usize| lanes.to_array()[lane].to_bits();
+    let near: Vec<f64> = angles().into_iter().filter(|angle| angle.abs() < FRAC_PI_2).collect();
+    let far = [1e15, -7.0, 4e6, FRAC_PI_2 + 1e-9];
+    for (i, angle) in near.iter().enumerate() {
+        let (lane, alone) = (i % 4, f64x4::splat(*angle));
+        let mut mixed = far;
+        mixed[lane] = *angle;
+        let mixed = f64x4::from(mixed);
+        let (short, long) = (trigonometry.circle(alone), trigonometry.any_circle(mixed));
+        for (short, long) in [(short.sinc, long.sinc), (short.sin, long.sin), (short.cos, long.cos)] {
+            assert_eq!(bits(short, lane), bits(long, lane), "{angle}");
+        }
+        let (short, long) = (trigonometry.half_turn(alone), trigonometry.any_half_turn(mixed, 0.0));
+        for (short, long) in [
+            (short.half, long.half),
+            (short.cotangent, long.cotangent),
+            (short.sin, long.sin),
+            (short.cos, long.cos),
+        ] {
+            assert_eq!(bits(short, lane), bits(long, lane), "{angle}");
+        }
+    }
+}

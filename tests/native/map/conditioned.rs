@@ -1,0 +1,309 @@
+//! Motion conditioned on a map: the published shares, and the three samplers.
+
+use crate::common::{SIGMAS, seeded};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
+use motion::noise::centred_uniform;
+use motion::sim::squeeze::{PRESETS, alphas_of_noise};
+use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];
+const AHEAD: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
+
+fn model() -> VelocityModel {
+    VelocityModel { alphas: VelocityAlphas(alphas_of_noise(0.12)), noise: NoiseKind::Normal }
+}
+
+fn conditioned(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
+    MapConditioned { model: model(), plan, clearance: 0.13, sampler }
+}
+
+fn preset(name: &str) -> SE2 {
+    let (_, [x, y, theta]) = PRESETS.into_iter().find(|preset| preset.0 == name).expect("a preset");
+    SE2::new(x, y, theta)
+}
+
+/// The x, y of an arc at 1 + `count` even steps, from the circle's equation.
+fn path(arc: &Arc, count: u32) -> Vec<[f64; 2]> {
+    let (x, y, theta) = (arc.start.x(), arc.start.y(), arc.start.theta());
+    let at = |f: f64| {
+        let turn = f * arc.turn;
+        let reach = f * arc.length * if turn == 0.0 { 1.0 } else { (0.5 * turn).sin() / (0.5 * turn) };
+        [x + reach * (theta + 0.5 * turn).cos(), y + reach * (theta + 0.5 * turn).sin()]
+    };
+    (0..=count).map(|i| at(f64::from(i) / f64::from(count))).collect()
+}
+
+/// The clearance of a point: to the nearest wall, or to the bounds where it is outside of them.
+fn room(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
+    let to_wall = |Segment { from, to }: &Segment| {
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let t = (((x - from[0]) * dx + (y - from[1]) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+        (from[0] + t * dx - x).hypot(from[1] + t * dy - y)
+    };
+    let [left, bottom, right, top] = plan.bounds();
+    let depth = (x - left).min(right - x).min(y - bottom).min(top - y);
+    plan.walls().iter().map(to_wall).fold(if depth < 0.0 { depth } else { f64::INFINITY }, f64::min)
+}
+
+fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
+    std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(rng)))
+}
+
+// -------------------------------------------------------------------------------------- the chapter's figures
+
+/// Both this estimate and the published one come from 60 000 draws, and the published one is rounded.
+fn assert_share(name: &str, part: usize, whole: usize, published: f64) {
+    let share = part as f64 / whole as f64;
+    let error = (2.0 * published * (1.0 - published) / whole as f64).sqrt();
+    assert!((share - published).abs() < SIGMAS * error + 0.0005, "{name}: {share} instead of {published}");
+}
+
+#[test]
+fn the_published_shares() {
+    const DRAWS: usize = 60_000;
+    let plan = FloorPlan::apartment();
+    let endpoint = conditioned(&plan, Sampler::Endpoint);
+    for (name, omega, acceptance, through_wall) in [
+        ("doorway", 0.0, 0.849, 0.348),
+        ("wall", 0.0, 0.832, 0.867),
+        ("corridor", 0.0, 0.840, 0.242),
+        ("doorway", 0.6, 0.781, 0.398),
+    ] {
+        let (start, command) = (preset(name), VelocityCmd { omega, ..AHEAD });
+        let mut rng = seeded(5);
+        let draws: Vec<_> =
+            (0..DRAWS).map(|_| endpoint.judge(&command, &start, unit_noise(&mut rng))).collect();
+        let accepted = draws.iter().filter(|draw| draw.end.free).count();
+        let through = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
+        assert_share(name, accepted, DRAWS, acceptance);
+        assert_share(name, through, accepted, through_wall);
+        assert!(draws.iter().all(|draw| draw.end.free || !draw.path.free), "the end is part of the path");
+    }
+}
+
+/// What the verdicts say is so at 500 points along the path, a centimetre or so apart.
+#[test]
+fn verdicts_are_right_where_one_looks() {
+    let plan = FloorPlan::apartment();
+    let endpoint = conditioned(&plan, Sampler::Endpoint);
+    for (name, _) in PRESETS {
+        let mut rng = seeded(6);
+        for _ in 0..3000 {
+            let draw =
+                endpoint.judge(&VelocityCmd { omega: 0.3, ..AHEAD }, &preset(name), unit_noise(&mut rng));
+            let points = path(&draw.arc, 500);
+            let least = points.iter().map(|point| room(&plan, *point)).fold(f64::INFINITY, f64::min);
+            let spacing = draw.arc.length.abs() / 500.0;
+            if draw.path.free {
+                assert!(least > 0.13 - 1e-12, "{draw:?}: {least}");
+            } else {
+                assert!(least <= 0.13 + 0.5 * spacing, "{draw:?}: {least}");
+            }
+            let [x, y] = points[500];
+            assert!((x - draw.pose.x()).abs() < 1e-12 && (y - draw.pose.y()).abs() < 1e-12);
+            let end_room = room(&plan, [x, y]);
+            assert!(draw.end.free == (end_room > 0.13) || (end_room - 0.13).abs() < 1e-12, "{draw:?}");
+        }
+    }
+}
+
+/// The path judged is the arc of (v̂, ω̂); γ̂ turns the robot afterwards and moves it nowhere.
+#[test]
+fn the_last_turn_is_not_part_of_the_path() {
+    let plan = FloorPlan::apartment();
+    let endpoint = conditioned(&plan, Sampler::Endpoint);
+    let (command, start) = (VelocityCmd { omega: 0.4, ..AHEAD }, preset("doorway"));
+    let mut rng = seeded(7);
+    for _ in 0..1000 {
+        let [v, omega, gamma] = unit_noise(&mut rng);
+        let draw = endpoint.judge(&command, &start, [v, omega, gamma]);
+        let unturned = endpoint.judge(&command, &start, [v, omega, 0.0]);
+        assert_eq!((draw.arc, draw.end, draw.path), (unturned.arc, unturned.end, unturned.path));
+        let executed = model().executed(&command, [v, omega, gamma]);
+        assert!((draw.arc.length - 2.0 * executed.v_hat).abs() < 1e-15);
+        assert!((draw.arc.turn - 2.0 * executed.omega_hat).abs() < 1e-15);
+        let pose = model().apply_noise(&command, &start, [v, omega, gamma]);
+        assert!(crate::common::pose_distance(&draw.pose, &pose) < 1e-14);
+        assert_ne!(draw.pose.theta(), unturned.pose.theta());
+    }
+}
+
+// --------------------------------------------------------------------------------------------------- the samplers
+
+#[test]
+fn the_whole_arc_sampler_never_goes_through_a_wall() {
+    let plan = FloorPlan::apartment();
+    for (name, _) in PRESETS {
+        let whole_arc = conditioned(&plan, Sampler::WholeArc);
+        let mut rng = seeded(8);
+        for _ in 0..3000 {
+            let mut arcs = Vec::new();
+            let accepted = whole_arc
+                .sample_along(&AHEAD, &preset(name), &mut rng, |arc| arcs.push(*arc))
+                .expect("it fits");
+            assert!(accepted.path_free && arcs.len() == 1);
+            assert!(path(&arcs[0], 300).iter().all(|point| room(&plan, *point) > 0.13 - 1e-12), "{arcs:?}");
+        }
+    }
+}
+
+/// Table 5.7 by hand: draw from the model until a look at every wall finds the end (or the whole path) free. The same
+/// random numbers give the same poses, after the same number of draws.
+#[test]
+fn rejection_is_rejection() {
+    let plan = FloorPlan::apartment();
+    let command = VelocityCmd { omega: 0.2, ..AHEAD };
+    for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
+        for (name, _) in PRESETS {
+            let (start, sampler) = (preset(name), conditioned(&plan, sampler));
+            let (mut rng, mut by_hand) = (seeded(9), seeded(9));
+            for _ in 0..1000 {
+                let accepted = sampler.sample(&command, &start, &mut rng).expect("it fits");
+                let mut draws = 0;
+                let pose = loop {
+                    let mut luck = by_hand.clone();
+                    let pose = model().sample(&command, &start, &mut by_hand);
+                    let executed = model().executed(&command, unit_noise(&mut luck));
+                    let arc = Arc { start, length: 2.0 * executed.v_hat, turn: 2.0 * executed.omega_hat };
+                    draws += 1;
+                    let free = match sampler.sampler {
+                        Sampler::WholeArc => {
+                            room(&plan, [pose.x(), pose.y()]) > 0.13
+                                && plan.walls().iter().all(|wall| wall.distance_to_arc(&arc) > 0.13)
+                        }
+                        _ => room(&plan, [pose.x(), pose.y()]) > 0.13,
+                    };
+                    if free {
+                        break pose;
+                    }
+                };
+                assert!(crate::common::pose_distance(&pose, &accepted.pose) < 1e-14);
+                assert_eq!(accepted.cost.draws, draws);
+            }
+        }
+    }
+}
+
+/// Through a doorway and along a corridor, more parts leave fewer motions through walls, and at last none. Each share
+/// has its binomial error.
+#[test]
+fn more_parts_approach_the_whole_arc() {
+    let plan = FloorPlan::apartment();
+    for (name, published) in [("doorway", 0.348), ("corridor", 0.242)] {
+        let shares = [1u32, 2, 4, 8, 16, 64].map(|parts| {
+            let count = if parts < 64 { 4000 } else { 1000 };
+            let mut rng = seeded(10);
+            let sub_stepped = conditioned(&plan, Sampler::SubStepped(parts));
+            let through = (0..count)
+                .filter(|_| !sub_stepped.sample(&AHEAD, &preset(name), &mut rng).expect("it fits").path_free)
+                .count();
+            let share = through as f64 / f64::from(count);
+            (share, (share * (1.0 - share) / f64::from(count)).sqrt())
+        });
+        let (one_part, error) = shares[0];
+        assert!(
+            (one_part - published).abs() < SIGMAS * error + 0.01,
+            "{name}: one part is the endpoint sampler"
+        );
+        for pair in shares.windows(2) {
+            let ((few, few_error), (more, more_error)) = (pair[0], pair[1]);
+            assert!(more <= few + 2.0 * few_error.hypot(more_error), "{name}: {shares:?}");
+        }
+        assert!(shares[3].0 < 0.3 * one_part, "{name}: {shares:?}");
+        assert_eq!(shares[5].0, 0.0, "{name}: {shares:?}");
+    }
+}
+
+/// In front of a wall few parts jump it (a part must clear 2 · 0.13 m at once), and many have to turn aside, at the
+/// price of hundreds of draws a motion.
+#[test]
+fn in_front_of_a_wall_few_parts_jump_and_many_pay() {
+    let plan = FloorPlan::apartment();
+    let run = |parts: u32, count: usize| {
+        let sub_stepped = conditioned(&plan, Sampler::SubStepped(parts));
+        let mut rng = seeded(11);
+        let (mut accepted, mut through, mut draws) = (0usize, 0usize, 0usize);
+        for _ in 0..count {
+            match sub_stepped.sample(&AHEAD, &preset("wall"), &mut rng) {
+                Ok(done) => {
+                    accepted += 1;
+                    through += usize::from(!done.path_free);
+                    draws += done.cost.draws;
+                }
+                Err(wedged) => draws += wedged.0.draws,
+            }
+        }
+        (through as f64 / accepted as f64, draws as f64 / (accepted * parts as usize) as f64)
+    };
+    for parts in [2, 4, 8] {
+        let (share, draws_per_part) = run(parts, 1000);
+        assert!(share > 0.9, "{parts} parts: {share} jump");
+        assert!(draws_per_part < 3.0, "{parts} parts: {draws_per_part}");
+    }
+    let (share, draws_per_part) = run(64, 60);
+    assert_eq!(share, 0.0);
+    assert!(draws_per_part > 20.0, "{draws_per_part}");
+}
+
+/// A cell of 20 cm, in which the robot of 13 cm fits nowhere.
+fn cell() -> FloorPlan {
+    let corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
+    let walls = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }).collect();
+    FloorPlan::new(walls, [1.9, 1.9, 2.3, 2.3]).expect("a valid plan")
+}
+
+#[test]
+fn a_wedged_robot_is_an_error_that_counts_its_draws() {
+    let plan = cell();
+    let start = SE2::new(2.1, 2.1, 0.0);
+    for sampler in SAMPLERS {
+        let wedged =
+            conditioned(&plan, sampler).sample(&AHEAD, &start, &mut seeded(12)).expect_err("no room");
+        assert_eq!(wedged.0.draws, MAX_DRAWS);
+        assert_eq!(wedged.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
+    }
+    // The first part of two leads into a dead end: all draws count. A drive of 1 m ± 1 mm, between two far walls.
+    let dead_end = FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
+        .expect("a valid plan");
+    let exact =
+        VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
+    let sampler = MapConditioned { model: exact, ..conditioned(&dead_end, Sampler::SubStepped(2)) };
+    let command = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
+    let wedged = sampler.sample(&command, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
+    assert_eq!(wedged.0.draws, MAX_DRAWS + 1);
+}
+
+/// γ̂ turns the robot after the arc, so that the geodesic to the pose reached is another path. Judged by it, samples get
+/// other verdicts: at the doorway about 7 % of the accepted, none where γ̂ has no noise.
+#[test]
+fn the_geodesic_is_not_the_way_driven() {
+    let plan = FloorPlan::apartment();
+    let start = preset("doorway");
+    let disagreement = |alphas: [f64; 6]| {
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        let conditioned = MapConditioned { model, ..conditioned(&plan, Sampler::Endpoint) };
+        let mut rng = seeded(92);
+        let (mut accepted, mut differ) = (0, 0);
+        for _ in 0..60_000 {
+            let draw = conditioned.judge(&AHEAD, &start, unit_noise(&mut rng));
+            if draw.end.free {
+                // exp(s·ξ), 0 ≤ s ≤ 1, is an arc too: it leaves in the direction of (ξ along, ξ lateral).
+                let xi = draw.pose.boxminus(&start);
+                let leaving = SE2::new(start.x(), start.y(), start.theta() + xi.y.atan2(xi.x));
+                let geodesic = Arc { start: leaving, length: xi.xy().norm(), turn: xi.z };
+                accepted += 1;
+                differ += usize::from(plan.arc_free(&geodesic, 0.13).free != draw.path.free);
+            }
+        }
+        (differ as f64 / f64::from(accepted), f64::from(accepted))
+    };
+    let (share, accepted) = disagreement(alphas_of_noise(0.12));
+    // 0.0709 of 170 000, measured with other seeds: both errors are binomial.
+    let error = (0.07 * 0.93 * (1.0 / accepted + 1.0 / 170_000.0)).sqrt();
+    assert!((share - 0.0709).abs() < SIGMAS * error, "{share} ± {error}");
+    assert_eq!(disagreement([0.12, 0.12, 0.12, 0.12, 0.0, 0.0]).0, 0.0);
+}

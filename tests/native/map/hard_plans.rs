@@ -1,0 +1,232 @@
+//! Plans that are allowed and made to be hard: every verdict on them is right, and takes no more than one can wait for.
+
+use crate::common::{seeded, uniform};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{FloorPlan, MAX_WORK, Sampler};
+use motion::sim::squeeze::{MapSqueeze, Settings};
+use rand::Rng;
+use std::f64::consts::{PI, TAU};
+
+const ROOM: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
+
+fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
+    let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(|x| x.clamp(0.0, 10.0));
+    Segment { from: [x0, y0], to: [x1, y1] }
+}
+
+/// Many walls in one place, on one line, through one point, around one, and nearly the same.
+fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
+    let mut rng = seeded(9800);
+    let walls =
+        |make: &mut dyn FnMut(f64) -> Segment| (0..count).map(|i| make(i as f64 / count as f64)).collect();
+    let parallel = |width: f64| move |s: f64| wall(width * s, 0.0, 10.0, 10.0 - width * s);
+    let ray = |s: f64, reach: f64| {
+        let (sin, cos) = (TAU * s).sin_cos();
+        wall(5.0, 5.0, 5.0 + reach * cos, 5.0 + reach * sin)
+    };
+    let mut anywhere = move || uniform(&mut rng, 0.0, 10.0);
+    vec![
+        ("equal diagonals", walls(&mut parallel(0.0))),
+        ("nearly equal diagonals", walls(&mut parallel(1e-9))),
+        ("diagonals close together", walls(&mut parallel(0.1))),
+        ("equal but for their direction", {
+            let mut forward = false;
+            walls(&mut |_| {
+                forward = !forward;
+                if forward { wall(1.0, 2.0, 9.0, 7.0) } else { wall(9.0, 7.0, 1.0, 2.0) }
+            })
+        }),
+        (
+            "covered by a longer one",
+            walls(&mut |s| wall(5.0 - 4.0 * s, 5.0 - 3.0 * s, 5.0 + 4.0 * s, 5.0 + 3.0 * s)),
+        ),
+        ("overlapping", walls(&mut |s| wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
+        ("dots on a line", walls(&mut |s| wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
+        ("a star", walls(&mut |s| ray(s, 5.0))),
+        ("all in one cell", walls(&mut |s| ray(s, 1e-3))),
+        (
+            "tangents to a circle",
+            walls(&mut |s| {
+                let (sin, cos) = (TAU * s).sin_cos();
+                let at = |t: f64| [5.0 + 0.5 * cos - t * sin, 5.0 + 0.5 * sin + t * cos];
+                let ([x0, y0], [x1, y1]) = (at(-3.0), at(3.0));
+                wall(x0, y0, x1, y1)
+            }),
+        ),
+        ("long ones anywhere", walls(&mut |_| wall(anywhere(), anywhere(), anywhere(), anywhere()))),
+        ("a mesh", {
+            let mut level = false;
+            walls(&mut |s| {
+                level = !level;
+                if level { wall(0.0, 10.0 * s, 10.0, 10.0 * s) } else { wall(10.0 * s, 0.0, 10.0 * s, 10.0) }
+            })
+        }),
+    ]
+}
+
+fn hard_plan(name: &str, count: usize) -> Vec<Segment> {
+    let (_, walls) =
+        hard_plans(count).into_iter().find(|(each, _)| *each == name).expect("a plan of that name");
+    walls
+}
+
+fn some_arc(rng: &mut impl Rng) -> Arc {
+    let middle = rng.next_u32().is_multiple_of(2);
+    let [x, y] =
+        std::array::from_fn(|_| if middle { uniform(rng, 4.9, 5.1) } else { uniform(rng, 2.0, 8.0) });
+    let length = [0.001, 0.3, 2.0][(rng.next_u32() % 3) as usize];
+    Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn: uniform(rng, -1.0, 1.0) }
+}
+
+/// Reference: a loop over all walls.
+#[test]
+fn verdicts_on_hard_plans_are_right() {
+    for (name, walls) in hard_plans(1500) {
+        let plan = FloorPlan::new(walls.clone(), ROOM).expect("allowed");
+        let mut rng = seeded(9801);
+        let [mut blocked, mut free] = [0; 2];
+        for i in 0..1500 {
+            let (arc, clearance) = (some_arc(&mut rng), [0.0, 0.13, 0.49][i % 3]);
+            let end = [arc.end().x(), arc.end().y()];
+            let least =
+                |distance: &dyn Fn(&Segment) -> f64| walls.iter().map(distance).fold(f64::INFINITY, f64::min);
+            let [to_end, to_arc] =
+                [least(&|wall| wall.distance_to_point(end)), least(&|wall| wall.distance_to_arc(&arc))];
+            if [to_end, to_arc].into_iter().any(|distance| (distance - clearance).abs() < 1e-12) {
+                continue;
+            }
+            assert_eq!(
+                plan.point_free(end, clearance).free,
+                to_end > clearance,
+                "{name}: {arc:?} {clearance}"
+            );
+            assert_eq!(
+                plan.arc_free(&arc, clearance).free,
+                to_arc > clearance,
+                "{name}: {arc:?} {clearance}"
+            );
+            *if to_arc > clearance { &mut free } else { &mut blocked } += 1;
+        }
+        // One verdict in thirty at least is of either kind: a plan on which all are alike would test nothing.
+        assert!(blocked > 50 && free > 50, "{name}: {blocked} blocked, {free} free");
+    }
+}
+
+/// Steps of making ready at most. One is the distance of a point, of which a hundred million take about a second: a phone
+/// five times as slow has a plan ready within one.
+const STEPS: usize = 20_000_000;
+
+/// Walls that are measured for an arc at most, on average: a thousandth of those that a loop would measure.
+const MEASURED: usize = FloorPlan::MAX_WALLS / 1000;
+
+/// As many walls as are allowed: making them ready and judging takes so many steps at most.
+#[test]
+fn hard_plans_are_no_harder_than_one_can_wait_for() {
+    for (name, walls) in hard_plans(FloorPlan::MAX_WALLS) {
+        let mut plan = FloorPlan::new(walls, ROOM).expect("allowed");
+        assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
+        let mut work = usize::MAX;
+        assert!(plan.prepare(&mut work) && plan.prepared() == 1.0);
+        assert!(usize::MAX - work < STEPS, "{name}: {}", usize::MAX - work);
+        let mut rng = seeded(9802);
+        let tests: usize = (0..300).map(|_| plan.arc_free(&some_arc(&mut rng), 0.13).wall_tests).sum();
+        assert!(tests < 300 * MEASURED, "{name}: {tests}");
+    }
+}
+
+/// Bit for bit: whoever copies a wall changes nothing, and pays for the few nodes that its copies fill.
+#[test]
+fn equal_walls_count_as_one() {
+    let mut rng = seeded(9803);
+    let walls: Vec<Segment> = (0..40)
+        .map(|_| std::array::from_fn(|_| uniform(&mut rng, 0.0, 10.0)))
+        .map(|[a, b, c, d]| wall(a, b, c, d))
+        .collect();
+    let copies = walls.iter().flat_map(|wall| std::iter::repeat_n(*wall, 2000)).collect();
+    let [once, often] = [walls, copies].map(|walls| FloorPlan::new(walls, ROOM).expect("allowed"));
+    let [mut of_once, mut of_often] = [0; 2];
+    for i in 0..3000 {
+        let (arc, clearance) = (some_arc(&mut rng), [0.0, 0.05, 0.13][i % 3]);
+        let [one, other] = [&once, &often].map(|plan| plan.arc_free(&arc, clearance));
+        assert_eq!(one.free, other.free, "{arc:?} {clearance}");
+        of_once += one.wall_tests;
+        of_often += other.wall_tests;
+    }
+    // Halved again and again, the 2000 copies of a wall, ten to a leaf, are about one node of each of eight sizes, and at either end
+    // a leaf that is shared with other walls.
+    assert!(of_often < (8 + 2) * of_once, "{of_often} and {of_once}");
+}
+
+/// What the tree and the field are made of does not depend on how they are sliced, nor do the verdicts.
+#[test]
+fn slices_change_nothing() {
+    let walls = hard_plan("diagonals close together", 3000);
+    let plan = || FloorPlan::new(walls.clone(), ROOM).expect("allowed");
+    let opening = Settings { start: [5.2, 4.4, 1.0], samples: 500, ..Settings::default() };
+    let other = Settings { sampler: Sampler::WholeArc, clearance: 0.05, seed: 3, ..opening };
+    let mut whole = MapSqueeze::new(opening).expect("valid");
+    whole.set_plan(plan());
+    let mut sliced = MapSqueeze::empty(opening).expect("valid");
+    sliced.set_plan(plan());
+    assert_eq!(sliced.attempts().len(), 0);
+    assert_eq!(sliced.progress(), 0.0, "nobody has looked at the map yet");
+    sliced.begin_to_grow(500);
+    let finish = |machine: &mut MapSqueeze| {
+        let mut told = vec![machine.progress()];
+        while !machine.advance(2000).expect("no map is read") {
+            told.push(machine.progress());
+        }
+        told
+    };
+    let told = finish(&mut sliced);
+    // The tree alone, of eight levels of 24 000 steps each, takes more: the larger nodes a slice each, the others twelve a level.
+    assert!(told.len() > 50 && told.iter().all(|share| (0.0..=1.0).contains(share)), "{}", told.len());
+    assert_eq!((sliced.attempts(), sliced.tally()), (whole.attempts(), whole.tally()));
+    assert!(whole.tally().accepted > 0 && whole.tally().accepted < 500);
+
+    whole.configure(other).expect("valid");
+    sliced.begin(other).expect("valid");
+    assert!(finish(&mut sliced).len() > 2);
+    assert_eq!((sliced.attempts(), sliced.tally()), (whole.attempts(), whole.tally()));
+    assert_eq!(*sliced.settings(), other);
+
+    // Given up, all is as it was, and can go on from there.
+    sliced.begin(opening).expect("valid");
+    sliced.advance(1).expect("no map is read");
+    sliced.begin(Settings { samples: 900, ..opening }).expect("valid");
+    sliced.advance(1).expect("no map is read");
+    assert!(sliced.attempts().len() < 500);
+    sliced.stop();
+    assert_eq!(
+        (sliced.attempts(), sliced.tally(), *sliced.settings()),
+        (whole.attempts(), whole.tally(), other)
+    );
+    sliced.stop();
+    for machine in [&mut sliced, &mut whole] {
+        machine.configure(Settings { samples: 700, ..other }).expect("valid");
+    }
+    assert_eq!((sliced.attempts(), sliced.tally()), (whole.attempts(), whole.tally()));
+}
+
+/// A point robot in the middle of a star: hardly anything is known without measuring most of the walls.
+#[test]
+fn the_machine_gives_up_where_too_much_is_to_be_measured() {
+    let walls = hard_plan("a star", FloorPlan::MAX_WALLS);
+    let settings = Settings {
+        start: [5.0, 5.000_1, 0.3],
+        clearance: 0.0,
+        samples: 100_000,
+        sampler: Sampler::WholeArc,
+        ..Settings::default()
+    };
+    let mut machine = MapSqueeze::empty(settings).expect("valid");
+    machine.set_plan(FloorPlan::new(walls, ROOM).expect("allowed"));
+    machine.grow(100_000);
+    let (tally, shown) = (*machine.tally(), machine.attempts().len());
+    assert!(machine.gave_up(), "{tally:?}");
+    // A wall that is measured counts four, and draws are judged four at a time: of the last ones each may measure all walls.
+    assert!(4 * tally.wall_tests < MAX_WORK + 4 * 4 * FloorPlan::MAX_WALLS, "{tally:?}");
+    assert!(shown < 100_000 && machine.grow(10) == shown, "{shown}");
+}

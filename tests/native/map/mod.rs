@@ -1,0 +1,8 @@
+//! Floor plans, occupancy grids and motion that a map restricts.
+
+mod conditioned;
+mod hard_plans;
+mod occupancy;
+mod pixels;
+mod plans;
+mod reading;

@@ -1,0 +1,520 @@
+//! Occupancy grids: exact distances to their cells, outlines, what is unknown, and where a robot is put.
+
+use crate::common::{seeded, uniform};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, Unknown, read_pgm,
+};
+use rand::Rng;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+const TRINARY: Interpretation =
+    Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
+const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
+const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
+
+/// A grid of which the tests know every cell.
+struct Cells {
+    width: usize,
+    height: usize,
+    /// Row by row from the top, as in the image.
+    occupied: Vec<bool>,
+    resolution: f64,
+    /// x, y and yaw of the lower left corner.
+    origin: [f64; 3],
+}
+
+impl Cells {
+    fn random(rng: &mut impl Rng) -> Self {
+        let (width, height) = (1 + (rng.next_u32() % 12) as usize, 1 + (rng.next_u32() % 12) as usize);
+        let density = uniform(rng, 0.05, 0.9);
+        let occupied = (0..width * height).map(|_| uniform(rng, 0.0, 1.0) < density).collect();
+        let yaw = if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { uniform(rng, -PI, PI) };
+        let origin = [uniform(rng, -50.0, 50.0), uniform(rng, -50.0, 50.0), yaw];
+        Self { width, height, occupied, resolution: uniform(rng, 0.02, 0.5), origin }
+    }
+
+    fn grid(&self) -> OccupancyGrid {
+        let pixels = self.occupied.iter().map(|occupied| if *occupied { BLACK } else { WHITE });
+        let image = Image { width: self.width, height: self.height, pixels };
+        let [x, y, yaw] = self.origin;
+        OccupancyGrid::new(&image, &TRINARY, self.resolution, SE2::new(x, y, yaw))
+    }
+
+    /// Where a point of the grid's own axes, in cells, stands in the map.
+    fn in_map(&self, column: f64, row: f64) -> [f64; 2] {
+        let ([x, y, yaw], (u, v)) = (self.origin, (column * self.resolution, row * self.resolution));
+        [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
+    }
+
+    /// The distance to the nearest occupied cell, each measured as a square; 0 inside of one.
+    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
+        let ([x0, y0, yaw], size) = (self.origin, self.resolution);
+        let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
+        let v = (y - y0) * yaw.cos() - (x - x0) * yaw.sin();
+        let outside = |at: f64, cell: usize| {
+            let low = cell as f64 * size;
+            (low - at).max(at - low - size).max(0.0)
+        };
+        let occupied = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
+        occupied
+            .map(|i| outside(u, i % self.width).hypot(outside(v, self.height - 1 - i / self.width)))
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+// ----------------------------------------------------------------------------------------------------- distances
+
+/// The walls made of a grid are as far from everyone outside the occupied cells as the cells themselves.
+#[test]
+fn the_walls_are_as_far_as_the_cells() {
+    let mut rng = seeded(9900);
+    let (mut inside, mut outside) = (0, 0);
+    for _ in 0..400 {
+        let cells = Cells::random(&mut rng);
+        let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
+        let [left, bottom, right, top] = plan.bounds();
+        for _ in 0..50 {
+            let column = uniform(&mut rng, 0.0, cells.width as f64);
+            let row = uniform(&mut rng, 0.0, cells.height as f64);
+            let point = cells.in_map(column, row);
+            assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
+            let distance = cells.distance(point);
+            if distance == 0.0 {
+                assert!(cells.grid().holds(point) && !plan.point_free(point, 0.0).free, "inside a cell");
+                inside += 1;
+                continue;
+            }
+            let nearest =
+                plan.walls().iter().map(|wall| wall.distance_to_point(point)).fold(f64::INFINITY, f64::min);
+            // Fifty metres from the origin the corners are rounded by 1e-14 m.
+            assert!(nearest == distance || (nearest - distance).abs() < 1e-13, "{nearest}, {distance}");
+            let clearance = uniform(&mut rng, 0.0, 1.0);
+            if (clearance - distance).abs() > 1e-12 {
+                assert_eq!(plan.point_free(point, clearance).free, distance > clearance);
+            }
+            outside += 1;
+        }
+    }
+    assert!(inside > 4000 && outside > 4000, "{inside} {outside}");
+}
+
+/// Arcs through a grid, judged by looking at 200 points of each.
+#[test]
+fn arcs_are_judged_by_the_cells() {
+    let mut rng = seeded(9901);
+    let (mut free, mut blocked, mut buried) = (0, 0, 0);
+    for _ in 0..300 {
+        let cells = Cells::random(&mut rng);
+        let grid = cells.grid();
+        let (origin, side) = (grid.origin(), grid.resolution());
+        let [right, top] = [cells.width as f64 * side, cells.height as f64 * side];
+        let plan = FloorPlan::from_grid(grid).expect("a small grid");
+        // How far inside the edge of the map, which turns with the grid.
+        let depth = |x: f64, y: f64| {
+            let local = origin.inverse() * SE2::new(x, y, 0.0);
+            local.x().min(right - local.x()).min(local.y()).min(top - local.y())
+        };
+        for _ in 0..30 {
+            let at = cells.in_map(
+                uniform(&mut rng, 0.0, cells.width as f64),
+                uniform(&mut rng, 0.0, cells.height as f64),
+            );
+            let length = uniform(&mut rng, -2.0, 2.0) * cells.resolution;
+            let start = SE2::new(at[0], at[1], uniform(&mut rng, -PI, PI));
+            let arc = Arc { start, length, turn: uniform(&mut rng, -TAU, TAU) };
+            let clearance = uniform(&mut rng, 0.0, 0.7) * cells.resolution;
+            let (mut least, mut edge) = (f64::INFINITY, f64::INFINITY);
+            for i in 0..=200 {
+                let f = f64::from(i) / 200.0;
+                let end = Arc { length: f * arc.length, turn: f * arc.turn, ..arc }.end();
+                let room = cells.distance([end.x(), end.y()]) - clearance;
+                edge = edge.min(depth(end.x(), end.y()));
+                least = least.min(room);
+            }
+            // Between two of the points either distance falls by half their spacing at most.
+            let between = 0.5 * length.abs() / 200.0;
+            let verdict = plan.arc_free(&arc, clearance).free;
+            if least <= -1e-12 || edge <= -1e-12 {
+                assert!(!verdict, "{arc:?}");
+                blocked += 1;
+                buried += u32::from(cells.distance(at) == 0.0);
+            } else if least > between && edge > between {
+                assert!(verdict, "{arc:?}");
+                free += 1;
+            }
+        }
+    }
+    assert!(free > 500 && blocked > 500 && buried > 500, "{free} {blocked} {buried}");
+}
+
+/// Deep inside a block there is no wall within reach, and yet nobody is free there.
+#[test]
+fn a_block_is_solid() {
+    let side = 40;
+    let cells = Cells {
+        width: side,
+        height: side,
+        occupied: vec![true; side * side],
+        resolution: 1.0,
+        origin: [-20.0, -20.0, 0.0],
+    };
+    let plan = FloorPlan::from_grid(cells.grid()).expect("four walls");
+    assert_eq!(plan.walls().len(), 4, "{:?}", plan.walls());
+    assert!(!plan.point_free([0.0, 0.0], 0.1).free);
+    let inside = Arc { start: SE2::new(0.0, 0.0, 0.5), length: 3.0, turn: 1.0 };
+    assert!(!plan.arc_free(&inside, 0.1).free);
+    assert_eq!(plan.open_place(0.1), None);
+}
+
+/// Neighbouring sides are one wall, sides between two occupied cells are none, and corners touch.
+#[test]
+fn outlines_are_joined() {
+    let picture = ["##.", "#..", "..#"];
+    let occupied = picture.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
+    let cells = Cells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
+    let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
+    let mut walls: Vec<[f64; 4]> =
+        plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
+    walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    let expected = [
+        [1.0, 2.5, 1.5, 2.5],
+        [1.0, 2.5, 1.0, 3.5],
+        [1.0, 3.5, 2.0, 3.5],
+        [1.5, 2.5, 1.5, 3.0],
+        [1.5, 3.0, 2.0, 3.0],
+        [2.0, 2.0, 2.5, 2.0],
+        [2.0, 2.0, 2.0, 2.5],
+        [2.0, 2.5, 2.5, 2.5],
+        [2.0, 3.0, 2.0, 3.5],
+        [2.5, 2.0, 2.5, 2.5],
+    ];
+    let mut expected = expected.to_vec();
+    expected.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    assert_eq!(walls, expected);
+    assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
+    let turned = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
+    let bounds = FloorPlan::from_grid(turned.grid()).expect("a small grid").bounds();
+    for (bound, expected) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
+        assert!((bound - expected).abs() < 1e-15, "{bounds:?}");
+    }
+}
+
+/// Sides of single cells, as sets: those of outlines are where one of two neighbours alone is in the way, each once.
+#[test]
+fn outlines_are_where_cells_change() {
+    let mut rng = seeded(16_180);
+    for _ in 0..400 {
+        let (width, height) = (1 + (rng.next_u32() % 70) as usize, 1 + (rng.next_u32() % 12) as usize);
+        let mut occupied: Vec<bool> = Vec::new();
+        for row in 0..height {
+            // Mostly as the row before, as maps are.
+            for column in 0..width {
+                let like = if row > 0 { occupied[(row - 1) * width + column] } else { column % 40 < 20 };
+                occupied.push(like != rng.next_u32().is_multiple_of(30));
+            }
+        }
+        let cells = Cells { width, height, occupied, resolution: 1.0, origin: [0.0; 3] };
+        let at = |column: i64, row: i64| {
+            let on = (0..width as i64).contains(&column) && (0..height as i64).contains(&row);
+            on && cells.occupied[(height - 1 - row as usize) * width + column as usize]
+        };
+        let mut expected = Vec::new();
+        for row in 0..=height as i64 {
+            for column in 0..=width as i64 {
+                let here = at(column, row);
+                if here != at(column, row - 1) {
+                    expected.push([column, row, column + 1, row]);
+                }
+                if here != at(column - 1, row) {
+                    expected.push([column, row, column, row + 1]);
+                }
+            }
+        }
+        let outlines = cells.grid().outlines(usize::MAX).expect("no limit");
+        let mut sides = Vec::new();
+        for Segment { from, to } in outlines {
+            let [[x0, y0], [x1, y1]] = [from, to].map(|end| end.map(|coordinate| coordinate as i64));
+            sides.extend((x0..x1).map(|x| [x, y0, x + 1, y0]).chain((y0..y1).map(|y| [x0, y, x0, y + 1])));
+        }
+        sides.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(sides, expected);
+    }
+}
+
+#[test]
+fn a_grid_of_too_many_walls_is_refused() {
+    let side = 320;
+    let occupied = (0..side * side).map(|i| i / side % 2 == 0 && i % side % 2 == 0).collect();
+    let dots = Cells { width: side, height: side, occupied, resolution: 0.05, origin: [0.0; 3] };
+    // 160 · 160 cells that stand alone, with four sides each.
+    let error = FloorPlan::from_grid(dots.grid()).err();
+    // Counted no further than the row or column that passed the limit.
+    assert!(matches!(error, Some(FloorPlanError::TooManySides(100_001..=100_320))), "{error:?}");
+    let message = error.map(|error| error.to_string()).unwrap_or_default();
+    assert!(message.starts_with("image has cells in the way with 100"), "{message}");
+}
+
+/// Of a grid in fields that it has.
+#[test]
+fn a_grid_that_reaches_too_far_is_refused() {
+    let grid = |resolution, origin| {
+        Cells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
+    };
+    assert!(FloorPlan::from_grid(grid(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
+    for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {
+        let error = FloorPlan::from_grid(grid(resolution, origin)).err();
+        assert!(matches!(error, Some(FloorPlanError::BadGrid(_))), "{error:?}");
+        let message = error.map(|error| error.to_string()).unwrap_or_default();
+        assert!(message.starts_with("origin has the cells from ["), "{message}");
+    }
+}
+
+/// A turned map ends where its image does, not where a box around it does.
+#[test]
+fn the_edge_of_a_turned_map_turns_with_it() {
+    let empty = Cells {
+        width: 100,
+        height: 50,
+        occupied: vec![false; 5000],
+        resolution: 0.1,
+        origin: [1.0, 2.0, 0.6],
+    };
+    let plan = FloorPlan::from_grid(empty.grid()).expect("no walls");
+    let at = |x: f64, y: f64| {
+        let point = SE2::new(1.0, 2.0, 0.6) * SE2::new(x, y, 0.0);
+        [point.x(), point.y()]
+    };
+    for (x, y, inside) in
+        [(5.0, 2.5, true), (0.1, 0.1, true), (9.9, 4.9, true), (-0.1, 2.0, false), (5.0, 5.1, false)]
+    {
+        assert_eq!(plan.point_free(at(x, y), 0.05).free, inside, "({x}, {y})");
+    }
+    let [left, _, _, top] = plan.bounds();
+    assert!(
+        !plan.point_free([left + 0.1, top - 0.1], 0.05).free,
+        "a corner of the box that is no part of the map"
+    );
+    let [x, y] = at(5.0, 4.5);
+    let across = Arc { start: SE2::new(x, y, 0.6), length: 2.0, turn: 2.0 * PI };
+    assert!(!plan.arc_free(&across, 0.05).free, "a circle that leaves and comes back");
+    assert!(plan.arc_free(&Arc { turn: -2.0 * PI, ..across }, 0.05).free);
+}
+
+// -------------------------------------------------------------------------------------------------- what is unknown
+
+/// A grid of ones of `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, cells of 10 cm.
+fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
+    let shade = |cell| match cell {
+        '#' => 0.0,
+        '?' => 0.5,
+        _ => 1.0,
+    };
+    let pixels =
+        rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade(cell), opacity: 1.0 });
+    let image = Image { width: rows[0].len(), height: rows.len(), pixels };
+    OccupancyGrid::new(&image, &TRINARY, 0.1, SE2::identity()).with_unknown(unknown)
+}
+
+/// Blocked, an unknown cell is to a robot what an occupied one is; free, it is what a free one is.
+#[test]
+fn unknown_cells_are_what_one_decides() {
+    let mut rng = seeded(31_415);
+    let random: Vec<String> = (0..30)
+        .map(|_| (0..30).map(|_| ['#', '?', '.', '.', '.', '.'][(rng.next_u32() % 6) as usize]).collect())
+        .collect();
+    let with =
+        |from: &str, to: &str| -> Vec<String> { random.iter().map(|row| row.replace(from, to)).collect() };
+    let plan = |rows: &[String], unknown| {
+        let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+        FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid")
+    };
+    for (unknown, alike) in [(Unknown::Blocked, with("?", "#")), (Unknown::Free, with("?", "."))] {
+        let (one, other) = (plan(&random, unknown), plan(&alike, Unknown::Free));
+        assert_eq!(one.walls(), other.walls(), "{unknown:?}");
+        for _ in 0..20_000 {
+            let start = SE2::new(
+                uniform(&mut rng, 0.0, 3.0),
+                uniform(&mut rng, 0.0, 3.0),
+                uniform(&mut rng, -PI, PI),
+            );
+            let arc = Arc { start, length: uniform(&mut rng, 0.0, 0.5), turn: uniform(&mut rng, -2.0, 2.0) };
+            let clearance = uniform(&mut rng, 0.0, 0.1);
+            let point = [start.x(), start.y()];
+            assert_eq!(one.point_free(point, clearance), other.point_free(point, clearance), "{point:?}");
+            assert_eq!(one.arc_free(&arc, clearance), other.arc_free(&arc, clearance), "{arc:?}");
+        }
+    }
+    let grid = drawn(&["#?."], Unknown::Blocked);
+    let cells: Vec<_> = grid.cells().collect();
+    assert_eq!(cells, [Cell::Occupied, Cell::Unknown, Cell::Free], "it stays known which is which");
+}
+
+// ------------------------------------------------------------------------------------------------ a place to start
+
+/// In the middle of the largest square that is known to be free, heading along the longest way known to be free.
+#[test]
+fn a_robot_is_put_in_the_open() {
+    let rows = [
+        "????????????????",
+        "????????????????",
+        "##########??????",
+        "#........#??????",
+        "#........#??????",
+        "#...............",
+        "#........#??????",
+        "##########??????",
+    ];
+    for unknown in [Unknown::Free, Unknown::Blocked] {
+        let plan = FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid");
+        let place = plan.open_place(0.1).expect("there is room");
+        // The first of the squares of four cells, and the way through the door.
+        assert!((place.x() - 0.3).abs() + (place.y() - 0.3).abs() < 1e-12, "{place:?}");
+        assert!(plan.point_free([place.x(), place.y()], 0.1).free);
+        let way = Arc { start: place, length: 0.5, turn: 0.0 };
+        assert!(plan.arc_free(&way, 0.0).free && place.theta().abs() < 0.5, "{place:?}");
+    }
+    // Where the robot just fits, there is no way at all.
+    let shut = FloorPlan::from_grid(drawn(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
+    assert_eq!(shut.open_place(0.0499).expect("there is room").theta(), 0.0);
+    // Nothing is known, but something is free; or nothing is.
+    let unknown = drawn(&["???", "???", "???"], Unknown::Free);
+    let place = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");
+    assert!((place.x() - 0.05).abs() + (place.y() - 0.05).abs() < 1e-12, "the first: {place:?}");
+    let blocked = drawn(&["???", "???", "???"], Unknown::Blocked);
+    assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").open_place(0.1), None);
+}
+
+/// The place that is found has room on every random grid where any of its cells has, whatever the grid's turn.
+#[test]
+fn a_place_is_found_where_there_is_one() {
+    let mut rng = seeded(27_182);
+    let (mut found, mut none) = (0, 0);
+    for _ in 0..2000 {
+        let cells = Cells::random(&mut rng);
+        let clearance = cells.resolution * uniform(&mut rng, 0.0, 2.0);
+        let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
+        let middles = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (column, row)));
+        let room = middles
+            .map(|(column, row)| cells.in_map(column as f64 + 0.5, row as f64 + 0.5))
+            .any(|middle| plan.point_free(middle, clearance).free);
+        if let Some(place) = plan.open_place(clearance) {
+            assert!(plan.point_free([place.x(), place.y()], clearance).free, "{place:?}");
+            found += 1;
+        } else {
+            assert!(!room);
+            none += 1;
+        }
+    }
+    assert!(found > 300 && none > 100, "{found} {none}");
+}
+
+/// The robot is put in the middle of the largest square of free cells: of several, of that whose upper right corner is the first.
+#[test]
+fn the_largest_free_square_is_found() {
+    let mut rng = seeded(27_184);
+    for round in 0..3000 {
+        let [width, height] = [0, 1].map(|_| 1 + (rng.next_u32() % 40) as usize);
+        // From a few marks on open ground to as many as there are free cells; in stripes, whole parts of rows are alike.
+        let share = [0.003, 0.03, 0.2, 0.5][round % 4];
+        let mut cells = vec![Cell::Free; width * height];
+        for row in cells.chunks_mut(width) {
+            let stripe = if uniform(&mut rng, 0.0, 1.0) < share { width / 2 } else { 0 };
+            for (column, cell) in row.iter_mut().enumerate() {
+                let kind = if rng.next_u32().is_multiple_of(2) { Cell::Occupied } else { Cell::Unknown };
+                if column < stripe || uniform(&mut rng, 0.0, 1.0) < share {
+                    *cell = kind;
+                }
+            }
+        }
+        let shade = |cell: &Cell| match cell {
+            Cell::Free => 1.0,
+            Cell::Occupied => 0.0,
+            Cell::Unknown => 0.5,
+        };
+        let pixels: Vec<_> = cells
+            .chunks(width)
+            .rev()
+            .flatten()
+            .map(|cell| Pixel { shade: shade(cell), opacity: 1.0 })
+            .collect();
+        let grid = OccupancyGrid::new(&Image { width, height, pixels }, &TRINARY, 1.0, SE2::identity());
+        assert!(grid.cells().eq(cells.iter().copied()), "cells are those of their pixels");
+
+        let (mut largest, mut middle) = (0, None);
+        let mut sizes = vec![vec![0; width + 1]; height + 1];
+        for row in 0..height {
+            for column in 0..width {
+                if cells[row * width + column] == Cell::Free {
+                    let (below, left) = (sizes[row][column + 1], sizes[row + 1][column]);
+                    sizes[row + 1][column + 1] = 1 + sizes[row][column].min(below).min(left);
+                }
+                let size = sizes[row + 1][column + 1];
+                if size > largest {
+                    let half = 0.5 * f64::from(size);
+                    (largest, middle) = (size, Some([column as f64 + 1.0 - half, row as f64 + 1.0 - half]));
+                }
+            }
+        }
+        let Some(middle) = middle else { continue };
+        let plan = FloorPlan::from_grid(grid).expect("a small grid");
+        let place = plan.open_place(0.1).expect("a free cell");
+        assert_eq!([place.x(), place.y()], middle);
+    }
+}
+
+/// Shades that have a byte in common are told apart.
+#[test]
+fn shades_of_two_bytes_are_cells() {
+    let mut rng = seeded(27_185);
+    let (width, height) = (37, 300);
+    let values: Vec<u16> =
+        (0..width * height).map(|_| (rng.next_u32() % 256 * 256 + rng.next_u32() % 3) as u16).collect();
+    let mut file = format!("P5 {width} {height} 65535\n").into_bytes();
+    file.extend(values.iter().flat_map(|value| value.to_be_bytes()));
+    let image = read_pgm(&file).expect("an image");
+    let grid = OccupancyGrid::new(&image, &TRINARY, 0.05, SE2::identity());
+    let shade = |value: &u16| f32::from(*value) / 65535.0;
+    let expected = values
+        .chunks(width)
+        .rev()
+        .flatten()
+        .map(|value| TRINARY.cell(Pixel { shade: shade(value), opacity: 1.0 }));
+    assert!(grid.cells().eq(expected));
+}
+
+/// Where nothing is known to be free, the robot is put into the first cell, row by row from the bottom, in whose middle it fits.
+#[test]
+fn the_first_place_with_room_is_found() {
+    let mut rng = seeded(27_183);
+    let (mut first, mut later, mut none) = (0, 0, 0);
+    for _ in 0..2000 {
+        let cells = Cells::random(&mut rng);
+        let clearance = cells.resolution * uniform(&mut rng, 0.0, 4.0);
+        let grey = Pixel { shade: 205.0 / 255.0, ..WHITE };
+        let pixels = cells.occupied.iter().map(|occupied| if *occupied { BLACK } else { grey });
+        let image = Image { width: cells.width, height: cells.height, pixels };
+        let [x, y, yaw] = cells.origin;
+        let grid = OccupancyGrid::new(&image, &TRINARY, cells.resolution, SE2::new(x, y, yaw));
+        let plan = FloorPlan::from_grid(grid).expect("a small grid");
+        let middles = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (column, row)));
+        let expected = middles
+            .enumerate()
+            .map(|(i, (column, row))| (i, cells.in_map(column as f64 + 0.5, row as f64 + 0.5)))
+            .find(|(_, middle)| plan.point_free(*middle, clearance).free);
+        let place = plan.open_place(clearance).map(|place| [place.x(), place.y()]);
+        match (expected, place) {
+            (Some((i, [x, y])), Some(place)) => {
+                // Coordinates up to 56 m, rounded by a few of their last bits.
+                assert!((place[0] - x).abs().max((place[1] - y).abs()) < 1e-12, "{place:?} {x} {y}");
+                *if i == 0 { &mut first } else { &mut later } += 1;
+            }
+            (None, None) => none += 1,
+            (expected, place) => panic!("{place:?} instead of {expected:?}"),
+        }
+    }
+    assert!(first > 100 && later > 300 && none > 300, "{first} {later} {none}");
+}

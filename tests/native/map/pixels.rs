@@ -1,0 +1,253 @@
+//! How pixels become cells: `map_server`'s reading of them, and PGM files good and bad.
+
+use crate::common::seeded;
+use motion::geom::se2::SE2;
+use motion::map::{
+    Cell, FloorPlan, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, PgmError, Pixel, Shades,
+    read_pgm,
+};
+use rand::Rng;
+
+const TRINARY: Interpretation =
+    Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
+
+// -------------------------------------------------------------------------------------------- map_server's pixels
+
+/// As `map_server` reads them: occupied where the occupancy is above the threshold, not where it is at it.
+#[test]
+fn pixels_are_read_as_map_server_reads_them() {
+    let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
+    let clear = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
+    let scale = Interpretation { mode: Mode::Scale, ..TRINARY };
+    let raw = Interpretation { mode: Mode::Raw, ..TRINARY };
+    let at = |occupied_thresh| Interpretation { occupied_thresh, ..TRINARY };
+    let negated = |occupied_thresh| Interpretation { negate: true, ..at(occupied_thresh) };
+    let free_below = |free_thresh| Interpretation { free_thresh, ..TRINARY };
+    let cases = [
+        ("black", TRINARY, pixel(0), Cell::Occupied),
+        ("white", TRINARY, pixel(255), Cell::Free),
+        ("the grey that maps are saved with where nothing is known", TRINARY, pixel(205), Cell::Unknown),
+        ("which is free by another threshold", free_below(0.25), pixel(205), Cell::Free),
+        ("occupancy 0.192", TRINARY, pixel(206), Cell::Free),
+        ("occupancy 0.651", TRINARY, pixel(89), Cell::Occupied),
+        ("occupancy 0.647", TRINARY, pixel(90), Cell::Unknown),
+        ("transparent black", TRINARY, clear(0), Cell::Occupied),
+        ("black, negated", negated(0.65), pixel(0), Cell::Free),
+        ("white, negated", negated(0.65), pixel(255), Cell::Occupied),
+        ("occupancy 0.651, negated", negated(0.65), pixel(166), Cell::Occupied),
+        ("occupancy 0.647, negated", negated(0.65), pixel(165), Cell::Unknown),
+        ("at the threshold", at(0.6), pixel(102), Cell::Unknown),
+        ("past it", at(0.6), pixel(101), Cell::Occupied),
+        ("at the threshold of 0.2", at(0.2), pixel(204), Cell::Unknown),
+        ("at the threshold, negated", negated(0.6), pixel(153), Cell::Unknown),
+        ("past it, negated", negated(0.6), pixel(154), Cell::Occupied),
+        ("at the threshold of 0.2, negated", negated(0.2), pixel(51), Cell::Unknown),
+        ("nothing is above 1", at(1.0), pixel(0), Cell::Unknown),
+        ("at the threshold for free", free_below(0.2), pixel(204), Cell::Unknown),
+        ("below the threshold for free", free_below(0.2), pixel(205), Cell::Free),
+        ("nothing is below 0", free_below(0.0), pixel(255), Cell::Unknown),
+        ("scale, black", scale, pixel(0), Cell::Occupied),
+        ("scale, transparent black is unknown", scale, clear(0), Cell::Unknown),
+        ("scale, transparent white is unknown", scale, clear(255), Cell::Unknown),
+        ("scale, white", scale, pixel(255), Cell::Free),
+        ("scale, what is between the thresholds is known in degrees", scale, pixel(150), Cell::Free),
+        ("raw, 100", raw, pixel(100), Cell::Occupied),
+        ("raw, 99", raw, pixel(99), Cell::Free),
+        ("raw, 101 is unknown", raw, pixel(101), Cell::Unknown),
+        ("raw, 0 is free", raw, pixel(0), Cell::Free),
+        ("raw, 255 is unknown", raw, pixel(255), Cell::Unknown),
+        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(100), Cell::Occupied),
+        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(155), Cell::Unknown),
+    ];
+    for (name, interpretation, pixel, cell) in cases {
+        assert_eq!(interpretation.cell(pixel), cell, "{name}: {interpretation:?} {pixel:?}");
+    }
+}
+
+// ----------------------------------------------------------------------------------------------------------- PGM
+
+fn shades(image: &Image<Shades>) -> Vec<f32> {
+    assert_eq!(image.pixels.len(), image.width * image.height);
+    let pixels = image.pixels.clone().map(Pixel::from);
+    assert!(pixels.clone().all(|pixel| pixel.opacity == 1.0));
+    pixels.map(|pixel| pixel.shade).collect()
+}
+
+#[test]
+fn pgm_files_are_read() {
+    let expected = [0.0, 1.0, 0.2, 0.4, 0.6, 0.8];
+    let mut wide = b"P5 3 2 65535\n".to_vec();
+    wide.extend([0u16, 65535, 13107, 26214, 39321, 52428].into_iter().flat_map(u16::to_be_bytes));
+    let mut after = b"P5\n# made by hand\n3 2\n255\n\x00\xff\x33\x66\x99\xcc".to_vec();
+    after.extend(b"anything that follows");
+    let files: [&[u8]; 7] = [
+        b"P2\n3 2\n255\n0 255 51\n102 153 204\n",
+        b"P2 3 2 5 0 5 1 2 3 4",
+        b"P2 # plain\n#comment\n 3 # width\n\t2\r\n#\n255\n0 255 #51\n51 102 153 204#end",
+        b"P5 3 2 255\n\x00\xff\x33\x66\x99\xcc",
+        b"P5\n3\n2\n5\n\x00\x05\x01\x02\x03\x04",
+        &after,
+        &wide,
+    ];
+    for file in files {
+        let image = read_pgm(file).expect("a valid file");
+        assert_eq!((image.width, image.height), (3, 2));
+        for (shade, expected) in shades(&image).into_iter().zip(expected) {
+            assert!((shade - expected).abs() < 1e-7, "{file:?}: {:?}", shades(&image));
+        }
+    }
+    // The first byte of the raster may look like white space or a comment.
+    assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
+    assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
+}
+
+/// The first row of the file is the top of the map.
+#[test]
+fn the_image_stands_upright() {
+    let image = read_pgm(b"P2 2 3 1  0 1  1 1  1 1").expect("a valid file");
+    let plan = FloorPlan::from_grid(OccupancyGrid::new(&image, &TRINARY, 0.5, SE2::new(10.0, 20.0, 0.0)));
+    let plan = plan.expect("one cell");
+    assert!(!plan.point_free([10.25, 21.25], 0.0).free, "the cell at the upper left");
+    assert!(plan.point_free([10.25, 20.25], 0.7).free && plan.point_free([10.75, 21.25], 0.2).free);
+    assert_eq!((plan.walls().len(), plan.bounds()), (4, [10.0, 20.0, 11.0, 21.5]));
+}
+
+/// A sentence that names the line, the field, its value and what is allowed.
+#[test]
+fn malformed_pgm_files_are_explained() {
+    let cases: [(&[u8], &str); 24] = [
+        (b"", "line 1: the magic number is missing; allowed is P5 or P2"),
+        (b"P6 1 1 255 abc", r#"line 1: the magic number is "P6"; allowed is P5 or P2"#),
+        (b"\x89PNG\r\n\x1a\n", r#"line 1: the magic number is "�PNG"; allowed is P5 or P2"#),
+        (b"# only\n# comments", "line 2: the magic number is missing; allowed is P5 or P2"),
+        (b"P5", "line 1: the width is missing; allowed is a whole number from 1 to 16777216"),
+        (b"P5\n#384\n", "line 3: the width is missing; allowed is a whole number from 1 to 16777216"),
+        (b"P5\n0 3\n255\n", r#"line 2: the width is "0"; allowed is a whole number from 1 to 16777216"#),
+        (b"P5\n-3 3\n255\n", r#"line 2: the width is "-3"; allowed is a whole number from 1 to 16777216"#),
+        (b"P5\n3.5 3\n255\n", r#"line 2: the width is "3.5"; allowed is a whole number from 1 to 16777216"#),
+        (
+            b"P5\nwide 3\n255\n",
+            r#"line 2: the width is "wide"; allowed is a whole number from 1 to 16777216"#,
+        ),
+        (b"P5\n\xff\"\0 3\n", r#"line 2: the width is "�"�"; allowed is a whole number from 1 to 16777216"#),
+        (
+            b"P5\n99999999999999999999999 3\n255\n",
+            r#"line 2: the width is "99999999999999999999…"; allowed is a whole number from 1 to 16777216"#,
+        ),
+        (b"P5\n3\n", "line 3: the height is missing; allowed is a whole number from 1 to 5592405"),
+        (
+            b"P5\n8192\n8192\n255\n",
+            r#"line 3: the height is "8192"; allowed is a whole number from 1 to 2048"#,
+        ),
+        (b"P5\n3 2\n", "line 3: the greatest value is missing; allowed is a whole number from 1 to 65535"),
+        (b"P5\n3 2\n0\n", r#"line 3: the greatest value is "0"; allowed is a whole number from 1 to 65535"#),
+        (
+            b"P5\n3 2\n65536\n",
+            r#"line 3: the greatest value is "65536"; allowed is a whole number from 1 to 65535"#,
+        ),
+        (b"P5\n3 2\n255", "line 3: the length of the raster in bytes is 0; allowed is 6 for 3 × 2 pixels"),
+        (
+            b"P5\n3 2\n255\n12345",
+            "line 3: the length of the raster in bytes is 5; allowed is 6 for 3 × 2 pixels",
+        ),
+        (
+            b"P5\n3 2\n256\n12345678901",
+            "line 3: the length of the raster in bytes is 11; allowed is 12 for 3 × 2 pixels",
+        ),
+        (
+            b"P2\n3 2\n255\n1 2 3\n4 5\n",
+            "line 6: a pixel is missing; allowed is a whole number from 0 to 255",
+        ),
+        (
+            b"P2\n3 2\n255\n1 2 3\n4 256 6\n",
+            r#"line 5: a pixel is "256"; allowed is a whole number from 0 to 255"#,
+        ),
+        (
+            b"P2\n3 2\n255\n1 2 3\n4 five 6\n",
+            r#"line 5: a pixel is "five"; allowed is a whole number from 0 to 255"#,
+        ),
+        (
+            b"P2\n3 2\n255\n1 2 3\n4 +5 6\n",
+            r#"line 5: a pixel is "+5"; allowed is a whole number from 0 to 255"#,
+        ),
+    ];
+    for (file, sentence) in cases {
+        assert_eq!(read_pgm(file).expect_err("malformed").to_string(), sentence, "{}", file.escape_ascii());
+    }
+    let huge = format!("P2\n{MAX_PIXELS} 1\n255\n");
+    assert_eq!(read_pgm(huge.as_bytes()).expect_err("no pixels").field, "a pixel");
+}
+
+/// Whatever the bytes, there is an image of the announced size or an explanation, and no panic.
+#[test]
+fn no_bytes_break_the_reader() {
+    let mut rng = seeded(9902);
+    let mut valid: Vec<Vec<u8>> = [
+        b"P2\n# a comment\n4 3\n255\n0 255 51 7\n102 153 204 8\n1 2 3 4\n".as_slice(),
+        b"P5\n# CREATOR: by hand\n4 3\n255\n\x00\xff\x33\x66\x99\xcc\x01\x02\x03\x04\x05\x06",
+        b"P5 2 2 65535\n\x00\x01\x02\x03\x04\x05\x06\x07",
+    ]
+    .map(<[u8]>::to_vec)
+    .to_vec();
+    valid.push(b"P5 ".to_vec());
+    let words: [&[u8]; 8] =
+        [b"P5", b"P2", b"\n", b"#", b" 16777216 ", b" 65535 ", b" 18446744073709551616 ", b" -1 "];
+    let (mut read, mut refused) = (0, 0);
+    for _ in 0..100_000 {
+        let mut bytes = if rng.next_u32().is_multiple_of(4) {
+            let mut bytes: Vec<u8> =
+                (0..rng.next_u32() % 40).map(|_| (rng.next_u32() & 0xff) as u8).collect();
+            bytes.splice(0..0, *b"P5 ");
+            bytes
+        } else {
+            valid[(rng.next_u32() % 4) as usize].clone()
+        };
+        for _ in 0..rng.next_u32() % 4 {
+            let at = (rng.next_u32() as usize) % (bytes.len() + 1);
+            match rng.next_u32() % 4 {
+                0 => bytes.truncate(at),
+                1 if at < bytes.len() => bytes[at] = (rng.next_u32() & 0xff) as u8,
+                2 if at < bytes.len() => drop(bytes.remove(at)),
+                _ => drop(bytes.splice(at..at, words[(rng.next_u32() % 8) as usize].iter().copied())),
+            }
+        }
+        match read_pgm(&bytes) {
+            Ok(image) => {
+                assert!(shades(&image).iter().all(|shade| (0.0..=1.0).contains(shade)));
+                let grid = OccupancyGrid::new(&image, &TRINARY, 0.05, SE2::identity());
+                assert!(FloorPlan::from_grid(grid).is_ok());
+                read += 1;
+            }
+            Err(PgmError { field, line, value, allowed }) => {
+                let lines = 1 + bytes.iter().filter(|byte| **byte == b'\n').count();
+                assert!(![field, &value, &allowed].contains(&"") && (1..=lines).contains(&line));
+                assert!(value.chars().count() <= 23 && !value.contains(char::is_control), "{value}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(read > 10_000 && refused > 10_000, "{read} {refused}");
+}
+
+/// `map_server` averages opacity in with the colours in mode trinary, if the image has transparency at all.
+#[test]
+fn transparency_counts_as_a_colour_in_trinary() {
+    let interpretation =
+        Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
+    let occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
+        let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
+        let image = Image { width: pixels.len(), height: 1, pixels };
+        let grid = OccupancyGrid::new(&image, &interpretation, 0.05, SE2::identity());
+        grid.cells().map(|cell| cell == Cell::Occupied).collect()
+    };
+    // Opaque black is (0 + 0 + 0 + 1)/4 = 0.25 of white then, dark grey 60/255 is 0.43 of it, clear white 0.75.
+    assert_eq!(
+        occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 0.0), (0.0, 0.0)]),
+        [true, false, false, true]
+    );
+    assert_eq!(
+        occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 1.0)]),
+        [true, true, false],
+        "no transparency"
+    );
+}

@@ -1,0 +1,474 @@
+//! Floor plans: what is one, the apartment, and that no wall is overlooked for speed.
+
+use crate::common::{seeded, signed_log_uniform, uniform};
+use motion::geom::arc::Arc;
+use motion::geom::se2::SE2;
+use motion::geom::segment::Segment;
+use motion::map::{FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel};
+use rand::Rng;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+const ROOM: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
+
+fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
+    Segment { from: [x0, y0], to: [x1, y1] }
+}
+
+fn in_box([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
+    [uniform(rng, left, right), uniform(rng, bottom, top)]
+}
+
+/// Straight, curved, long, short, forward and in reverse.
+fn arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
+    let turn = match rng.next_u32() % 3 {
+        0 => signed_log_uniform(rng, 1e-18, 1e-3),
+        1 => 0.0,
+        _ => uniform(rng, -TAU, TAU),
+    };
+    let length = uniform(rng, -3.0, 3.0);
+    Arc { start: SE2::new(start[0], start[1], uniform(rng, -PI, PI)), length, turn }
+}
+
+/// Walls of at most `size` m, a third of them along the axes.
+fn scattered(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
+    let [left, bottom, right, top] = bounds;
+    (0..count)
+        .map(|_| {
+            let from = in_box(bounds, rng);
+            let mut to = [from[0] + uniform(rng, -size, size), from[1] + uniform(rng, -size, size)];
+            if rng.next_u32().is_multiple_of(3) {
+                let axis = (rng.next_u32() % 2) as usize;
+                to[axis] = from[axis];
+            }
+            Segment { from, to: [to[0].clamp(left, right), to[1].clamp(bottom, top)] }
+        })
+        .collect()
+}
+
+// --------------------------------------------------------------------------------------------------- construction
+
+/// The book's apartment: its walls from end to end, in any order.
+#[test]
+fn the_apartment_has_its_walls() {
+    let mut expected: Vec<[f64; 4]> = Vec::new();
+    for (y, spans) in [
+        (0.0, &[[0.0, 12.0]] as &[[f64; 2]]),
+        (9.0, &[[0.0, 12.0]]),
+        (3.8, &[[0.0, 1.6], [2.5, 5.5], [6.5, 9.5], [10.4, 12.0]]),
+        (5.0, &[[0.0, 2.8], [3.7, 7.4], [8.3, 12.0]]),
+        (1.4, &[[4.0, 6.2]]),
+        (7.4, &[[9.6, 10.9]]),
+    ] {
+        expected.extend(spans.iter().map(|[from, to]| [*from, y, *to, y]));
+    }
+    for (x, from, to) in [
+        (0.0, 0.0, 9.0),
+        (12.0, 0.0, 9.0),
+        (4.0, 0.0, 3.8),
+        (8.0, 0.0, 3.8),
+        (6.0, 5.0, 9.0),
+        (2.0, 7.6, 9.0),
+        (9.6, 7.4, 9.0),
+    ] {
+        expected.push([x, from, x, to]);
+    }
+    let plan = FloorPlan::apartment();
+    let mut walls: Vec<[f64; 4]> = plan
+        .walls()
+        .iter()
+        .map(|Segment { from: [x0, y0], to: [x1, y1] }| [x0.min(*x1), y0.min(*y1), x0.max(*x1), y0.max(*y1)])
+        .collect();
+    let order = |a: &[f64; 4], b: &[f64; 4]| a.partial_cmp(b).expect("numbers");
+    walls.sort_by(order);
+    expected.sort_by(order);
+    assert_eq!(walls, expected);
+    assert_eq!(walls.len(), 18);
+    assert_eq!(plan.bounds(), [0.0, 0.0, 12.0, 9.0]);
+}
+
+#[test]
+fn a_plan_is_checked() {
+    for bounds in [
+        [f64::NAN, 0.0, 1.0, 1.0],
+        [0.0, f64::NEG_INFINITY, 1.0, 1.0],
+        [0.0, 0.0, f64::INFINITY, 1.0],
+        [0.0, 0.0, 1.0, f64::NAN],
+        [1.0, 0.0, 1.0, 1.0],
+        [0.0, 2.0, 1.0, 1.0],
+        [2.0, 0.0, 1.0, 1.0],
+    ] {
+        let error = FloorPlan::new(vec![], bounds).expect_err("bad bounds");
+        assert!(matches!(error, FloorPlanError::BadBounds(_)), "{error:?}");
+        assert!(error.to_string().starts_with("bounds is ["), "{error}");
+    }
+    for end in [
+        [f64::NAN, 1.0],
+        [1.0, f64::INFINITY],
+        [f64::NEG_INFINITY, 1.0],
+        [10.001, 5.0],
+        [-0.001, 5.0],
+        [5.0, 10.001],
+        [5.0, -0.001],
+    ] {
+        for bad in [Segment { from: end, to: [1.0, 1.0] }, Segment { from: [1.0, 1.0], to: end }] {
+            let error = FloorPlan::new(vec![wall(0.0, 0.0, 10.0, 10.0), bad], ROOM).expect_err("a bad wall");
+            assert!(matches!(error, FloorPlanError::BadWall { index: 1, .. }), "{error:?}");
+            let message = error.to_string();
+            assert!(
+                message.starts_with("walls[1] ends at [") && message.contains("inside the bounds"),
+                "{message}"
+            );
+        }
+    }
+    for bounds in [
+        [0.0, 0.0, 1e-300, 1e-300],
+        [0.0, 5.4e6, 9.0, 5.4e6 + 9.0],
+        [-1e308, -1e308, 1e308, 1e308],
+        [0.0, 0.0, 2e5, 9.0],
+    ] {
+        assert_eq!(FloorPlan::new(Vec::new(), bounds).err(), Some(FloorPlanError::BadBounds(bounds)));
+    }
+    let line = wall(1.0, 1.0, 9.0, 1.0);
+    let error = FloorPlan::new(vec![line; FloorPlan::MAX_WALLS + 1], ROOM).expect_err("too many");
+    assert_eq!(error, FloorPlanError::TooManyWalls(100_001));
+    assert_eq!(error.to_string(), "walls has a length of 100001 or more; allowed is at most 100000");
+    for count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
+        let plan = FloorPlan::new(vec![line; count], ROOM).expect("allowed");
+        assert_eq!(plan.walls().len(), count);
+        assert_eq!(plan.point_free([5.0, 1.5], 0.51).free, count == 0);
+        assert!(plan.point_free([5.0, 1.5], 0.49).free);
+    }
+}
+
+/// Plans that a spatial index may stumble over: everything in one place, on one line, or very far apart.
+#[test]
+fn no_plan_is_too_strange_for_the_index() {
+    let far = 5e4;
+    let lines: Vec<Segment> = (0..100).map(|i| wall(f64::from(i), 0.0, f64::from(i) + 0.5, 0.0)).collect();
+    let corners = [-far, -1.0, 0.0, 1.0, far];
+    let across: Vec<Segment> =
+        corners.iter().flat_map(|x| corners.iter().map(|y| wall(*x, *y, 0.0, 0.0))).collect();
+    let cases = [
+        (vec![wall(3.0, 3.0, 3.0, 3.0); 50], [0.0, 0.0, 100.0, 100.0], [3.0, 3.5]),
+        (vec![wall(3.0, 0.0, 3.0, 9.0); 50], [0.0, 0.0, 100.0, 100.0], [3.5, 4.0]),
+        (lines, [0.0, -1.0, 100.0, 1.0], [50.2, 0.5]),
+        (across, [-far, -far, far, far], [0.5, 0.0]),
+        (vec![wall(0.0, 0.0, 1e-320, 1e-320); 40], [0.0, 0.0, 0.01, 0.01], [1e-300, 0.0]),
+    ];
+    for (walls, bounds, point) in cases {
+        let plan = FloorPlan::new(walls, bounds).expect("a valid plan");
+        assert!(!plan.point_free(point, 0.6).free, "{bounds:?} {point:?}");
+        let on_the_spot = Arc { start: SE2::new(point[0], point[1], 0.0), length: 1e-9, turn: 1.0 };
+        assert!(!plan.arc_free(&on_the_spot, 0.6).free, "{bounds:?} {point:?}");
+        plan.open_place(0.1);
+    }
+}
+
+// ------------------------------------------------------------------------------------------------------ verdicts
+
+/// The verdicts are those of measuring every wall. Far fewer walls are measured than have a box that meets the box of the
+/// motion.
+#[test]
+fn no_wall_is_overlooked() {
+    let mut rng = seeded(9600);
+    let (mut free, mut blocked) = ([0; 2], [0; 2]);
+    let (mut measured, mut met) = (0, 0);
+    for round in 0..400 {
+        let count = [1, 5, 18, 60, 300][round % 5];
+        let walls = scattered(count, [2.0, 6.0, 0.3][round % 3], ROOM, &mut rng);
+        let plan = FloorPlan::new(walls.clone(), ROOM).expect("a valid plan");
+        for _ in 0..50 {
+            let clearance = [0.0, 0.13, 0.5][(rng.next_u32() % 3) as usize];
+            let inner = ROOM.map(|edge| 5.0 + (edge - 5.0) * 0.3);
+            let point = in_box(inner, &mut rng);
+            let arc = arc_from(point, &mut rng);
+            let beside = |distance: f64| (distance - clearance).abs() < 1e-9;
+            let near = |[left, bottom, right, top]: [f64; 4]| {
+                let meets = |wall: &&Segment| {
+                    let Segment { from, to } = wall;
+                    from[0].min(to[0]) <= right + clearance
+                        && from[0].max(to[0]) >= left - clearance
+                        && from[1].min(to[1]) <= top + clearance
+                        && from[1].max(to[1]) >= bottom - clearance
+                };
+                walls.iter().filter(meets).count()
+            };
+            let to_point: Vec<f64> = walls.iter().map(|wall| wall.distance_to_point(point)).collect();
+            let to_arc: Vec<f64> = walls.iter().map(|wall| wall.distance_to_arc(&arc)).collect();
+            let cases = [
+                (to_point, plan.point_free(point, clearance), near([point[0], point[1], point[0], point[1]])),
+                (to_arc, plan.arc_free(&arc, clearance), near(arc.bounding_box())),
+            ];
+            for (kind, (distances, verdict, near)) in cases.into_iter().enumerate() {
+                // Neither the arc nor the point comes near the bounds: 3 m of arc, from the middle.
+                if distances.iter().copied().any(beside) {
+                    continue;
+                }
+                let expected = distances.iter().all(|distance| *distance > clearance);
+                assert_eq!(verdict.free, expected, "{arc:?} {clearance} {walls:?}");
+                measured += verdict.wall_tests;
+                met += near;
+                if expected {
+                    free[kind] += 1;
+                } else {
+                    blocked[kind] += 1;
+                }
+            }
+        }
+    }
+    assert!(free.iter().chain(&blocked).all(|count| *count > 2000), "{free:?} {blocked:?}");
+    assert!(measured > 1000 && measured < met / 10, "{measured} of {met}");
+}
+
+/// The verdicts are those of a plain loop over all walls, in the apartment, among long slanted walls close together, and
+/// in a grid that is turned; for arcs of up to two circles, of every size and of robots of every size.
+#[test]
+fn verdicts_are_those_of_a_loop_over_all_walls() {
+    let mut rng = seeded(9650);
+    let diagonals = |count: u32| -> Vec<Segment> {
+        let end = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
+        let offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
+        offsets.map(end).map(|(far, near)| wall(near, far, far, near)).collect()
+    };
+    let pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
+    let pixels: Vec<_> = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
+    let interpretation =
+        Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
+    let image = Image { width: 40, height: 40, pixels };
+    let grid = OccupancyGrid::new(&image, &interpretation, 0.25, SE2::new(3.0, -2.0, 0.4));
+    let room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
+    let long = scattered(12, 10.0, ROOM, &mut rng);
+    let plans = [
+        FloorPlan::apartment(),
+        room(diagonals(20)),
+        room(diagonals(300)),
+        room(long),
+        room(vec![wall(2.0, 2.0, 9.0, 9.0); 300]),
+        FloorPlan::from_grid(grid).expect("a small grid"),
+    ];
+    for (number, plan) in plans.iter().enumerate() {
+        let [left, bottom, right, top] = plan.bounds();
+        let of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let corners = plan.grid().map_or(of_bounds, OccupancyGrid::corners);
+        let mut counts = [0; 3];
+        for _ in 0..12_000 {
+            let start = in_box(plan.bounds(), &mut rng);
+            let size = signed_log_uniform(&mut rng, 1e-3, 1.0);
+            let arc = arc_from(start, &mut rng);
+            let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
+            let arc = Arc { length: size * arc.length, turn, ..arc };
+            let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
+            let end = [arc.end().x(), arc.end().y()];
+            let least = |distance: &dyn Fn(&Segment) -> f64| {
+                plan.walls().iter().map(distance).fold(f64::INFINITY, f64::min)
+            };
+            let to_end = least(&|wall| wall.distance_to_point(end));
+            let to_arc = least(&|wall| wall.distance_to_arc(&arc));
+            if (to_end - clearance).abs() < 1e-12 || (to_arc - clearance).abs() < 1e-12 {
+                continue;
+            }
+            let on_map = |point: [f64; 2]| {
+                (0..4).all(|i| {
+                    let ([x0, y0], [x1, y1]) = (corners[i], corners[(i + 1) % 4]);
+                    (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0) >= 0.0
+                })
+            };
+            let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
+            let crosses = edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
+            let buried = |point| plan.grid().is_some_and(|grid| grid.holds(point));
+            let end_free = on_map(end) && !buried(end) && to_end > clearance;
+            let path_free = on_map(start) && !crosses && !buried(start) && end_free && to_arc > clearance;
+            assert_eq!(plan.point_free(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");
+            assert_eq!(plan.arc_free(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
+            counts[usize::from(end_free) + usize::from(path_free)] += 1;
+        }
+        assert!(counts.iter().all(|count| *count > 100), "{number}: {counts:?}");
+    }
+}
+
+#[test]
+fn touching_is_not_free() {
+    let plan = FloorPlan::new(vec![wall(1.0, 2.0, 9.0, 2.0)], ROOM).expect("a valid plan");
+    assert!(!plan.point_free([5.0, 2.25], 0.25).free);
+    assert!(plan.point_free([5.0, 2.25], 0.2499).free);
+    assert!(!plan.point_free([5.0, 2.0], 0.0).free, "a point on the wall");
+    let along = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
+    assert!(!plan.arc_free(&along, 0.25).free);
+    assert!(plan.arc_free(&along, 0.2499).free);
+    // Round the end of the wall: the middle of the half circle is the nearest, a quarter from the end.
+    let round = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
+    assert!(!plan.arc_free(&round, 0.0).free, "in reverse it goes through the wall");
+    let round = Arc { length: 0.25 * PI, turn: -PI, ..round };
+    assert!(plan.arc_free(&round, 0.2499).free && !plan.arc_free(&round, 0.2501).free);
+}
+
+/// A robot that leaves the map and comes back is not free, wherever it ends. Reference: points along the arc, of which
+/// 2000 come within 1e-5 m of the arc's extremes.
+#[test]
+fn leaving_the_bounds_is_seen() {
+    let plan = FloorPlan::new(vec![], ROOM).expect("a valid plan");
+    let mut rng = seeded(9700);
+    let (mut inside, mut leaves, mut returns) = (0, 0, 0);
+    for _ in 0..20_000 {
+        let point = in_box(ROOM.map(|edge| 5.0 + (edge - 5.0) * 1.02), &mut rng);
+        let arc = arc_from(point, &mut rng);
+        let depth = |x: f64, y: f64| x.min(y).min(10.0 - x).min(10.0 - y);
+        let least = (0..=200)
+            .map(|i| {
+                let f = f64::from(i) / 200.0;
+                let at = Arc { length: f * arc.length, turn: f * arc.turn, ..arc }.end();
+                depth(at.x(), at.y())
+            })
+            .fold(f64::INFINITY, f64::min);
+        // 200 chords of 3 m and two half turns: 3/200 · 2π/200 / 8 = 6e-5 m between arc and chord.
+        if least.abs() < 1e-4 {
+            continue;
+        }
+        let free = plan.arc_free(&arc, 0.1).free;
+        assert_eq!(free, least > 0.0, "{arc:?}");
+        let end = arc.end();
+        let ends_inside = depth(point[0], point[1]) > 0.0 && depth(end.x(), end.y()) > 0.0;
+        inside += u32::from(free);
+        leaves += u32::from(!free);
+        returns += u32::from(!free && ends_inside);
+        assert_eq!(plan.point_free([end.x(), end.y()], 0.1).free, depth(end.x(), end.y()) >= 0.0);
+    }
+    assert!(inside > 5000 && leaves > 2000 && returns > 100, "{inside} {leaves} {returns}");
+    // A disc may stick out: the walls, not the bounds, are in its way.
+    assert!(plan.point_free([0.0, 10.0], 0.5).free);
+    assert!(!plan.point_free([-1e-9, 5.0], 0.5).free);
+}
+
+/// Fewer than one wall is measured for a motion, however many there are at the same density; all of them in the same area
+/// cost at most in proportion.
+#[test]
+fn wall_tests_grow_slower_than_the_number_of_walls() {
+    let mut rng = seeded(9800);
+    let mut mean_tests = |count: usize, side: f64, size: f64| {
+        let bounds = [0.0, 0.0, side, side];
+        let plan = FloorPlan::new(scattered(count, size, bounds, &mut rng), bounds).expect("a valid plan");
+        let mut tests = 0;
+        for _ in 0..4000 {
+            let arc = Arc { length: 1.0, turn: 0.5, ..arc_from(in_box(bounds, &mut rng), &mut rng) };
+            let end = arc.end();
+            tests +=
+                plan.arc_free(&arc, 0.13).wall_tests + plan.point_free([end.x(), end.y()], 0.13).wall_tests;
+        }
+        tests as f64 / 4000.0
+    };
+    let growing: Vec<f64> =
+        [100usize, 1000, 10_000].map(|count| mean_tests(count, (count as f64).sqrt(), 0.5)).to_vec();
+    assert!(growing[0] > 0.1, "{growing:?}: there is something to measure");
+    // Larger maps have larger cells, which decide less.
+    assert!(growing.windows(2).all(|pair| pair[1] < 2.5 * pair[0]) && growing[2] < 1.0, "{growing:?}");
+    let fixed: Vec<f64> = [10usize, 100, 1000, 10_000].map(|count| mean_tests(count, 100.0, 0.5)).to_vec();
+    assert!(fixed[3] < 0.001 * 10_000.0, "{fixed:?}: a thousandth of the walls");
+}
+
+/// The box of a wall across the map holds half of it; who drives in that box, but far from all such walls, measures but the
+/// sixteen at most that are looked up together with what is near.
+#[test]
+fn walls_across_the_map_are_measured_only_from_nearby() {
+    let across = (0..200).map(f64::from).map(|i| wall(0.005 * i, 0.0, 99.0 + 0.005 * i, 99.0));
+    let walls = across.chain([wall(80.0, 20.0, 81.0, 20.0)]).collect();
+    let plan = FloorPlan::new(walls, [0.0, 0.0, 100.0, 100.0]).expect("a valid plan");
+    let mut rng = seeded(9900);
+    let mut measured = 0;
+    for _ in 0..1000 {
+        let point = in_box([79.8, 19.8, 81.2, 20.2], &mut rng);
+        let tests = plan.point_free(point, 0.13).wall_tests;
+        assert!(tests <= 16, "{point:?}: {tests} walls");
+        measured += tests;
+    }
+    assert!(measured > 100, "{measured}");
+}
+
+/// A plan that is told in other units has its place at the same spot. By a power of two, even to the bit.
+#[test]
+fn a_place_does_not_depend_on_the_unit() {
+    let apartment = FloorPlan::apartment();
+    for clearance in [0.0, 0.13, 1.0] {
+        let place = apartment.open_place(clearance).expect("there is room");
+        for unit in [1.0 / 64.0, 4.0, 256.0] {
+            let scaled = |[x, y]: [f64; 2]| [unit * x, unit * y];
+            let walls = apartment.walls().iter();
+            let walls = walls.map(|Segment { from, to }| Segment { from: scaled(*from), to: scaled(*to) });
+            let plan = FloorPlan::new(walls.collect(), apartment.bounds().map(|edge| unit * edge));
+            let found = plan.expect("a valid plan").open_place(unit * clearance).expect("there is room");
+            assert_eq!(found, SE2::new(unit * place.x(), unit * place.y(), place.theta()), "{unit}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_is_put_in_the_open() {
+    let apartment = FloorPlan::apartment();
+    for clearance in [0.0, 0.13, 0.5, 1.0] {
+        let place = apartment.open_place(clearance).expect("there is room");
+        assert!(apartment.point_free([place.x(), place.y()], clearance).free);
+        // The largest room has a square of 4 m between the closet's side and the wall opposite.
+        assert!((place.x() - 4.0).abs() < 0.1 && (place.y() - 7.0).abs() < 0.1, "{place:?}");
+        let ahead = Arc { start: place, length: 2.0, turn: 0.0 };
+        assert!(apartment.arc_free(&ahead, 0.13).free, "{place:?}");
+    }
+    assert_eq!(apartment.open_place(2.5), None, "no room is that large");
+    for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {
+        let open = FloorPlan::new(vec![], bounds).expect("a valid plan");
+        let place = open.open_place(0.3).expect("there is room");
+        let [left, bottom, right, top] = bounds;
+        let room = [place.x() - left, right - place.x(), place.y() - bottom, top - place.y()];
+        assert!(room.into_iter().all(|room| room > 1.4), "not at the edge: {place:?}");
+    }
+    assert!(plan_with_a_slit().open_place(0.3).is_none());
+    let turned = Arc { start: SE2::new(1.0, 1.0, FRAC_PI_2), length: 2.0, turn: 0.0 };
+    assert!(apartment.arc_free(&turned, 0.3).free);
+}
+
+/// The edge of a map belongs to it: who stands there, in a corner, or drives along it has not left.
+#[test]
+fn a_robot_on_the_edge_has_not_left() {
+    let open = FloorPlan::new(vec![], [3.0, 2.0, 7.0, 5.0]).expect("a valid plan");
+    let corners = [(3.0, 2.0), (7.0, 2.0), (7.0, 5.0), (3.0, 5.0)];
+    for (quarter, (x, y)) in corners.into_iter().enumerate() {
+        let along = FRAC_PI_2 * quarter as f64;
+        for (heading, turn, free) in [
+            (0.0, 0.0, true),
+            (0.4, 0.0, true),
+            (0.4, 1.0, true),
+            (1.2, -1.0, true),
+            (FRAC_PI_2 - 0.01, -1.0, true),
+            (0.3, -2.0, false),
+            (1.3, 2.0, false),
+            (-0.3, 0.0, false),
+            (-0.3, 1.2, false),
+            (2.0, 0.0, false),
+        ] {
+            let arc = Arc { start: SE2::new(x, y, along + heading), length: 1.5, turn };
+            let outside = path(&arc, 2000).into_iter().any(|[x, y]| {
+                !(3.0 - 1e-9..=7.0 + 1e-9).contains(&x) || !(2.0 - 1e-9..=5.0 + 1e-9).contains(&y)
+            });
+            assert_eq!(outside, !free, "what this expects is so: {arc:?}");
+            // Along the edge, rounding decides where the end is.
+            let end = arc.end();
+            let exact = open.point_free([end.x(), end.y()], 0.0).free;
+            assert_eq!(open.arc_free(&arc, 0.1).free, free && (exact || heading != 0.0), "{arc:?}");
+        }
+    }
+}
+
+/// The x, y of an arc at 1 + `count` even steps.
+fn path(arc: &Arc, count: u32) -> Vec<[f64; 2]> {
+    (0..=count)
+        .map(|i| {
+            let share = f64::from(i) / f64::from(count);
+            let end = Arc { length: share * arc.length, turn: share * arc.turn, ..*arc }.end();
+            [end.x(), end.y()]
+        })
+        .collect()
+}
+
+/// Walls half a metre apart throughout.
+fn plan_with_a_slit() -> FloorPlan {
+    let walls = (0..=20).map(|i| wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
+    FloorPlan::new(walls, ROOM).expect("a valid plan")
+}

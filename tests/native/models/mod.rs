@@ -1,0 +1,8 @@
+//! Noises and motion models.
+
+mod distributions;
+mod noise;
+mod odometry;
+mod odometry_rules;
+mod tangent;
+mod velocity;

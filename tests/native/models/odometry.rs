@@ -1,0 +1,365 @@
+//! The odometry model: decomposition, scoring, density and sampler, and the option for robots that reverse.
+
+use crate::common::density::Grid;
+use crate::common::{
+    KINDS, KOLMOGOROV, MILLION, SIGMAS, kolmogorov_smirnov, pose_distance, seeded, signed_log_uniform,
+    uniform, unit_cdf,
+};
+use motion::geom::se2::{SE2, wrap_angle};
+use motion::stats::CartesianMoments;
+use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, Variance};
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+const ALPHAS: OdomAlphas = OdomAlphas([0.05, 0.02, 0.01, 0.03]);
+
+fn model(noise: NoiseKind) -> OdometryModel {
+    OdometryModel { alphas: ALPHAS, noise }
+}
+
+fn delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
+    OdomDelta { rot1, trans, rot2 }
+}
+
+fn readings() -> [OdomDelta; 6] {
+    [
+        delta(0.3, 1.0, 0.2),
+        delta(-0.4, 0.8, 1.0),
+        delta(0.0, 1.5, 0.0),
+        delta(1.4, 0.6, -1.2),
+        delta(-0.9, 1.0, -0.7),
+        delta(2.2, 0.7, -2.0),
+    ]
+}
+
+/// The variances of the table, for a size of rotation.
+fn variances(of: &OdomDelta, size: impl Fn(f64) -> f64) -> [f64; 3] {
+    let [a1, a2, a3, a4] = ALPHAS.0;
+    let [r1, t, r2] = [size(of.rot1).powi(2), of.trans.powi(2), size(of.rot2).powi(2)];
+    [a1 * r1 + a2 * t, a3 * t + a4 * (r1 + r2), a1 * r2 + a2 * t]
+}
+
+#[test]
+fn a_motion_decomposes_and_recomposes() {
+    let mut rng = seeded(90);
+    for _ in 0..20_000 {
+        let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
+        let prev = SE2::new(draw(20.0), draw(20.0), draw(PI));
+        let curr = SE2::new(draw(20.0), draw(20.0), draw(PI));
+        let step = OdomDelta::from_poses(&prev, &curr);
+        assert!(step.trans >= 0.0 && step.rot1.abs() <= PI && step.rot2.abs() <= PI, "{step:?}");
+        assert!(
+            pose_distance(&step.apply(&prev), &curr) < 1e-13,
+            "{step:?} does not lead from {prev:?} to {curr:?}"
+        );
+        // Only the relative motion counts, not where the odometry frame lies.
+        let frame = SE2::new(draw(5.0), draw(5.0), draw(PI));
+        let same = OdomDelta::from_poses(&(frame * prev), &(frame * curr));
+        for (a, b) in [(step.rot1, same.rot1), (step.rot2, same.rot2)] {
+            assert!(wrap_angle(a - b).abs() < 1e-12 / step.trans.min(1.0));
+        }
+        assert!((step.trans - same.trans).abs() < 1e-13);
+    }
+    // By hand: a quarter turn left, two metres, and back to the old heading.
+    let step = OdomDelta::from_poses(&SE2::new(1.0, 1.0, 0.0), &SE2::new(1.0, 3.0, 0.0));
+    assert_eq!(step, delta(PI / 2.0, 2.0, -PI / 2.0));
+}
+
+#[test]
+fn rotations_are_wrapped() {
+    let step = OdomDelta::from_poses(&SE2::new(0.0, 0.0, 3.0), &SE2::new(-1.0, -0.2, -3.0));
+    assert!(step.rot1.abs() < 0.5 && step.rot2.abs() < 0.5, "{step:?}");
+    // prob compares rotations on the circle: a hypothesis just across the cut is near.
+    let (x, u) = (SE2::identity(), delta(PI - 0.01, 1.0, 0.0));
+    let across = delta(-PI + 0.01, 1.0, 0.0).apply(&x);
+    let narrow = OdometryModel { alphas: OdomAlphas([0.001, 0.001, 0.01, 0.01]), noise: NoiseKind::Normal };
+    let peak = narrow.prob(&u.apply(&x), &u, &x);
+    let near = narrow.prob(&across, &u, &x);
+    assert!((near / peak - 1.0).abs() < 0.1, "{near} across the cut, {peak} at the reading");
+}
+
+/// atan2 of two zeros is no direction of travel: the whole turn goes to the second rotation.
+#[test]
+fn a_spin_on_the_spot_is_charged_to_the_second_rotation() {
+    for turn in [0.0, 0.4, -2.9, PI] {
+        for jitter in [0.0, 1e-13, -1e-10] {
+            let prev = SE2::new(3.0, -2.0, 1.0);
+            let curr = SE2::new(3.0 + jitter, -2.0 - jitter, 1.0 + turn);
+            let step = OdomDelta::from_poses(&prev, &curr);
+            assert_eq!((step.rot1, step.trans), (0.0, 0.0));
+            assert!((step.rot2 - turn).abs() < 1e-15);
+        }
+    }
+    // From a nanometre on there is a direction of travel.
+    let prev = SE2::identity();
+    let at = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
+    assert_eq!(at(1e-9f64.next_down()), delta(0.0, 0.0, 0.5));
+    assert_eq!(at(1e-9), delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
+    // Only the second rotation and, through α₄, the translation are noisy; nothing has a full-rank density.
+    let u = delta(0.0, 0.0, 0.8);
+    let x = SE2::new(3.0, -2.0, 1.0);
+    for kind in KINDS {
+        assert_eq!(model(kind).pose_density(&u.apply(&x), &u, &x), None);
+        let mut rng = seeded(91);
+        let steps: Vec<_> =
+            (0..100_000).map(|_| x.inverse() * model(kind).sample(&u, &x, &mut rng)).collect();
+        assert!(steps.iter().all(|step| step.y().abs() < 1e-14), "the translation is along the heading");
+        let check = |values: Vec<f64>, mean: f64, b2: f64| {
+            let distance = kolmogorov_smirnov(values, |value| unit_cdf(kind, (value - mean) / b2.sqrt()));
+            assert!(distance < KOLMOGOROV, "{kind:?}: √n·D = {distance}");
+        };
+        check(steps.iter().map(SE2::x).collect(), 0.0, ALPHAS.0[3] * 0.64);
+        check(steps.iter().map(SE2::theta).collect(), 0.8, ALPHAS.0[0] * 0.64);
+    }
+}
+
+/// Table 5.5 takes its variances from the hypothesis, not from the reading.
+#[test]
+fn prob_is_the_tables_score() {
+    let mut rng = seeded(92);
+    let x = SE2::new(1.0, 2.0, -0.5);
+    for kind in KINDS {
+        for u in readings() {
+            for _ in 0..200 {
+                let mut near = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
+                let hat = delta(near(u.rot1), near(u.trans), near(u.rot2));
+                let [r1, t, r2] = variances(&hat, f64::abs);
+                let expected = kind.prob(u.rot1 - hat.rot1, Variance(r1))
+                    * kind.prob(u.trans - hat.trans, Variance(t))
+                    * kind.prob(u.rot2 - hat.rot2, Variance(r2));
+                let score = model(kind).prob(&hat.apply(&x), &u, &x);
+                assert!(
+                    (score - expected).abs() <= 1e-9 * (1.0 + expected),
+                    "{hat:?} for {u:?}: {score}, not {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn without_noise_there_is_certainty_and_no_density() {
+    let mut rng = seeded(93);
+    let x = SE2::new(-1.0, 0.5, 2.0);
+    for kind in KINDS {
+        let still = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
+        for u in readings() {
+            let end = u.apply(&x);
+            assert_eq!(still.sample(&u, &x, &mut rng), end);
+            assert_eq!(still.prob(&end, &u, &x), 1.0);
+            assert_eq!(still.prob(&end.boxplus(Vector3::new(1e-3, 0.0, 0.0)), &u, &x), 0.0);
+            assert_eq!(still.pose_density(&end, &u, &x), None);
+            assert!(model(kind).pose_density(&end, &u, &x).is_some());
+            assert_eq!(model(kind).tangent_cov(&u), None, "three noises at three points are none in se(2)");
+        }
+        let parked = delta(0.0, 0.0, 0.0);
+        assert_eq!(model(kind).sample(&parked, &x, &mut rng), x);
+        assert_eq!(model(kind).prob(&x, &parked, &x), 1.0);
+    }
+}
+
+/// The density is the noise's at the legs, with the variances of the reading, over the determinant: the translation.
+#[test]
+fn pose_density_pays_the_jacobian() {
+    let mut rng = seeded(94);
+    let x = SE2::new(1.0, -2.0, 0.3);
+    for kind in KINDS {
+        for u in readings() {
+            let sizes = variances(&u, f64::abs);
+            for _ in 0..100 {
+                let noise = sizes.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
+                let hat = delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
+                let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(sizes[leg])));
+                let expected = r1 * t * r2 / hat.trans;
+                let density = model(kind).pose_density(&hat.apply(&x), &u, &x).unwrap();
+                // Facing away and reversing, and whole turns, add what is below a millionth at these sizes.
+                assert!(
+                    (density / expected - 1.0).abs() < 1e-6,
+                    "{u:?} at {hat:?}: {density}, not {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// A box around the noise-free pose, cut into as many `cells` along each axis. Of a multiple of four the edges meet the
+/// kinks of the triangular density, at multiples of √6 deviations. It reaches twice as far.
+fn box_around(u: &OdomDelta, x: &SE2, sizes: [f64; 3], cells: usize) -> Grid {
+    let [rot1, trans, rot2] = sizes.map(|b2| 2.0 * (6.0 * b2).sqrt());
+    Grid::new(x, &u.apply(x), 1.0, [trans, rot1.min(PI / 2.0), rot2.min(PI)], [cells; 3])
+}
+
+#[test]
+fn pose_density_integrates_to_one() {
+    let x = SE2::new(-1.0, 2.0, 0.7);
+    // The last reading has noise that reverses it; it belongs to the next test.
+    for u in &readings()[..5] {
+        for (kind, allowed) in [(NoiseKind::Normal, 4e-6), (NoiseKind::Triangular, 1e-4)] {
+            let model = model(kind);
+            // Twice the cells change no integral of the normal density, and of the triangular ones by 9e-5 at most.
+            let total = box_around(u, &x, variances(u, f64::abs), 8)
+                .integral(|pose| model.pose_density(pose, u, &x).unwrap());
+            // Beyond the box lie 2 · P(z > 2√6) = 1e-6 of each Gaussian leg.
+            assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
+        }
+    }
+}
+
+/// Noise as large as the motion: reversed translations and whole turns are part of the density.
+#[test]
+fn pose_density_integrates_to_one_however_large_the_noise() {
+    let x = SE2::new(0.4, 0.4, -2.2);
+    for (kind, allowed) in [(NoiseKind::Normal, 1e-6), (NoiseKind::Triangular, 1e-3)] {
+        for u in [delta(0.7, 0.8, -0.4), readings()[5]] {
+            let model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
+            let radius =
+                u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
+            let total = Grid::everything(&x, 1.0, radius, [14, 8, 8])
+                .integral(|pose| model.pose_density(pose, &u, &x).unwrap());
+            assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
+        }
+    }
+}
+
+#[test]
+fn sampler_and_density_agree() {
+    let x = SE2::new(0.5, -0.25, 1.0);
+    for (seed, u) in (100..).zip([readings()[0], readings()[1], readings()[3]]) {
+        for kind in KINDS {
+            let model = model(kind);
+            let mut rng = seeded(seed);
+            let poses: Vec<SE2> = (0..MILLION).map(|_| model.sample(&u, &x, &mut rng)).collect();
+            let (value, limit) = box_around(&u, &x, variances(&u, f64::abs), 16)
+                .chi_square(&poses, |pose| model.pose_density(pose, &u, &x).unwrap());
+            assert!(value < limit, "{kind:?} {u:?}: χ² = {value}, limit {limit}");
+        }
+    }
+}
+
+#[test]
+fn cartesian_cov_is_the_linearized_motion() {
+    let x = SE2::new(4.0, 1.0, -1.2);
+    let model = model(NoiseKind::Normal);
+    for u in readings() {
+        const H: f64 = 1e-5;
+        let mut jacobian = Matrix3::zeros();
+        for (i, mut column) in jacobian.column_iter_mut().enumerate() {
+            let mut unit = [0.0; 3];
+            unit[i] = H;
+            let (a, b) = (model.apply_noise(&u, &x, unit), model.apply_noise(&u, &x, unit.map(|z| -z)));
+            let moved = Vector3::new(a.x() - b.x(), a.y() - b.y(), wrap_angle(a.theta() - b.theta()));
+            column.copy_from(&(moved / (2.0 * H)));
+        }
+        let cov = model.cartesian_cov(&u, &x);
+        assert!((cov - jacobian * jacobian.transpose()).amax() < 1e-8, "{u:?}\n{cov}");
+    }
+}
+
+/// Half a metre backwards is rot1 = π, rot2 = −π: the tables charge two half turns, the option none.
+#[test]
+fn a_reversing_robot_is_charged_for_what_it_turned() {
+    let x = SE2::new(1.0, 1.0, 0.5);
+    let back = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
+    assert!(back.rot1.abs() > 3.0 && back.rot2.abs() > 3.0, "{back:?}");
+    let charged = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
+    let spread = |poses: &[SE2]| {
+        crate::common::variance(
+            &poses.iter().map(|pose| wrap_angle(pose.theta() - x.theta())).collect::<Vec<_>>(),
+        )
+    };
+    for kind in KINDS {
+        let (tables, aware) = (model(kind), ReverseAware(model(kind)));
+        let mut rng = seeded(110);
+        let plain: Vec<SE2> = (0..10_000).map(|_| tables.sample(&back, &x, &mut rng)).collect();
+        let aware_cloud: Vec<SE2> = (0..MILLION).map(|_| aware.sample(&back, &x, &mut rng)).collect();
+        let [r1, _, r2] = variances(&back, charged);
+        assert!(spread(&plain) > 50.0 * spread(&aware_cloud));
+        assert!((spread(&aware_cloud) / (r1 + r2) - 1.0).abs() < 0.01, "six standard errors and more");
+
+        let (value, limit) = box_around(&back, &x, variances(&back, charged), 16)
+            .chi_square(&aware_cloud, |pose| aware.pose_density(pose, &back, &x).unwrap());
+        assert!(value < limit, "{kind:?}: χ² = {value}, limit {limit}");
+
+        // prob takes its variances from the hypothesis, charged in the same way.
+        let hat = delta(back.rot1 + 0.02, back.trans - 0.05, back.rot2 - 0.03);
+        let [r1, t, r2] = variances(&OdomDelta::from_poses(&x, &hat.apply(&x)), charged);
+        let expected =
+            kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
+        assert!((aware.prob(&hat.apply(&x), &back, &x) / expected - 1.0).abs() < 1e-9);
+        assert!(aware.prob(&back.apply(&x), &back, &x) > 50.0 * tables.prob(&back.apply(&x), &back, &x));
+    }
+}
+
+/// Driving forward, where no rotation exceeds a right angle, the option changes nothing.
+#[test]
+fn the_reverse_aware_option_leaves_forward_motion_alone() {
+    let x = SE2::new(0.0, 1.0, 2.0);
+    for kind in KINDS {
+        for u in &readings()[..5] {
+            let (mut a, mut b) = (seeded(111), seeded(111));
+            for _ in 0..100 {
+                let pose = model(kind).sample(u, &x, &mut a);
+                assert_eq!(ReverseAware(model(kind)).sample(u, &x, &mut b), pose);
+                assert_eq!(
+                    ReverseAware(model(kind)).pose_density(&pose, u, &x),
+                    model(kind).pose_density(&pose, u, &x)
+                );
+            }
+        }
+    }
+}
+
+/// What holds of decomposition at every scale from micrometres to kilometres.
+#[test]
+fn decomposition_keeps_small_motions() {
+    let mut rng = seeded(112);
+    for _ in 0..5000 {
+        let length = signed_log_uniform(&mut rng, 1e-6, 1e3);
+        let (rot1, rot2) = (uniform(&mut rng, -3.0, 3.0), uniform(&mut rng, -3.0, 3.0));
+        let u = delta(rot1, length.abs(), rot2);
+        let back = OdomDelta::from_poses(&SE2::identity(), &u.apply(&SE2::identity()));
+        assert!((back.rot1 - rot1).abs() < 1e-15 && (back.trans / length.abs() - 1.0).abs() < 1e-15, "{u:?}");
+        assert!((back.rot2 - rot2).abs() < 3e-15, "{u:?}: {back:?}");
+    }
+}
+
+/// The chapter calls independent legs conservative: a wider cloud than correlated ones of the same size. By volume they
+/// are, in every direction they are not. Of correlated noises the pose's entropy is less by −½ ln det C, C their
+/// correlation matrix (Hadamard's inequality), because the map from legs to poses has the same Jacobian; while the heading
+/// is their sum, with the variance σ₁² + σ₂² + 2ρσ₁σ₂.
+#[test]
+fn correlated_hinges_fill_less_volume_but_may_turn_further() {
+    const ROBOTS: usize = 400_000;
+    let model = OdometryModel { alphas: OdomAlphas([0.0, 0.0004, 0.0004, 0.0]), noise: NoiseKind::Normal };
+    let reading = delta(0.25, 1.0, 0.25);
+    let mut rng = seeded(577);
+    let normals: Vec<[f64; 3]> = (0..ROBOTS)
+        .map(|_| std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), &mut rng)))
+        .collect();
+    let cov = |rho: f64| {
+        let cloud: Vec<SE2> = normals
+            .iter()
+            .map(|&[a, b, c]| [a, b, rho * a + (1.0 - rho * rho).sqrt() * c])
+            .map(|noise| model.apply_noise(&reading, &SE2::identity(), noise))
+            .collect();
+        CartesianMoments::from_poses(&cloud).cov
+    };
+    let independent = cov(0.0);
+    // A variance is known to √(2/n) of itself, a determinant of three to √3 times that; the same robots in both clouds
+    // only help. The curvature of so small a cloud adds some 1e-3 to the determinants.
+    let error = SIGMAS * (2.0 * 2.0 / ROBOTS as f64).sqrt();
+    for rho in [-0.9, -0.5, 0.5, 0.9] {
+        let correlated = cov(rho);
+        let heading = correlated[(2, 2)] / independent[(2, 2)];
+        assert!((heading - (1.0 + rho)).abs() < 2.0 * error, "ρ = {rho}: heading variance times {heading}");
+        let volume = correlated.determinant() / independent.determinant();
+        let expected = 1.0 - rho * rho;
+        assert!(
+            (volume / expected - 1.0).abs() < 3f64.sqrt() * error + 5e-3,
+            "ρ = {rho}: determinant times {volume}"
+        );
+        // The place is that of the first two legs, which are as they were.
+        let places = |cov: &nalgebra::Matrix3<f64>| cov.fixed_view::<2, 2>(0, 0).into_owned();
+        assert!((places(&correlated) - places(&independent)).amax() < 1e-15);
+    }
+}

@@ -1,0 +1,195 @@
+//! The rules by which localizers charge an odometry reading: against cases computed by hand, and their exact spreads against
+//! quadrature and samples.
+
+use crate::common::{KINDS, MILLION, SIGMAS, pose_distance, seeded, uniform};
+use motion::geom::se2::SE2;
+use motion::models::{LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
+use motion::noise::centred_uniform;
+use motion::stats::quadrature::nodes;
+use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, Variance};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use OdometryRule::{Beluga, Nav2, Omni, Table};
+
+/// All different, so that no two of them can be mistaken for each other.
+const ALPHAS: RuleAlphas = [0.1, 0.2, 0.3, 0.4, 0.5];
+
+fn delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
+    OdomDelta { rot1, trans, rot2 }
+}
+
+fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
+    let LegVariances { rot1, trans, rot2, strafe } = rule.variances(&reading, &ALPHAS);
+    [rot1, trans, rot2, strafe].map(|variance| variance.0)
+}
+
+/// By hand, to eight digits: (π − 3)² = 0.02004848, (π − 2.2)² = 0.88659673.
+#[test]
+fn each_rule_charges_what_its_source_does() {
+    // Turn by 0.5, drive 2 m, turn back by 1: no angle is nearer to π than to 0, and the whole turn is −0.5.
+    let bend = delta(0.5, 2.0, -1.0);
+    // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
+    let hinged = [0.825, 1.7, 0.9, 0.0];
+    // 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
+    let slid = [0.0, 1.3, 0.825, 2.1];
+    // Backing up by 1 m: (π − 3) twice, and no turn as a whole.
+    let reverse = delta(3.0, 1.0, -3.0);
+    let as_printed = [1.1, 7.5, 1.1, 0.0];
+    let either_way = [0.202004848, 0.316038784, 0.202004848, 0.0];
+    // On the spot, by more than a quarter turn.
+    let spin = delta(0.0, 0.0, 2.2);
+    // Half a centimetre of jitter, to the left and backwards, with a turn of a hundredth.
+    let rest = delta(2.0, 0.005, -1.99);
+    let cases = [
+        (Table, bend, hinged),
+        (Nav2, bend, hinged),
+        (Beluga, bend, hinged),
+        (Omni, bend, slid),
+        (Table, reverse, as_printed),
+        (Nav2, reverse, either_way),
+        (Beluga, reverse, either_way),
+        (Omni, reverse, [0.0, 0.3, 0.2, 0.5]),
+        (Table, spin, [0.0, 1.936, 0.484, 0.0]),
+        (Nav2, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Beluga, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Omni, spin, [0.0, 1.936, 0.484, 1.936]),
+        // 0.1·4 + 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·(4 + 3.9601), 0.1·3.9601 + 0.2·2.5e-5.
+        (Table, rest, [0.400005, 3.1840475, 0.396015, 0.0]),
+        // 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·1e-4, 0.1·1e-4 + 0.2·2.5e-5.
+        (Nav2, rest, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Beluga, rest, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Omni, rest, [0.0, 0.0000475, 0.000015, 0.0000525]),
+    ];
+    for (rule, reading, expected) in cases {
+        for (computed, expected) in variances(rule, reading).into_iter().zip(expected) {
+            assert!(
+                (computed - expected).abs() < 2e-9,
+                "{rule:?} of {reading:?}: {computed}, not {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn nav2_and_beluga_disagree_at_a_centimetre_alone() {
+    let reading = |trans| delta(1.0, trans, -0.4);
+    for (trans, of_nav2, of_beluga) in
+        [(SPIN_BELOW.next_down(), 0.0, 0.0), (SPIN_BELOW, 1.0, 0.0), (SPIN_BELOW.next_up(), 1.0, 1.0)]
+    {
+        let first = |rule: OdometryRule| rule.legs(&reading(trans)).rot1;
+        assert_eq!([first(Nav2), first(Beluga)], [of_nav2, of_beluga], "{trans}");
+        for rule in OdometryRule::ALL {
+            let OdomDelta { rot1, rot2, .. } = rule.legs(&reading(trans));
+            assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");
+        }
+    }
+}
+
+#[test]
+fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
+    let mut rng = seeded(190);
+    let [a1, a2, a3, a4, _] = ALPHAS;
+    let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise: NoiseKind::Normal };
+    for _ in 0..10_000 {
+        let reading = delta(
+            uniform(&mut rng, -PI, PI),
+            uniform(&mut rng, SPIN_BELOW.next_up(), 3.0),
+            uniform(&mut rng, -PI, PI),
+        );
+        let three = |rule| -> [f64; 3] { std::array::from_fn(|leg| variances(rule, reading)[leg]) };
+        assert_eq!(three(Table), model.variances(&reading).map(|variance| variance.0));
+        // Scored at its own reading, a model tells its variances: three densities at 0.
+        let x = SE2::identity();
+        let peak = ReverseAware(model).prob(&reading.apply(&x), &reading, &x);
+        let product: f64 = three(Nav2).iter().map(|b2| NoiseKind::Normal.prob(0.0, Variance(*b2))).product();
+        assert!((peak / product - 1.0).abs() < 1e-9, "{peak}, not {product}");
+    }
+}
+
+/// Whatever the rule, without noise the robot is where it was read, to within the jitter that a spin leaves out.
+#[test]
+fn legs_lead_where_the_reading_does() {
+    let mut rng = seeded(191);
+    for _ in 0..10_000 {
+        let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
+        let (from, to) = (SE2::new(draw(5.0), draw(5.0), draw(PI)), SE2::new(draw(5.0), draw(5.0), draw(PI)));
+        let near = from * SE2::new(0.2 * SPIN_BELOW * draw(1.0), 0.2 * SPIN_BELOW * draw(1.0), draw(PI));
+        for rule in OdometryRule::ALL {
+            for (to, tolerance) in [(to, 1e-13), (near, SPIN_BELOW)] {
+                let legs = rule.legs(&OdomDelta::from_poses(&from, &to));
+                let still = rule.variances(&legs, &[0.0; 5]).executed(&legs, [1.0; 3]);
+                assert!(pose_distance(&still.poses(&from)[3], &to) < tolerance, "{rule:?}");
+                assert_eq!(rule.legs(&legs), legs, "a rule has nothing to say to its own legs");
+            }
+        }
+    }
+}
+
+/// The closed forms of E[sin² ε] against quadrature, as far as that reaches, and their limit beyond.
+#[test]
+fn the_mean_squared_sine_is_that_of_the_noise() {
+    for kind in KINDS {
+        for exponent in -60..=4 {
+            let b = 10f64.powf(f64::from(exponent) / 10.0);
+            let expected: f64 =
+                nodes(kind).iter().map(|node| node.weight * (b * node.value).sin().powi(2)).sum();
+            let computed = kind.mean_squared_sine(Variance(b * b));
+            assert!((computed / expected - 1.0).abs() < 1e-10, "{kind:?} at {b}: {computed}, not {expected}");
+        }
+        assert_eq!(kind.mean_squared_sine(Variance(0.0)), 0.0);
+        assert!((kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
+    }
+}
+
+/// A million outcomes: the mean square of a quantity of kurtosis κ is off by √((κ − 1)/n) of itself a standard error; κ is
+/// measured along.
+#[test]
+fn spreads_are_those_of_a_million_outcomes() {
+    let readings = [delta(0.7, 1.5, 0.5), delta(3.0, 1.0, -3.0), delta(0.2, 0.3, FRAC_PI_2)];
+    for (kind, rule) in KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
+        for reading in readings {
+            let (legs, variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
+            let mut rng = seeded(192);
+            let mut draw = || kind.quantile(centred_uniform(&mut rng));
+            let start = SE2::new(0.4, -0.2, 1.0);
+            let bearing = start.theta() + legs.rot1;
+            let rho: f64 = -0.6;
+            let outcomes: Vec<[f64; 2]> = (0..MILLION)
+                .map(|_| {
+                    let [a, b, c] = [draw(), draw(), draw()];
+                    let executed = variances.executed(&legs, [a, b, rho * a + (1.0 - rho * rho).sqrt() * c]);
+                    let [_, _, driven, _] = executed.poses(&start);
+                    let (dx, dy) = (driven.x() - start.x(), driven.y() - start.y());
+                    let turned = executed.legs.rot1 + executed.legs.rot2 - legs.rot1 - legs.rot2;
+                    [dy * bearing.cos() - dx * bearing.sin(), turned]
+                })
+                .collect();
+            let exact = [variances.cross_track(legs.trans, kind), variances.heading(rho)];
+            for (which, exact) in exact.into_iter().enumerate() {
+                let mean =
+                    |power| outcomes.iter().map(|each| each[which].powi(power)).sum::<f64>() / MILLION as f64;
+                let (m2, m4) = (mean(2), mean(4));
+                let error = ((m4 - m2 * m2) / MILLION as f64).sqrt();
+                assert!(
+                    (m2 - exact).abs() < SIGMAS * error,
+                    "{kind:?} {rule:?} {reading:?} {which}: {m2} ± {error}, exactly {exact}"
+                );
+            }
+        }
+    }
+}
+
+/// Opposite noises of one size cancel, whatever their size; noises that go together add up.
+#[test]
+fn correlated_rotations_spread_the_heading_from_their_difference_to_their_sum() {
+    let of = |first: f64, second: f64, rho: f64| {
+        let [rot1, rot2] = [first, second].map(|sd| Variance(sd * sd));
+        let none = Variance(0.0);
+        LegVariances { rot1, trans: none, rot2, strafe: none }.heading(rho).sqrt()
+    };
+    for (first, second) in [(0.3, 0.2), (0.1, 0.7), (0.3, 0.3)] {
+        assert!((of(first, second, 1.0) - (first + second)).abs() < 1e-15);
+        assert!((of(first, second, -1.0) - (first - second).abs()).abs() < 1e-15);
+        assert!((of(first, second, 0.0) - first.hypot(second)).abs() < 1e-15);
+    }
+}

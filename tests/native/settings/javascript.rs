@@ -1,0 +1,241 @@
+//! `www/settings.js`, what JavaScript has to know of the core before it is loaded, is what the core declares.
+
+use motion::map::{MAX_BYTES, MAX_PIXELS};
+use motion::sim::picture::RAMP;
+use motion::sim::settings::{Declaration, Declared, Field, Group, Setting};
+use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL, PATH_FREE};
+use motion::sim::views::MAX_CELLS;
+use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
+use std::fmt::Write;
+use std::ops::{ControlFlow, RangeInclusive};
+
+const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
+
+#[test]
+fn settings_js_is_what_the_core_declares() {
+    let expected = settings_js();
+    if std::env::var_os("UPDATE_SETTINGS").is_some() {
+        std::fs::write(PATH, &expected).expect("www/settings.js can be written");
+    }
+    let present = std::fs::read_to_string(PATH).unwrap_or_default();
+    let at = present.lines().zip(expected.lines()).position(|(present, expected)| present != expected);
+    assert!(
+        present == expected,
+        "www/settings.js is stale, at line {}: `UPDATE_SETTINGS=1 cargo test --test native settings` writes it anew",
+        at.unwrap_or_else(|| present.lines().count().min(expected.lines().count())) + 1,
+    );
+}
+
+fn settings_js() -> String {
+    // In JavaScript one number stands for both.
+    assert_eq!(MAX_CELLS, MAX_PIXELS as u64);
+    let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::default();
+    format!(
+        "{HEAD}
+/** @type {{Record<string, Declaration[]>}} settings of each widget, by its tag, in the order in which they are declared */
+export const settings = {{
+  'banana-machine': [
+{}  ],
+  'map-squeeze': [
+{}  ],
+  'arc-anatomy': [
+{}  ],
+  'odometry-decomposer': [
+{}  ],
+  'dead-reckoning': [
+{}  ],
+  'alpha-calibrator': [
+{}  ],
+}};
+
+/** What the widgets may open with, by their tags. */
+export const presets = {{
+  'banana-machine': [
+{}  ],
+  'map-squeeze': [
+{}  ],
+  'arc-anatomy': [
+{}  ],
+  'odometry-decomposer': [
+{}  ],
+  'dead-reckoning': [
+{}  ],
+  'alpha-calibrator': [],
+}};
+
+/** The noise parameters that each model opens with. */
+export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odometry_alphas:?} }};
+
+/**
+ * What the core takes at most: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
+ * `trial`, and the number of colours that a `ramp` has.
+ */
+export const limits = {{ cells: {MAX_CELLS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
+
+/** Bits of a verdict of Map Squeeze. */
+export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: {ACCEPTED} }};
+",
+        declarations(banana::Settings::default(), &banana::ALPHA_SENTENCES),
+        declarations(squeeze::Settings::default(), &[]),
+        declarations(arc_anatomy::Settings::default(), &arc_anatomy::ALPHA_SENTENCES),
+        declarations(
+            odometry_decomposer::Settings::default(),
+            &odometry_decomposer::ALPHA_SENTENCES
+        ),
+        declarations(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
+        declarations(alpha_calibrator::Settings::default(), &[]),
+        lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
+            let alphas = alphas.map_or("null".to_owned(), |alphas| format!("{alphas:?}"));
+            format!("name: '{name}', {}, alphas: {alphas}", group(command))
+        })),
+        lines(squeeze::PRESETS.map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group(start)))),
+        lines(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
+            let arc_anatomy::FinalPose { x, y, theta } = next;
+            format!("name: '{name}', {}, nextX: {x}, nextY: {y}, nextTheta: {theta}", group(command))
+        })),
+        lines(odometry_decomposer::PRESETS.map(|odometry_decomposer::Preset { name, from, to }| {
+            format!("name: '{name}', from: {{ {} }}, to: {{ {} }}", group(from), group(to))
+        })),
+        lines(dead_reckoning::PRESETS.map(|dead_reckoning::Preset { name, command, steps, alphas }| {
+            format!("name: '{name}', command: {{ {} }}, steps: {steps}, alphas: {alphas:?}", group(command))
+        })),
+    )
+}
+
+const HEAD: &str = "\
+// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
+
+/**
+ * What is said of a setting where it is declared.
+ *
+ * @typedef {object} Declaration
+ * @property {string} key its name, as attribute, property and in states
+ * @property {string} [in] the group or list that it is a part of
+ * @property {string} [of] the setting that it is another way to say
+ * @property {string} [field] its name in that group, where another group has one of the same
+ * @property {number} [index] its place in that list, from 0
+ * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
+ * @property {string[]} [words] those that are allowed
+ * @property {string[]} [fields] the keys of a group
+ * @property {string} [unit]
+ * @property {boolean} [nullable] whether it may be null
+ * @property {number} [min] least value allowed, of a list that of each number
+ * @property {number} [max] greatest value allowed
+ * @property {string | number | boolean | number[] | null} [default] the value that the widget opens with
+ * @property {string} sentence what it is
+ */
+";
+
+/// Objects, a line each.
+fn lines(objects: impl IntoIterator<Item = String>) -> String {
+    objects.into_iter().fold(String::new(), |mut lines, object| {
+        writeln!(lines, "    {{ {object} }},").expect("a string takes all");
+        lines
+    })
+}
+
+/// A line a setting, and a number of a group or list: `numbered` are the sentences of those that are attributes.
+fn declarations(mut opening: impl Declared, numbered: &[&str]) -> String {
+    let mut objects = Vec::new();
+    let shared = shared_fields(&mut opening);
+    let _ = opening.each(&mut |declaration, setting| {
+        describe(declaration, setting, numbered, &shared, &mut objects);
+        ControlFlow::Continue(())
+    });
+    lines(objects)
+}
+
+/// The fields that more than one group has, as two poses do: as attributes they have the names of their groups before theirs.
+fn shared_fields(opening: &mut impl Declared) -> Vec<&'static str> {
+    let (mut seen, mut shared) = (Vec::new(), Vec::new());
+    let _ = opening.each(&mut |_, setting| {
+        if let Setting::Group(group) = setting {
+            for Field { declaration, .. } in group.fields() {
+                if seen.contains(&declaration.key) { &mut shared } else { &mut seen }.push(declaration.key);
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    shared
+}
+
+fn describe(
+    declaration: &Declaration,
+    setting: Setting,
+    numbered: &[&str],
+    shared: &[&str],
+    objects: &mut Vec<String>,
+) {
+    let Declaration { key, of, sentence, unit } = *declaration;
+    let of = of.map(|whole| format!("of: '{whole}', ")).unwrap_or_default();
+    let unit = if unit.is_empty() { String::new() } else { format!("unit: '{unit}', ") };
+    let mut line = |rest: String| objects.push(format!("key: '{key}', {of}{rest}, sentence: '{sentence}'"));
+    match setting {
+        Setting::Number(value, allowed) => {
+            line(format!("type: 'number', {unit}{}, default: {value}", range(&allowed)));
+        }
+        Setting::Whole(value, allowed) => {
+            line(format!("type: 'whole', {unit}{}, default: {}", range(&allowed), value.get()));
+        }
+        Setting::WholeOrNone(value, allowed) => {
+            let value = value.map_or("null".to_owned(), |value| value.to_string());
+            line(format!("type: 'whole', nullable: true, {unit}{}, default: {value}", range(&allowed)));
+        }
+        Setting::Truth(value) => line(format!("type: 'boolean', default: {value}")),
+        Setting::Word(word) => {
+            line(format!("type: 'word', words: {}, default: '{}'", words(word.all()), word.get()));
+        }
+        Setting::Level(level, allowed) => {
+            let value = level.get().map_or("null".to_owned(), |level| level.to_string());
+            line(format!("type: 'number', nullable: true, {unit}{}, default: {value}", range(&allowed)));
+        }
+        Setting::Numbers(values, allowed) => {
+            line(format!("type: 'numbers', {}, default: {values:?}", range(&allowed)));
+            for (index, (value, sentence)) in values.iter().zip(numbered).enumerate() {
+                // The model with the fewest has none of the others.
+                let nullable = if sentence == &numbered[0] { "" } else { "nullable: true, " };
+                objects.push(format!(
+                    "key: 'alpha{}', in: '{key}', index: {index}, type: 'number', {nullable}{}, default: {value}, \
+                     sentence: '{sentence}'",
+                    index + 1,
+                    range(&allowed),
+                ));
+            }
+        }
+        Setting::Group(group) => {
+            let keys = group.fields().iter().map(|field| field.declaration.key).collect();
+            line(format!("type: 'group', fields: {}", words(keys)));
+            for (i, field) in group.fields().iter().enumerate() {
+                let value = *group.number(i);
+                let Declaration { key: part, sentence, unit, .. } = field.declaration;
+                let name = if shared.contains(&part) {
+                    let (first, rest) = part.split_at(1);
+                    format!("key: '{key}{}{rest}', in: '{key}', field: '{part}'", first.to_uppercase())
+                } else {
+                    format!("key: '{part}', in: '{key}'")
+                };
+                objects.push(format!(
+                    "{name}, type: 'number', unit: '{unit}', {}, default: {value}, \
+                     sentence: '{sentence}'",
+                    range(&field.allowed),
+                ));
+            }
+        }
+    }
+}
+
+fn range<T: std::fmt::Display>(allowed: &RangeInclusive<T>) -> String {
+    format!("min: {}, max: {}", allowed.start(), allowed.end())
+}
+
+fn words(words: Vec<&str>) -> String {
+    format!("['{}']", words.join("', '"))
+}
+
+/// The numbers of a group by their keys.
+fn group(mut group: impl Group) -> String {
+    let numbers = group.fields().iter().enumerate();
+    let entries: Vec<String> =
+        numbers.map(|(i, field)| format!("{}: {}", field.declaration.key, group.number(i))).collect();
+    entries.join(", ")
+}

@@ -1,0 +1,4 @@
+//! Declared settings and the schema generated from them.
+
+mod declared;
+mod javascript;

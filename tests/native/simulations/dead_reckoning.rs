@@ -1,0 +1,625 @@
+//! Dead Reckoning: rollouts against the models one pose at a time, recursions against matrices in high precision, and what the
+//! machine promises of seeds, slices and counts.
+
+use crate::common::{SIGMAS, Table, seeded};
+use motion::geom::se2::SE2;
+use motion::sim::dead_reckoning::{
+    DeadReckoning, KEPT, MAX_SAMPLES, MAX_STEPS, NoisePer, PRESETS, RECURSIONS, Settings,
+};
+use motion::{
+    Compounding, MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
+};
+use nalgebra::{Matrix3, Vector3};
+
+fn machine(settings: Settings) -> DeadReckoning {
+    DeadReckoning::new(settings).expect("valid settings")
+}
+
+/// Settings as the widget opens, with fewer robots.
+fn few(samples: usize) -> Settings {
+    Settings { samples, ..Settings::default() }
+}
+
+/// Settings that leave the short formulas: sharp turns, reverse, wild noise, headings beyond half a turn.
+fn all_kinds() -> Vec<Settings> {
+    let of = |v: f64, omega: f64, dt: f64, alphas| Settings {
+        command: VelocityCmd { v, omega, dt },
+        alphas,
+        steps: 12,
+        ..few(700)
+    };
+    let opening = Settings::default().alphas;
+    vec![
+        few(700),
+        of(-1.0, 0.5, 0.2, opening),
+        of(1.0, -2.0, 1.0, opening),
+        of(1.0, 0.0, 0.5, opening),
+        of(0.0, 1.5, 0.4, opening),
+        of(0.3, 7.0, 1.0, [0.1; 6]),
+        of(1.0, 0.5, 0.2, [0.0; 6]),
+        of(1.0, 0.5, 0.2, [0.5, 0.1, 20.0, 4.0, 3.0, 1.0]),
+        Settings { per: NoisePer::Path, ..few(700) },
+    ]
+}
+
+/// Whether two poses are equal but for rounding at the scale of the path.
+fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
+    let apart = SE2::new(x, y, theta).boxminus(expected);
+    assert!(apart.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {apart}");
+}
+
+/// Every robot's path, driven one after the other by the velocity model itself: the noises are what its poses say it executed.
+#[test]
+fn robots_drive_as_the_model_does() {
+    for settings in all_kinds() {
+        let machine = machine(settings);
+        let (u, model) = (settings.command, settings.model());
+        let deviations = model.variances(&u).map(|variance| variance.0.sqrt());
+        let (mut squares, mut count) = ([0.0; 3], 0.0);
+        for index in (0..700).step_by(7) {
+            let poses = machine.rollout(index).expect("a robot");
+            let mut before = SE2::identity();
+            for (k, pose) in poses.iter().enumerate() {
+                let [x, y, theta] = *pose;
+                let after = SE2::new(x, y, theta);
+                // The arc of at most half a turn: of wilder ones the noise cannot be told from their ends.
+                let done = motion::invert_arc(&before, &after, u.dt);
+                let noise = [done.v_hat - u.v, done.omega_hat - u.omega, done.gamma_hat];
+                for i in 0..3 {
+                    if deviations[i] > 0.0 {
+                        squares[i] += (noise[i] / deviations[i]).powi(2);
+                    } else if u.v != 0.0 {
+                        assert!(noise[i].abs() < 1e-9, "{settings:?}: {noise:?} at step {k}");
+                    }
+                }
+                count += 1.0;
+                before = after;
+            }
+        }
+        let gentle = deviations[1] * u.dt < 0.3 && (u.omega * u.dt).abs() < 1.0 && u.v != 0.0;
+        for i in (0..3).filter(|i| gentle && deviations[*i] > 0.0) {
+            // A mean of squared unit normals has the error √(2/n).
+            let mean: f64 = squares[i] / count;
+            assert!((mean - 1.0).abs() < SIGMAS * (2.0 / count).sqrt(), "{settings:?}: noise {i} has {mean}");
+        }
+    }
+}
+
+/// The lanes against nalgebra and libm, one robot and one step at a time, from the draws themselves.
+#[test]
+fn lanes_agree_with_poses_composed_one_by_one() {
+    use motion::noise::centred_uniform;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+    for settings in all_kinds() {
+        let machine = machine(settings);
+        let (u, model) = (settings.command, settings.model());
+        // The third block, and in it robot 513: lane 1 of the first four.
+        let mut stream = Xoshiro256PlusPlus::seed_from_u64(settings.seed);
+        stream.jump();
+        stream.jump();
+        let mut pose = SE2::identity();
+        let poses = machine.rollout(513).expect("a robot");
+        let mut way = 1.0;
+        for driven in poses {
+            let uniforms: Vec<[f64; 3]> =
+                (0..256).map(|_| std::array::from_fn(|_| centred_uniform(&mut stream))).collect();
+            let unit = uniforms[1].map(|q| NoiseKind::Normal.quantile(q));
+            let before = pose;
+            pose = model.apply_noise(&u, &pose, unit);
+            // As an arc of any length and turn is a scale for its rounding.
+            way += (pose.x() - before.x()).hypot(pose.y() - before.y()) + (u.omega * u.dt).abs();
+            let turn = model.variances(&u)[1].0.sqrt() * u.dt * unit[1].abs();
+            assert_same(driven, &pose, way * (1.0 + turn) * 4.0);
+        }
+    }
+}
+
+/// Means, covariances and their errors of all robots, added up one by one from their paths.
+#[test]
+fn moments_are_those_of_the_robots() {
+    for (i, settings) in all_kinds().into_iter().enumerate() {
+        let machine = machine(settings);
+        let n = settings.samples as f64;
+        let paths: Vec<_> =
+            (0..settings.samples).map(|index| machine.rollout(index).expect("a robot")).collect();
+        for k in [0, settings.steps as usize / 2, settings.steps as usize - 1] {
+            let nominal = machine.nominal()[k];
+            let xi: Vec<Vector3<f64>> = paths
+                .iter()
+                .map(|path| SE2::new(path[k][0], path[k][1], path[k][2]).boxminus(&nominal))
+                .collect();
+            let mean = xi.iter().sum::<Vector3<f64>>() / n;
+            let cov =
+                xi.iter().map(|xi| (xi - mean) * (xi - mean).transpose()).sum::<Matrix3<f64>>() / (n - 1.0);
+            let measured = machine.measured()[k];
+            let scale = 1e-11 * (1.0 + cov.amax());
+            assert!((measured.mean - mean).amax() < scale, "{i}, {k}: {} {mean}", measured.mean);
+            assert!((measured.cov - cov).amax() < scale, "{i}, {k}: {} {cov}", measured.cov);
+            for axis in 0..3 {
+                let power = |p: i32| xi.iter().map(|xi| (xi[axis] - mean[axis]).powi(p)).sum::<f64>() / n;
+                let expected = ((power(4) / power(2).powi(2) - 1.0) / n).sqrt();
+                let told = measured.relative_error[axis];
+                if power(2) > 1e-20 {
+                    assert!((told / expected - 1.0).abs() < 1e-6, "{i}, {k}, {axis}: {told}, not {expected}");
+                }
+            }
+        }
+    }
+}
+
+/// Steps of the ratio's error that two clouds of other draws may lie apart: √2 of one.
+#[test]
+fn variances_are_those_of_other_rollouts() {
+    const N: usize = 50_000;
+    let machine = machine(few(N));
+    let settings = Settings::default();
+    let (u, model) = (settings.command, settings.model());
+    let mut rng = seeded(31);
+    let mut poses = vec![SE2::identity(); N];
+    for k in 0..20 {
+        poses.iter_mut().for_each(|pose| *pose = model.sample(&u, pose, &mut rng));
+        let xi: Vec<_> = poses.iter().map(|pose| pose.boxminus(&machine.nominal()[k])).collect();
+        let mean = xi.iter().sum::<Vector3<f64>>() / N as f64;
+        let squares: Vector3<f64> = xi.iter().map(|xi| (xi - mean).component_mul(&(xi - mean))).sum();
+        let measured = machine.measured()[k];
+        for axis in 0..3 {
+            let ratio = measured.cov[(axis, axis)] / (squares[axis] / (N as f64 - 1.0));
+            let allowed = SIGMAS * 2f64.sqrt() * measured.relative_error[axis];
+            assert!((ratio - 1.0).abs() < allowed, "step {}, axis {axis}: {ratio}", k + 1);
+        }
+    }
+}
+
+/// The last step against matrices in fifty digits (tests/reference/generate.py).
+#[test]
+fn recursions_are_the_references() {
+    let machine = machine(few(1));
+    let table = Table::parse(include_str!("../../reference/compounding.csv"));
+    for (row, order) in table.rows().zip(RECURSIONS) {
+        let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let expected = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
+        let sigma = machine.predicted(order)[19].expect("a covariance");
+        assert!((sigma - expected).amax() < 1e-14, "{}: {sigma}{expected}", row.text("order"));
+    }
+}
+
+/// A ratio is the predicted variance over the measured one, and its misses are counted from 1.
+#[test]
+fn ratios_and_misses_are_counted() {
+    let machine = machine(Settings::default());
+    for order in RECURSIONS {
+        let compared = machine.compared(order);
+        for (axis, misses) in compared.misses.iter().enumerate() {
+            let ratios: Vec<f64> = (0..20)
+                .map(|k| {
+                    let predicted = machine.predicted(order)[k].expect("a covariance");
+                    predicted[(axis, axis)] / machine.measured()[k].cov[(axis, axis)]
+                })
+                .collect();
+            assert!(compared.ratios.iter().zip(&ratios).all(|(told, ratio)| told[axis] == *ratio));
+            let off: Vec<u32> = (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
+            assert!(misses.told);
+            assert_eq!((misses.first, misses.last), (off.first().copied(), off.last().copied()));
+            assert_eq!(misses.end, ratios[19] - 1.0);
+        }
+    }
+}
+
+/// What the chapter's recursion misses, and that nothing is said of it by too few robots, or of no spread.
+#[test]
+fn misses_are_told_by_robots_enough() {
+    let told = |settings| machine(settings).compared(Compounding::Chapter).misses.map(|misses| misses.told);
+    assert_eq!(told(Settings::default()), [true; 3]);
+    assert_eq!(told(few(5000)), [false; 3]);
+    assert_eq!(told(Settings { alphas: [0.0; 6], ..few(20_000) }), [false; 3]);
+    let empty = DeadReckoning::empty(Settings::default()).expect("valid settings");
+    assert!(
+        empty.compared(Compounding::Chapter).misses.iter().all(|misses| !misses.told && misses.end.is_nan())
+    );
+    assert_eq!(empty.stats().n, 0);
+}
+
+/// What has no variance has no error that were a share of it, and nothing is told by it, however small the numbers are.
+#[test]
+fn without_a_variance_there_is_no_error_of_it() {
+    let errors = |settings| machine(settings).measured()[1].relative_error;
+    for samples in [1, 2] {
+        assert!(errors(Settings { alphas: [0.0; 6], ..few(samples) }).iter().all(|error| error.is_nan()));
+    }
+    assert!(errors(few(1)).iter().all(|error| error.is_nan()));
+    // Two have always a kurtosis of 1, as if their variance were known exactly.
+    assert!(errors(few(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
+    // Turns alone: along the track nobody moves.
+    let on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
+    let [along, _, heading] =
+        errors(Settings { command: on_the_spot, alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0], ..few(300) }).into();
+    assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
+    // Squares of such variances are no doubles.
+    let slow = Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..few(300) };
+    assert_eq!(machine(slow).compared(Compounding::Chapter).misses.map(|misses| misses.told), [false; 3]);
+}
+
+/// The fourth order's corrections may leave no covariance: then there is none, from there on, and no ratio.
+#[test]
+fn a_fourth_order_without_a_covariance_has_no_ratio() {
+    let wild = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..few(1000) };
+    let machine = machine(wild);
+    let covs = machine.predicted(Compounding::FourthOrder);
+    let first = covs.iter().position(Option::is_none).expect("some step without");
+    assert!(covs[first..].iter().all(Option::is_none));
+    assert!(machine.compared(Compounding::FourthOrder).ratios[first..].iter().all(|ratio| ratio.x.is_nan()));
+    assert!(machine.predicted(Compounding::FirstOrder).iter().all(Option::is_some));
+    let shown = Settings { step: first as u32 + 1, compounding: Compounding::FourthOrder, ..wild };
+    let outlines = DeadReckoning::new(shown).expect("valid settings").outlines(shown.step).expect("a step");
+    assert!(outlines.ellipse.is_empty() && outlines.exponential.is_empty() && outlines.predicted.is_empty());
+    assert!(!outlines.measured.is_empty());
+}
+
+/// The same luck: fewer robots are the first of more, a shorter path is the beginning of a longer one, and α's rescale noise.
+#[test]
+fn a_seed_is_the_same_luck() {
+    let large = machine(few(1500));
+    let small = machine(few(300));
+    let short = machine(Settings { steps: 7, ..few(300) });
+    let still = machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..few(300) });
+    for index in [0, 1, 255, 256, 299] {
+        let path = large.rollout(index).expect("a robot");
+        assert_eq!(small.rollout(index).as_ref(), Some(&path));
+        assert_eq!(short.rollout(index).as_deref(), Some(&path[..7]));
+        // Twice the noise in the first step: twice as far from the commanded pose, in the noises' own coordinates.
+        let u = Settings::default().command;
+        let noise = |path: &[[f64; 3]]| {
+            let [x, y, theta] = path[0];
+            let done = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
+            Vector3::new(done.v_hat - u.v, done.omega_hat - u.omega, done.gamma_hat)
+        };
+        let doubled = noise(&still.rollout(index).expect("a robot"));
+        assert!((doubled - noise(&path) * 2.0).amax() < 1e-12, "{doubled}");
+    }
+    assert_ne!(large.rollout(0), machine(Settings { seed: 4, ..few(300) }).rollout(0));
+    assert_eq!(large.rollout(1500), None);
+}
+
+/// Whether two machines tell the same, to the bit.
+fn assert_tell_the_same(one: &DeadReckoning, other: &DeadReckoning) {
+    assert_eq!(one.settings(), other.settings());
+    assert_eq!(one.shown(), other.shown());
+    // NaN is not equal to itself.
+    assert_eq!(format!("{:?}", one.stats()), format!("{:?}", other.stats()));
+    assert_eq!(format!("{:?}", one.measured()), format!("{:?}", other.measured()));
+    for step in 1..=one.settings().steps {
+        assert_eq!(one.poses(step), other.poses(step));
+        assert_eq!(one.outlines(step), other.outlines(step));
+    }
+}
+
+/// However it came there: grown by odd batches, in slices, by a detour over other settings.
+#[test]
+fn every_way_to_a_figure_is_the_same() {
+    let settings = few(2000);
+    let direct = machine(settings);
+    let mut grown = DeadReckoning::empty(settings).expect("valid settings");
+    for batch in [1, 2, 300, 5, 700, 255, 256, 10_000] {
+        let before = grown.shown();
+        assert_eq!(grown.grow(batch), (before + batch).min(2000));
+    }
+    assert_tell_the_same(&grown, &direct);
+
+    let mut moved = machine(Settings { steps: 50, step: 40, seed: 8, ..few(900) });
+    moved.begin(settings).expect("valid settings");
+    let mut slices = 0;
+    while !moved.advance(1000) {
+        slices += 1;
+        assert_eq!(moved.shown(), 900, "the former figures stay");
+        assert!((0.0..=1.0).contains(&moved.progress()));
+    }
+    assert!(slices > 5);
+    assert_tell_the_same(&moved, &direct);
+
+    let more = Settings { samples: 3000, ..settings };
+    moved.configure(more).expect("valid settings");
+    assert_tell_the_same(&moved, &machine(more));
+    moved.configure(settings).expect("valid settings");
+    assert_tell_the_same(&moved, &direct);
+    moved.restart();
+    assert_eq!(moved.shown(), 0);
+    moved.grow(2000);
+    assert_tell_the_same(&moved, &direct);
+}
+
+/// Counts at and around the ends of blocks.
+#[test]
+fn a_part_of_a_block_counts_its_own_robots_alone() {
+    for samples in [1, 2, 3, 4, 5, 255, 256, 257, 511, 512, 513] {
+        let machine = machine(few(samples));
+        assert_eq!(machine.shown(), samples);
+        assert_eq!(machine.poses(5).len(), samples.min(KEPT));
+        let nominal = machine.nominal()[4];
+        let mean = (0..samples)
+            .map(|index| {
+                let [x, y, theta] = machine.rollout(index).expect("a robot")[4];
+                SE2::new(x, y, theta).boxminus(&nominal)
+            })
+            .sum::<Vector3<f64>>()
+            / samples as f64;
+        assert!((machine.measured()[4].mean - mean).amax() < 1e-14, "{samples}");
+    }
+}
+
+#[test]
+fn what_is_begun_can_be_stopped() {
+    let mut machine = machine(few(1000));
+    let before = machine.clone();
+    machine.begin(Settings { seed: 9, ..few(400_000) }).expect("valid settings");
+    assert_eq!(machine.settings().seed, 9);
+    assert!(!machine.advance(10_000));
+    machine.stop();
+    assert_tell_the_same(&machine, &before);
+    assert!(machine.advance(1));
+    assert_tell_the_same(&machine, &before);
+}
+
+/// More robots, fewer, and growth: each stopped, and gone on with after that.
+#[test]
+fn growth_can_be_stopped() {
+    let settings = few(3000);
+    let before = machine(settings);
+    for samples in [200_000, 1000] {
+        let mut machine = before.clone();
+        machine.begin(few(samples)).expect("valid settings");
+        assert!(!machine.advance(5000));
+        assert_eq!((machine.settings().samples, machine.shown()), (samples, 3000));
+        machine.stop();
+        assert_tell_the_same(&machine, &before);
+        machine.configure(Settings { step: 9, ..settings }).expect("valid settings");
+        assert_tell_the_same(
+            &machine,
+            &DeadReckoning::new(Settings { step: 9, ..settings }).expect("valid settings"),
+        );
+        machine.configure(few(4000)).expect("valid settings");
+        assert_tell_the_same(&machine, &DeadReckoning::new(few(4000)).expect("valid settings"));
+    }
+    let mut growing = DeadReckoning::empty(settings).expect("valid settings");
+    growing.grow(300);
+    growing.begin_to_grow(2000);
+    assert!(!growing.advance(20_000));
+    growing.stop();
+    assert_eq!(growing.shown(), 300);
+    // Fewer than were driven when it was stopped.
+    assert_eq!(growing.grow(200), 500);
+    assert_eq!(growing.grow(5000), 3000);
+    assert_tell_the_same(&growing, &before);
+}
+
+/// Of what is begun twice and then begins anew, everything is as it was asked for last.
+#[test]
+fn a_restart_goes_on_with_what_was_begun_last() {
+    let last = Settings { steps: 50, step: 40, ..few(700) };
+    for first in [Settings { step: 3, ..last }, Settings { samples: 2000, ..last }] {
+        let mut machine = machine(few(300));
+        machine.begin(first).expect("valid settings");
+        machine.begin(last).expect("valid settings");
+        machine.restart();
+        assert_eq!([machine.shown_settings(), machine.settings()], [&last; 2]);
+        machine.stop();
+        machine.grow(700);
+        assert_tell_the_same(&machine, &DeadReckoning::new(last).expect("valid settings"));
+    }
+}
+
+/// Of fewer robots than were driven, none is begun.
+#[test]
+fn no_more_than_all_is_done() {
+    let mut machine = machine(few(3000));
+    machine.begin(few(1000)).expect("valid settings");
+    assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
+    while !machine.advance(1000) {
+        assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
+    }
+}
+
+/// To look elsewhere drives nobody.
+#[test]
+fn another_step_or_recursion_is_there_at_once() {
+    let mut machine = machine(few(5000));
+    let settings = Settings { step: 17, compounding: Compounding::FirstOrder, ..few(5000) };
+    machine.begin(settings).expect("valid settings");
+    assert!(machine.advance(1));
+    assert_tell_the_same(&machine, &DeadReckoning::new(settings).expect("valid settings"));
+}
+
+#[test]
+fn what_is_refused_changes_nothing() {
+    let mut machine = machine(few(300));
+    let before = machine.clone();
+    let refused: [(Settings, &str); 8] = [
+        (Settings { steps: 0, ..few(300) }, "steps is 0; allowed is a whole number from 1 to 200"),
+        (Settings { steps: 201, ..few(300) }, "steps is 201; "),
+        (Settings { step: 21, ..few(300) }, "step is 21; allowed is a whole number from 1 to 20"),
+        (Settings { step: 0, ..few(300) }, "step is 0; "),
+        (few(0), "samples is 0; allowed is a whole number from 1 to 1000000"),
+        (few(MAX_SAMPLES + 1), "samples is 1000001; "),
+        (Settings { alphas: [0.1, 0.1, -0.1, 0.1, 0.1, 0.1], ..few(300) }, "alphas[2] is -0.1; "),
+        (
+            Settings { command: VelocityCmd { v: f64::NAN, omega: 0.0, dt: 1.0 }, ..few(300) },
+            "command.v is NaN; ",
+        ),
+    ];
+    for (settings, told) in refused {
+        let error = machine.begin(settings).expect_err(told).to_string();
+        assert!(error.starts_with(told), "{error}");
+        assert!(DeadReckoning::empty(settings).is_err());
+        assert_tell_the_same(&machine, &before);
+    }
+}
+
+/// The ends of what is allowed: everything is driven, and no figure but NaN where there is none.
+#[test]
+fn the_wildest_settings_are_driven() {
+    for (v, omega, dt, alpha) in [
+        (1e6, 1e6, 1e6, 1e6),
+        (-1e6, -1e6, 1e6, 0.0),
+        (0.0, 0.0, 1e-6, 1e6),
+        (1e6, 1e-6, 1e-6, 1e-300),
+        (1e-300, 1e6, 1.0, 1.0),
+    ] {
+        let command = VelocityCmd { v, omega, dt };
+        let settings =
+            Settings { command, alphas: [alpha; 6], steps: MAX_STEPS as u32, step: 200, ..few(300) };
+        let machine = machine(settings);
+        assert_eq!(machine.shown(), 300);
+        assert!(machine.poses(200).as_flattened().iter().all(|number| number.is_finite()), "{settings:?}");
+        assert!(
+            machine
+                .outlines(200)
+                .expect("a step")
+                .exponential
+                .as_flattened()
+                .iter()
+                .all(|number| !number.is_infinite())
+        );
+    }
+}
+
+/// Of the whole path, each step has its share: the sum of the shares is the path's own variance, whatever the number of steps.
+#[test]
+fn noise_of_the_whole_path_is_shared_by_its_steps() {
+    let whole = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
+    let expected =
+        VelocityModel { alphas: VelocityAlphas(Settings::default().alphas), noise: NoiseKind::Normal }
+            .variances(&whole)
+            .map(|variance| variance.0 * whole.dt * whole.dt);
+    for steps in [1, 20, 200] {
+        let command = VelocityCmd { dt: whole.dt / f64::from(steps), ..whole };
+        let settings = Settings { command, steps, step: 1, per: NoisePer::Path, ..few(1) };
+        let noise = settings.model().variances(&command).map(|variance| variance.0 * command.dt * command.dt);
+        for i in 0..3 {
+            assert!((noise[i] * f64::from(steps) / expected[i] - 1.0).abs() < 1e-12, "{steps}, {i}");
+        }
+        // The heading's variance adds up.
+        let sigma =
+            machine(settings).predicted(Compounding::FirstOrder)[steps as usize - 1].expect("a covariance");
+        assert!((sigma[(2, 2)] / (expected[1] + expected[2]) - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_level_of_heading_noise_is_that_of_four_alphas() {
+    assert_eq!(Settings::default().heading_noise(), Some(0.02));
+    assert_eq!(Settings { alphas: PRESETS[1].alphas, ..few(1) }.heading_noise(), Some(0.08));
+    assert_eq!(Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..few(1) }.heading_noise(), None);
+}
+
+/// The outlines: of both Gaussians at the commanded pose, with the ellipse turned as the robot is.
+#[test]
+fn outlines_are_those_of_the_covariance() {
+    let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..few(300) };
+    let machine = machine(settings);
+    let sigma = machine.predicted(Compounding::FirstOrder)[19].expect("a covariance");
+    let nominal = machine.nominal()[19];
+    let outlines = machine.outlines(20).expect("a step");
+    assert_eq!([machine.outlines(0), machine.outlines(21)], [None, None]);
+    let plane = sigma.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
+    for [x, y] in &outlines.ellipse {
+        // Seen from the commanded pose, every point is at two deviations.
+        let seen = nominal.inverse() * SE2::new(*x, *y, 0.0);
+        let at = nalgebra::Vector2::new(seen.x(), seen.y());
+        assert!(((at.transpose() * plane * at)[0] - 4.0).abs() < 1e-9);
+    }
+    for [a, l] in &outlines.predicted {
+        let at = nalgebra::Vector2::new(*a, *l);
+        assert!(((at.transpose() * plane * at)[0] - 4.0).abs() < 1e-9);
+    }
+    let full = sigma.try_inverse().expect("full rank");
+    let inside = outlines.exponential.iter().filter(|[x, y]| {
+        // The heading that makes the point most likely puts it near the 2σ ellipsoid.
+        let least = (-400..=400)
+            .map(|i| {
+                let xi = SE2::new(*x, *y, nominal.theta() + 0.002 * f64::from(i)).boxminus(&nominal);
+                (xi.transpose() * full * xi)[0]
+            })
+            .fold(f64::INFINITY, f64::min);
+        (3.6..=4.1).contains(&least)
+    });
+    assert_eq!(inside.count(), outlines.exponential.len());
+    // Without lateral variance in the first step, both are lines.
+    let first = DeadReckoning::new(few(300)).expect("valid settings").outlines(1).expect("a step");
+    assert!(first.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
+}
+
+/// The commanded way leads through every commanded pose.
+#[test]
+fn the_commanded_way_leads_through_its_poses() {
+    for settings in all_kinds() {
+        let machine = machine(settings);
+        let way = machine.commanded();
+        let chords = (way.len() - 1) / settings.steps as usize;
+        assert_eq!((way.len() - 1) % settings.steps as usize, 0);
+        let twist = TangentNoiseModel::twist(&settings.command);
+        let mut pose = SE2::identity();
+        for k in 1..=settings.steps as usize {
+            pose = pose.boxplus(twist);
+            let nominal = machine.nominal()[k - 1];
+            assert!(nominal.boxminus(&pose).amax() < 1e-11, "{nominal:?}, not {pose:?}");
+            assert_eq!(way[k * chords], [nominal.x(), nominal.y()]);
+        }
+    }
+}
+
+/// Exercise 2's crossing: by bisection of the exact variances where the noise is small, and by robots sent straight ahead.
+#[test]
+fn variances_of_a_straight_drive_cross_where_the_formula_says() {
+    for (v, [along, turn]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
+        let command = VelocityCmd { v, omega: 0.3, dt: 0.2 };
+        let alphas = [along, 1e-6, turn, 1e-6, 0.0, 0.0];
+        let machine = machine(Settings { command, alphas, ..few(1) });
+        let growth = machine.straight();
+        let told = growth.crossing.expect("a crossing");
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        let exact = |dt: f64| {
+            let cov =
+                motion::stats::ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt }).cov;
+            cov[(1, 1)] / cov[(0, 0)]
+        };
+        let (mut low, mut high) = (1e-3, 1e3);
+        for _ in 0..100 {
+            let middle = f64::sqrt(low * high);
+            if exact(middle) < 1.0 { low = middle } else { high = middle }
+        }
+        // To first order in the noise: the rest is of its own size, 1e-6 times a few.
+        assert!((told / low - 1.0).abs() < 1e-4, "{told}, found {low}");
+        let mut rng = seeded(41);
+        let n = 100_000;
+        let [mut a, mut c] = [0.0, 0.0];
+        for _ in 0..n {
+            let end = model.sample(&VelocityCmd { v, omega: 0.0, dt: told }, &SE2::identity(), &mut rng);
+            a += (end.x() - v * told).powi(2);
+            c += end.y().powi(2);
+        }
+        // Two variances of n each: √(2·2/n).
+        assert!((a / c - 1.0).abs() < SIGMAS * (4.0 / f64::from(n)).sqrt(), "{}", a / c);
+        // Straight lines on logarithmic axes, of slopes 2 and 4, which the exact variances follow while headings stay small:
+        // up to three seconds within 0.01 rad.
+        let last = growth.durations.len() - 1;
+        for (first_order, of, slope) in [
+            (&growth.along_first_order, &growth.along, 2.0),
+            (&growth.across_first_order, &growth.across, 4.0),
+        ] {
+            let octaves = (growth.durations[last] / growth.durations[0]).ln();
+            assert!(((first_order[last] / first_order[0]).ln() / octaves - slope).abs() < 1e-12);
+            for ((line, exact), dt) in first_order.iter().zip(of).zip(&growth.durations) {
+                assert!(*dt > 3.0 || (exact / line - 1.0).abs() < 2e-3, "{exact} {line}");
+            }
+        }
+    }
+    let crossing = |v, alphas| {
+        let command = VelocityCmd { v, ..Settings::default().command };
+        machine(Settings { command, alphas, ..few(1) }).straight().crossing
+    };
+    assert_eq!(crossing(1.0, [0.02; 6]), Some(2.0));
+    assert_eq!(crossing(1.0, [0.02, 0.0, 0.08, 0.0, 0.0, 0.0]), Some(1.0));
+    for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
+        assert_eq!(crossing(v, alphas), None, "{v} {alphas:?}");
+    }
+}

@@ -1,0 +1,10 @@
+//! The machine of each figure.
+
+mod alpha_calibrator;
+mod arc_anatomy;
+mod banana;
+mod dead_reckoning;
+mod large_clouds;
+mod odometry_decomposer;
+mod pictures;
+mod squeeze;

@@ -1,0 +1,236 @@
+//! The Odometry Decomposer's machine: common random numbers, the frame that drifts, spreads and curves, refusals.
+
+use crate::common::{KINDS, SIGMAS, pose_distance, seeded};
+use motion::geom::se2::SE2;
+use motion::models::OdometryRule;
+use motion::sim::odometry_decomposer::{
+    CurvePoint, MAX_SAMPLES, OdometryDecomposer, OdometryPose, PRESETS, Settings,
+};
+use motion::sim::settings::MAX_SEED;
+use motion::{MotionModel, OdomAlphas, OdometryModel};
+
+fn machine(settings: Settings) -> OdometryDecomposer {
+    OdometryDecomposer::new(settings).expect("a valid setting")
+}
+
+fn of_preset(name: &str) -> Settings {
+    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
+    Settings { from: preset.from, to: preset.to, ..Settings::default() }
+}
+
+fn many(settings: Settings) -> OdometryDecomposer {
+    machine(Settings { samples: MAX_SAMPLES as usize, ..settings })
+}
+
+/// Under the table's rule the outcomes are the draws of the crate's model, with the same seed.
+#[test]
+fn the_outcomes_are_the_models_samples() {
+    for noise in KINDS {
+        let settings =
+            Settings { from: OdometryPose([0.5, -1.0, 2.0]), noise, samples: 1001, ..Settings::default() };
+        let machine = machine(settings);
+        let [a1, a2, a3, a4, _] = settings.alphas;
+        let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise };
+        let mut rng = seeded(settings.seed);
+        assert_eq!(machine.poses().len(), 1001);
+        for pose in machine.poses() {
+            let drawn = model.sample(&machine.reading(), &settings.from.into(), &mut rng);
+            assert!(pose_distance(pose, &drawn) < 1e-14, "{pose:?}, drawn {drawn:?}");
+        }
+    }
+}
+
+/// A slider moves the same outcomes: with nothing but α₃ the drives alone differ, each by a number of its own that a larger
+/// α₃ stretches by its root.
+#[test]
+fn common_random_numbers() {
+    let alone = |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..of_preset("drive-turn") };
+    let mut machine = machine(alone(0.01));
+    let excess = |machine: &OdometryDecomposer| -> Vec<f64> {
+        machine.poses().iter().map(|pose| pose.x() - 1.5).collect()
+    };
+    let before = excess(&machine);
+    machine.configure(alone(0.04)).expect("a valid setting");
+    for (before, after) in before.iter().zip(excess(&machine)) {
+        assert!((2.0 * before - after).abs() < 1e-14);
+    }
+    // The first outcomes of a larger cloud are the smaller one; a complete one stays complete.
+    machine.configure(Settings { samples: 900, ..alone(0.01) }).expect("a valid setting");
+    let after = excess(&machine);
+    assert_eq!((after.len(), &after[..500]), (900, &before[..]));
+    machine.restart();
+    assert_eq!((machine.poses().len(), machine.stats().cross_track.is_nan()), (0, true));
+    machine.grow(700);
+    machine.configure(Settings { samples: 800, ..alone(0.01) }).expect("a valid setting");
+    assert_eq!(excess(&machine), after[..700], "one that is growing keeps its count");
+    assert_eq!(machine.grow(usize::MAX), 800);
+}
+
+#[test]
+fn the_linkage_is_the_reading() {
+    for preset in PRESETS {
+        for rule in OdometryRule::ALL {
+            let machine = machine(Settings { rule, ..of_preset(preset.name) });
+            let [start, turned, driven, end] = machine.linkage();
+            let legs = machine.legs();
+            assert_eq!(start, preset.from.into());
+            assert_eq!((turned.x(), turned.y()), (start.x(), start.y()));
+            assert!(((driven.x() - start.x()).hypot(driven.y() - start.y()) - legs.trans).abs() < 1e-15);
+            assert_eq!([driven.x(), driven.y(), driven.theta()], [end.x(), end.y(), turned.theta()]);
+            assert!(pose_distance(&end, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
+            let robot = |phase| {
+                let settings = Settings { phase, ..*machine.settings() };
+                OdometryDecomposer::new(settings).expect("a valid setting").robot()
+            };
+            for (phase, pose) in [(0.0, start), (1.0, turned), (2.0, driven), (3.0, end)] {
+                assert!(pose_distance(&robot(phase), &pose) < 1e-15, "{phase}");
+            }
+            assert!((robot(1.5).x() - 0.5 * (start.x() + end.x())).abs() < 1e-15);
+        }
+    }
+    // Without noise every ghost is the linkage itself.
+    let still = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
+    assert_eq!(still.ghosts(7), [still.linkage(); 7]);
+    assert_eq!(still.ghosts(usize::MAX).len(), 500);
+    let noisy = machine(Settings::default());
+    for (ghost, pose) in noisy.ghosts(20).iter().zip(noisy.poses()) {
+        assert_eq!(ghost[3], *pose);
+    }
+}
+
+/// Only the relative motion enters: the frame of the odometry goes its way, and nothing that is predicted moves.
+#[test]
+fn the_prediction_does_not_see_the_drift() {
+    let near = |drift| machine(Settings { drift, ..Settings::default() });
+    let (at_once, late) = (near(0.0), near(300.0));
+    assert_eq!(at_once.poses(), late.poses());
+    assert_eq!(at_once.rules(), late.rules());
+    let [fresh, drifted] = [&at_once, &late].map(OdometryDecomposer::drifted);
+    assert_eq!(fresh.frame, SE2::identity());
+    // The odometry's own poses are metres away by now, and the legs are the same.
+    assert!((drifted.to.x() - fresh.to.x()).hypot(drifted.to.y() - fresh.to.y()) > 2.0);
+    let apart = [
+        drifted.legs.rot1 - fresh.legs.rot1,
+        drifted.legs.trans - fresh.legs.trans,
+        drifted.legs.rot2 - fresh.legs.rot2,
+    ];
+    assert!(apart.iter().all(|apart| apart.abs() < 1e-14), "{apart:?}");
+}
+
+/// What the cloud says is within its own standard errors of what is exact, and these are the spread of many clouds.
+#[test]
+fn the_spreads_of_the_cloud_are_the_exact_ones() {
+    for (preset, rule, noise, correlation) in [
+        ("all", OdometryRule::Table, KINDS[0], 0.0),
+        ("all", OdometryRule::Omni, KINDS[1], 0.5),
+        ("reverse", OdometryRule::Nav2, KINDS[0], -0.9),
+        ("rest", OdometryRule::Table, KINDS[1], 0.7),
+    ] {
+        let settings = Settings { rule, noise, correlation, ..of_preset(preset) };
+        let stats = many(settings).stats();
+        let off = [
+            (stats.cross_track - stats.exact_cross_track) / stats.cross_track_error,
+            (stats.heading - stats.exact_heading) / stats.heading_error,
+        ];
+        assert!(off.iter().all(|off| off.abs() < SIGMAS), "{preset} {rule:?}: {off:?}");
+        // Of 400 clouds the spread is known to 3.5 %; the errors of single ones vary as much again.
+        let clouds: Vec<_> =
+            (0..400).map(|seed| machine(Settings { seed, samples: 1000, ..settings }).stats()).collect();
+        let mean = |of: &dyn Fn(&_) -> f64| clouds.iter().map(of).sum::<f64>() / clouds.len() as f64;
+        let centre = mean(&|stats: &motion::sim::odometry_decomposer::Stats| stats.cross_track);
+        let spread = mean(&|stats| (stats.cross_track - centre).powi(2)).sqrt();
+        let told = mean(&|stats| stats.cross_track_error);
+        assert!((spread / told - 1.0).abs() < 0.15, "{preset} {rule:?}: {spread}, told {told}");
+    }
+    let none = machine(Settings { alphas: [0.0; 5], ..Settings::default() }).stats();
+    assert_eq!((none.cross_track, none.cross_track_error, none.exact_cross_track), (0.0, 0.0, 0.0));
+    assert_eq!((none.heading, none.heading_error), (0.0, 0.0));
+}
+
+/// The curve goes through what the readouts say, from what the rotations alone do; far out the lever overstates it, for no
+/// robot is farther across than it drives.
+#[test]
+fn the_curve_goes_through_the_reading() {
+    for rule in OdometryRule::ALL {
+        let machine = machine(Settings { rule, ..Settings::default() });
+        let stats = machine.stats();
+        let trans = machine.legs().trans;
+        let points = machine.curve(2.0 * trans, 3);
+        assert_eq!(points.iter().map(|point| point.trans).collect::<Vec<_>>(), [0.0, trans, 2.0 * trans]);
+        let CurvePoint { cross_track, lever, along, .. } = points[1];
+        assert_eq!((cross_track, lever), (stats.exact_cross_track, stats.lever));
+        let of_rule = machine.rules().into_iter().find(|figures| figures.rule == rule).expect("all rules");
+        assert_eq!((of_rule.deviations[1], of_rule.cross_track), (along, cross_track));
+        assert_eq!(machine.curve(1.0, 1).len(), 1);
+    }
+    let wild = machine(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
+    let far = wild.curve(10.0, 2)[1];
+    assert!(far.cross_track < far.trans && far.lever > 10.0 * far.trans);
+}
+
+/// A correlation of the rotations turns robots where they stand and moves none.
+#[test]
+fn correlated_rotations_move_no_robot() {
+    let of = |correlation| many(Settings { correlation, ..Settings::default() });
+    let (apart, together) = (of(-1.0), of(1.0));
+    for (a, b) in apart.poses().iter().zip(together.poses()) {
+        assert_eq!((a.x(), a.y()), (b.x(), b.y()));
+    }
+    let (apart, together) = (apart.stats(), together.stats());
+    assert!(apart.exact_heading < together.exact_heading);
+    assert_eq!(apart.independent_heading, together.independent_heading);
+    assert_eq!(of(0.0).stats().exact_heading, together.independent_heading);
+}
+
+#[test]
+fn a_refused_change_changes_nothing() {
+    let opening = Settings::default();
+    let mut machine = machine(opening);
+    let before = (machine.poses().to_vec(), *machine.settings());
+    for (settings, message) in [
+        (Settings { correlation: 1.5, ..opening }, "correlation is 1.5; allowed is a number from -1 to 1"),
+        (Settings { samples: 0, ..opening }, "samples is 0; allowed is a whole number from 1 to 5000"),
+        (
+            Settings { alphas: [0.0, 0.0, -1.0, 0.0, 0.0], ..opening },
+            "alphas[2] is -1; allowed is a number from 0 to 1000000",
+        ),
+        (
+            Settings { to: OdometryPose([0.0, f64::NAN, 0.0]), ..opening },
+            "to.y is NaN; allowed is a number from -1000000 to 1000000",
+        ),
+        (Settings { phase: 3.5, ..opening }, "phase is 3.5; allowed is a number from 0 to 3"),
+        (Settings { drift: -1.0, ..opening }, "drift is -1; allowed is a number from 0 to 1000000"),
+        (
+            Settings { seed: MAX_SEED + 1, ..opening },
+            "seed is 9007199254740992; allowed is a whole number from 0 to 9007199254740991",
+        ),
+    ] {
+        assert_eq!(machine.configure(settings).expect_err("refused").to_string(), message);
+        assert_eq!((machine.poses(), *machine.settings()), (&before.0[..], before.1));
+    }
+}
+
+/// At the ends of what is allowed everything is a number.
+#[test]
+fn nothing_allowed_gives_nonsense() {
+    let far = OdometryPose([1e6, -1e6, 1e6]);
+    let wild = Settings { to: far, alphas: [1e6; 5], drift: 1e6, ..Settings::default() };
+    for (settings, rule) in
+        [wild, Settings { to: wild.from, ..wild }].into_iter().flat_map(|s| OdometryRule::ALL.map(|r| (s, r)))
+    {
+        let machine = machine(Settings { rule, ..settings });
+        let stats = machine.stats();
+        let figures = [
+            stats.cross_track,
+            stats.cross_track_error,
+            stats.exact_cross_track,
+            stats.lever,
+            stats.heading,
+            stats.heading_error,
+            stats.exact_heading,
+        ];
+        assert!(figures.iter().all(|figure| figure.is_finite()), "{stats:?}");
+        let finite = |pose: &SE2| pose.x().is_finite() && pose.y().is_finite() && pose.theta().is_finite();
+        assert!(machine.poses().iter().all(finite) && finite(&machine.drifted().to));
+    }
+}

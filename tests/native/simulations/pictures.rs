@@ -1,0 +1,104 @@
+//! Densities as images: every pixel has the colour of those who are in its cell, and nothing is left for the next image.
+
+use motion::sim::View;
+use motion::sim::banana::{BananaMachine, Settings};
+use motion::sim::picture::{RAMP, Ramp};
+use motion::sim::squeeze::{self, KINDS, MapSqueeze, PRESETS};
+use motion::sim::views::Grid;
+
+/// Over the middle of the apartment or a part of a cloud, so that some are outside on every side. As wide as cells are
+/// skipped together, in one more, and where four are more than there are.
+fn grids(min: [f64; 2], max: [f64; 2]) -> [Grid; 4] {
+    [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(columns, rows)| Grid { min, max, columns, rows })
+}
+
+/// A ramp whose colours tell their step, and `mark` whose they are.
+fn ramp(mark: u8) -> Ramp {
+    std::array::from_fn(|step| [step as u8, mark, 7, 255])
+}
+
+/// The cell of a point, row by row from the top, by the definition of a grid.
+fn cell(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
+    let Grid { min, max, columns, rows } = *grid;
+    let column = ((x - min[0]) / (max[0] - min[0]) * columns as f64).floor();
+    let row = ((max[1] - y) / (max[1] - min[1]) * rows as f64).floor();
+    let inside = (0.0..columns as f64).contains(&column) && (0.0..rows as f64).contains(&row);
+    inside.then(|| row as usize * columns + column as usize)
+}
+
+/// 255·√(count/most), rounded.
+fn step(count: u32, most: u32) -> u8 {
+    ((RAMP - 1) as f64 * (f64::from(count) / f64::from(most)).sqrt()).round() as u8
+}
+
+#[test]
+fn a_cloud_is_painted_as_it_is_dense() {
+    let settings = Settings { samples: 3000, ..Settings::default() };
+    let mut machine = BananaMachine::new(settings).expect("a valid setting");
+    for grid in grids([0.75, -0.2], [1.2, 0.4]) {
+        let points: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
+        let mut counts = vec![0u32; grid.columns * grid.rows];
+        points.iter().filter_map(|point| cell(&grid, *point)).for_each(|cell| counts[cell] += 1);
+        let most = *counts.iter().max().expect("there are cells");
+        assert!((1..3000).contains(&counts.iter().sum::<u32>()), "some are outside");
+        // Once more: nothing of an image is left for the next.
+        for time in ["first", "second"] {
+            let pixels = machine.paint(View::Plane, &grid, &ramp(3)).expect("there is memory");
+            assert_eq!(pixels.len(), counts.len());
+            for (i, (pixel, count)) in pixels.iter().zip(&counts).enumerate() {
+                let expected = if *count == 0 { [0; 4] } else { [step(*count, most), 3, 7, 255] };
+                assert_eq!(*pixel, expected, "{time}, cell {i} of {grid:?}");
+            }
+            assert_eq!(machine.density(View::Plane, &grid).expect("there is memory"), counts, "{time}");
+        }
+    }
+}
+
+/// Cells of other widths: what an image left outside of its own cells would be inside of these.
+#[test]
+fn an_image_leaves_nothing_for_one_of_another_size() {
+    let settings = Settings { samples: 3000, ..Settings::default() };
+    let mut machine = BananaMachine::new(settings).expect("a valid setting");
+    let [wide, line, fine, coarse] = grids([0.75, -0.2], [1.2, 0.4]);
+    for (before, after) in [(wide, fine), (fine, line), (line, coarse), (coarse, wide), (fine, wide)] {
+        let expected = machine.density(View::Plane, &after).expect("there is memory");
+        machine.paint(View::Plane, &before, &ramp(0)).expect("there is memory");
+        assert_eq!(machine.density(View::Plane, &after).expect("there is memory"), expected);
+    }
+}
+
+#[test]
+fn attempts_are_painted_by_what_became_of_most() {
+    // Facing a wall, behind which many are accepted.
+    let (_, start) = PRESETS[1];
+    let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };
+    let mut machine = MapSqueeze::new(settings).expect("a valid setting");
+    let mut shown = [0; KINDS];
+    for grid in grids([2.9, 3.4], [3.7, 4.9]) {
+        let mut counts = vec![[0u32; KINDS]; grid.columns * grid.rows];
+        for attempt in machine.attempts() {
+            if let Some(cell) = cell(&grid, [attempt.pose.x(), attempt.pose.y()]) {
+                counts[cell][attempt.kind() as usize] += 1;
+            }
+        }
+        let all: Vec<u32> = counts.iter().map(|kinds| kinds.iter().sum()).collect();
+        let most = *all.iter().max().expect("there are cells");
+        assert!((1..3000).contains(&all.iter().sum::<u32>()), "some are outside");
+        for _ in 0..2 {
+            let ramps = std::array::from_fn(|kind| ramp(kind as u8));
+            let pixels = machine.paint(&grid, &ramps).expect("there is memory");
+            assert_eq!(pixels.len(), all.len());
+            for ((pixel, kinds), all) in pixels.iter().zip(&counts).zip(&all) {
+                if *all == 0 {
+                    assert_eq!(*pixel, [0; 4]);
+                    continue;
+                }
+                let [shade, kind, ..] = *pixel;
+                assert_eq!(*pixel, [step(*all, most), kind, 7, 255], "{kinds:?}");
+                assert!(kinds.iter().all(|count| *count <= kinds[usize::from(kind)]), "{shade}: {kinds:?}");
+                shown[usize::from(kind)] += 1;
+            }
+        }
+    }
+    assert!(shown.iter().all(|cells| *cells > 0), "all kinds are seen: {shown:?}");
+}

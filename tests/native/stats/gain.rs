@@ -1,0 +1,563 @@
+//! The likelihood gains and the ratio of areas: against their definitions, against references, and where they have no
+//! meaning.
+
+use crate::common::{KINDS, SIGMAS, Table, mean, seeded, uniform, variance};
+use motion::geom::arc::{arc_near, chord};
+use motion::geom::se2::{SE2, wrap_angle};
+use motion::sim::banana::{BananaMachine, Figures, ModelKind, PRESETS, Preset, Settings};
+use motion::stats::{CartesianMoments, ExactGain, ExponentialMoments, MeasuredGain};
+use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::f64::consts::{PI, TAU};
+
+const OPENING: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+/// Noise in the turn above all: the finest banana, without any skew.
+const FAN: [f64; 6] = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
+const GENTLE: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const HARD: VelocityCmd = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
+const STRAIGHT: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
+
+fn machine(command: VelocityCmd, velocity_alphas: [f64; 6], samples: usize) -> BananaMachine {
+    let settings = Settings { command, velocity_alphas, samples, ..Settings::default() };
+    BananaMachine::new(settings).expect("a valid setting")
+}
+
+fn poses(machine: &BananaMachine) -> Vec<SE2> {
+    machine.poses().collect()
+}
+
+/// Pose and floor.
+fn gains(gain: &MeasuredGain) -> [[f64; 2]; 2] {
+    [[gain.value.pose, gain.error.pose], [gain.value.floor, gain.error.floor]]
+}
+
+fn assert_close(name: &str, found: f64, expected: f64, allowed: f64) {
+    let alike = found == expected || found.is_nan() && expected.is_nan();
+    assert!(alike || (found - expected).abs() <= allowed, "{name}: {found} is not {expected}");
+}
+
+// --------------------------------------------------------------------------------------------- the definition
+
+/// The log-density at each point of the Gaussian with their own moments, by inverse and determinant.
+fn log_densities(points: &[DVector<f64>]) -> Vec<f64> {
+    let (n, size) = (points.len() as f64, points[0].len());
+    let centre = points.iter().sum::<DVector<f64>>() / n;
+    let scatter = |p: &DVector<f64>| (p - &centre) * (p - &centre).transpose();
+    let cov = points.iter().map(scatter).sum::<DMatrix<f64>>() / (n - 1.0);
+    let (precision, volume) =
+        (cov.clone().try_inverse().unwrap(), (TAU.powi(size as i32) * cov.determinant()).sqrt());
+    let at = |p: &DVector<f64>| -0.5 * (p - &centre).dot(&(&precision * (p - &centre))) - volume.ln();
+    points.iter().map(at).collect()
+}
+
+/// The determinant of a map's Jacobian, by central differences: its error is some 1e-10.
+fn determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVector<f64>) -> f64 {
+    const STEP: f64 = 1e-5;
+    let columns: Vec<DVector<f64>> = (0..at.len())
+        .map(|i| {
+            let mut ends = [at.clone(), at.clone()];
+            ends[0][i] += STEP;
+            ends[1][i] -= STEP;
+            (map(&ends[0]) - map(&ends[1])) / (2.0 * STEP)
+        })
+        .collect();
+    DMatrix::from_columns(&columns).determinant()
+}
+
+/// Every robot's log-density under the Gaussian in the bent coordinates less that under the plain one, quadratic terms and
+/// all, over dx dy dθ and over dx dy.
+fn differences(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
+    let heading = CartesianMoments::from_poses(cloud).mean.z;
+    let plain: Vec<_> = cloud
+        .iter()
+        .map(|p| DVector::from_vec(vec![p.x(), p.y(), wrap_angle(p.theta() - heading)]))
+        .collect();
+    let places: Vec<_> = cloud.iter().map(|p| DVector::from_vec(vec![p.x(), p.y()])).collect();
+    let twists: Vec<_> =
+        cloud.iter().map(|p| DVector::from_column_slice(p.log_near(turn).as_slice())).collect();
+    let arcs: Vec<_> = cloud
+        .iter()
+        .map(|p| arc_near(&SE2::identity(), p, turn))
+        .map(|(length, turn)| DVector::from_vec(vec![length, turn]))
+        .collect();
+    let exp = |xi: &DVector<f64>| {
+        let end = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
+        DVector::from_vec(vec![end.x(), end.y(), xi[2]])
+    };
+    let end = |arc: &DVector<f64>| {
+        let (x, y) = chord(arc[0], arc[1]);
+        DVector::from_vec(vec![x, y])
+    };
+    let each =
+        |plain: &[DVector<f64>], bent: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
+            let (plain, log) = (log_densities(plain), log_densities(bent));
+            let each = bent.iter().zip(plain.iter().zip(&log));
+            each.map(|(at, (plain, log))| log - determinant(map, at).abs().ln() - plain).collect()
+        };
+    [each(&plain, &twists, &exp), each(&places, &arcs, &end)]
+}
+
+/// The mean difference is the gain, and its error that of a mean.
+#[test]
+fn the_gain_is_the_mean_difference_of_two_log_densities() {
+    for (command, alphas) in
+        [(GENTLE, OPENING), (HARD, OPENING), (VelocityCmd { v: -0.7, omega: -1.1, dt: 1.3 }, FAN)]
+    {
+        let cloud = poses(&machine(command, alphas, 20_000));
+        let turn = command.omega * command.dt;
+        let gain = MeasuredGain::from_poses(&cloud, &SE2::identity(), turn);
+        for ([value, error], differences) in gains(&gain).into_iter().zip(differences(&cloud, turn)) {
+            assert_close("gain", value, mean(&differences), 1e-8);
+            let expected = (variance(&differences) / 20_000.0).sqrt();
+            assert_close("error", error, expected, 1e-6 * expected);
+        }
+    }
+}
+
+/// The machine sums up what the definition takes one robot at a time, on every branch and at every size. Up to 2048 robots
+/// its error is of all of them, and beyond of a sample.
+#[test]
+fn the_machine_has_the_gain_of_its_poses() {
+    for model in [ModelKind::Velocity, ModelKind::Odometry] {
+        for noise in KINDS {
+            for [v, omega, dt] in
+                [[1.0, 0.5, 1.0], [-1.0, 1.2, 1.4], [0.06, -1.5, 1.0], [2.0, 0.0, 2.0], [1.0, 2.2, 1.2]]
+            {
+                for samples in [1, 2, 3, 4, 5, 257, 1022, 2048, 20_003] {
+                    let command = VelocityCmd { v, omega, dt };
+                    let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
+                    let settings =
+                        Settings { model, noise, command, odometry_alphas, samples, ..Settings::default() };
+                    let machine = BananaMachine::new(settings).expect("a valid setting");
+                    let (found, cloud) = (gains(&machine.figures().gain), poses(&machine));
+                    let expected = gains(&MeasuredGain::from_poses(&cloud, &SE2::identity(), omega * dt));
+                    let what = format!("{model:?} {noise:?} {command:?} {samples}");
+                    for ([value, error], [by_pose, error_by_pose]) in found.into_iter().zip(expected) {
+                        // Under four or five robots a covariance is nearly singular.
+                        let allowed = if samples < 6 { 1e-6 } else { 1e-9 };
+                        assert_close(&what, value, by_pose, allowed);
+                        if samples <= 2048 {
+                            assert_close(&what, error, error_by_pose, allowed * 10.0);
+                        }
+                    }
+                    assert_eq!(found[0][0].is_nan(), samples < 4, "{what}");
+                    assert_eq!(found[1][0].is_nan(), samples < 3, "{what}");
+                }
+            }
+        }
+    }
+}
+
+/// The noise of the robots, which no model and no command changes.
+fn unit_noise(settings: Settings) -> Vec<[f64; 3]> {
+    let alphas = VelocityAlphas([1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
+    let settings =
+        Settings { model: ModelKind::Velocity, command: STRAIGHT, velocity_alphas: alphas.0, ..settings };
+    let machine = BananaMachine::new(settings).expect("a valid setting");
+    machine.executed().map(|[v, omega, gamma]| [v - 1.0, omega, gamma]).collect()
+}
+
+/// What a sample says of all: fours of robots in order, and of those with a robot whose squared noises add up to more than 20
+/// all, to more than 13 the first 16 384, of the others the first 512.
+fn sampled_error(noise: &[[f64; 3]], differences: &[f64]) -> f64 {
+    let (fours, gain) = (noise.len().div_ceil(4), mean(differences));
+    let (mut robots, mut squares) = (0.0, 0.0);
+    for (four, (noise, differences)) in noise.chunks(4).zip(differences.chunks(4)).enumerate() {
+        let farthest = noise.iter().map(|z| z.iter().map(|z| z * z).sum()).fold(0.0, f64::max);
+        let among = fours.min(if farthest > 20.0 {
+            usize::MAX
+        } else if farthest > 13.0 {
+            16_384
+        } else {
+            512
+        });
+        if four < among {
+            let weight = fours as f64 / among as f64;
+            robots += weight * differences.len() as f64;
+            squares += weight * differences.iter().map(|d| (d - gain).powi(2)).sum::<f64>();
+        }
+    }
+    (squares / (robots - 1.0) / noise.len() as f64).sqrt()
+}
+
+#[test]
+fn the_error_of_a_large_cloud_is_that_of_its_sample() {
+    for (model, noise, command, velocity_alphas) in [
+        (ModelKind::Velocity, NoiseKind::Normal, STRAIGHT, FAN),
+        (ModelKind::Velocity, NoiseKind::Triangular, HARD, OPENING),
+        (ModelKind::Odometry, NoiseKind::Normal, GENTLE, OPENING),
+    ] {
+        let settings = Settings { model, noise, command, velocity_alphas, ..Settings::default() };
+        let mut machine = BananaMachine::new(settings).expect("a valid setting");
+        // Up and down, as the sample is that of the robots there are.
+        for samples in [2049, 200_002, 20_003, 200_002] {
+            let settings = Settings { samples, ..settings };
+            machine.configure(settings).expect("a valid setting");
+            let (found, noise) = (gains(&machine.figures().gain), unit_noise(settings));
+            let differences = differences(&poses(&machine), command.omega * command.dt);
+            for ([_, error], differences) in found.into_iter().zip(differences) {
+                let expected = sampled_error(&noise, &differences);
+                assert_close(&format!("{settings:?}"), error, expected, 1e-6 * expected);
+            }
+        }
+    }
+}
+
+/// A standard deviation of the gains of 1000 clouds errs by 1/√(2·999) = 2.2 % of it, if they are about normal; what 1000
+/// reports are on average, by far less. Clouds of 10 000 report what a sample of them says.
+#[test]
+fn the_reported_error_is_the_spread_of_the_gains() {
+    const CLOUDS: u64 = 1000;
+    let allowed = SIGMAS / (2.0 * (CLOUDS - 1) as f64).sqrt();
+    for (command, alphas) in [(GENTLE, OPENING), (HARD, OPENING), (STRAIGHT, FAN)] {
+        for robots in [2000, 10_000] {
+            let mut machine = machine(command, alphas, robots);
+            let clouds: Vec<[[f64; 2]; 2]> = (0..CLOUDS)
+                .map(|seed| {
+                    machine.configure(Settings { seed, ..*machine.settings() }).expect("a valid setting");
+                    gains(&machine.figures().gain)
+                })
+                .collect();
+            for which in [0, 1] {
+                let values: Vec<f64> = clouds.iter().map(|gains| gains[which][0]).collect();
+                let reports: Vec<f64> = clouds.iter().map(|gains| gains[which][1].powi(2)).collect();
+                let ratio = (mean(&reports) / variance(&values)).sqrt();
+                assert!(
+                    (ratio - 1.0).abs() < allowed,
+                    "{command:?}, {robots}: reported over observed is {ratio}"
+                );
+            }
+        }
+    }
+}
+
+/// Other units of length, and another frame, are no other gain.
+#[test]
+fn neither_units_nor_frames_matter() {
+    let cloud = poses(&machine(GENTLE, OPENING, 5000));
+    let gain = gains(&MeasuredGain::from_poses(&cloud, &SE2::identity(), 0.5));
+    for unit in [1e-3, 39.37, 1e6] {
+        let scaled: Vec<SE2> =
+            cloud.iter().map(|p| SE2::new(unit * p.x(), unit * p.y(), p.theta())).collect();
+        let found = gains(&MeasuredGain::from_poses(&scaled, &SE2::identity(), 0.5));
+        found
+            .as_flattened()
+            .iter()
+            .zip(gain.as_flattened())
+            .for_each(|(a, b)| assert_close("unit", *a, *b, 1e-10));
+    }
+    for start in [SE2::new(3.0, -2.0, 1.0), SE2::new(0.0, 5.0, 3.0)] {
+        let moved: Vec<SE2> = cloud.iter().map(|pose| start * *pose).collect();
+        let found = gains(&MeasuredGain::from_poses(&moved, &start, 0.5));
+        found
+            .as_flattened()
+            .iter()
+            .zip(gain.as_flattened())
+            .for_each(|(a, b)| assert_close("frame", *a, *b, 1e-10));
+    }
+}
+
+// ---------------------------------------------------------------------------------------------- exact figures
+
+/// The references are cut off at 6 or 6.6 standard deviations of each noise, and have the jump to another branch between
+/// two steps of a thousandth: together up to 1e-6. Where an outline crosses itself, the chord across may count to either
+/// loop: up to 1e-4.
+#[test]
+fn exact_gains_match_the_references() {
+    for row in Table::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
+        let velocity_alphas = row.all(["a1", "a2", "a3", "a4", "a5", "a6"]);
+        let [v, omega, dt] = row.all(["v", "omega", "dt"]);
+        let command = VelocityCmd { v, omega, dt };
+        let settings =
+            Settings { command, velocity_alphas, noise: row.kind(), samples: 1, ..Settings::default() };
+        let exact = BananaMachine::new(settings).expect("a valid setting").table().exact;
+        let name = format!("{command:?} {velocity_alphas:?}");
+        assert_close(&name, exact.likelihood_gain.pose, row.get("pose"), 1e-6);
+        assert_close(&name, exact.likelihood_gain.floor, row.get("floor"), 1e-6);
+        assert_close(&name, exact.area_ratio, row.get("area_ratio"), 1e-4);
+        let model = VelocityModel { alphas: VelocityAlphas(velocity_alphas), noise: row.kind() };
+        assert_eq!(ExactGain::of_velocity(&model, &command).value.floor, exact.likelihood_gain.floor);
+    }
+}
+
+#[test]
+fn exact_gains_match_clouds() {
+    for (model, command) in [
+        (ModelKind::Velocity, GENTLE),
+        (ModelKind::Velocity, VelocityCmd { v: 0.06, omega: 1.5, dt: 1.0 }),
+        (ModelKind::Velocity, VelocityCmd { v: -1.0, ..HARD }),
+        (ModelKind::Odometry, GENTLE),
+        (ModelKind::Odometry, STRAIGHT),
+        // In reverse the reading faces away first: a quarter of a million times the noise of one that does not.
+        (ModelKind::Odometry, VelocityCmd { v: -1.0, ..GENTLE }),
+    ] {
+        for noise in KINDS {
+            let odometry_alphas = [0.02, 0.05, 0.05, 0.05];
+            let settings = Settings {
+                model,
+                noise,
+                command,
+                odometry_alphas,
+                samples: 1_000_000,
+                ..Settings::default()
+            };
+            let machine = BananaMachine::new(settings).expect("a valid setting");
+            let (Figures { gain, area_ratio, exponential, .. }, table) = (machine.figures(), machine.table());
+            let what = format!("{model:?} {noise:?} {command:?}");
+            let exact = table.exact.likelihood_gain;
+            assert_close(&what, gain.value.pose, exact.pose, SIGMAS * gain.error.pose);
+            assert_close(&what, gain.value.floor, exact.floor, SIGMAS * gain.error.floor);
+            // Of n robots, either area is known to some 2/√n of it.
+            assert_close(&what, *area_ratio, table.exact.area_ratio, SIGMAS * 0.003);
+            let expected = machine.exact_gain().exponential;
+            for i in 0..3 {
+                let size = expected.cov[(i, i)].sqrt();
+                assert_close(&what, exponential.mean[i], expected.mean[i], SIGMAS * size * 1e-3);
+            }
+        }
+    }
+}
+
+/// What others measured with four million robots, rounded to the last digit printed. The shares inside the outlines are
+/// known to √(0.117/n), the skews are exact.
+#[test]
+fn the_published_figures_are_met() {
+    const ROBOTS: usize = 4_000_000;
+    for (command, alphas, pose, area_ratio, inside, skew) in [
+        (GENTLE, OPENING, 0.124, 1.007, 0.869, -0.431),
+        (HARD, OPENING, 0.260, 0.978, 0.872, -0.466),
+        (STRAIGHT, FAN, 0.848, 1.97, 0.893, 0.0),
+    ] {
+        let machine = machine(command, alphas, ROBOTS);
+        let (figures, exact) = (machine.figures(), machine.table().exact);
+        // The published figure is of another cloud, with as much of an error.
+        assert_close(
+            "gain",
+            figures.gain.value.pose,
+            pose,
+            5e-4 + SIGMAS * 2f64.sqrt() * figures.gain.error.pose,
+        );
+        assert_close("exact gain", exact.likelihood_gain.pose, pose, 5e-4 + SIGMAS * figures.gain.error.pose);
+        assert_close(
+            "area ratio",
+            figures.area_ratio,
+            area_ratio,
+            if area_ratio > 1.5 { 5e-3 } else { 1.5e-3 },
+        );
+        let error = SIGMAS * 2f64.sqrt() * (0.117 / ROBOTS as f64).sqrt();
+        assert_close("ellipse", figures.inside_ellipse, inside, 5e-4 + error);
+        assert_close("exponential", figures.inside_exponential, 0.865, 5e-4 + error);
+        assert_close("skew", exact.cross_track_skew, skew, 5e-4);
+        assert!(figures.gain.error.pose < 2e-3 && figures.gain.error.floor < 1e-3);
+    }
+}
+
+/// γ̂ only turns the robot where it stands.
+#[test]
+fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
+    for Preset { command, .. } in PRESETS {
+        let of = |last: f64| {
+            let machine = machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
+            [machine.figures().gain.value.floor, machine.exact_gain().value.floor]
+        };
+        let without = of(0.0);
+        assert!(without.iter().all(|gain| gain.is_finite()), "{command:?}");
+        for last in [1e-9, 0.01, 0.3] {
+            for (gain, without) in of(last).into_iter().zip(without) {
+                assert_close("floor", gain, without, 1e-12);
+            }
+        }
+    }
+    // Even where headings go round so far that exponential coordinates end.
+    let wild = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
+    assert!(!wild.chart_holds());
+    let Figures { gain, area_ratio, .. } = wild.figures();
+    assert!(gain.value.pose.is_nan() && gain.error.pose.is_nan() && area_ratio.is_nan());
+    assert_close(
+        "floor",
+        gain.value.floor,
+        machine(GENTLE, OPENING, 10_000).figures().gain.value.floor,
+        1e-12,
+    );
+}
+
+// --------------------------------------------------------------------------------------------------- the areas
+
+/// The outlines as the page has them: the shoelace formula.
+#[test]
+fn the_ratio_is_that_of_the_areas_drawn() {
+    let area = |outline: &[[f64; 2]]| -> f64 {
+        outline.windows(2).map(|w| 0.5 * (w[0][0] * w[1][1] - w[1][0] * w[0][1])).sum::<f64>().abs()
+    };
+    for (command, alphas) in
+        [(GENTLE, OPENING), (HARD, OPENING), (STRAIGHT, FAN), (VelocityCmd { v: -1.0, ..HARD }, FAN)]
+    {
+        let machine = machine(command, alphas, 5000);
+        let contours = machine.contours();
+        let ratio = area(&contours.ellipse) / area(&contours.exponential);
+        assert_close("ratio", machine.figures().area_ratio, ratio, 1e-12 * ratio);
+    }
+}
+
+/// Without γ̂ the outline is the image of the 2σ ellipse of (s, φ), whose area is the integral of |s|·sinc²(φ/2)/2; under
+/// Pivot a third of the robots go in reverse, and the image is two loops. Midpoints, 2000 a side: the integrand has a crease
+/// where s = 0, and the ellipse an edge, which cost 1e-5; 128 chords of a curve that is no circle cost 1e-3.
+#[test]
+fn the_outline_has_the_area_of_what_it_is_the_image_of() {
+    for Preset { command, .. } in PRESETS {
+        let alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.0, 0.0]);
+        let model = VelocityModel { alphas, noise: NoiseKind::Normal };
+        let machine = machine(command, alphas.0, 10);
+        let exact = machine.exact();
+        let [length, turn, _] = model.variances(&command).map(|variance| variance.0.sqrt() * command.dt);
+        const SIDE: u32 = 2000;
+        let at = |i: u32| 2.0 * (2.0 * (f64::from(i) + 0.5) / f64::from(SIDE) - 1.0);
+        let mut sum = 0.0;
+        for (a, b) in (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| (at(i), at(j)))) {
+            if a * a + b * b <= 4.0 {
+                let (s, half) =
+                    (command.v * command.dt + length * a, 0.5 * (command.omega * command.dt + turn * b));
+                sum += 0.5 * s.abs() * (half.sin() / half).powi(2);
+            }
+        }
+        let image = sum * length * turn * (4.0 / f64::from(SIDE)).powi(2);
+        let ellipse = 4.0 * PI * exact.cov.fixed_view::<2, 2>(0, 0).determinant().sqrt();
+        assert_close("ratio", machine.table().exact.area_ratio, ellipse / image, 2e-3 * ellipse / image);
+    }
+}
+
+// ----------------------------------------------------------------------------------------- without a meaning
+
+/// Without γ̂ the cloud is a surface among the poses, and flat in exponential coordinates.
+#[test]
+fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
+    for noise in KINDS {
+        for Preset { command, .. } in PRESETS {
+            for samples in [5, 2000, 100_000] {
+                let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
+                let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };
+                let flat = BananaMachine::new(settings).expect("a valid setting");
+                let MeasuredGain { value, error } = flat.figures().gain;
+                assert!(
+                    value.pose == f64::INFINITY && error.pose.is_nan(),
+                    "{command:?} {samples}: {value:?}"
+                );
+                assert!(value.floor.is_finite() && error.floor > 0.0, "{command:?} {samples}");
+                let exact = flat.table().exact.likelihood_gain;
+                assert!(exact.pose == f64::INFINITY && exact.floor.is_finite(), "{command:?}");
+                // A little of it, and it is as large as it should be: half a nat for every factor e of the variance.
+                let of = |last: f64| {
+                    machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).figures().gain.value.pose
+                };
+                assert_close("growth", of(1e-16) - of(1e-14), 100f64.ln() / 2.0, 1e-4);
+            }
+        }
+    }
+    // A curve in the plane that is a straight line in exponential coordinates.
+    let fan = machine(STRAIGHT, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
+    let Figures { gain, area_ratio, .. } = fan.figures();
+    assert!(gain.value.pose == f64::INFINITY && gain.value.floor == f64::INFINITY && area_ratio.is_nan());
+    assert_eq!(fan.table().exact.likelihood_gain, gain.value);
+}
+
+fn all(figures: &Figures) -> [f64; 11] {
+    let Figures { cross_track, gaussian_skew, inside_ellipse, inside_exponential, gain, area_ratio, .. } =
+        *figures;
+    let MeasuredGain { value, error } = gain;
+    [
+        cross_track.skew,
+        cross_track.skew_error,
+        cross_track.rho_heading,
+        gaussian_skew,
+        inside_ellipse,
+        inside_exponential,
+        area_ratio,
+        value.pose,
+        error.pose,
+        value.floor,
+        error.floor,
+    ]
+}
+
+/// One point, for all that its headings do to exponential coordinates, has neither skew nor shape nor inside.
+#[test]
+fn figures_of_one_point_are_nan() {
+    for alphas in [[0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.0, 0.0, 0.4]] {
+        for [v, omega, dt] in
+            [[1.0, 0.5, 1.0], [1.0, 1.2, 1.4], [-300.0, 0.01, 7.0], [1e-6, 1.5, 1.0], [0.0, 1.0, 1.0]]
+        {
+            for noise in KINDS {
+                let command = VelocityCmd { v, omega, dt };
+                let settings = Settings {
+                    command,
+                    velocity_alphas: alphas,
+                    noise,
+                    samples: 5000,
+                    ..Settings::default()
+                };
+                let machine = BananaMachine::new(settings).expect("a valid setting");
+                let figures = all(machine.figures());
+                assert!(figures.iter().all(|figure| figure.is_nan()), "{command:?} {alphas:?}: {figures:?}");
+                let exact = machine.table().exact;
+                assert!(exact.likelihood_gain.pose.is_nan() && exact.likelihood_gain.floor.is_nan());
+                assert!(exact.area_ratio.is_nan() && exact.cross_track_skew.is_nan());
+            }
+        }
+    }
+}
+
+/// On a line through the start there is nothing to gain, whatever the headings.
+#[test]
+fn a_line_has_no_gain() {
+    for (command, alphas) in [
+        (STRAIGHT, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (STRAIGHT, [0.1, 0.0, 0.0, 0.0, 0.1, 0.0]),
+        (GENTLE, [0.1, 0.1, 0.0, 0.0, 0.0, 0.0]),
+    ] {
+        let machine = machine(command, alphas, 5000);
+        for gain in [machine.figures().gain.value, machine.table().exact.likelihood_gain] {
+            assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{command:?} {alphas:?}: {gain:?}");
+        }
+        assert!(machine.figures().area_ratio.is_nan() && machine.figures().inside_ellipse.is_nan());
+    }
+}
+
+/// Noise may be a millionth of the motion, and the motion a kilometre: that is no rounding.
+#[test]
+fn tiny_noise_keeps_its_figures() {
+    for [v, omega, dt] in [[1.0, 0.5, 1.0], [500.0, 0.3, 2.0], [1e-3, 0.5, 1.0], [0.06, 1.5, 1.0]] {
+        for alpha in [1e-12, 1e-9] {
+            let command = VelocityCmd { v, omega, dt };
+            // Of the turn what a metre a second would have: α₃ and α₅ count square metres.
+            let turning = alpha / (v * v);
+            let machine = machine(command, [alpha, alpha * v * v, turning, alpha, turning, alpha], 20_000);
+            let figures = all(machine.figures());
+            assert!(figures.iter().all(|figure| figure.is_finite()), "{command:?} {alpha}: {figures:?}");
+            // So little noise is straight in any coordinates.
+            assert!(figures[7].abs() < 1e-3 && figures[9].abs() < 1e-3, "{command:?} {alpha}: {figures:?}");
+            assert_close("share", figures[4], 1.0 - (-2f64).exp(), SIGMAS * (0.117f64 / 20_000.0).sqrt());
+        }
+    }
+}
+
+/// Few robots have a gain from four on, and from three on the floor.
+#[test]
+fn a_gain_needs_more_robots_than_dimensions() {
+    let mut rng = seeded(611);
+    for count in 0..8 {
+        let cloud: Vec<SE2> = (0..count)
+            .map(|_| {
+                SE2::new(
+                    1.0 + uniform(&mut rng, -0.2, 0.2),
+                    uniform(&mut rng, -0.2, 0.2),
+                    uniform(&mut rng, -0.3, 0.3),
+                )
+            })
+            .collect();
+        let MeasuredGain { value, error } = MeasuredGain::from_poses(&cloud, &SE2::identity(), 0.0);
+        assert_eq!((value.pose.is_nan(), error.pose.is_nan()), (count < 4, count < 4), "{count}");
+        assert_eq!((value.floor.is_nan(), error.floor.is_nan()), (count < 3, count < 3), "{count}");
+    }
+    let none = ExponentialMoments::from_poses(&[], &SE2::identity());
+    assert!(none.mean.x.is_nan());
+}

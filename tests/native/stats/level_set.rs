@@ -1,0 +1,156 @@
+//! Contour lines against what is known of the field, and those of Arc Anatomy's maps against the models.
+
+use crate::common::{seeded, uniform};
+use motion::geom::se2::SE2;
+use motion::sim::arc_anatomy::{ArcAnatomy, LEVELS, Mapped, Settings, Surface};
+use motion::stats::level_set;
+use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
+
+fn field(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    (0..columns * rows).map(|i| value((i % columns) as f64, (i / columns) as f64)).collect()
+}
+
+/// Between points a step apart the square of the distance leaves its chord by a quarter at most, and so the circle is missed by a
+/// quarter over the sum of both distances.
+#[test]
+fn a_circle_is_one_closed_line() {
+    for radius in [2.3, 7.9, 14.2] {
+        let square = |x: f64, y: f64| (x - 20.1).powi(2) + (y - 15.7).powi(2);
+        let lines = level_set(&field(41, 33, square), 41, radius * radius);
+        let [line] = lines.as_slice() else { panic!("{} lines", lines.len()) };
+        assert_eq!(line.first(), line.last());
+        let allowed = 0.2501 / (2.0 * radius - 0.1);
+        for [x, y] in line {
+            assert!((square(*x, *y).sqrt() - radius).abs() < allowed, "{radius}: {x} {y}");
+        }
+        // All the way round: the lengths of its chords.
+        let length: f64 =
+            line.windows(2).map(|ends| (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])).sum();
+        assert!((length / (std::f64::consts::TAU * radius) - 1.0).abs() < 0.05, "{length}");
+    }
+}
+
+#[test]
+fn a_plane_has_one_line_from_rim_to_rim() {
+    let lines = level_set(&field(9, 6, |x, y| 2.0 * x + y), 9, 8.3);
+    let [line] = lines.as_slice() else { panic!("{} lines", lines.len()) };
+    assert!(line.iter().all(|[x, y]| (2.0 * x + y - 8.3).abs() < 1e-12));
+    let on_rim = |[x, y]: [f64; 2]| x == 0.0 || y == 0.0 || x == 8.0 || y == 5.0;
+    let rims = line.iter().filter(|point| on_rim(**point)).count();
+    assert!(on_rim(line[0]) && on_rim(line[line.len() - 1]) && rims == 2, "{line:?}");
+}
+
+#[test]
+fn a_saddle_is_parted_as_the_mean_of_its_corners_says() {
+    for (level, joined) in [(0.4, true), (0.6, false)] {
+        let lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
+        assert_eq!(lines.len(), 2);
+        // Two lines that cut off the low corners, or the high ones.
+        let cut = |corner: [f64; 2]| {
+            lines
+                .iter()
+                .any(|line| line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0))
+        };
+        assert_eq!(cut([1.0, 0.0]) && cut([0.0, 1.0]), joined, "{lines:?}");
+        assert_eq!(cut([0.0, 0.0]) && cut([1.0, 1.0]), !joined, "{lines:?}");
+    }
+}
+
+/// Of a field of noise: each edge whose ends lie on two sides is crossed once, lines end where they began or at the rim, and no
+/// two points of a line are more than a cell apart.
+#[test]
+fn of_noise_no_crossing_is_missed() {
+    let mut rng = seeded(21);
+    let (columns, rows) = (23, 17);
+    let values: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
+    let mut crossings = 0;
+    for i in 0..columns * rows {
+        let other = |k: usize| usize::from((values[i] > 0.2) != (values[k] > 0.2));
+        crossings += if i % columns + 1 < columns { other(i + 1) } else { 0 };
+        crossings += if i / columns + 1 < rows { other(i + columns) } else { 0 };
+    }
+    let lines = level_set(&values, columns, 0.2);
+    let mut points = 0;
+    for line in &lines {
+        let closed = line.len() > 2 && line.first() == line.last();
+        points += line.len() - usize::from(closed);
+        let on_rim =
+            |[x, y]: [f64; 2]| x == 0.0 || y == 0.0 || x == (columns - 1) as f64 || y == (rows - 1) as f64;
+        assert!(closed || (on_rim(line[0]) && on_rim(line[line.len() - 1])), "{line:?}");
+        for ends in line.windows(2) {
+            assert!((ends[1][0] - ends[0][0]).abs().max((ends[1][1] - ends[0][1]).abs()) <= 1.0);
+        }
+    }
+    assert_eq!(points, crossings);
+}
+
+#[test]
+fn what_is_small_or_flat_has_no_lines() {
+    for (values, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
+        assert!(level_set(&values, columns, 0.5).is_empty());
+    }
+}
+
+fn surface(settings: Settings) -> Surface {
+    let machine = ArcAnatomy::new(settings).expect("valid settings");
+    machine.surface([-0.5, -1.0], [2.0, 1.5]).expect("a map")
+}
+
+/// A contour's height by the models themselves. Within a cell of h = 0.028 m the logarithm of p leaves its chord by h²/8 times its
+/// second derivative. Most of that is across the way, where the arc turns by 2/d a metre at the distance d: from 0.7 m on
+/// (2/d)² · (1/σ_ω² + 1/σ_γ²) < 770, which is 0.075.
+#[test]
+fn contours_are_where_the_models_have_their_levels() {
+    let settings = Settings { map: Mapped::Density, ..Settings::default() };
+    let Surface { columns, rows, shades, prob, density } = surface(settings);
+    assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
+    let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
+    let start = SE2::identity();
+    let value = |[x, y]: [f64; 2], wanted: Mapped| {
+        let next = SE2::new(x, y, settings.next.theta);
+        match wanted {
+            Mapped::Prob => model.prob(&next, &settings.command, &start),
+            _ => model.pose_density(&next, &settings.command, &start).expect("noise of full rank"),
+        }
+    };
+    let place = |i: usize| {
+        let [column, row] = [i % columns, i / columns].map(|index| index as f64 + 0.5);
+        [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
+    };
+    for (lines, wanted) in [(&prob, Mapped::Prob), (&density, Mapped::Density)] {
+        let top = (0..shades.len()).map(|i| value(place(i), wanted)).fold(0.0, f64::max);
+        assert!(lines.len() >= LEVELS.len());
+        for point in lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
+            let height = value(*point, wanted) / top;
+            let level =
+                LEVELS.into_iter().min_by(|a, b| (height / a).ln().abs().total_cmp(&(height / b).ln().abs()));
+            assert!((height / level.expect("a level") - 1.0).abs() < 0.078, "{point:?} {height}");
+        }
+    }
+    let top = (0..shades.len()).map(|i| value(place(i), Mapped::Density)).fold(0.0, f64::max);
+    for (i, shade) in shades.iter().enumerate() {
+        let expected = 255.0 * value(place(i), Mapped::Density) / top;
+        assert!((f64::from(*shade) - expected).abs() <= 0.5 + 1e-9);
+    }
+}
+
+#[test]
+fn a_map_of_nothing_is_none_and_one_without_noise_is_empty() {
+    let machine = ArcAnatomy::new(Settings::default()).expect("valid settings");
+    assert_eq!(machine.surface([-1.0; 2], [1.0; 2]), None);
+    let noiseless = Settings { alphas: [0.0; 6], map: Mapped::Prob, ..Settings::default() };
+    let Surface { shades, prob, density, .. } = surface(noiseless);
+    assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
+    // Nobody is frozen by noise that turns the robot round many times, nor by a rectangle without an area.
+    let wild = Settings { alphas: [1e6; 6], map: Mapped::Density, ..Settings::default() };
+    let Surface { shades, .. } = surface(wild);
+    assert!((100..1000).contains(&shades.len()));
+    let command = VelocityCmd { v: 1e6, omega: 1e6, dt: 1e6 };
+    let machine = ArcAnatomy::new(Settings { command, ..wild }).expect("valid settings");
+    for (min, max) in
+        [([0.0; 2], [0.0; 2]), ([-1e18; 2], [1e18; 2]), ([0.0; 2], [0.0, 1.0]), ([0.0; 2], [1.0, 0.0])]
+    {
+        let Surface { columns, rows, shades, .. } = machine.surface(min, max).expect("a map");
+        assert_eq!(shades.len(), columns * rows);
+    }
+}

@@ -1,0 +1,495 @@
+//! What a cloud says of itself, and what a model says without one.
+
+use crate::common::{KINDS, SIGMAS, Table, mean, seeded, uniform, variance, with_standard_error};
+use motion::geom::se2::{SE2, wrap_angle};
+use motion::sim::banana::{BananaMachine, Settings};
+use motion::stats::{
+    CartesianMoments, CrossTrack, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
+    cross_track_skew, predicted_cross_track_skew,
+};
+use motion::{
+    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, Variance,
+    VelocityAlphas, VelocityCmd, VelocityModel,
+};
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::PI;
+
+const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const OPENING: VelocityAlphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+
+/// A share of 1 − exp(−2²/2) of a Gaussian of two dimensions lies within two standard deviations.
+const TWO_SIGMA_SHARE: f64 = 0.864_664_716_763_387_3;
+
+fn cloud(kind: NoiseKind, count: usize, seed: u64) -> Vec<SE2> {
+    let model = VelocityModel { alphas: OPENING, noise: kind };
+    let mut rng = seeded(seed);
+    (0..count).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
+}
+
+/// A Gaussian cloud in (x, y), headings Gaussian and independent.
+fn gaussian_cloud(count: usize, seed: u64) -> Vec<SE2> {
+    let mut rng = seeded(seed);
+    let mut normal = |b2| NoiseKind::Normal.sample(Variance(b2), &mut rng);
+    (0..count)
+        .map(|_| {
+            let (x, y) = (normal(0.04), normal(0.01));
+            SE2::new(3.0 + x, -1.0 + 0.4 * x + y, normal(0.05))
+        })
+        .collect()
+}
+
+/// Moments by the definitions, sums in plain loops.
+#[test]
+fn moments_are_what_their_definitions_say() {
+    let poses = cloud(NoiseKind::Normal, 500, 130);
+    let columns: [Vec<f64>; 3] = [
+        poses.iter().map(SE2::x).collect(),
+        poses.iter().map(SE2::y).collect(),
+        poses.iter().map(SE2::theta).collect(),
+    ];
+    let moments = CartesianMoments::from_poses(&poses);
+    assert!((moments.mean.x - mean(&columns[0])).abs() < 1e-14);
+    assert!((moments.mean.y - mean(&columns[1])).abs() < 1e-14);
+    let (sin, cos) = columns[2].iter().fold((0.0, 0.0), |(s, c), t| (s + t.sin(), c + t.cos()));
+    assert!((moments.mean.z - f64::atan2(sin, cos)).abs() < 1e-14);
+    for i in 0..3 {
+        assert!((moments.cov[(i, i)] / variance(&columns[i]) - 1.0).abs() < 1e-12, "over n − 1");
+        for j in 0..3 {
+            let (mi, mj) = (mean(&columns[i]), mean(&columns[j]));
+            let sum: f64 = columns[i].iter().zip(&columns[j]).map(|(a, b)| (a - mi) * (b - mj)).sum();
+            assert!((moments.cov[(i, j)] - sum / 499.0).abs() < 1e-14);
+        }
+    }
+    let start = SE2::new(0.3, -0.2, 0.1);
+    let twists: Vec<Vector3<f64>> = poses.iter().map(|pose| pose.boxminus(&start)).collect();
+    let exponential = ExponentialMoments::from_poses(&poses, &start);
+    let centre = twists.iter().sum::<Vector3<f64>>() / 500.0;
+    let scatter = twists.iter().map(|t| (t - centre) * (t - centre).transpose()).sum::<Matrix3<f64>>();
+    assert!((exponential.mean - centre).amax() < 1e-14);
+    assert!((exponential.cov - scatter / 499.0).amax() < 1e-14);
+}
+
+/// Headings on either side of the cut average to one beside it, not to one opposite.
+#[test]
+fn headings_are_averaged_on_the_circle() {
+    let near_cut: Vec<SE2> = (-50..=50)
+        .map(|i| SE2::new(0.01 * f64::from(i), 0.02 * f64::from(i * i), PI + 0.004 * f64::from(i)))
+        .collect();
+    let moments = CartesianMoments::from_poses(&near_cut);
+    assert!(wrap_angle(moments.mean.z - PI).abs() < 1e-12);
+    assert!(
+        (moments.cov[(2, 2)] / (0.004f64.powi(2) * 858.5) - 1.0).abs() < 1e-12,
+        "{}",
+        moments.cov[(2, 2)]
+    );
+
+    // Moments and cross-track figures turn and shift with the frame.
+    let poses = cloud(NoiseKind::Triangular, 2000, 131);
+    let (moments, figures) = (CartesianMoments::from_poses(&poses), CrossTrack::from_poses(&poses));
+    for frame in [SE2::new(0.0, 0.0, 2.7), SE2::new(5.0, -8.0, -1.9), SE2::new(-2.0, 3.0, PI)] {
+        let moved: Vec<SE2> = poses.iter().map(|pose| frame * *pose).collect();
+        let turned = CartesianMoments::from_poses(&moved);
+        let expected = frame * SE2::new(moments.mean.x, moments.mean.y, moments.mean.z);
+        let mean = SE2::new(turned.mean.x, turned.mean.y, turned.mean.z);
+        assert!(crate::common::pose_distance(&mean, &expected) < 1e-12);
+        let rotation = SE2::new(0.0, 0.0, frame.theta()).adjoint();
+        assert!((turned.cov - rotation * moments.cov * rotation.transpose()).amax() < 1e-12);
+        let there = CrossTrack::from_poses(&moved);
+        assert!(
+            (there.skew - figures.skew).abs() < 1e-10
+                && (there.skew_error - figures.skew_error).abs() < 1e-10
+        );
+        assert!((there.rho_heading - figures.rho_heading).abs() < 1e-10);
+    }
+}
+
+#[test]
+fn cross_track_figures_are_what_their_definitions_say() {
+    let poses = cloud(NoiseKind::Normal, 3000, 132);
+    let moments = CartesianMoments::from_poses(&poses);
+    let heading = moments.mean.z;
+    let d: Vec<f64> = poses
+        .iter()
+        .map(|p| -(p.x() - moments.mean.x) * heading.sin() + (p.y() - moments.mean.y) * heading.cos())
+        .collect();
+    let power = |k: i32| d.iter().map(|d| d.powi(k)).sum::<f64>() / d.len() as f64;
+    let figures = CrossTrack::from_poses(&poses);
+    assert!((figures.skew - power(3) / power(2).powf(1.5)).abs() < 1e-12);
+    assert_eq!(cross_track_skew(&poses), figures.skew);
+    let turns: Vec<f64> = poses.iter().map(SE2::theta).collect();
+    let centre = mean(&turns);
+    let shared: f64 = d.iter().zip(&turns).map(|(d, t)| d * (t - centre)).sum::<f64>() / (d.len() - 1) as f64;
+    let rho = shared / (variance(&d) * variance(&turns)).sqrt();
+    assert!((figures.rho_heading - rho).abs() < 1e-3, "{} {rho}", figures.rho_heading);
+    // By hand: two poses on one side for every one twice as far on the other have m₃/m₂^1.5 = −1/√2.
+    let lopsided = [(0.0, 1.0), (5.0, 1.0), (3.0, -2.0)].map(|(x, y)| SE2::new(x, y, 0.0));
+    assert!((cross_track_skew(&lopsided) + 0.5f64.sqrt()).abs() < 1e-15);
+}
+
+/// A fan: the further along the track, the wider across it; headings Gaussian and independent. The mean heading is then
+/// the larger part of what makes its skew uncertain.
+fn fan_cloud(count: usize, seed: u64) -> Vec<SE2> {
+    let mut rng = seeded(seed);
+    (0..count)
+        .map(|_| {
+            let along = uniform(&mut rng, 0.0, 2.0);
+            let across = 0.1 * along * NoiseKind::Normal.sample(Variance(1.0), &mut rng);
+            SE2::new(along, across, NoiseKind::Normal.sample(Variance(0.25), &mut rng))
+        })
+        .collect()
+}
+
+/// The standard error that a cloud reports is the spread of the skews of many clouds. The spread over 2000 clouds is
+/// known to √((κ − 1)/4/2000) ≈ 1.6 % of it; the mean of the reports, from sixth moments, is biased by some 1/n of
+/// them, which the larger clouds show to vanish.
+#[test]
+fn the_reported_error_of_the_skew_is_its_spread() {
+    const CLOUDS: usize = 2000;
+    for (make, count, allowed) in [
+        (cloud as fn(NoiseKind, usize, u64) -> Vec<SE2>, 2000, 0.08),
+        (|_, count, seed| gaussian_cloud(count, seed), 1000, 0.08),
+        (|_, count, seed| fan_cloud(count, seed), 1000, 0.08),
+    ] {
+        let figures: Vec<CrossTrack> = (0..CLOUDS)
+            .map(|i| CrossTrack::from_poses(&make(NoiseKind::Normal, count, 10_000 + i as u64)))
+            .collect();
+        let skews: Vec<f64> = figures.iter().map(|f| f.skew).collect();
+        let reports: Vec<f64> = figures.iter().map(|f| f.skew_error * f.skew_error).collect();
+        let ratio = (mean(&reports) / variance(&skews)).sqrt();
+        assert!((ratio - 1.0).abs() < allowed, "{count} poses: reported over observed is {ratio}");
+    }
+}
+
+#[test]
+fn a_gaussian_in_the_plane_has_no_skew_and_exact_shares() {
+    let poses = gaussian_cloud(400_000, 133);
+    let figures = CrossTrack::from_poses(&poses);
+    assert!(figures.skew.abs() < SIGMAS * figures.skew_error, "{figures:?}");
+    // For independent headings the error of a Gaussian's skew is √(6/n).
+    assert!((figures.skew_error / (6.0 / 400_000f64).sqrt() - 1.0).abs() < 0.05, "{figures:?}");
+    assert!(figures.rho_heading.abs() < SIGMAS / 400_000f64.sqrt());
+    let ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
+    let share = poses.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count() as f64 / 400_000.0;
+    let error = (TWO_SIGMA_SHARE * (1.0 - TWO_SIGMA_SHARE) / 400_000.0).sqrt();
+    assert!((share - TWO_SIGMA_SHARE).abs() < SIGMAS * error, "{share}");
+}
+
+#[test]
+fn the_ellipse_is_at_two_deviations() {
+    let cov = Matrix3::new(0.09, 0.03, 0.0, 0.03, 0.05, 0.0, 0.0, 0.0, 0.2);
+    let moments = CartesianMoments { mean: Vector3::new(1.0, -2.0, 0.5), cov };
+    let ellipse = Ellipse::from_moments(&moments);
+    let outline = ellipse.boundary(64);
+    assert_eq!(outline.first(), outline.last());
+    let inverse = cov.fixed_view::<2, 2>(0, 0).try_inverse().unwrap();
+    for &[x, y] in &outline {
+        let offset = nalgebra::Vector2::new(x - 1.0, y + 2.0);
+        assert!((offset.dot(&(inverse * offset)) - 4.0).abs() < 1e-12);
+        let at = |scale: f64| [1.0 + scale * offset.x, -2.0 + scale * offset.y];
+        assert!(ellipse.contains(at(0.999)) && !ellipse.contains(at(1.001)));
+    }
+    let area: f64 = outline.windows(2).map(|w| 0.5 * (w[0][0] * w[1][1] - w[1][0] * w[0][1])).sum();
+    let whole = 4.0 * PI * cov.fixed_view::<2, 2>(0, 0).determinant().sqrt();
+    assert!((area.abs() / whole - 1.0).abs() < 0.01, "the outline encloses the ellipse, {area} of {whole}");
+}
+
+/// The contour pushed through exp holds what its name says: all of it where ξ is Gaussian and of rank 2, and the
+/// outline separates inside from outside.
+#[test]
+fn the_exponential_contour_covers_two_deviations() {
+    let start = SE2::new(2.0, -1.0, 0.8);
+    let alphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
+    let model = VelocityModel { alphas, noise: NoiseKind::Normal };
+    let mut rng = seeded(134);
+    let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&U, &start, &mut rng)).collect();
+    let share = |moments: &ExponentialMoments| {
+        let contour = ExponentialContour::new(moments, &start);
+        poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 200_000.0
+    };
+    let error = (TWO_SIGMA_SHARE * (1.0 - TWO_SIGMA_SHARE) / 200_000.0).sqrt();
+    let exact =
+        ExponentialMoments { mean: TangentNoiseModel::twist(&U), cov: model.tangent_cov(&U).unwrap() };
+    assert!((share(&exact) - TWO_SIGMA_SHARE).abs() < SIGMAS * error, "{}", share(&exact));
+    let fitted = share(&ExponentialMoments::from_poses(&poses, &start));
+    assert!((fitted - TWO_SIGMA_SHARE).abs() < SIGMAS * error, "{fitted}");
+
+    let contour = ExponentialContour::new(&exact, &start);
+    let outline = contour.boundary(48);
+    assert_eq!(outline.first(), outline.last());
+    for &[x, y] in &outline {
+        // In exponential coordinates the outline is the 2σ ellipse of (along, heading).
+        let executed = motion::invert_arc(&start, &SE2::new(x, y, 0.0), 1.0);
+        let radius = ((executed.v_hat - 1.0).powi(2) + (executed.omega_hat - 0.5).powi(2)) / 0.025;
+        assert!((radius - 4.0).abs() < 1e-9, "{radius}");
+        for (scale, inside) in [(0.99, true), (1.01, false)] {
+            let v = 1.0 + scale * (executed.v_hat - 1.0);
+            let turn = 0.5 + scale * (executed.omega_hat - 0.5);
+            assert_eq!(contour.contains(&start.boxplus(Vector3::new(v, 0.0, turn))), inside);
+        }
+    }
+    // A banana in the plane is not an ellipse: its own 2σ ellipse misses the mark.
+    let wide = cloud(NoiseKind::Normal, 200_000, 135);
+    let ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&wide));
+    let share = wide.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count() as f64 / 200_000.0;
+    assert!((share - TWO_SIGMA_SHARE).abs() > SIGMAS * error, "{share}");
+}
+
+/// The outline of a full ellipsoid is the rim of its shadow as nearly as a great circle can be: of all ξ that lead to a
+/// point of it, whatever their heading, the nearest to the mean is two deviations away, or a little less. The nearest is
+/// found by brute force over headings.
+#[test]
+fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
+    let cases = [
+        (
+            Vector3::new(1.0, 0.0, 0.5),
+            Matrix3::new(0.06, 0.001, 0.002, 0.001, 0.003, -0.006, 0.002, -0.006, 0.08),
+        ),
+        (Vector3::new(1.4, 0.1, -1.2), Matrix3::new(0.05, 0.0, 0.01, 0.0, 0.02, 0.01, 0.01, 0.01, 0.1)),
+    ];
+    for (mean, cov) in cases {
+        let start = SE2::new(2.0, -1.0, 0.7);
+        let precision = cov.try_inverse().unwrap();
+        let spread = f64::sqrt(cov[(2, 2)]);
+        for [x, y] in ExponentialContour::new(&ExponentialMoments { mean, cov }, &start).boundary(48) {
+            let distance = |heading: f64| {
+                let step = start.inverse() * SE2::new(x, y, start.theta() + heading);
+                let offset = step.log_near(heading) - mean;
+                offset.dot(&(precision * offset)).sqrt()
+            };
+            // 4001 headings over three deviations either way: near the least, the distance is off by its curvature times
+            // half a step squared, below 1e-5.
+            let headings = (0..=4000).map(|i| mean.z + spread * 3.0 * (f64::from(i) / 2000.0 - 1.0));
+            let least = headings.map(distance).fold(f64::INFINITY, f64::min);
+            assert!((1.9..2.0 + 1e-5).contains(&least), "({x}, {y}) is {least} deviations away");
+        }
+    }
+}
+
+/// With γ̂ the coordinates are still inside the contour about as often as they should be.
+#[test]
+fn the_exponential_contour_of_a_full_rank_cloud_is_close_to_nominal() {
+    for kind in KINDS {
+        let poses = cloud(kind, 100_000, 136);
+        let contour = ExponentialContour::new(
+            &ExponentialMoments::from_poses(&poses, &SE2::identity()),
+            &SE2::identity(),
+        );
+        let share = poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 100_000.0;
+        // Two independent triangular coordinates hold 0.8651 within two deviations (by quadrature), Gaussians 0.8647.
+        let nominal = if kind == NoiseKind::Normal { TWO_SIGMA_SHARE } else { 0.8651 };
+        assert!((share - nominal).abs() < 0.006, "{kind:?}: {share}");
+    }
+}
+
+#[test]
+fn predicted_skews_match_the_references() {
+    for row in Table::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
+        let mean = Vector3::from(row.all(["a", "b", "w"]));
+        let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
+        let skew = predicted_cross_track_skew(&mean, &cov);
+        assert!((skew - row.get("skew")).abs() < 1e-12, "{mean} {cov}: {skew}, not {}", row.get("skew"));
+    }
+}
+
+/// The quadrature against a cloud drawn from the same Gaussian.
+#[test]
+fn predicted_skews_match_clouds() {
+    let cov = Matrix3::new(0.09, 0.02, 0.03, 0.02, 0.05, -0.02, 0.03, -0.02, 0.12);
+    let start = SE2::new(-1.0, 2.0, -2.5);
+    for (seed, omega) in [(140, 0.9), (141, -1.4), (142, 0.0)] {
+        let u = VelocityCmd { v: 1.0, omega, dt: 1.0 };
+        let model = TangentNoiseModel::new(cov).unwrap();
+        let mut rng = seeded(seed);
+        let poses: Vec<SE2> = (0..400_000).map(|_| model.sample(&u, &start, &mut rng)).collect();
+        let figures = CrossTrack::from_poses(&poses);
+        let predicted = predicted_cross_track_skew(&TangentNoiseModel::twist(&u), &cov);
+        assert!(
+            (predicted - figures.skew).abs() < SIGMAS * figures.skew_error,
+            "{predicted}, measured {figures:?}"
+        );
+    }
+}
+
+const MOMENTS: [&str; 8] = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt"];
+
+fn assert_exact(exact: &ExactMoments, row: &crate::common::Row<'_>) {
+    let computed = [
+        exact.mean.x,
+        exact.mean.y,
+        exact.cov[(0, 0)],
+        exact.cov[(0, 1)],
+        exact.cov[(1, 1)],
+        exact.cov[(0, 2)],
+        exact.cov[(1, 2)],
+        exact.cov[(2, 2)],
+    ];
+    for (name, value) in MOMENTS.into_iter().zip(computed) {
+        assert!((value - row.get(name)).abs() < 1e-14, "{name}: {value}, not {}", row.get(name));
+    }
+    assert!((exact.cov - exact.cov.transpose()).amax() < 1e-15);
+    let skew = exact.cross_track_skew;
+    assert!((skew - row.get("skew")).abs() < 1e-12, "skew {skew}, not {}", row.get("skew"));
+}
+
+#[test]
+fn exact_moments_match_the_references() {
+    for row in Table::parse(include_str!("../../reference/velocity_moments.csv")).rows() {
+        let alphas = VelocityAlphas(row.all(["a1", "a2", "a3", "a4", "a5", "a6"]));
+        let [v, omega, dt] = row.all(["v", "omega", "dt"]);
+        let model = VelocityModel { alphas, noise: row.kind() };
+        let exact = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt });
+        assert!((exact.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
+        assert_exact(&exact, &row);
+    }
+    for row in Table::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
+        let [rot1, trans, rot2] = row.all(["rot1", "trans", "rot2"]);
+        let model =
+            OdometryModel { alphas: OdomAlphas(row.all(["a1", "a2", "a3", "a4"])), noise: row.kind() };
+        let exact = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
+        assert!((exact.mean.z - wrap_angle(rot1 + rot2)).abs() < 1e-15);
+        assert_exact(&exact, &row);
+    }
+}
+
+/// Mirrored commands have mirrored moments, reversed ones the opposite skew.
+#[test]
+fn exact_moments_are_symmetric() {
+    for kind in KINDS {
+        let of = |v, omega| {
+            let model = VelocityModel { alphas: OPENING, noise: kind };
+            ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt: 1.1 })
+        };
+        let (left, right, back) = (of(0.9, 0.7), of(0.9, -0.7), of(-0.9, 0.7));
+        assert!((left.cross_track_skew + right.cross_track_skew).abs() < 1e-13);
+        assert!((left.cross_track_skew + back.cross_track_skew).abs() < 1e-13);
+        assert!((left.mean.y + right.mean.y).abs() < 1e-15 && (left.mean.x + back.mean.x).abs() < 1e-15);
+        assert!(of(0.9, 0.0).cross_track_skew.abs() < 1e-13, "a straight drive is symmetric");
+        let around = of(0.9, 4.0).mean.z;
+        assert!((around - (4.4 - 2.0 * PI)).abs() < 1e-14, "mean headings are wrapped: {around}");
+    }
+}
+
+#[test]
+fn exact_moments_match_clouds() {
+    for kind in KINDS {
+        let poses = cloud(kind, 400_000, 143);
+        let exact = ExactMoments::of_velocity(&VelocityModel { alphas: OPENING, noise: kind }, &U);
+        for i in 0..3 {
+            let mean = |poses: &[SE2]| CartesianMoments::from_poses(poses).mean[i];
+            let (value, error) = with_standard_error(&poses, mean);
+            assert!((value - exact.mean[i]).abs() < SIGMAS * error, "{kind:?} mean {i}");
+            for j in 0..3 {
+                let cov = |poses: &[SE2]| CartesianMoments::from_poses(poses).cov[(i, j)];
+                let (value, error) = with_standard_error(&poses, cov);
+                assert!(
+                    (value - exact.cov[(i, j)]).abs() < SIGMAS * error,
+                    "{kind:?} cov {i} {j}: {value} ± {error}"
+                );
+            }
+        }
+        let figures = CrossTrack::from_poses(&poses);
+        assert!(
+            (figures.skew - exact.cross_track_skew).abs() < SIGMAS * figures.skew_error,
+            "{kind:?} {figures:?}"
+        );
+    }
+}
+
+/// Clouds without a spread have no skew, no error, no correlation and nothing inside a contour; they are not errors.
+#[test]
+fn degenerate_clouds_give_nan() {
+    let mut rng = seeded(144);
+    let pose = SE2::new(0.1, 0.7, 2.0);
+    let line = |heading: f64| {
+        let mut rng = seeded(145);
+        (0..100)
+            .map(|_| {
+                let s = uniform(&mut rng, -1.0, 1.0);
+                SE2::new(0.1 + s * heading.cos(), 0.7 + s * heading.sin(), heading)
+            })
+            .collect::<Vec<_>>()
+    };
+    let along =
+        VelocityModel { alphas: VelocityAlphas([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
+    let straight = VelocityCmd { omega: 0.0, ..U };
+    let driven = (0..100).map(|_| along.sample(&straight, &pose, &mut rng)).collect::<Vec<_>>();
+    for (what, cloud) in [
+        ("none", vec![]),
+        ("one", vec![pose]),
+        ("two equal", vec![pose; 2]),
+        ("many equal", vec![pose; 1000]),
+        ("a line along the heading", line(2.0)),
+        ("another", line(-0.3)),
+        ("driven straight", driven),
+    ] {
+        let figures = CrossTrack::from_poses(&cloud);
+        for value in [figures.skew, figures.skew_error, figures.rho_heading, cross_track_skew(&cloud)] {
+            assert!(value.is_nan(), "{what}: {figures:?}");
+        }
+        let cartesian = CartesianMoments::from_poses(&cloud);
+        let exponential = ExponentialMoments::from_poses(&cloud, &SE2::identity());
+        assert_eq!(cartesian.mean.iter().any(|m| m.is_nan()), cloud.is_empty(), "{what}");
+        assert_eq!(exponential.mean.iter().any(|m| m.is_nan()), cloud.is_empty(), "{what}");
+        assert_eq!(cartesian.cov.iter().all(|c| c.is_nan()), cloud.len() < 2, "{what}");
+        assert_eq!(exponential.cov.iter().all(|c| c.is_nan()), cloud.len() < 2, "{what}");
+        let ellipse = Ellipse::from_moments(&cartesian);
+        let contour = ExponentialContour::new(&exponential, &SE2::identity());
+        assert!(cloud.iter().all(|pose| !ellipse.contains([pose.x(), pose.y()])), "{what}");
+        assert_eq!(ellipse.boundary(16).len(), 17);
+        assert_eq!(contour.boundary(16).len(), 17);
+        let _ = cloud.iter().filter(|pose| contour.contains(pose)).count();
+        if cloud.len() < 2 || what.ends_with("equal") {
+            assert!(predicted_cross_track_skew(&exponential.mean, &exponential.cov).is_nan(), "{what}");
+        }
+    }
+    // Two poses have a spread, and the shape of any two; three can be told apart.
+    let three = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
+    assert!(cross_track_skew(&three[..2]).is_nan());
+    assert!((cross_track_skew(&three) - 0.5f64.sqrt()).abs() < 1e-12, "two at −1, one at 2");
+    assert!(predicted_cross_track_skew(&Vector3::zeros(), &Matrix3::zeros()).is_nan());
+    // A robot that turns half round on its way ends up beside its arc's chord: noise to its side is noise along its heading.
+    for turn in [PI, -PI] {
+        let aside = Matrix3::from_diagonal(&Vector3::y());
+        assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &aside).is_nan());
+    }
+    let still = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
+    assert!(ExactMoments::of_velocity(&still, &U).cross_track_skew.is_nan());
+    assert!(ExactMoments::of_velocity(&along, &straight).cross_track_skew.is_nan());
+}
+
+/// A breadth that is rounding beside the cloud's length counts as none, also where the robots drive to either side of the start
+/// and their mean is as good as there: the length of each is known to a thousandth of a metre, the turn to `turn`.
+#[test]
+fn a_cloud_whose_breadth_is_rounding_is_a_line() {
+    const SPEED: f64 = 1e-6;
+    let of = |turn: f64| {
+        let by_speed = turn / SPEED;
+        let velocity_alphas = [1e6, 0.0, by_speed * by_speed, 0.0, 0.0, 0.0];
+        let command = VelocityCmd { v: SPEED, omega: 0.0, dt: 1.0 };
+        let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
+        let machine = BananaMachine::new(settings).expect("a valid setting");
+        let poses: Vec<SE2> = machine.poses().collect();
+        [machine.figures().cross_track.skew, CrossTrack::from_poses(&poses).skew]
+    };
+    // Half of it is the bearing: 5e-14 of the length across.
+    assert!(of(1e-13).into_iter().all(f64::is_nan));
+    let [fused, plain] = of(1e-9);
+    assert!((fused - plain).abs() < 1e-9 && plain.is_finite(), "{fused}, not {plain}");
+}
+
+/// Likewise where it is rounding beside the cloud's distance: a kilometre out, coordinates are known to 1e-13 m.
+#[test]
+fn a_cloud_whose_breadth_is_rounding_of_its_place_is_a_line() {
+    const BREADTH: f64 = 1e-10;
+    let skew = |[x, y]: [f64; 2]| {
+        let mut rng = seeded(146);
+        let mut beside = || uniform(&mut rng, -BREADTH, BREADTH);
+        let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + beside(), y + beside(), 0.3)).collect();
+        cross_track_skew(&poses)
+    };
+    for far in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {
+        assert!(skew(far).is_nan(), "{far:?}");
+    }
+    assert!(skew([0.0, 0.0]).is_finite() && skew([1.0, -1.0]).is_finite());
+}

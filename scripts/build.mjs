@@ -6,6 +6,7 @@ import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { binder } from './bindgen.mjs';
 import { WIDGETS, bundle, filesOf } from './bundle.mjs';
+import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
 import { opened } from './modules.mjs';
 import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
@@ -37,6 +38,8 @@ export async function build({ local = false } = {}) {
   const tags = isCurrent('build/figures.sha256', core, figures) ? WIDGETS : [];
   const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core + tags);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags }));
+  const log = digest(['scripts/example-log.mjs'], core);
+  await whenStale('build/example-log.sha256', log, Object.values(EXAMPLE_LOGS), writeExampleLog);
 }
 
 /**

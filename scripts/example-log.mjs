@@ -1,21 +1,27 @@
-// `node scripts/example-log.mjs` writes the logs of examples/calibration anew: a drive that is simulated with known α's.
+// Logs of examples/calibration: a drive that is simulated with known α's. `scripts/build.mjs` writes them.
 
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT, runAsScript } from './process.mjs';
+import { ROOT } from './process.mjs';
 
 /** @import { Pose } from '../www/types.d.ts' */
 
 /** @typedef {Awaited<ReturnType<typeof import('../www/core.js').load>>} Motion */
 
-/** What the logs were made with. */
+/** Paths of the logs. @type {Record<string, string>} */
+export const EXAMPLE_LOGS = { odometry: 'examples/calibration/odometry.csv', reference: 'examples/calibration/reference.csv' };
+
+/** True parameters of the simulation. */
 export const TRUTH = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03, clockOffset: 0.12, distanceScale: 1.01 };
 
 /** How AMCL cuts legs, in metres along either axis and in radians. */
 export const LEGS = { distance: 0.25, angle: 0.2 };
 
-/** Seconds at which the drive begins, that it takes, between two steps of it, and between two rows of a log. */
+/** Seconds: start and duration of the drive, its integration step, and the time between two rows of a log. */
 const [START, DURATION, STEP, ROW] = [10, 225, 0.005, 0.05];
+
+/** Integration steps between two rows. */
+const STEPS = Math.round(ROW / STEP);
 
 /**
  * The reference goes on for so long before and after. But for the clocks it has its rows when the odometry does: a turn of a
@@ -49,19 +55,20 @@ function* commands() {
   }
 }
 
-/** @param {Motion} motion @returns {Pose[]} where the odometry takes the robot to be, every STEP seconds */
+/** Poses of the odometry, one a row. @param {Motion} motion @returns {Pose[]} */
 function driven(motion) {
   const towards = (/** @type {number} */ is, /** @type {number} */ goal, /** @type {number} */ most) => is + Math.max(-most, Math.min(most, goal - is));
-  /** @type {Pose[]} */
-  const poses = [{ x: 0, y: 0, theta: 0 }];
-  let [v, omega] = [0, 0];
+  let pose = { x: 0, y: 0, theta: 0 };
+  const poses = [pose];
+  let [v, omega, steps] = [0, 0, 0];
   for (const command of commands()) {
     for (let rest = Math.round(command.seconds / STEP); rest > 0; rest--) {
-      if (poses.length > DURATION / STEP) return poses;
+      if (steps >= DURATION / STEP) return poses;
       v = towards(v, command.v, CHANGES.v * STEP);
       omega = towards(omega, command.omega, CHANGES.omega * STEP);
-      const pose = poses[poses.length - 1];
-      poses.push(v === 0 && omega === 0 ? pose : motion.se2.boxplus(pose, [v * STEP, 0, omega * STEP]));
+      if (v !== 0 || omega !== 0) pose = motion.se2.boxplus(pose, [v * STEP, 0, omega * STEP]);
+      steps += 1;
+      if (steps % STEPS === 0) poses.push(pose);
     }
   }
   return poses;
@@ -86,18 +93,16 @@ function endsOf(rows) {
 }
 
 /**
- * Where the robot really is: leg by leg, the odometry model moves it from what the odometry tells, and within a leg the
- * error grows smoothly.
+ * True poses of the robot. The odometry model moves it leg by leg, and within a leg the error grows smoothly.
  *
  * @param {Motion} motion
- * @param {Pose[]} told every STEP seconds
+ * @param {Pose[]} told poses of the odometry, one a row
  * @param {number} seed of the first leg's noise; each leg has the next one
- * @returns {Pose[]} every STEP seconds
+ * @returns {Pose[]} one a row, up to the end of the last complete leg
  */
 function real(motion, told, seed) {
   const { se2 } = motion;
-  const every = Math.round(ROW / STEP);
-  const rows = told.filter((_, i) => i % every === 0).map(rounded);
+  const rows = told.map(rounded);
   const scaled = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUTH.distanceScale * x, y: TRUTH.distanceScale * y, theta });
   const posed = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
   const model = new motion.OdometryModel({ alphas: TRUTH.alphas });
@@ -105,14 +110,14 @@ function real(motion, told, seed) {
   const ends = endsOf(rows);
   for (const [leg, end] of ends.entries()) {
     if (leg === 0) continue;
-    const [from, to] = [ends[leg - 1] * every, end * every];
-    const [start, goal] = [ends[leg - 1], end].map((row) => scaled(posed(rows[row])));
+    const from = ends[leg - 1];
+    const [start, goal] = [from, end].map((row) => scaled(posed(rows[row])));
     const began = truth[from];
     const [x, y, theta] = model.sample(motion.decompose(start, goal), began, 1, seed + leg);
     const motionTo = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(start), pose);
     const error = se2.boxminus(se2.compose(se2.inverse(began), { x, y, theta }), motionTo(goal));
-    for (let i = from + 1; i <= to; i++) {
-      const share = (i - from) / (to - from);
+    for (let i = from + 1; i <= end; i++) {
+      const share = (i - from) / (end - from);
       const smooth = share * share * (3 - 2 * share);
       truth.push(se2.boxplus(se2.compose(began, motionTo(scaled(told[i]))), error.map((each) => smooth * each)));
     }
@@ -129,25 +134,22 @@ function real(motion, told, seed) {
 export function exampleLog(motion, seed = SEED) {
   const told = driven(motion);
   const truth = real(motion, told, seed);
-  const after = (/** @type {number} */ seconds) => Math.round(seconds / STEP);
+  const around = Math.round(AROUND / ROW);
   const line = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...rounded(pose)].join(',')}\n`;
   const table = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
   const [odometry, reference] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
   const mount = { x: 0, y: 0, theta: TRUTH.mountYaw };
-  // The last leg is not complete: nobody knows what the model makes of it.
   const last = truth.length - 1;
-  for (let i = 0; i <= last; i += after(ROW)) odometry.push(line(START + i * STEP, told[i]));
-  for (let i = -after(AROUND); i <= last + after(AROUND); i += after(ROW)) {
+  for (let i = 0; i <= last; i++) odometry.push(line(START + i * ROW, told[i]));
+  for (let i = -around; i <= last + around; i++) {
     const pose = truth[Math.max(0, Math.min(i, last))];
-    reference.push(line(START + i * STEP + TRUTH.clockOffset, motion.se2.compose(pose, mount)));
+    reference.push(line(START + i * ROW + TRUTH.clockOffset, motion.se2.compose(pose, mount)));
   }
   return { odometry: table(odometry), reference: table(reference) };
 }
 
-await runAsScript(import.meta.url, async () => {
+/** Writes both logs. dist/core.js must be built. */
+export async function writeExampleLog() {
   const { load } = await import('../dist/core.js');
-  const logs = exampleLog(await load());
-  const folder = join(ROOT, 'examples/calibration');
-  mkdirSync(folder, { recursive: true });
-  for (const [name, text] of Object.entries(logs)) writeFileSync(join(folder, `${name}.csv`), text);
-});
+  for (const [name, text] of Object.entries(exampleLog(await load()))) writeFileSync(join(ROOT, EXAMPLE_LOGS[name]), text);
+}

@@ -1,21 +1,15 @@
-// The log that comes with the package is what its script writes, and what its README says it is.
+// Logs of examples/calibration: true parameters in the README, size, and no row left out.
 
 import assert from 'node:assert/strict';
 import { readFileSync, statSync } from 'node:fs';
 import { test } from 'node:test';
-import { load } from '../../dist/core.js';
-import { LEGS, TRUTH, exampleLog } from '../../scripts/example-log.mjs';
+import { LEGS, TRUTH } from '../../scripts/example-log.mjs';
 import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
 
 const folder = new URL('../../examples/calibration/', import.meta.url);
 const textOf = (/** @type {string} */ name) => readFileSync(new URL(name, folder), 'utf8');
 
-test('the example log is what its script writes', async () => {
-  const logs = exampleLog(await load());
-  for (const [name, text] of Object.entries(logs)) assert.ok(text === textOf(`${name}.csv`), `${name}.csv: \`node scripts/example-log.mjs\` writes another`);
-});
-
-test('its README says what it was made with', () => {
+test('README of the example log has its true parameters', () => {
   const readme = textOf('README.md');
   const { alphas, mountYaw, clockOffset, distanceScale } = TRUTH;
   for (const said of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEGS.distance} m`, `${LEGS.angle} rad`]) {
@@ -23,7 +17,7 @@ test('its README says what it was made with', () => {
   }
 });
 
-test('it is small, and read without a complaint', async () => {
+test('example log is small and read without a complaint', async () => {
   const logs = await Promise.all(['odometry.csv', 'reference.csv'].map((name) => readLog(new File([textOf(name)], name))));
   assert.ok(logs.reduce((sum, { name }) => sum + statSync(new URL(name, folder)).size, 0) <= 300_000);
   for (const { found, data } of logs) {

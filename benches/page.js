@@ -1,5 +1,5 @@
 /**
- * The measurements for a page: `scripts/bench.mjs` calls `measurePage` there.
+ * Measurements in a page: `scripts/bench.mjs` calls `measurePage` there.
  *
  * @module
  */
@@ -8,13 +8,9 @@ import { load } from '../dist/core.js';
 import { measure } from './suite.js';
 
 Object.assign(globalThis, {
-  /** @param {{ quick: boolean, counted: import('./suite.js').Counted }} options */
-  measurePage: (options) =>
-    measure({
-      load: /** @type {() => Promise<import('../www/types.d.ts').Motion>} */ (load),
-      // Of the script that drives the page, which may collect garbage.
-      heap: () => /** @type {any} */ (globalThis).heapInUse(),
-      ...options,
-      progress: (text) => console.log(text),
-    }),
+  /** @param {{ quick: boolean, log: { odometry: string, reference: string } }} options */
+  measurePage: async (options) => {
+    const motion = /** @type {import('../www/types.d.ts').Motion} */ (await load());
+    return measure(motion, { ...options, progress: (text) => console.log(text) });
+  },
 });

@@ -1,77 +1,48 @@
 /**
- * Everything that is measured in Node and in a page alike.
+ * Measurements that run in Node and in a page alike.
  *
  * @module
  */
 
-import { checkClouds, checkDraws } from './checks.js';
-import { bytesPerPose, growth, watchMemory } from './memory.js';
-import { timeReckoning } from './reckoning.js';
-import { timeRefresh, timeSeed } from './refresh.js';
-import { timeRoofline } from './roofline.js';
-import { timeSqueeze, timeWalls } from './squeeze.js';
+import { differences } from './check.js';
+import { timeRefresh } from './refresh.js';
+import { race, spread } from './timing.js';
+
+/** @typedef {import('../www/types.d.ts').Motion} Motion */
 
 /**
  * @typedef {object} Measured
  * @property {import('./refresh.js').Refresh[]} refresh by the number of samples
- * @property {Awaited<ReturnType<typeof timeSeed>>} seed
- * @property {Awaited<ReturnType<typeof timeSqueeze>>} squeeze
- * @property {Awaited<ReturnType<typeof timeWalls>>} walls
- * @property {Awaited<ReturnType<typeof timeReckoning>>} reckoning
- * @property {import('./memory.js').Memory} memory
- * @property {Awaited<ReturnType<typeof timeRoofline>>} roofline
+ * @property {import('./timing.js').Spread} calibration of the example log, ms
  */
 
 /**
- * @typedef {object} Counted in Node, for both
- * @property {number[]} kernels the bytes of roofline.wat's module
- * @property {import('./operations.js').Operations[]} operations of each kind of sample
- */
-
-/** The counts of the curve, as far as the core goes. */
-const COUNTS = [1e3, 1e4, 1e5, 1e6, 1e7];
-/** Beyond, an array of objects takes gigabytes. */
-const BASELINES_UP_TO = 1e6;
-const WALLS = [10, 100, 1000, 10_000];
-
-/**
+ * @param {Motion} motion
  * @param {object} options
- * @param {() => Promise<import('../www/types.d.ts').Motion>} options.load of a core that has not been loaded before
- * @param {() => number | Promise<number>} options.heap collects garbage and returns the bytes left
- * @param {Counted} options.counted
  * @param {boolean} options.quick
+ * @param {{ odometry: string, reference: string }} options.log CSV
  * @param {(text: string) => void} options.progress
  * @returns {Promise<Measured>}
  */
-export async function measure({ load, heap, counted, quick, progress }) {
-  const { result: motion, memory } = await watchMemory(load);
-  // First: what a large cloud leaves free would hide what events leave behind.
-  progress('memory');
-  const grown = await growth(motion, memory, { events: quick ? 3000 : 100_000, heap });
-  const perPose = bytesPerPose(motion, memory);
-
-  progress('the baselines against the core');
-  const wrong = [...checkDraws(motion, 4000), ...checkClouds(motion, quick ? 20_000 : 1_000_000)];
-  if (wrong.length > 0) throw new Error(`The baselines do not compute what the core does:\n${wrong.join('\n')}`);
-
-  const seconds = quick ? 0.2 : 1.5;
-  // In a hurry, only those that targets are set for.
-  const counts = quick ? [1e5, 1e6] : COUNTS.filter((count) => count <= motion.BananaMachine.maxSamples);
+export async function measure(motion, { quick, log, progress }) {
+  progress('comparison of the baseline with the core');
+  const wrong = differences(motion, 4000);
+  if (wrong.length > 0) throw new Error(`The baseline does not compute what the core does:\n${wrong.join('\n')}`);
+  const seconds = quick ? 0.2 : 2;
   const refresh = [];
-  for (const samples of counts) {
+  for (const samples of [1e4, 1e5, 1e6]) {
     progress(`${samples.toLocaleString('en')} samples`);
-    const baselines = samples <= (quick ? 1e5 : BASELINES_UP_TO);
-    refresh.push(await timeRefresh(motion, { samples, baselines, seconds: samples === 1e6 ? 2 * seconds : seconds }));
+    refresh.push(await timeRefresh(motion, { samples, seconds }));
   }
+  progress('calibration');
+  const [odometry, reference] = [log.odometry, log.reference].map(columns);
+  const { calibration } = await race({ calibration: (seed) => void motion.calibrate({ odometry, reference, seed }) }, { seconds });
+  return { refresh, calibration: spread(calibration) };
+}
 
-  progress('new seeds');
-  const seed = await timeSeed(motion, { samples: 1e5, seconds });
-  progress('Map Squeeze');
-  const squeeze = await timeSqueeze(motion, { samples: 1e5, seconds });
-  const walls = await timeWalls(motion, { samples: quick ? 1000 : 5000, seconds, counts: quick ? [10, 10_000] : WALLS });
-  progress('Dead Reckoning');
-  const reckoning = await timeReckoning(motion, { rollouts: 50_000, seconds });
-  progress('roofline');
-  const roofline = await timeRoofline(motion, { ...counted, seconds });
-  return { refresh, seed, squeeze, walls, reckoning, roofline, memory: { bytesPerPose: perPose, ...grown } };
+/** @param {string} csv */
+function columns(csv) {
+  const rows = csv.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(rows, (row) => row[i]));
+  return { t, x, y, theta };
 }

@@ -1,40 +1,39 @@
-// `npm run bench`: the targets of doc/benchmarks.md, measured in Node and in headless Chromium. Prints tables in Markdown,
-// and writes what they are made of to build/bench.json. `-- --quick` measures less, in less time.
+// `npm run bench`: the targets of doc/benchmarks.md, measured in Node and in headless Chromium. It prints tables in Markdown and
+// writes the measurements to build/bench.json. `-- --quick` takes fewer turns.
 
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { cpus } from 'node:os';
 import { join } from 'node:path';
-import { setFlagsFromString } from 'node:v8';
-import { runInNewContext } from 'node:vm';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
+import { EXAMPLE_LOGS } from './example-log.mjs';
 import { Missing, ROOT, progress, run, runAsScript } from './process.mjs';
 import { serve } from './serve.mjs';
 import { nativeRust } from './toolchain.mjs';
 import { report } from '../benches/report.js';
 
-/** Without them a page's clock goes in steps of 100 µs, with them of 5. */
+/** Headers that isolate the page, for a clock in steps of 5 µs instead of 100. */
 const ISOLATED = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
+
+/** @typedef {{ quick: boolean, log: { odometry: string, reference: string } }} Options */
 
 /** @param {boolean} quick */
 async function bench(quick) {
   await build();
-  const began = Date.now();
+  const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
+  const options = { quick, log: { odometry, reference } };
   const machine = await describe();
   progress('Node');
-  const counted = await count();
-  const node = await inNode(quick, counted);
+  const node = await inNode(options);
   const browser = await ensureBrowser();
   progress('Chromium');
-  const { chromium, start, drags } = await inChromium(browser.chrome, quick, counted);
-  const seconds = (Date.now() - began) / 1000;
-  const results = { ...machine, chromiumVersion: browser.version, quick, seconds, node, chromium, start, drags };
+  const results = { ...machine, chromiumVersion: browser.version, quick, node, ...(await inChromium(browser.chrome, options)) };
   mkdirSync(join(ROOT, 'build'), { recursive: true });
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
-  console.log(`\n${report(results)}\nIn ${seconds.toFixed(0)} s; all of it is in build/bench.json.`);
+  console.log(`\n${report(results)}\n\nbuild/bench.json has all measurements.`);
 }
 
-/** What all of it ran on. */
+/** Describes the machine and the versions. */
 async function describe() {
   const commit = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
   const { description } = await nativeRust();
@@ -48,39 +47,21 @@ async function describe() {
   };
 }
 
-/** @returns {Promise<import('../benches/suite.js').Counted>} */
-async function count() {
-  const { countingCore, kernels, operationsOf } = await import('../benches/operations.js');
-  const { KINDS } = await import('../benches/roofline.js');
-  const core = await countingCore();
-  return { kernels: [...(await kernels())], operations: KINDS.map((kind) => operationsOf(core, kind, 20_000)) };
-}
-
-/**
- * @param {boolean} quick
- * @param {import('../benches/suite.js').Counted} counted
- */
-async function inNode(quick, counted) {
-  setFlagsFromString('--expose-gc');
-  const collect = runInNewContext('gc');
-  // Built by now, and not before.
+/** @param {Options} options */
+async function inNode(options) {
+  // Both exist only after the build.
   const { measure } = await import('../benches/suite.js');
   const { load } = await import('../dist/core.js');
-  const heap = () => {
-    collect();
-    return process.memoryUsage().heapUsed;
-  };
-  const loaded = /** @type {() => Promise<import('../www/types.d.ts').Motion>} */ (load);
-  return measure({ load: loaded, heap, counted, quick, progress: (text) => console.log(text) });
+  const motion = /** @type {import('../www/types.d.ts').Motion} */ (await load());
+  return measure(motion, { ...options, progress: (text) => console.log(text) });
 }
 
 /**
  * @param {string} executablePath
- * @param {boolean} quick
- * @param {import('../benches/suite.js').Counted} counted
- * @returns {Promise<{ chromium: import('../benches/suite.js').Measured, start: import('../benches/start.js').Start, drags: import('../benches/drag.js').Drag[] }>}
+ * @param {Options} options
+ * @returns {Promise<Pick<import('../benches/report.js').Results, 'chromium' | 'start' | 'drags'>>}
  */
-async function inChromium(executablePath, quick, counted) {
+async function inChromium(executablePath, options) {
   const { chromium: launcher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
   const { timeStart } = await import('../benches/start.js');
@@ -88,20 +69,15 @@ async function inChromium(executablePath, quick, counted) {
   const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
   try {
     console.log('first cloud');
-    const start = await timeStart(browser, `${address}benches/start.html`, quick ? 5 : 11);
+    const start = await timeStart(browser, `${address}benches/start.html`, options.quick ? 5 : 11);
     console.log('drags');
-    const drags = await timeDrags(browser, `${address}benches/drag.html`, quick ? 10 : 40);
+    const drags = await timeDrags(browser, `${address}benches/drag.html`, options.quick ? 10 : 40);
     const page = await browser.newPage();
     page.on('console', (message) => console.log(message.text()));
-    const session = await page.context().newCDPSession(page);
-    await page.exposeFunction('heapInUse', async () => {
-      await session.send('HeapProfiler.collectGarbage');
-      return (await session.send('Runtime.getHeapUsage')).usedSize;
-    });
     await page.goto(`${address}benches/page.html`);
     await page.waitForFunction(() => 'measurePage' in globalThis);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
-    const chromium = await page.evaluate((options) => /** @type {any} */ (globalThis).measurePage(options), { quick, counted });
+    const chromium = await page.evaluate((given) => /** @type {any} */ (globalThis).measurePage(given), options);
     return { chromium, start, drags };
   } finally {
     await browser.close();
@@ -112,6 +88,6 @@ async function inChromium(executablePath, quick, counted) {
 await runAsScript(import.meta.url, async () => {
   const options = process.argv.slice(2);
   const unknown = options.find((option) => option !== '--quick');
-  if (unknown !== undefined) throw new Missing(`"${unknown}" is not known here: \`npm run bench\` takes --quick alone.`);
+  if (unknown !== undefined) throw new Missing(`"${unknown}" is not an option; \`npm run bench\` takes only --quick.`);
   await bench(options.includes('--quick'));
 });

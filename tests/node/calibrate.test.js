@@ -1,4 +1,4 @@
-// `motion.calibrate`: the same as in Rust, and what it refuses.
+// `motion.calibrate`: defaults, results and refusals.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -19,30 +19,6 @@ function columns(name) {
 }
 
 const [odometry, reference] = ['odometry', 'reference'].map(columns);
-
-/** The bits of all that is told, in the order of tests/calibrate/same.rs. @param {import('../../www/types.d.ts').Calibration} told */
-function bits({ alphas, intervals, bootstrap, logLikelihood, doubts, inflation, legs, byLength }) {
-  const numbers = [
-    ...alphas, ...intervals.flat(), ...bootstrap.flat(), logLikelihood, doubts.heldOut.coverage, doubts.squaredError.mean,
-    ...doubts.kinds.flatMap(({ kurtosis, autocorrelation }) => [kurtosis, autocorrelation]),
-    ...inflation.logLikelihood, ...legs.squaredError, ...byLength.flatMap((at) => [...at.alphas, ...at.intervals.flat(), ...at.bootstrap.flat()]),
-  ].filter((number) => number !== null && !Number.isNaN(number));
-  const view = new DataView(new ArrayBuffer(8));
-  return numbers.map((number) => {
-    view.setFloat64(0, Number(number));
-    return ` ${view.getBigUint64(0).toString(16).padStart(16, '0')}`;
-  }).join('');
-}
-
-test('the example says the same as in Rust, to the last bit', () => {
-  const shaken = { ...reference, positionDeviation: 1e-4, headingDeviation: 1e-4 };
-  const lines = ['table', 'nav2', 'beluga', 'omni', 'velocity'].flatMap((name) =>
-    /** @type {const} */ (['normal', 'triangular']).map((noise) => {
-      const which = /** @type {any} */ (name === 'velocity' ? { model: name } : { rule: name });
-      return `${name} ${noise}${bits(motion.calibrate({ odometry, reference: shaken, ...which, noise, robust: true, seed: 3, byLength: true }))}\n`;
-    }));
-  assert.ok(lines.join('') === readFileSync(join(ROOT, 'tests/calibrate/golden.txt'), 'utf8'));
-});
 
 test('what is left out is as it opens, and arrays may be of any kind', () => {
   const plain = (/** @type {Record<string, Float64Array>} */ log) => Object.fromEntries(Object.entries(log).map(([key, column]) => [key, [...column]]));

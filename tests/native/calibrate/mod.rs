@@ -8,7 +8,6 @@ mod logs;
 mod mismatch;
 mod overstated;
 mod passes;
-mod same;
 mod simulated;
 mod sparse;
 mod standing;

@@ -1,0 +1,199 @@
+/**
+ * Banana Machine in plain JavaScript: the baseline of the benchmark. Typed arrays, common random numbers and two passes over the
+ * cloud, as in the core. It leaves out the contours and the standard error of the skew, which the core computes.
+ *
+ * @module
+ */
+
+/**
+ * @typedef {import('./scene.js').Command} Command
+ * @typedef {import('./scene.js').Picture} Picture
+ */
+
+/** Names of the sums of the first pass, in order. */
+const SUMS = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
+
+export class Baseline {
+  /**
+   * @param {number[]} alphas
+   * @param {Float64Array} unitNoise standard normal noise of v̂, ω̂ and γ̂, three numbers a sample
+   */
+  constructor(alphas, unitNoise) {
+    this.alphas = alphas;
+    this.samples = unitNoise.length / 3;
+    this.unitNoise = unitNoise;
+    /** Offsets of each sample from the noise-free motion: x, y, length of the arc, heading. */
+    this.cloud = new Float64Array(4 * this.samples);
+    this.counts = new Uint32Array(0);
+    this.pixels = new Uint32Array(0);
+  }
+
+  /**
+   * Computes statistics and the density picture for one event of the slider.
+   *
+   * @param {Command} command
+   * @param {Picture} view
+   * @param {Uint8Array} ramp
+   */
+  refresh({ v, omega, dt }, view, ramp) {
+    const n = this.samples;
+    const [a1, a2, a3, a4, a5, a6] = this.alphas;
+    const [vv, ww] = [v * v, omega * omega];
+    const deviations = [a1 * vv + a2 * ww, a3 * vv + a4 * ww, a5 * vv + a6 * ww].map(Math.sqrt);
+    const half = 0.5 * omega * dt;
+    const chord = half === 0 ? v * dt : (v * dt * Math.sin(half)) / half;
+    const origin = { x: chord * Math.cos(half), y: chord * Math.sin(half), l: v * dt, t: 2 * half };
+    const sums = drive(this.unitNoise, this.cloud, [v, omega, dt], deviations, origin);
+    const mean = Object.fromEntries(SUMS.map((name, i) => [name, sums[i] / n]));
+    const covariance = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((mean[a + b] ?? mean[b + a]) - mean[a] * mean[b]);
+    const matrix = (/** @type {string[]} */ names) => names.map((a) => names.map((b) => covariance(a, b)));
+    const heading = origin.t + Math.atan2(mean.s, mean.c);
+    const cartesian = { mean: [origin.x + mean.x, origin.y + mean.y, heading], cov: matrix(['x', 'y', 't']) };
+    const exponential = { mean: [origin.l + mean.l, mean.m, origin.t + mean.t], cov: matrix(['l', 'm', 't']) };
+
+    const { columns, rows } = view;
+    if (this.counts.length !== columns * rows) {
+      this.counts = new Uint32Array(columns * rows);
+      this.pixels = new Uint32Array(columns * rows);
+    }
+    this.counts.fill(0);
+    const whiten = (/** @type {number[][]} */ cov, /** @type {number} */ j) => {
+      const l00 = Math.sqrt(cov[0][0]);
+      const l10 = cov[0][j] / l00;
+      const l11 = Math.sqrt(cov[j][j] - l10 * l10);
+      // Two standard deviations have length 1.
+      return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
+    };
+    const centre = [mean.x, mean.y, mean.l, mean.t];
+    const scales = [...centre, ...whiten(cartesian.cov, 1), ...whiten(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
+    const [perX, perY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
+    const [inEllipse, inTilted, square, cube, most] = measure(
+      this.cloud, this.counts, scales, [(origin.x - view.xMin) * perX, perX, (view.yMax - origin.y) * perY, perY, columns, rows],
+    );
+    this.#paint(ramp, most);
+    return {
+      stats: {
+        n,
+        cartesian,
+        exponential,
+        crossTrackSkew: (cube / n) / (square / n) ** 1.5,
+        coverage: { ellipse: inEllipse / n, exponential: inTilted / n },
+      },
+      pixels: new Uint8ClampedArray(this.pixels.buffer),
+    };
+  }
+
+  /**
+   * Colours the counts by a table of all counts up to the largest.
+   *
+   * @param {Uint8Array} ramp
+   * @param {number} most
+   */
+  #paint(ramp, most) {
+    const { counts, pixels } = this;
+    const colours = new Uint32Array(ramp.buffer, ramp.byteOffset, 256);
+    const shades = new Uint32Array(most + 1);
+    for (let count = 1; count <= most; count++) shades[count] = colours[Math.round(255 * Math.sqrt(count / most))];
+    for (let i = 0; i < counts.length; i++) pixels[i] = shades[counts[i]];
+  }
+}
+
+/**
+ * First pass: moves every sample and adds up its moments.
+ *
+ * @param {Float64Array} noise
+ * @param {Float64Array} cloud is filled
+ * @param {number[]} command v, ω, Δt
+ * @param {number[]} deviations of v̂, ω̂, γ̂
+ * @param {{ x: number, y: number, l: number, t: number }} origin noise-free motion
+ * @returns {number[]} sums in the order of SUMS
+ */
+function drive(noise, cloud, command, deviations, origin) {
+  const v = command[0], omega = command[1], dt = command[2];
+  const sdV = deviations[0], sdOmega = deviations[1], sdGamma = deviations[2];
+  const x0 = origin.x, y0 = origin.y, l0 = origin.l, t0 = origin.t;
+  let x1 = 0, y1 = 0, l1 = 0, m1 = 0, t1 = 0, s1 = 0, c1 = 0;
+  let xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
+  let ll = 0, lm = 0, mm = 0, lt = 0, mt = 0;
+  for (let i = 0, j = 0; i < noise.length; i += 3, j += 4) {
+    const driven = (v + sdV * noise[i]) * dt;
+    const half = 0.5 * (omega + sdOmega * noise[i + 1]) * dt;
+    const chord = half === 0 ? driven : (driven * Math.sin(half)) / half;
+    const x = chord * Math.cos(half);
+    const y = chord * Math.sin(half);
+    let t = 2 * half + sdGamma * noise[i + 2] * dt - t0;
+    if (t > Math.PI || t < -Math.PI) t -= 2 * Math.PI * Math.round(t / (2 * Math.PI));
+    // Exponential coordinates: length along the arc and lateral offset.
+    const turn = 0.5 * (t0 + t);
+    const stretch = turn === 0 ? 1 : turn / Math.tan(turn);
+    const l = stretch * x + turn * y - l0;
+    const m = stretch * y - turn * x;
+    const dx = x - x0;
+    const dy = y - y0;
+    x1 += dx;
+    y1 += dy;
+    l1 += l;
+    m1 += m;
+    t1 += t;
+    s1 += Math.sin(t);
+    c1 += Math.cos(t);
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+    xt += dx * t;
+    yt += dy * t;
+    tt += t * t;
+    ll += l * l;
+    lm += l * m;
+    mm += m * m;
+    lt += l * t;
+    mt += m * t;
+    cloud[j] = dx;
+    cloud[j + 1] = dy;
+    cloud[j + 2] = l;
+    cloud[j + 3] = t;
+  }
+  return [x1, y1, l1, m1, t1, s1, c1, xx, xy, yy, xt, yt, tt, ll, lm, mm, lt, mt];
+}
+
+/**
+ * Second pass: coverage of both contours, central moments across the mean heading, and counts of the picture.
+ *
+ * @param {Float64Array} cloud
+ * @param {Uint32Array} counts are added to
+ * @param {number[]} scales centre, whitening of both ellipses, sine and cosine of the mean heading
+ * @param {number[]} view offset and pixels a metre of both axes, columns and rows
+ * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count
+ */
+function measure(cloud, counts, scales, view) {
+  const cx = scales[0], cy = scales[1], cl = scales[2], ct = scales[3];
+  const e00 = scales[4], e10 = scales[5], e11 = scales[6];
+  const f00 = scales[7], f10 = scales[8], f11 = scales[9];
+  const sin = scales[10], cos = scales[11];
+  const left = view[0], perX = view[1], top = view[2], perY = view[3], columns = view[4], rows = view[5];
+  let inEllipse = 0, inTilted = 0, square = 0, cube = 0, most = 0;
+  for (let j = 0; j < cloud.length; j += 4) {
+    const x = cloud[j];
+    const y = cloud[j + 1];
+    const dx = x - cx;
+    const dy = y - cy;
+    const a = e00 * dx;
+    const b = e10 * dx + e11 * dy;
+    // A sum of 0 and 1 is faster than a branch that cannot be predicted.
+    inEllipse += +(a * a + b * b <= 1);
+    const dl = cloud[j + 2] - cl;
+    const e = f00 * dl;
+    const f = f10 * dl + f11 * (cloud[j + 3] - ct);
+    inTilted += +(e * e + f * f <= 1);
+    const z = cos * dy - sin * dx;
+    square += z * z;
+    cube += z * z * z;
+    const column = left + x * perX;
+    const row = top - y * perY;
+    if (column >= 0 && row >= 0 && column < columns && row < rows) {
+      const count = ++counts[(row | 0) * columns + (column | 0)];
+      if (count > most) most = count;
+    }
+  }
+  return [inEllipse, inTilted, square, cube, most];
+}

@@ -1,0 +1,69 @@
+/**
+ * Comparison of the baseline with the core on the core's own samples.
+ *
+ * @module
+ */
+
+import { Baseline } from './baseline.js';
+import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
+
+/** Largest difference of a figure, in metres, radians or shares: sums are added up in another order. */
+const TOLERANCE = 1e-9;
+
+/**
+ * @param {import('../www/types.d.ts').Motion} motion
+ * @param {number} samples
+ * @returns {string[]} names and values of figures that differ
+ */
+export function differences(motion, samples) {
+  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: command(0) });
+  const baseline = new Baseline(ALPHAS, noiseOf(machine));
+  /** @type {string[]} */
+  const wrong = [];
+  for (const event of [0, 30]) {
+    const { stats } = figures(machine, event);
+    const ours = baseline.refresh(command(event), VIEW, RAMP);
+    const theirs = flat(stats);
+    for (const [name, value] of flat(ours.stats)) {
+      // NaN is a difference too.
+      if (!(Math.abs(value - Number(theirs.get(name))) <= TOLERANCE)) wrong.push(`${name}: ${value}, core ${theirs.get(name)}`);
+    }
+    const pixels = picture(machine);
+    const unequal = ours.pixels.filter((value, i) => value !== pixels[i]).length;
+    if (unequal > 0) wrong.push(`pixels: ${unequal} differ`);
+  }
+  machine.free();
+  return wrong;
+}
+
+/**
+ * Standard normal noise of a machine's samples: executed command minus given command, over the deviations of the model.
+ *
+ * @param {import('../www/types.d.ts').BananaMachine} machine
+ */
+function noiseOf(machine) {
+  const { v, omega } = machine.config.command;
+  const [a1, a2, a3, a4, a5, a6] = machine.config.alphas;
+  const noise = new Float64Array(3 * machine.shown);
+  for (let i = 0; i < machine.shown; i++) {
+    const { vHat, omegaHat, gammaHat } = machine.inspect(i);
+    noise[3 * i] = (vHat - v) / Math.sqrt(a1 * v * v + a2 * omega * omega);
+    noise[3 * i + 1] = (omegaHat - omega) / Math.sqrt(a3 * v * v + a4 * omega * omega);
+    noise[3 * i + 2] = gammaHat / Math.sqrt(a5 * v * v + a6 * omega * omega);
+  }
+  return noise;
+}
+
+/**
+ * @param {ReturnType<Baseline['refresh']>['stats']} stats
+ * @returns {Map<string, number>} every number by its name
+ */
+function flat({ n, cartesian, exponential, crossTrackSkew, coverage }) {
+  const numbers = new Map([['n', n], ['crossTrackSkew', crossTrackSkew]]);
+  for (const [name, { mean, cov }] of Object.entries({ cartesian, exponential })) {
+    mean.forEach((value, i) => numbers.set(`${name}.mean[${i}]`, value));
+    cov.flat().forEach((value, i) => numbers.set(`${name}.cov[${i}]`, value));
+  }
+  for (const [name, share] of Object.entries(coverage)) numbers.set(`coverage.${name}`, share);
+  return numbers;
+}

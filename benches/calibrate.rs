@@ -1,4 +1,4 @@
-//! `cargo bench --bench calibrate`: how long α's and their intervals take of 100 000 legs, and how many passes over them.
+//! `cargo bench`: time of fitting α's with intervals to 100,000 legs, and the number of passes over them.
 
 #[path = "../tests/native/calibrate/simulated.rs"]
 #[allow(dead_code, reason = "the tests need more of it")]
@@ -10,7 +10,7 @@ use simulated::{MODELS, Simulation};
 use std::time::Instant;
 
 const LEGS: usize = 100_000;
-/// Of so many times the median is told.
+/// Repetitions, whose median is printed.
 const TIMES: usize = 5;
 
 fn main() {

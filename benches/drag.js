@@ -1,17 +1,16 @@
 /**
- * What a step of a drag takes, at the opening sizes and with a processor four times slower: the frame with its picture
- * (JavaScript, WebAssembly, style, layout and paint), how long until its words are there too, and the frames of a drag that
- * takes a step in each.
+ * Time of one step of a drag, at the opening sizes and with a processor four times slower. Measured are the frame with the
+ * picture (JavaScript, WebAssembly, style, layout and paint), the time until the words follow, and the time between frames.
  *
  * @module
  */
 
 import { spread } from './timing.js';
 
-/** How many times slower Chromium makes the processor. */
+/** Factor by which Chromium slows the processor. */
 export const THROTTLE = 4;
 
-/** What is dragged: every slider that shows, and every handle. */
+/** Selector of visible sliders and of handles. */
 const DRAGGED = '.slider input[type=range], .handle';
 
 /**

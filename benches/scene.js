@@ -1,5 +1,5 @@
 /**
- * What is refreshed, the same for every contender: the model, the slider, and the picture.
+ * Model, slider and picture of a refresh, the same for every contender.
  *
  * @module
  */
@@ -24,7 +24,7 @@ export const RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
 });
 
 /**
- * Where the slider stands at an event: it goes up and down, and never stays.
+ * Command at an event. The slider goes up and down and never stays.
  *
  * @param {number} event
  * @returns {Command}

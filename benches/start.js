@@ -1,12 +1,12 @@
 /**
- * From the start of the page's script to the first cloud on screen, in a page without history. Target 5.
+ * Time from the start of the page's script to the first cloud on screen, in a page without history.
  *
  * @module
  */
 
 import { spread } from './timing.js';
 
-/** What is marked, in order, and what is done until then. */
+/** Marks in order, and the work that ends with each. */
 const STAGES = /** @type {const} */ ([
   ['begin', ''],
   ['evaluated', 'the script is evaluated'],
@@ -67,7 +67,7 @@ function markStages() {
       return started;
     })
   );
-  // A cloud is an image, of its density, or so many dots. The dots of former versions are images as well.
+  // A cloud is an image of its density, or this number of dots.
   const DOTS = 100;
   let dots = 0;
   const { prototype } = CanvasRenderingContext2D;

@@ -70,7 +70,7 @@ export function spread(values) {
 }
 
 /**
- * How many times as long one takes as another, turn by turn.
+ * Ratio of two times, turn by turn.
  *
  * @param {number[]} slow
  * @param {number[]} fast

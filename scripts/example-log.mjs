@@ -14,7 +14,7 @@ export const EXAMPLE_LOGS = { odometry: 'examples/calibration/odometry.csv', ref
 /** True parameters of the simulation. */
 export const TRUTH = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03, clockOffset: 0.12, distanceScale: 1.01 };
 
-/** How AMCL cuts legs, in metres along either axis and in radians. */
+/** Length of a leg in AMCL: metres along either axis, and radians. */
 export const LEGS = { distance: 0.25, angle: 0.2 };
 
 /** Seconds: start and duration of the drive, its integration step, and the time between two rows of a log. */
@@ -29,7 +29,7 @@ const STEPS = Math.round(ROW / STEP);
  */
 const AROUND = 1;
 
-/** Of the noise of the log that comes with the package. */
+/** Seed of the noise. */
 const SEED = 1;
 
 /** m/s² and rad/s²: what the robot's speeds change by at most. */

@@ -30,7 +30,7 @@ pub fn run(bytes: &[u8]) {
         }
     }
     shows_sense(&machine);
-    // Of a thousand points, each with its sine and cosine.
+    // Paths have a thousand points, each with its sine and cosine.
     if with_paths && turn_of(4, bytes) {
         paths(&machine);
     }
@@ -124,7 +124,7 @@ fn is_bend(what: &str, bend: &Bend) {
     laws::finite(what, &bend.centre.unwrap_or_default());
 }
 
-/// Where the way of constant twist is after a share of the time.
+/// Position on the path of constant twist after a share of the time.
 fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
     let poses = machine.underway(share);
     poses.iter().for_each(|pose| laws::pose("underway", pose));

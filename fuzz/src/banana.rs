@@ -33,7 +33,7 @@ pub fn run(bytes: &[u8]) {
         call(&mut machine, &mut input);
     }
     shows_sense(&machine);
-    // What takes longest is not looked at every time.
+    // Slow checks run for some inputs only.
     if with_curves {
         contours(&machine);
     }

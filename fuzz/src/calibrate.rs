@@ -33,7 +33,7 @@ pub fn run(bytes: &[u8]) {
     steps_of(bytes);
 }
 
-/// How many steps the calibration takes; 0 where the logs are none.
+/// Returns the number of steps of the calibration, or 0 if a log is refused.
 pub fn steps_of(bytes: &[u8]) -> usize {
     let mut input = Input(bytes);
     let options = options(&mut input);
@@ -103,7 +103,7 @@ fn options(input: &mut Input) -> Options {
     }
 }
 
-/// Of a leg, m, rad or s.
+/// Length of a leg in m, rad or s.
 fn length(input: &mut Input) -> f64 {
     if input.truth() { input.of(&[0.1, 0.2, 0.25, 0.5]) } else { input.within(1e-6..=1e6) }
 }
@@ -171,7 +171,7 @@ fn edit(rows: &mut Vec<Row>, input: &mut Input) {
     }
 }
 
-/// What the rows are, with breaks before some; or the first row that is none.
+/// Returns the trajectory of the rows with breaks before some, or None if a row is refused.
 fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
     let read = match input.choice(4) {
         // Their coordinates as commands.
@@ -255,7 +255,7 @@ fn doubts_make_sense(Calibration { doubts, inflation, legs, judged, .. }: &Calib
     let Doubts { kinds, held_out, worst, verdict } = doubts;
     for kind in kinds {
         assert!(kind.quantiles.is_sorted() && kind.quantiles.len() == if kind.count > 0 { 99 } else { 0 });
-        // Of a deviation that is nothing beside its residual z⁴ is no number.
+        // The kurtosis is NaN if z⁴ overflows for a tiny deviation.
         assert!(kind.kurtosis.is_nan() || kind.kurtosis >= 0.99, "{kind:?}");
         assert!(!kind.autocorrelation.is_infinite(), "{kind:?}");
     }

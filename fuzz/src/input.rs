@@ -2,11 +2,12 @@
 
 use std::ops::RangeInclusive;
 
-/// What is left of the input. At its end all bytes are 0.
+/// Remaining bytes of the input. After its end all bytes are 0.
 pub struct Input<'a>(pub &'a [u8]);
 
-/// Whether it is the turn of what takes long, by all bytes of an input: one in so many has it. What fuzzing keeps brings it to few
-/// of the mutants that are made of it so; were it a choice in the input, they would all have it.
+/// Returns true for one in `one_in` inputs, chosen by a hash of all their bytes. Slow checks run for those only.
+///
+/// A choice byte in the input would be copied to most mutations of it.
 pub fn turn_of(one_in: u64, bytes: &[u8]) -> bool {
     // FNV-1a.
     let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);

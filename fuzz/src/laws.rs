@@ -1,4 +1,4 @@
-//! What holds of numbers that are shown.
+//! Properties of displayed numbers.
 
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
@@ -46,7 +46,7 @@ pub fn moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
 /// A few dozen units in the last place.
 pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// What a deviation may be of which the square is 0, and more than its double.
+/// Bound of deviations whose squares underflow to 0, with a factor of more than two to spare.
 pub const UNDERFLOW: f64 = 1e-161;
 
 /// The same numbers, NaN being NaN.

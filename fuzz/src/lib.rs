@@ -1,4 +1,4 @@
-//! What is held of any input: one function a target, used by cargo-fuzz and by the tests of the package.
+//! Properties of any input: one function a target, called by cargo-fuzz and by the tests of the package.
 
 pub mod anatomy;
 pub mod banana;

@@ -37,7 +37,7 @@ pub fn run(bytes: &[u8]) {
         call(&mut machine, &few, &mut input);
     }
     shows_sense(&machine);
-    // What takes longest is not looked at every time.
+    // Slow checks run for some inputs only.
     if with_straight && turn_of(8, bytes) {
         straight(&machine);
     }
@@ -171,7 +171,7 @@ fn shows_sense(machine: &DeadReckoning) {
         }
         for (i, error) in measured.relative_error.iter().enumerate() {
             assert!(error.is_nan() || *error >= 0.0, "{measured:?}");
-            // What has no spread has no error that were a share of it.
+            // A relative error needs a variance above 0.
             let spreads = n > 1 && measured.cov[(i, i)] > 0.0;
             assert!(error.is_nan() || spreads, "{measured:?} of {n}");
         }
@@ -215,7 +215,7 @@ fn is_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize)
     }
 }
 
-/// Of means of products, of which the product of the means is taken off: some dozen units in the last place of them.
+/// Rounding error of a covariance computed as mean of products minus product of means.
 fn of_sums(Measured { mean, cov, .. }: &Measured) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
     let sizes = [along + lateral, along + lateral, heading];

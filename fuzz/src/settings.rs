@@ -43,7 +43,7 @@ fn set(setting: Setting, input: &mut Input) {
     }
 }
 
-/// Whether settings are as they may be; who says no says why.
+/// Returns true if the settings are allowed, and checks the message if not.
 pub fn allowed<S: Rules>(settings: &S) -> bool {
     let Err(error) = settings.check() else {
         holds_all(settings);

@@ -1,8 +1,8 @@
-/** Bytes that are nearly right, the same for the same seed. */
+/** Seeded mutations of valid inputs. */
 
 import { Buffer } from 'node:buffer';
 
-/** What formats and languages stumble over. */
+/** Tokens with a meaning in one of the formats. */
 const TOKENS = [
   ...['\0', '\n', '\r\n', '\t', ' ', '"', "'", '#', ',', ':', ': ', '- ', '? ', '|\n', '>', '[', ']', '{', '}', '&a ', '*a', '<<: ', '---\n', '...', '%', '\\', '/'],
   ...['-', '0', '-0', '1e999', '-1', '0x10', '.nan', '.inf', 'NaN', 'null', 'true', '16777216', '65536', '4294967295', '99999999999999999999'],
@@ -12,16 +12,16 @@ const TOKENS = [
   ...['IHDR', 'PLTE', 'tRNS', 'IDAT', 'IEND', 'P2', 'P5'],
 ].map((token) => Buffer.from(token));
 
-/** Bytes that lie at the ends of ranges. */
+/** Bytes at the ends of ranges. */
 const BYTES = [0, 1, 2, 3, 4, 8, 16, 32, 127, 128, 255];
 
-/** Bytes that mutants grow to. */
+/** Largest size of a mutation in bytes. */
 const LONGEST = 4096;
 
 /**
  * @param {Uint8Array[]} corpus
  * @param {() => number} random from 0 to 1
- * @returns {Buffer<ArrayBuffer>} one of the corpus, changed in one to four places
+ * @returns {Buffer<ArrayBuffer>} an input of the corpus, changed in one to four places
  */
 export function mutantOf(corpus, random) {
   const below = (/** @type {number} */ count) => Math.floor(count * random());

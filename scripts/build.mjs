@@ -17,7 +17,8 @@ const at = (/** @type {string} */ path) => join(ROOT, path);
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types'].map((name) => `scripts/${name}.mjs`);
 
 /** What scripts/bundle.mjs gives to who imports the module. */
-const CARRIED = `type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Uint8Array<ArrayBuffer> | URL };
+const CARRIED = `type Bytes = Uint8Array<ArrayBuffer>;
+type Carried = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
 declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
 export default cores;
 `;

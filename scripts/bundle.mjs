@@ -22,7 +22,16 @@ const COPIED = /\.(html|css)$/;
 /** Their tags. */
 export const WIDGETS = Object.keys(declared.settings);
 
-/** What a bundle finds where it imports the WebAssembly module: functions that return it and its glue, or what a widget needs of both. */
+/** Name by which a bundle imports the bytes of the whole core, as a function that returns them. */
+const BYTES = 'motion.bytes';
+
+/**
+ * Stands for the name of the chunk that `MODULE.external` is in, and is as long, so that source maps stay true. Within dist/
+ * the chunk's address ends with it; in the output of a bundler it does not.
+ */
+const OWN_NAME = 'chunk-________.js';
+
+/** Scripts that a bundle finds where it imports the WebAssembly module: functions that return modules and their glue. */
 const MODULE = {
   /**
    * The bytes as characters, one each; of a character's number, an array of bytes takes the lowest eight bits. Brotli and
@@ -32,25 +41,38 @@ const MODULE = {
    * @param {Uint8Array} bytes
    * @param {RegExp} shifted those of the characters that stand 256 higher
    */
-  inlined: (bytes, shifted) => {
+  bytes: (bytes, shifted) => {
     const text = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (one) => String.fromCharCode(one.charCodeAt(0) + 256));
     return (
       `const text = ${JSON.stringify(text)};` +
       // Not Uint8Array.from: going through the characters one by one, as its iterator does, takes ten times as long.
-      "import * as motion from './motion.js';" +
-      'export default { motion: { glue: async () => motion, source: () => { const bytes = new Uint8Array(text.length);' +
-      'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; } } };'
+      'export default () => { const bytes = new Uint8Array(text.length);' +
+      'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; };'
     );
   },
+  inlined: () => `import source from '${BYTES}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };`,
   /**
-   * Bundlers know this form, and carry the files along. It stands in a chunk: external.js and the widgets share it.
+   * Vite, webpack and others know `new URL(…, import.meta.url)`, carry the file along and write its new address there. Others,
+   * as esbuild and Rollup, leave the expression alone and the file behind: then the address is what it is without them, in a
+   * script that is not this one. A classic script has no `import.meta.url` at all. For these, `embedded` has the bytes in a
+   * script, which is loaded only then. All of it stands in a chunk, which external.js and the widgets share.
    *
    * @param {string[]} tags of the figures that have a module of their own
    */
   external: (tags) => {
     const files = [['motion', '../motion.wasm'], ...tags.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
-    const carried = files.map(([name, path]) => `'${name}': { glue: () => import('./${name}.js'), source: () => new URL('${path}', import.meta.url) }`);
-    return `export default {${carried}};`;
+    const carried = files.map(([name, path]) => (
+      `'${name}': { glue: () => import('./${name}.js'), source: () => carriedAlong('${path}', () => new URL('${path}', import.meta.url)) }`
+    ));
+    return (
+      'const here = import.meta.url;' +
+      'const carriedAlong = (path, written) => {' +
+      '  const url = here && written();' +
+      `  return url && (here.includes('${OWN_NAME}') || url.href !== new URL(path, here).href) ? url : undefined;` +
+      '};' +
+      `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES}')).default() };` +
+      `export default { embedded, ${carried} };`
+    );
   },
 };
 
@@ -78,7 +100,7 @@ const ADDRESS = {
   /** Only while it is evaluated; in the middle of a page it has none. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const classic = true;",
   /** Of the script that a chunk belongs to. */
-  chunk: "export const address = import.meta.url.replace(/chunks\\/[^/]*$/, 'external.js'); export const classic = false;",
+  chunk: "export const address = (import.meta.url ?? '').replace(/chunks\\/[^/]*$/, 'external.js'); export const classic = false;",
 };
 
 /** What the scripts of the elements export. */
@@ -129,8 +151,10 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       plugins: [
         {
           name: 'wasm',
-          setup({ onLoad }) {
-            onLoad({ filter: /\.wasm$/ }, () => ({ contents: form === 'external' ? MODULE.external(tags) : MODULE.inlined(wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']), loader: 'js' }));
+          setup({ onLoad, onResolve }) {
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: form === 'external' ? MODULE.external(tags) : MODULE.inlined(), loader: 'js' }));
+            onResolve({ filter: new RegExp(`^${BYTES}$`) }, ({ path }) => ({ path, namespace: 'core' }));
+            onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE.bytes(wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.js$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESS.classic : options.splitting ? ADDRESS.chunk : readFileSync(path, 'utf8'),
@@ -175,7 +199,8 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     writeFileSync(path, contents);
   };
   for (const { path, contents, text } of results.flatMap(({ outputFiles }) => outputFiles)) {
-    write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? inAscii(text) : contents);
+    const script = text.includes(OWN_NAME) ? text.replaceAll(OWN_NAME, basename(path, '.map')) : contents;
+    write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? inAscii(text) : script);
   }
   const documentation = await manifest();
   const elements = documentation.modules.flatMap(({ declarations }) => declarations);
@@ -314,7 +339,7 @@ function besideEachOther(types) {
  */
 function withoutModule(text) {
   const map = JSON.parse(text);
-  const keep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith('.wasm') ? '' : content);
+  const keep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith(BYTES) ? '' : content);
   return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(keep) });
 }
 

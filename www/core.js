@@ -22,7 +22,8 @@ let loading;
  * The core, ready to use. Later calls get the same core, and a call after a failed one tries again.
  *
  * `source` is the module as bytes, an address, or compiled. Where it is left out it is the one that
- * the bundle carries, or, in external.js, the file `motion.wasm` beside that. The first to name one
+ * the bundle carries, or, in external.js, the file `motion.wasm` beside that, or the copy embedded in a script
+ * where that file cannot be had. The first to name one
  * decides for the page: a script that imports the elements and names a source at once comes early
  * enough, though the elements on the page have asked before it.
  *
@@ -62,8 +63,7 @@ export async function instantiateFor(name) {
   try {
     // Elements ask while they are being defined, before the script that imports them has had its say.
     await null;
-    const carrier = carrierOf(name);
-    const [module, { default: makeCore }] = await Promise.all([compiled(carrier), carrier.glue()]);
+    const [module, { default: makeCore }] = await found(name);
     motion = await makeCore(module);
   } catch (error) {
     if (!forbidden()) throw error;
@@ -86,10 +86,37 @@ export function abandon(machine) {
   /** @type {{ __destroy_into_raw(): number }} */ (/** @type {unknown} */ (machine)).__destroy_into_raw();
 }
 
-/** One for all is less than one for each. @param {string} name of a widget, or of the whole core */
+/** True once the file of a module was asked for in vain. */
+let unreachable = false;
+
+/**
+ * A module and its glue; the embedded ones where there is no file, or it cannot be had.
+ *
+ * @param {string} name of a widget, or of the whole core
+ * @returns {Promise<[WebAssembly.Module, Awaited<ReturnType<Carrier['glue']>>]>}
+ */
+async function found(name) {
+  const named = wanted;
+  const carrier = carrierOf(name);
+  try {
+    return await Promise.all([compiled(carrier), carrier.glue()]);
+  } catch (error) {
+    if (named !== undefined || !carried.embedded || carrier === carried.embedded || forbidden()) throw error;
+    unreachable = true;
+    const embedded = await found(name).catch(() => {
+      unreachable = false;
+      throw error;
+    });
+    console.warn(`motion-widgets: the module embedded in a script is used. ${/** @type {Error} */ (error).message}`);
+    return embedded;
+  }
+}
+
+/** The carrier of one module for all widgets of a page, which is less than one for each. @param {string} name of a widget, or of the whole core */
 function carrierOf(name) {
   const own = carried[name];
-  return own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
+  const carrier = own && (compiling.has(own) || (wanted === undefined && expected.size < 2)) ? own : carried.motion;
+  return carried.embedded && wanted === undefined && (unreachable || !carrier.source()) ? carried.embedded : carrier;
 }
 
 /**
@@ -109,11 +136,16 @@ function compiled(carrier) {
   return module;
 }
 
+/** Advice to an author whose site has no module. */
+const CURE =
+  "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or import 'motion-widgets/inlined', which has it inside.";
+
 /** Characters of an address that are quoted: one with data in it has millions. */
 const LONGEST = 200;
 
-/** @param {Source} source */
-async function compile(source) {
+/** @param {Source | Promise<BufferSource> | undefined} given */
+async function compile(given) {
+  const source = await given;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
   if (source instanceof URL || typeof source === 'string') {
@@ -143,19 +175,19 @@ function forbidden() {
 async function streamed(source) {
   const response = await fetch(source).catch((error) => {
     throw new Error(
-      `load: ${String(source).slice(0, LONGEST)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src.`,
+      `load: ${String(source).slice(0, LONGEST)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${CURE}`,
       { cause: error },
     );
   });
   const url = response.url.slice(0, LONGEST);
-  if (!response.ok) throw new Error(`load: ${url} answers ${response.status}.`);
+  if (!response.ok) throw new Error(`load: ${url} answers ${response.status}. ${CURE}`);
   const type = response.headers.get('content-type') ?? 'something without a type';
   try {
     if (/^application\/wasm\s*$/i.test(type)) return await WebAssembly.compileStreaming(response);
     return await WebAssembly.compile(await response.arrayBuffer());
   } catch (error) {
     const reason = /** @type {Error} */ (error).message;
-    throw new Error(`load: ${url} answers with ${type}, which is no WebAssembly module: ${reason}`, { cause: error });
+    throw new Error(`load: ${url} answers with ${type}, which is no WebAssembly module: ${reason}. ${CURE}`, { cause: error });
   }
 }
 

@@ -283,17 +283,33 @@ test('the address of the external module can be set by the script that imports i
   assert.deepEqual(requests.filter((url) => url.includes('.wasm')), [new URL(address, server.address).href]);
 });
 
-test('what answers for the module and is none is named with its address and type', async () => {
-  // As servers answer that send their own page for whatever they do not have.
-  for (const contentType of ['text/html', 'application/wasm']) {
-    const page = await browser.newPage();
-    await page.route('**/*.wasm', (route) => route.fulfill({ contentType, body: '<!doctype html>' }));
-    const body = `<!doctype html><link rel="icon" href="data:,">${script('external.js')}<banana-machine></banana-machine>`;
-    await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
-    await page.goto(`${server.address}page.html`);
-    const sentence = await page.getByRole('alert').innerText();
-    const named = new RegExp(`${server.address}\\S+/banana-machine-\\w+\\.wasm answers with ${contentType}, which is no WebAssembly module`);
-    assert.match(sentence, named);
-    await page.close();
-  }
+/** A page with a figure whose modules are answered by a page, as servers do that send their own for whatever they do not have. @param {string} script */
+async function withoutModules(script) {
+  const page = await browser.newPage();
+  /** @type {string[]} */
+  const warnings = [];
+  page.on('console', (message) => void (message.type() === 'warning' && warnings.push(message.text())));
+  await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
+  const body = `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`;
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+  await page.goto(`${server.address}page.html`);
+  return { page, warnings };
+}
+
+const CURE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or import 'motion-widgets/inlined'";
+
+test('where the file of a module cannot be had, the embedded one is used, and a warning names its address and the cure', async () => {
+  const { page, warnings } = await withoutModules(script('external.js'));
+  await page.locator('banana-machine canvas').first().waitFor();
+  assert.equal(warnings.length, 1);
+  assert.match(warnings[0], new RegExp(`${server.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
+  assert.ok(warnings[0].includes(CURE));
+  await page.close();
+});
+
+test('an address that has no module is refused with the cure', async () => {
+  const { page } = await withoutModules('');
+  const refused = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST}external.js`);
+  await assert.rejects(refused, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(CURE));
+  await page.close();
 });

@@ -6,7 +6,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { chromium } from '@playwright/test';
@@ -19,20 +19,21 @@ import { ROOT } from '../../scripts/process.mjs';
  */
 export function installed() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  const npm = (/** @type {string[]} */ ...args) =>
-    execFileSync('npm', args, { cwd: directory, encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'] });
   // What is packed has been built already.
-  npm('pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory);
+  execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory]);
   const tarball = readdirSync(directory).find((name) => name.endsWith('.tgz'));
   assert.ok(tarball, 'npm pack makes a tarball');
+  const modules = join(directory, 'node_modules');
+  mkdirSync(modules);
+  execFileSync('tar', ['-xzf', tarball, '-C', modules], { cwd: directory });
+  renameSync(join(modules, 'package'), join(modules, 'motion-widgets'));
   writeFileSync(join(directory, 'package.json'), '{ "private": true }');
-  npm('install', '--ignore-scripts', '--offline', '--no-audit', '--no-fund', '--silent', `./${tarball}`);
   // What a page brings along.
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(directory, 'node_modules', name), { recursive: true });
+  for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modules, name), { recursive: true });
   cpSync(join(ROOT, 'examples'), directory, { recursive: true });
   for (const entry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
-    if (entry.isDirectory()) cpSync(join(directory, 'node_modules'), join(directory, entry.name, 'node_modules'), { recursive: true });
+    if (entry.isDirectory()) symlinkSync(modules, join(directory, entry.name, 'node_modules'));
   }
   return { directory, remove: () => rmSync(directory, { recursive: true, force: true }) };
 }

@@ -121,8 +121,8 @@ const PARTS = {
   'clippy-wasm': {
     async prepare(more) {
       const rust = await wasm();
-      // In the profile of the build, whose macros are compiled already.
-      const options = ['--locked', '--release', '--lib', '--test', 'web', ...rust.target];
+      // In the profile of the tests, whose macros are compiled already.
+      const options = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rust.target];
       return lint(rust, 'clippy', [...options, ...more, ...LINT_RULES]);
     },
   },
@@ -136,7 +136,7 @@ const PARTS = {
   wasm: {
     async prepare(more) {
       const rust = await wasm();
-      const options = ['--locked', '--release', '--test', 'web', ...rust.target];
+      const options = ['--locked', '--profile', 'web', '--test', 'web', ...rust.target];
       return cargo(rust, ['test', ...options, ...more], inBrowser(await testRunner(), await browser()));
     },
     count: rustTally,

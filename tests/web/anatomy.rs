@@ -1,0 +1,103 @@
+//! `ArcAnatomy`.
+
+use crate::support::{Object, assert_near, get};
+use motion::geom::se2::SE2;
+use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel, invert_arc};
+use wasm_bindgen_test::wasm_bindgen_test;
+
+const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+
+#[wasm_bindgen_test]
+fn it_opens_as_the_figure_does() {
+    let it = Object::new("new motion.ArcAnatomy()");
+    assert_eq!(
+        it.get::<String>("JSON.stringify(it.config)"),
+        r#"{"start":{"x":0,"y":0,"theta":0},"next":{"x":1.1,"y":0.5,"theta":1.1},"command":{"v":1,"omega":0.5,"dt":1},"#
+            .to_owned()
+            + r#""alphas":[0.05,0.05,0.05,0.09,0.01,0.01],"noise":"normal","printed":false,"map":"none"}"#
+    );
+    assert_eq!(get::<String>("motion.ArcAnatomy.presets[0].name"), "left");
+    assert_eq!(get::<[f64; 2]>("pick(motion.ArcAnatomy.presets[1], 'omega', 'nextY')"), [-0.5, -0.5]);
+}
+
+#[wasm_bindgen_test]
+fn the_inversion_and_the_score_are_those_of_the_model() {
+    let it = Object::new("new motion.ArcAnatomy()");
+    let alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+    let model = VelocityModel { alphas, noise: NoiseKind::Normal };
+    let (start, next) = (SE2::identity(), SE2::new(1.1, 0.5, 1.1));
+    let arc = invert_arc(&start, &next, 1.0);
+    assert_near(
+        it.get("it.stats.factors.map(({ estimate }) => estimate)"),
+        [arc.v_hat, arc.omega_hat, arc.gamma_hat],
+        1e-15,
+    );
+    let p = model.prob(&next, &COMMAND, &start);
+    let density = model.pose_density(&next, &COMMAND, &start).expect("a density");
+    let told: [f64; 3] =
+        it.get("[it.stats.prob, it.stats.factors.reduce((p, { value }) => p * value, 1), it.stats.density]");
+    assert_near([told[0] / p, told[1] / p, told[2] / density], [1.0; 3], 1e-12);
+    assert_near(it.get("it.table.lines.slice(-1)"), [p], 1e-15);
+    let bend: (f64, [f64; 2], [f64; 3]) = it.get("pick(it.stats.commanded, 'radius', 'center', 'end')");
+    assert_eq!((bend.0, bend.1), (2.0, [0.0, 2.0]));
+    assert_near(bend.2, [0.958_851_077_208, 0.244_834_876_219, 0.5], 1e-12);
+    assert_near([it.get("it.stats.weakest")], [2.0], 0.0);
+    assert_near(it.get("it.stats.xi"), next.boxminus(&start).into(), 1e-12);
+    // As the book prints it, the radius loses its sign.
+    it.run(
+        "it.configure({ next: { x: 1.1, y: -0.5, theta: -1.1 }, command: { v: 1, omega: -0.5, dt: 1 },
+        printed: true })",
+    );
+    it.assert("it.stats.driven.end[1] > 0.4 && Math.abs(it.stats.inverted.end[1] + 0.5) < 1e-9");
+}
+
+#[wasm_bindgen_test]
+fn ways_maps_and_errors_of_forms_are_drawn() {
+    let it = Object::new("new motion.ArcAnatomy({ map: 'density' })");
+    let lines = "Object.entries(it.paths).filter(([, line]) => line instanceof Float64Array
+        && line.length >= 4).map(([name]) => name)";
+    assert_eq!(it.get::<Vec<String>>(lines), ["commanded", "inverted", "driven", "lie", "ticks"]);
+    assert_near(it.get("it.paths.driven.slice(-2)"), [1.1, 0.5], 1e-12);
+    assert_near(it.get("it.underway(1).slice(6)"), [1.1, 0.5, 1.1], 1e-12);
+    it.assert(
+        "(({ columns, rows, shades, prob, density }) =>
+        shades instanceof Uint8Array && shades.length === columns * rows && Math.max(...shades) > 200
+        && density.every((line) => line instanceof Float64Array) && density.length > 0)
+        (it.surface(0, -0.5, 2, 1.5))",
+    );
+    it.run("it.configure({ map: 'none' })");
+    assert_eq!(it.get::<Option<()>>("it.surface(0, 0, 1, 1)"), None);
+    let [crossover, threshold, points]: [f64; 3] =
+        get("(({ estimatedCrossover, threshold, arc }) => [estimatedCrossover, threshold, \
+         arc.length])(motion.ArcAnatomy.formErrors())");
+    assert!(crossover > 0.0 && threshold > crossover && points > 10.0, "{crossover} {threshold} {points}");
+}
+
+#[wasm_bindgen_test]
+fn what_is_refused_changes_nothing() {
+    let it = Object::new("new motion.ArcAnatomy()");
+    it.assert_refused(
+        "[it.config, it.stats]",
+        &[
+            (
+                "it.configure({ map: 'all', printed: true })",
+                "RangeError: map is \"all\"; allowed is \"none\" or \"prob\" or \"density\"",
+            ),
+            ("it.configure({ printed: 1 })", "TypeError: printed is 1; allowed is true or false"),
+            (
+                "it.configure({ next: { x: NaN, y: 0, theta: 0 } })",
+                "RangeError: next.x is NaN; allowed is a number from -1000000 to 1000000",
+            ),
+            (
+                "it.configure({ end: 1 })",
+                "TypeError: end is an unknown key; \
+             allowed are start, next, command, alphas, noise, printed, map",
+            ),
+            ("it.underway(1.1)", "RangeError: share is 1.1; allowed is a number from 0 to 1"),
+            (
+                "it.surface(0, 0, -1, 1)",
+                "RangeError: xMax is -1; allowed is a number from 0 to 1000000000000000000",
+            ),
+        ],
+    );
+}

@@ -1,0 +1,313 @@
+//! `BananaMachine`.
+
+use crate::support::{Object, assert_near, get};
+use motion::geom::se2::SE2;
+use motion::stats::cross_track_skew;
+use wasm_bindgen_test::wasm_bindgen_test;
+
+#[wasm_bindgen_test]
+fn it_opens_as_the_figure_does() {
+    let it = Object::new("new motion.BananaMachine()");
+    assert_eq!(
+        it.get::<String>("JSON.stringify(it.config)"),
+        r#"{"model":"velocity","noise":"normal","command":{"v":1,"omega":0.5,"dt":1},"#.to_owned()
+            + r#""alphas":[0.05,0.05,0.05,0.09,0.01,0.01],"reverseAware":false,"isolate":null,"samples":50000,"seed":3}"#
+    );
+    assert_eq!(
+        it.get::<[f64; 3]>("[it.shown, it.stats.n, motion.BananaMachine.maxSamples]"),
+        [5e4, 5e4, 1e7]
+    );
+    assert_near([it.get("it.table.exact.crossTrackSkew")], [-0.43093], 5e-6);
+    let names: Vec<String> = get("motion.BananaMachine.presets.map(({ name }) => name)");
+    assert_eq!(names, ["straight", "gentle", "hard", "pivot", "banana", "worked"]);
+    assert_eq!(get::<Option<()>>("motion.BananaMachine.presets[2].alphas"), None);
+    assert_eq!(get::<[f64; 3]>("pick(motion.BananaMachine.presets[2], 'v', 'omega', 'dt')"), [1.0, 1.2, 1.4]);
+}
+
+/// The chapter's worked example, by quadrature and by 200,000 robots to 4.5 standard errors.
+#[wasm_bindgen_test]
+fn the_canonical_example_has_its_figures() {
+    let it = Object::new(
+        "new motion.BananaMachine({
+            model: 'velocity', noise: 'normal', command: { v: 1, omega: 0.5, dt: 1 },
+            alphas: [0.02, 0.02, 0.02, 0.02, 0, 0], samples: 200_000, seed: 7,
+        })",
+    );
+    let linearized = it.get("it.table.linearized.mean");
+    assert_near(linearized, [0.958_851_077_208, 0.244_834_876_219, 0.5], 1e-12);
+    let covariances = it.get(
+        "(({ linearized: { cov } }) =>
+        [cov[0][0], cov[1][1], cov[0][1], cov[0][2], cov[1][2], cov[2][1]])(it.table)",
+    );
+    assert_near(covariances, [0.023645, 0.007002, 0.003963, -0.004063, 0.01173, 0.01173], 5.1e-7);
+    let exact: [f64; 4] =
+        it.get("(({ exact: { mean, cov } }) => [mean[0], mean[1], cov[0][0], cov[1][1]])(it.table)");
+    assert_near(exact, [0.955_006_501, 0.243_321_663, 0.023_497_983, 0.007_057_304], 5.1e-10);
+    let exact_skew: f64 = it.get("it.table.exact.crossTrackSkew");
+    assert_near([exact_skew, it.get("it.table.linearized.crossTrackSkew")], [-0.30056, 0.0], 5.1e-6);
+
+    let n: f64 = it.get("it.stats.n");
+    let error: f64 = it.get("it.stats.crossTrackSkewError");
+    assert!((0.003..0.02).contains(&error), "{error}");
+    assert_near([it.get("it.stats.crossTrackSkew")], [exact_skew], 4.5 * error);
+    assert_near([it.get("it.stats.gaussianSkew")], [-0.30056], 0.01);
+    assert_near([it.get("it.stats.cartesian.mean[0]")], [exact[0]], 4.5 * (exact[2] / n).sqrt());
+    let twist = it.get("[it.stats.exponential.mean[0], it.stats.exponential.mean[2]]");
+    assert_near(twist, [1.0, 0.5], 4.5 * (0.025 / n).sqrt());
+    assert_near([it.get("it.stats.exponential.cov[0][0]")], [0.025], 0.025 * 4.5 * (2.0 / n).sqrt());
+    let share = 1.0 - (-2_f64).exp();
+    assert_near([it.get("it.stats.coverage.exponential")], [share], 4.5 * (share * (1.0 - share) / n).sqrt());
+    let [ellipse, rho]: [f64; 2] = it.get("[it.stats.coverage.ellipse, it.stats.rhoCrossHeading]");
+    assert!((0.85..0.89).contains(&ellipse) && (0.7..0.95).contains(&rho), "{ellipse} {rho}");
+    // The cloud is a surface: no density, and a gain without limit.
+    it.assert("it.stats.likelihoodGain.pose === Infinity && Number.isNaN(it.stats.likelihoodGainError.pose)");
+}
+
+#[wasm_bindgen_test]
+fn gains_and_area_ratios_are_the_published_ones() {
+    let cases = [("gentle", 0.1243, 1.007), ("hard", 0.2596, 0.978), ("banana", 0.8477, 1.967)];
+    for (preset, gain, ratio) in cases {
+        let it = Object::new(&format!(
+            "(({{ v, omega, dt, alphas }}) =>
+                new motion.BananaMachine({{ command: {{ v, omega, dt }}, alphas: alphas ?? undefined, samples: 50_000 }}))
+            (motion.BananaMachine.presets.find(({{ name }}) => name === '{preset}'))"
+        ));
+        let exact: [f64; 2] = it.get("[it.table.exact.likelihoodGain.pose, it.table.exact.areaRatio]");
+        assert_near(exact, [gain, ratio], 5e-4);
+        let error: f64 = it.get("it.stats.likelihoodGainError.pose");
+        assert_near([it.get("it.stats.likelihoodGain.pose")], [exact[0]], 4.5 * error);
+        assert_near(
+            it.get("[it.table.measured.areaRatio, it.table.linearized.areaRatio]"),
+            [it.get("it.stats.areaRatio"), 1.0],
+            0.0,
+        );
+    }
+}
+
+#[wasm_bindgen_test]
+fn arrays_are_copies_of_the_samples() {
+    let it = Object::new(
+        "new motion.BananaMachine({ model: 'odometry', noise: 'triangular', samples: 1000, seed: 3 })",
+    );
+    it.assert(
+        "[it.poses, it.twists, it.executed].every((each) => each instanceof Float64Array
+        && each.length === 3000)",
+    );
+    let poses: Vec<f64> = it.get("it.poses");
+    let poses: Vec<_> = poses.chunks_exact(3).map(|pose| SE2::new(pose[0], pose[1], pose[2])).collect();
+    assert_near([it.get("it.stats.crossTrackSkew")], [cross_track_skew(&poses)], 1e-12);
+    it.run(
+        "[it.poses.fill(NaN), it.config.command.v = 9, it.config.alphas[0] = 9,
+        it.stats.cartesian.mean[0] = 9]",
+    );
+    it.assert("it.poses.every(Number.isFinite) && it.config.command.v === 1 && it.config.alphas[0] !== 9");
+}
+
+#[wasm_bindgen_test]
+fn each_model_keeps_its_alphas_and_a_seed_its_cloud() {
+    let it = Object::new("new motion.BananaMachine({ samples: 500, seed: 8 })");
+    let cloud: Vec<f64> = it.get("it.poses");
+    it.run("it.configure({ model: 'odometry', samples: 700 })");
+    it.run("it.configure({ alphas: new Float64Array([4, 3, 2, 1]), isolate: 2 })");
+    it.run("it.configure({ model: 'velocity', isolate: null, samples: undefined })");
+    assert_eq!(it.get::<[f64; 4]>("it.alphasOfModels.odometry"), [4.0, 3.0, 2.0, 1.0]);
+    assert_eq!(it.get::<Vec<f64>>("it.alphasOfModels.velocity"), [0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+    assert_eq!(it.get::<Vec<f64>>("it.poses.slice(0, 1500)"), cloud);
+    assert_eq!(it.get::<[f64; 2]>("[it.poses.length, it.config.samples]"), [2100.0, 700.0]);
+}
+
+#[wasm_bindgen_test]
+fn samples_are_inspected_found_and_counted() {
+    let it = Object::new("new motion.BananaMachine({ samples: 4000 })");
+    let (pose, twist): ([f64; 3], [f64; 3]) = it.get("pick(it.inspect(17), 'pose', 'twist')");
+    assert_eq!((pose, twist), it.get("[it.poses.slice(51, 54), it.twists.slice(51, 54)]"));
+    let arc: [f64; 3] = it.get("pick(it.inspect(17), 'vHat', 'omegaHat', 'gammaHat')");
+    assert_eq!(arc, it.get::<[f64; 3]>("it.executed.slice(51, 54)"));
+    assert_near([arc[1] + arc[2], it.get("it.heading(17)")], [pose[2], pose[2]], 1e-12);
+    assert_eq!(it.get::<Option<()>>("it.inspect(17).legs"), None);
+    assert_near(it.get("it.inspect(17).path.slice(-2)"), [pose[0], pose[1]], 1e-12);
+    assert_eq!(
+        it.get::<[i32; 3]>(&format!(
+            "[it.nearest('plane', {}, {}, 1e-6, 1e-6), it.nearest('twist', {}, {}, 1e-6, 1e-6), \
+             it.nearest('plane', 100, 100, 1, 1)]",
+            pose[0], pose[1], twist[0], twist[2]
+        )),
+        [17, 17, -1]
+    );
+    let counts: Vec<u32> = it.get("it.density('plane', -4, -4, 4, 4, 20, 10)");
+    let upper = it.get::<u32>("it.poses.filter((y, i) => i % 3 === 1 && y > 0).length");
+    assert_eq!(
+        (counts.iter().sum::<u32>(), counts[..100].iter().sum::<u32>()),
+        (4000, upper),
+        "row 0 is at the top"
+    );
+    it.assert("it.density('twist', -4, -4, 4, 4, 20, 10) instanceof Uint32Array");
+    let pixels: Vec<u8> = it.get(
+        "it.picture('plane', -4, -4, 4, 4, 20, 10, Uint8Array.from({ length: 1024 }, (_, i) => i >> 2))",
+    );
+    let most = f64::from(*counts.iter().max().expect("cells"));
+    for (pixel, count) in pixels.chunks_exact(4).zip(&counts) {
+        let shade = (255.0 * (f64::from(*count) / most).sqrt()).round() as u8;
+        assert_eq!(pixel, [shade; 4], "{count} of {most}");
+    }
+}
+
+#[wasm_bindgen_test]
+fn outlines_and_curves_are_arrays_of_points() {
+    let it = Object::new("new motion.BananaMachine({ samples: 4000 })");
+    let closed = "(({ command, ...outlines }) => Object.entries(outlines)
+        .filter(([, at]) => at instanceof Float64Array && at.length > 60 && at[0] === at.at(-2) && at[1] === at.at(-1))
+        .map(([name]) => name))(it.contours)";
+    assert_eq!(
+        it.get::<Vec<String>>(closed),
+        ["ellipse", "linearized", "exponential", "twistEllipse", "additive"]
+    );
+    assert_near(it.get("it.contours.command.slice(-2)"), [0.958_851_077_208, 0.244_834_876_219], 1e-12);
+    assert_near(it.get("it.skewCurve(-1, 1, 5).filter((_, i) => i % 2)"), [0.43093, -0.43093], 5e-6);
+    let reading = it.get("Object.values(it.reading)");
+    assert_near(reading, [0.25, 0.989_615_837_018, 0.25], 1e-9);
+    it.assert("it.chartHolds");
+}
+
+#[wasm_bindgen_test]
+fn a_cloud_grows_and_a_change_in_slices_ends_where_a_change_at_once_does() {
+    let it = Object::new(
+        "({ sliced: new motion.BananaMachine({ samples: 300 }),
+            whole: new motion.BananaMachine({ samples: 300 }),
+            empty: motion.BananaMachine.empty({ samples: 300 }) })",
+    );
+    assert_eq!(
+        it.get::<[usize; 4]>("[it.empty.shown, it.empty.grow(1), it.empty.grow(100), it.empty.grow(1000)]"),
+        [0, 1, 101, 300]
+    );
+    let same = |one: &str, other: &str| {
+        it.get::<bool>(&format!(
+            "JSON.stringify([it.{one}.config, it.{one}.stats, [...it.{one}.poses]]) ===
+             JSON.stringify([it.{other}.config, it.{other}.stats, [...it.{other}.poses]])"
+        ))
+    };
+    assert!(same("empty", "whole"));
+    it.run("it.empty.restart()");
+    it.assert(
+        "it.empty.shown === 0 && it.empty.contours.ellipse.length === 0
+        && Number.isNaN(it.empty.stats.gaussianSkew)",
+    );
+    it.run("it.empty.beginToGrow(300)");
+    it.run("(() => { while (!it.empty.advance(100)); })()");
+    assert!(same("empty", "whole"));
+
+    let change = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 20_000, seed: 5 }";
+    let mean: f64 = it.get("it.sliced.stats.cartesian.mean[0]");
+    it.run(&format!("it.sliced.begin({change})"));
+    assert!(!it.get::<bool>("it.sliced.advance(1000)"));
+    assert_eq!(it.get::<f64>("it.sliced.stats.cartesian.mean[0]"), mean, "the former figures");
+    it.run("(() => { while (!it.sliced.advance(1000)); })()");
+    it.run(&format!("it.whole.configure({change})"));
+    assert!(same("sliced", "whole"));
+}
+
+#[wasm_bindgen_test]
+fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
+    let it = Object::new("new motion.BananaMachine({ samples: 30, seed: 11 })");
+    let keys = "model, noise, command, alphas, reverseAware, isolate, samples, seed";
+    it.assert_refused("[it.config, it.stats, [...it.poses]]", &[
+        // What comes along with a bad value is not taken over.
+        (
+            "it.configure({ seed: 1, alphas: [1, 2, 3, NaN, 5, 6], model: 'velocity' })",
+            "RangeError: alphas[3] is NaN; allowed is a number from 0 to 1000000",
+        ),
+        (
+            "it.configure({ alphas: [1, 2, 3, 4] })",
+            "RangeError: alphas has length 4; allowed is an array of 6 numbers",
+        ),
+        (
+            "it.configure({ alphas: [1, 2, 3, 4, 5, '6'] })",
+            "TypeError: alphas[5] is \"6\"; allowed is a number",
+        ),
+        (
+            "it.configure({ command: { v: Infinity, omega: 0, dt: 1 } })",
+            "RangeError: command.v is Infinity; allowed is a number from -1000000 to 1000000",
+        ),
+        (
+            "it.configure({ command: { v: 1, omega: 0, dt: 0 } })",
+            "RangeError: command.dt is 0; allowed is a number from 0.000001 to 1000000",
+        ),
+        (
+            "it.configure({ command: { v: 1, omega: 0 } })",
+            "TypeError: command.dt is undefined; allowed is a number",
+        ),
+        (
+            "it.configure({ command: { v: 1, omega: 0, dt: 1, w: 1 } })",
+            "TypeError: command.w is an unknown key; allowed are v, omega, dt",
+        ),
+        (
+            "it.configure({ command: null })",
+            "TypeError: command is null; allowed is an object with keys from v, omega, dt",
+        ),
+        (
+            "it.configure({ samples: 0 })",
+            "RangeError: samples is 0; allowed is a whole number from 1 to 10000000",
+        ),
+        (
+            "it.configure({ samples: 1.5 })",
+            "RangeError: samples is 1.5; allowed is a whole number from 1 to 10000000",
+        ),
+        ("it.configure({ samples: 7n })", "TypeError: samples is a bigint; allowed is a number"),
+        (
+            "it.configure({ seed: -1 })",
+            "RangeError: seed is -1; allowed is a whole number from 0 to 9007199254740991",
+        ),
+        ("it.configure({ isolate: 7 })", "RangeError: isolate is 7; allowed is a whole number from 1 to 6"),
+        (
+            "it.configure({ model: 'Velocity' })",
+            "RangeError: model is \"Velocity\"; allowed is \"velocity\" or \"odometry\"",
+        ),
+        ("it.configure({ noise: 1 })", "TypeError: noise is 1; allowed is \"normal\" or \"triangular\""),
+        (
+            "it.configure({ reverseAware: 'yes' })",
+            "TypeError: reverseAware is \"yes\"; allowed is true or false",
+        ),
+        ("it.configure({ Seed: 1 })", &format!("TypeError: Seed is an unknown key; allowed are {keys}")),
+        ("it.configure()", &format!("TypeError: options is undefined; allowed is an object with keys from {keys}")),
+        ("new motion.BananaMachine(7)", &format!("TypeError: options is 7; allowed is an object with keys from {keys}")),
+        (
+            "new motion.BananaMachine({ model: 'x'.repeat(50) })",
+            &format!("RangeError: model is \"{}…\"; allowed is \"velocity\" or \"odometry\"", "x".repeat(40)),
+        ),
+        (
+            "it.begin({ samples: 0 })",
+            "RangeError: samples is 0; allowed is a whole number from 1 to 10000000",
+        ),
+        ("it.advance(0)", "RangeError: poses is 0; allowed is a whole number from 1 to 9007199254740991"),
+        ("it.grow(-1)", "RangeError: count is -1; allowed is a whole number from 0 to 10000000"),
+        (
+            "it.inspect(30)",
+            "RangeError: index is 30; allowed is one of the 30 samples shown, counted from 0",
+        ),
+        ("it.heading('0')", "TypeError: index is \"0\"; allowed is a number"),
+        (
+            "it.skewCurve(NaN, 1, 5)",
+            "RangeError: omegaMin is NaN; allowed is a number from -1000000 to 1000000",
+        ),
+        (
+            "it.nearest('side', 0, 0, 1, 1)",
+            "RangeError: view is \"side\"; allowed is \"plane\" or \"twist\"",
+        ),
+        (
+            "it.nearest('plane', 0, 0, -1, 1)",
+            "RangeError: radiusX is -1; allowed is a number from 0 to Infinity",
+        ),
+        (
+            "it.density('plane', 0, 0, -1, 1, 9, 9)",
+            "RangeError: xMax is -1; allowed is a number from 0 to 1000000000000000000",
+        ),
+        (
+            "it.density('plane', 0, 0, 1, 1, 2 ** 14, 2 ** 10 + 1)",
+            "RangeError: rows is 1025; allowed is a whole number from 1 to 1024",
+        ),
+        (
+            "it.picture('plane', 0, 0, 1, 1, 9, 9, new Uint8Array(1023))",
+            "RangeError: ramp has length 1023; allowed is a Uint8Array of 1024 bytes, 256 colours of four",
+        ),
+    ]);
+}

@@ -1,0 +1,285 @@
+//! `calibrate` and `AlphaCalibrator`: logs in, α's out.
+
+use crate::support::{Object, assert_near};
+use motion::geom::se2::SE2;
+use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel};
+use nalgebra::Vector3;
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::Serialize;
+use wasm_bindgen_test::wasm_bindgen_test;
+
+const ALPHAS: [f64; 4] = [0.05, 0.01, 0.005, 0.004];
+
+#[derive(Serialize)]
+struct Logs {
+    odometry: Columns,
+    reference: Columns,
+}
+
+#[derive(Serialize)]
+struct Columns {
+    t: Vec<f64>,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    theta: Vec<f64>,
+}
+
+/// A drive of 400 legs of a second each, in ten rows; the reference follows a robot of these α's, seen under a yaw of 0.03.
+fn drive() -> Object {
+    let model = OdometryModel { alphas: OdomAlphas(ALPHAS), noise: NoiseKind::Normal };
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+    let (mut read, mut real) = (SE2::identity(), SE2::identity());
+    let (mut odometry, mut reference) = (Vec::new(), Vec::new());
+    for leg in 0..400 {
+        let turn = 0.5 * libm::sin(0.7 * f64::from(leg));
+        let twist = Vector3::new(0.3 + 0.1 * libm::sin(1.3 * f64::from(leg)), 0.0, turn);
+        let control = OdomDelta::from_poses(&SE2::identity(), &SE2::exp(&twist));
+        let done = model.sample(&control, &SE2::identity(), &mut rng).log();
+        for row in 0..10 {
+            let share = f64::from(row) / 10.0;
+            odometry.push(read.boxplus(twist * share));
+            reference.push(real.boxplus(done * share) * SE2::new(0.0, 0.0, 0.03));
+        }
+        (read, real) = (read.boxplus(twist), real.boxplus(done));
+    }
+    let columns = |poses: &[SE2]| Columns {
+        t: (0..poses.len()).map(|row| row as f64 / 10.0).collect(),
+        x: poses.iter().map(SE2::x).collect(),
+        y: poses.iter().map(SE2::y).collect(),
+        theta: poses.iter().map(SE2::theta).collect(),
+    };
+    (&Logs { odometry: columns(&odometry), reference: columns(&reference) }).into()
+}
+
+#[wasm_bindgen_test]
+fn alphas_of_a_log_are_found_with_their_intervals() {
+    let it = drive();
+    it.run("it.found = motion.calibrate({ ...it, legs: { duration: 1 }, byLength: true })");
+    let intervals: Vec<(f64, f64)> = it.get("it.found.intervals");
+    let alphas: Vec<f64> = it.get("it.found.alphas");
+    for ((alpha, (low, high)), truth) in alphas.iter().zip(&intervals).zip(ALPHAS) {
+        // Twice as wide as an interval that holds the truth in 95 of 100 logs.
+        assert!(low < alpha && alpha < high, "{low} {alpha} {high}");
+        assert!(2.0 * low - alpha < truth && truth < 2.0 * high - alpha, "{low} {truth} {high}");
+    }
+    let (yaw, removed): (f64, bool) =
+        it.get("[it.found.systematic.mountYaw.value, it.found.systematic.mountYaw.removed]");
+    assert_near([yaw], [0.03], 0.02);
+    assert!(removed);
+    let [legs, times, factors]: [usize; 3] =
+        it.get("[it.found.legs.count, it.found.legs.times.length, it.found.byLength.length]");
+    assert!((390..=400).contains(&legs) && times == 2 * legs && factors == 5, "{legs} {times} {factors}");
+    assert_eq!(it.get::<[usize; 2]>("Object.values(it.found.gaps)"), [0, 0]);
+    assert_eq!(it.get::<Vec<Option<String>>>("it.found.undetermined"), [None, None, None, None]);
+    let typed = "Object.fromEntries(Object.entries(it.odometry).map(([key, column]) => [key,
+        Float64Array.from(column)]))";
+    it.run(&format!(
+        "it.again = motion.calibrate({{ odometry: {typed}, reference: it.reference,
+        legs: {{ duration: 1 }}, rule: 'table' }})"
+    ));
+    assert_eq!(it.get::<Vec<f64>>("it.again.alphas"), alphas);
+}
+
+#[wasm_bindgen_test]
+fn commands_have_six_alphas_and_a_drive_ahead_determines_no_turn() {
+    let it = drive();
+    it.run(
+        "it.commands = { t: it.odometry.t, v: it.odometry.t.map((t) => 0.3 + 0.1 * Math.sin(t)),
+        omega: it.odometry.t.map((t) => 0.6 * Math.sin(0.17 * t)) }",
+    );
+    it.run(
+        "it.velocity = motion.calibrate({ odometry: it.commands, reference: it.reference,
+        model: 'velocity', legs: { duration: 1 } })",
+    );
+    assert_eq!(it.get::<[usize; 2]>("[it.velocity.alphas.length, it.velocity.intervals.length]"), [6, 6]);
+    it.run(
+        "it.straight = (shake) => ({ t: it.odometry.t, x: it.odometry.t.map((t, i) =>
+        0.5 * t + shake * (i % 7)), y: it.odometry.t.map(() => 0), theta: it.odometry.t.map(() => 0) })",
+    );
+    it.run("it.ahead = motion.calibrate({ odometry: it.straight(0), reference: it.straight(1e-3) })");
+    assert_eq!(
+        it.get::<Vec<Option<String>>>("it.ahead.undetermined"),
+        [Some("turns-too-little".to_owned()), None, None, Some("turns-too-little".to_owned())]
+    );
+    assert_eq!(
+        it.get::<[Option<f64>; 3]>(
+            "[it.ahead.alphas[0], it.ahead.alphas[3], it.ahead.systematic.turnScale.value]"
+        ),
+        [None; 3]
+    );
+}
+
+#[wasm_bindgen_test]
+fn no_leg_spans_a_break() {
+    let it = drive();
+    it.run(
+        "it.found = motion.calibrate({ odometry: { ...it.odometry, breaks: Uint16Array.of(2005) },
+        reference: it.reference, legs: { duration: 1 } })",
+    );
+    assert_eq!(it.get::<[usize; 2]>("Object.values(it.found.gaps)"), [1, 0]);
+    it.assert(
+        "it.found.legs.times.every((t, i) => i % 2 || !(t < 200.4
+        && it.found.legs.times[i + 1] > 200.55))",
+    );
+}
+
+#[wasm_bindgen_test]
+fn the_figure_opens_with_a_log_of_known_alphas() {
+    let it = Object::new("new motion.AlphaCalibrator()");
+    assert_eq!(
+        it.get::<String>("JSON.stringify(it.config)"),
+        r#"{"model":"odometry","rule":"table","noise":"normal","robust":true,"distance":0.25,"angle":0.2,"duration":0,"#.to_owned()
+            + r#""mountYaw":true,"leverArm":true,"distanceScale":true,"turnScale":true,"clockOffset":true,"byLength":false,"#
+            + r#""positionDeviation":0,"headingDeviation":0,"inflation":1,"seed":8}"#
+    );
+    let (truth, intervals): ([f64; 4], [(f64, f64); 4]) = it.get("[it.truth.alphas, it.stats.intervals]");
+    for (truth, (low, high)) in truth.iter().zip(intervals) {
+        assert!(low < *truth && *truth < high, "{low} {truth} {high}");
+    }
+    it.assert(
+        "it.count === it.legs.count && it.count === it.legs.squaredError.length && it.fits === 1
+        && it.stats.legs === undefined",
+    );
+    assert_eq!(
+        it.get::<Vec<usize>>(
+            "it.panels('turn').map(({ alpha }) => alpha).concat(it.panels('way').map(({ alpha }) => alpha))"
+        ),
+        [0, 3, 0, 1, 2, 1]
+    );
+    let ended: [f64; 2] = it.get(
+        "(({ outcomes, outline, read, ended }) =>
+        [outcomes.length % 3 + (outline.length % 2), read.length + ended.length])(it.leg(0))",
+    );
+    assert_eq!(ended, [0.0, 6.0]);
+    assert_eq!(it.get::<Option<()>>("it.leg(it.count)"), None);
+    assert_eq!(it.get::<i32>("it.nearest(1e6, 1e6, 1)"), -1);
+}
+
+#[wasm_bindgen_test]
+fn a_log_of_ones_own_replaces_it_at_once_or_in_slices() {
+    let it = drive();
+    it.run(
+        "[it.whole, it.sliced] = [0, 1].map(() => new motion.AlphaCalibrator({ robust: false,
+        duration: 1 }))",
+    );
+    let told = |name: &str| {
+        it.get::<String>(&format!("JSON.stringify([it.{name}.config, it.{name}.stats, it.{name}.count])"))
+    };
+    let opening = told("whole");
+    it.run("it.whole.setLog(it.odometry, it.reference)");
+    it.run("it.sliced.beginLog(it.odometry, it.reference)");
+    assert!(!it.get::<bool>("it.sliced.advance(1)") && told("sliced") == opening);
+    it.run("it.sliced.stop()");
+    assert!(it.get::<bool>("it.sliced.advance(1)") && told("sliced") == opening);
+    it.run("(() => { it.sliced.beginLog(it.odometry, it.reference); while (!it.sliced.advance(1)); })()");
+    assert_eq!(told("sliced"), told("whole"));
+    assert_eq!(it.get::<Option<()>>("it.whole.truth"), None);
+    assert_eq!(
+        it.get::<Vec<f64>>("it.whole.stats.alphas"),
+        it.get::<Vec<f64>>(
+            "motion.calibrate({ odometry: it.odometry, reference: it.reference,
+        legs: { duration: 1 }, seed: 8 }).alphas"
+        )
+    );
+    it.run("(() => { it.sliced.begin({ rule: 'nav2' }); while (!it.sliced.advance(1)); })()");
+    it.run("it.whole.configure({ rule: 'nav2' })");
+    assert_eq!(told("sliced"), told("whole"));
+    it.assert("it.sliced.fits === 3 && it.sliced.progress === 1");
+}
+
+#[wasm_bindgen_test]
+fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
+    let it = drive();
+    it.run("it.few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] }");
+    it.run("it.machine = motion.AlphaCalibrator.empty()");
+    it.assert_refused(
+        "it.machine.config",
+        &[
+            (
+                "motion.calibrate({})",
+                "TypeError: odometry is undefined; \
+             allowed is an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few })",
+                "TypeError: reference is undefined; \
+             allowed is an object with keys from t, x, y, theta, breaks, positionDeviation, \
+              headingDeviation",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few, reference: { ...it.few, x: [1] } })",
+                "RangeError: reference.x has length 1; allowed is 2, as of reference.t",
+            ),
+            (
+                "motion.calibrate({ odometry: { ...it.few, t: [] }, reference: it.few })",
+                "RangeError: odometry.t has length 0; allowed is 2 to 10000000",
+            ),
+            (
+                "motion.calibrate({ odometry: { ...it.few, x: [0, 'a'] }, reference: it.few })",
+                "TypeError: odometry.x[1] is \"a\"; allowed is a number",
+            ),
+            (
+                "motion.calibrate({ odometry: { ...it.few, theta: [0, NaN] }, reference: it.few })",
+                "RangeError: odometry.theta[1] is NaN; allowed is a number from -1000000000 to 1000000000",
+            ),
+            (
+                "motion.calibrate({ odometry: { ...it.few, t: [1, 1] }, reference: it.few })",
+                "RangeError: odometry: sample 1 is not later than the one before, at 1 s; \
+             allowed are times that rise",
+            ),
+            (
+                "motion.calibrate({ odometry: { ...it.few, breaks: [2] }, reference: it.few })",
+                "RangeError: odometry.breaks[0] is 2; allowed is a whole number from 1 to 1",
+            ),
+            (
+                "motion.calibrate({ odometry: it.odometry, reference: { ...it.reference, breaks: [7, 7] } })",
+                "RangeError: reference.breaks[1] is 7; allowed is more than 7, the one before it",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few, reference: it.few })",
+                "RangeError: the log has 1 legs for which both trajectories are known; \
+             allowed are 8 at least: shorter legs, a longer drive, or clocks that agree",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few, reference: it.few, model: 'banana' })",
+                "RangeError: model is \"banana\"; \
+             allowed is \"odometry\" or \"omnidirectional\" or \"velocity\"",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few, reference: it.few, model: 'velocity', rule: 'nav2' })",
+                "RangeError: rule does not go with the model; \
+             allowed is table, nav2 or beluga with odometry, omni with omnidirectional, and none with \
+              velocity",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few, reference: it.few, legs: { duration: 1, angle: 1 } })",
+                "RangeError: legs.duration is given beside a distance or an angle; allowed is one of the two",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few, reference: it.few, robust: { outliers: 1 } })",
+                "RangeError: robust.outliers is 1; allowed is a number from 1e-9 to 0.5",
+            ),
+            (
+                "motion.calibrate({ odometry: it.few, reference: it.few, systematic: { yaw: true } })",
+                "TypeError: systematic.yaw is an unknown key; \
+             allowed are clockOffset, mountYaw, leverArm, distanceScale, turnScale",
+            ),
+            (
+                "it.machine.configure({ seed: 1, rule: 'omnibus' })",
+                "RangeError: rule is \"omnibus\"; allowed is \"table\" or \"nav2\" or \"beluga\" or \"omni\"",
+            ),
+            (
+                "it.machine.configure({ inflation: 0 })",
+                "RangeError: inflation is 0; allowed is a number from 0.01 to 100",
+            ),
+            ("it.machine.panels('time')", "RangeError: driver is \"time\"; allowed is \"way\" or \"turn\""),
+            (
+                "it.machine.setLog(it.few)",
+                "TypeError: reference is undefined; \
+             allowed is an object with keys from t, x, y, theta, breaks, positionDeviation, \
+              headingDeviation",
+            ),
+        ],
+    );
+}

@@ -1,0 +1,83 @@
+//! `OdometryDecomposer`.
+
+use crate::support::{Object, assert_near, get};
+use wasm_bindgen_test::wasm_bindgen_test;
+
+#[wasm_bindgen_test]
+fn it_opens_as_the_figure_does() {
+    let it = Object::new("new motion.OdometryDecomposer()");
+    assert_eq!(
+        it.get::<String>("JSON.stringify(it.config)"),
+        r#"{"from":{"x":0,"y":0,"theta":0},"to":{"x":1.2,"y":1,"theta":1.2},"rule":"table","#.to_owned()
+            + r#""alphas":[0.03,0.01,0.01,0.02,0.01],"noise":"normal","correlation":0,"drift":40,"phase":3,"samples":500,"seed":33}"#
+    );
+    assert_eq!(get::<String>("motion.OdometryDecomposer.presets[1].name"), "turn-drive");
+    assert_eq!(get::<[f64; 3]>("Object.values(motion.OdometryDecomposer.presets[1].to)"), [1.2, 0.9, 0.6435]);
+}
+
+#[wasm_bindgen_test]
+fn the_reading_is_taken_apart_by_every_rule() {
+    let it = Object::new("new motion.OdometryDecomposer()");
+    assert_eq!(
+        it.get::<Vec<String>>("it.rules.map(({ rule }) => rule)"),
+        ["table", "nav2", "beluga", "omni"]
+    );
+    let rot1 = (1_f64 / 1.2).atan();
+    assert_near(it.get("Object.values(it.rules[0].legs)"), [rot1, 2.44_f64.sqrt(), 1.2 - rot1], 1e-12);
+    // α₁ rot1² + α₂ trans², α₃ trans² + α₄ (rot1² + rot2²).
+    let turns = rot1 * rot1 + (1.2 - rot1) * (1.2 - rot1);
+    let deviations = [(0.03 * rot1 * rot1 + 0.01 * 2.44).sqrt(), (0.01 * 2.44 + 0.02 * turns).sqrt()];
+    assert_near(it.get("it.rules[0].deviations.slice(0, 2)"), deviations, 1e-12);
+    assert_near(it.get("it.linkage.slice(-3)"), [1.2, 1.0, 1.2], 1e-12);
+    assert_near(it.get("Object.values(it.robot)"), [1.2, 1.0, 1.2], 1e-12);
+    assert_near(it.get("Object.values(it.drifted.legs)"), [rot1, 2.44_f64.sqrt(), 1.2 - rot1], 1e-12);
+    assert_eq!(
+        it.get::<[usize; 3]>("[it.drifted.poses.length, it.ghosts(7).length, it.curve(2, 5).length]"),
+        [9, 84, 20]
+    );
+}
+
+#[wasm_bindgen_test]
+fn outcomes_spread_as_is_exact() {
+    let it = Object::new("new motion.OdometryDecomposer({ samples: 5000, seed: 4 })");
+    let [across, error, exact]: [f64; 3] =
+        it.get("pick(it.stats, 'crossTrack', 'crossTrackError', 'exactCrossTrack')");
+    assert_near([across], [exact], 4.5 * error);
+    let [heading, error, exact]: [f64; 3] =
+        it.get("pick(it.stats, 'heading', 'headingError', 'exactHeading')");
+    assert_near([heading], [exact], 4.5 * error);
+    assert_eq!(it.get::<i32>("it.nearest(it.poses[3 * 40], it.poses[3 * 40 + 1], 1e-9)"), 40);
+    let cloud: Vec<f64> = it.get("it.poses");
+    it.run("it.restart()");
+    assert_eq!(it.get::<[usize; 3]>("[it.shown, it.grow(30), it.grow(5000)]"), [0, 30, 5000]);
+    assert_eq!(it.get::<Vec<f64>>("it.poses"), cloud);
+}
+
+#[wasm_bindgen_test]
+fn what_is_refused_changes_nothing() {
+    let it = Object::new("new motion.OdometryDecomposer()");
+    it.assert_refused(
+        "[it.config, it.stats]",
+        &[
+            (
+                "it.configure({ seed: 1, rule: 'amcl' })",
+                "RangeError: rule is \"amcl\"; allowed is \"table\" or \"nav2\" or \"beluga\" or \"omni\"",
+            ),
+            (
+                "it.configure({ correlation: 2 })",
+                "RangeError: correlation is 2; allowed is a number from -1 to 1",
+            ),
+            (
+                "it.configure({ alphas: [1, 2, 3, 4] })",
+                "RangeError: alphas has length 4; allowed is an array of 5 numbers",
+            ),
+            (
+                "it.configure({ from: { x: 0, y: 0 } })",
+                "TypeError: from.theta is undefined; allowed is a number",
+            ),
+            ("it.grow(1.5)", "RangeError: count is 1.5; allowed is a whole number from 0 to 5000"),
+            ("it.curve(-1, 5)", "RangeError: longest is -1; allowed is a number from 0 to 1000000"),
+            ("it.nearest(0, 0)", "TypeError: radius is undefined; allowed is a number"),
+        ],
+    );
+}

@@ -1,0 +1,278 @@
+//! Models, arcs and SE(2): the functions that homework is done and checked with.
+
+use crate::support::{Object, assert_near, get};
+use motion::geom::se2::SE2;
+use motion::{
+    Compounding, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware,
+    TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, invert_arc,
+};
+use nalgebra::{Matrix3, Vector3};
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use wasm_bindgen_test::wasm_bindgen_test;
+
+/// The same values in JavaScript and in Rust.
+const VALUES: &str = "{
+    start: { x: 1, y: -2, theta: 0.5 }, next: { x: 1.7, y: -1.3, theta: 1.2 },
+    command: { v: 1, omega: 0.5, dt: 1 }, control: { rot1: 0.2, trans: 1, rot2: 0.3 },
+    velocity: new motion.VelocityModel({ alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], noise: 'triangular' }),
+    odometry: new motion.OdometryModel({ alphas: [0.1, 0.05, 0.02, 0.03] }),
+    aware: new motion.OdometryModel({ alphas: [0.1, 0.05, 0.02, 0.03], reverseAware: true }),
+    back: { x: 0.1, y: -2.4, theta: 0.55 }, reverse: { rot1: 3, trans: 1, rot2: -3 },
+}";
+const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const CONTROL: OdomDelta = OdomDelta { rot1: 0.2, trans: 1.0, rot2: 0.3 };
+const REVERSE: OdomDelta = OdomDelta { rot1: 3.0, trans: 1.0, rot2: -3.0 };
+const VELOCITY: VelocityModel = VelocityModel {
+    alphas: VelocityAlphas([0.02, 0.03, 0.04, 0.05, 0.01, 0.02]),
+    noise: NoiseKind::Triangular,
+};
+const ODOMETRY: OdometryModel =
+    OdometryModel { alphas: OdomAlphas([0.1, 0.05, 0.02, 0.03]), noise: NoiseKind::Normal };
+
+fn start() -> SE2 {
+    SE2::new(1.0, -2.0, 0.5)
+}
+
+fn next() -> SE2 {
+    SE2::new(1.7, -1.3, 1.2)
+}
+
+fn back() -> SE2 {
+    SE2::new(0.1, -2.4, 0.55)
+}
+
+fn numbers(pose: &SE2) -> [f64; 3] {
+    [pose.x(), pose.y(), pose.theta()]
+}
+
+fn drawn<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
+    (0..5).flat_map(|_| numbers(&model.sample(control, &start(), &mut rng))).collect()
+}
+
+fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+#[wasm_bindgen_test]
+fn the_canonical_command_ends_at_its_nominal_pose() {
+    let end: [f64; 3] = get("Object.values(motion.se2.exp([1, 0, 0.5]))");
+    assert_near(end, [0.958_851_077_208, 0.244_834_876_219, 0.5], 1e-12);
+    assert_near(get("motion.se2.log(motion.se2.exp([1, 0, 0.5]))"), [1.0, 0.0, 0.5], 1e-15);
+    let it = Object::new(VALUES);
+    let nominal = "motion.se2.exp([1, 0, 0.5]), it.command, { x: 0, y: 0, theta: 0 }";
+    // All residuals are 0 there: p is the product of three densities at 0.
+    let triangle = |variance: f64| 1.0 / (6.0 * variance).sqrt();
+    let p = triangle(0.02 + 0.03 / 4.0) * triangle(0.04 + 0.05 / 4.0) * triangle(0.01 + 0.02 / 4.0);
+    assert_near([it.get::<f64>(&format!("it.velocity.prob({nominal})")) / p], [1.0], 1e-9);
+}
+
+#[wasm_bindgen_test]
+fn poses_and_twists_are_those_of_rust() {
+    let it = Object::new(VALUES);
+    let twist = Vector3::new(0.3, -0.1, 0.7);
+    let pose = |expression: &str| it.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
+    assert_eq!(pose("exp([0.3, -0.1, 0.7])"), numbers(&SE2::exp(&twist)));
+    assert_eq!(pose("compose(it.start, it.next)"), numbers(&(start() * next())));
+    assert_eq!(pose("inverse(it.start)"), numbers(&start().inverse()));
+    assert_eq!(
+        pose("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
+        numbers(&start().boxplus(twist))
+    );
+    assert_eq!(it.get::<Vec<f64>>("motion.se2.log(it.next)"), next().log().as_slice());
+    assert_eq!(
+        it.get::<Vec<f64>>("motion.se2.boxminus(it.next, it.start)"),
+        next().boxminus(&start()).as_slice()
+    );
+    let matrix = |expression: &str| it.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
+    assert_eq!(matrix("adjoint(it.start)"), rows(&start().adjoint()));
+    assert_eq!(matrix("rightJacobian([0.3, -0.1, 0.7])"), rows(&SE2::right_jacobian(&twist)));
+    assert_eq!(it.get::<Vec<String>>("Object.keys(motion.se2.inverse(it.start))"), ["x", "y", "theta"]);
+}
+
+#[wasm_bindgen_test]
+fn an_arc_is_inverted_and_two_poses_are_decomposed() {
+    let it = Object::new(VALUES);
+    let arc = invert_arc(&start(), &next(), 2.0);
+    let [x, y] = arc.centre(&start()).expect("an arc");
+    assert_eq!(
+        it.get::<Vec<f64>>(
+            "(({ vHat, omegaHat, gammaHat, center, radius, turn }) =>
+                [vHat, omegaHat, gammaHat, center.x, center.y, radius, turn])(motion.invertArc(it.start, it.next, 2))"
+        ),
+        [arc.v_hat, arc.omega_hat, arc.gamma_hat, x, y, arc.radius(), 2.0 * arc.omega_hat]
+    );
+    let straight = "motion.invertArc({ x: 0, y: 0, theta: 0 }, { x: -2, y: 0, theta: 0.5 }, 0.5)";
+    assert_eq!(
+        get::<(f64, f64, f64, Option<()>, f64, f64)>(&format!("Object.values({straight})")),
+        (-4.0, 0.0, 1.0, None, f64::INFINITY, 0.0)
+    );
+    let legs = get("Object.values(motion.decompose({ x: 1, y: 1, theta: 0.2 }, { x: 4, y: 5, theta: 1.5 }))");
+    let bearing = 4_f64.atan2(3.0);
+    assert_near(legs, [bearing - 0.2, 5.0, 1.5 - bearing], 1e-15);
+}
+
+#[wasm_bindgen_test]
+fn models_score_and_draw_as_in_rust() {
+    let it = Object::new(VALUES);
+    let [velocity, odometry, aware]: [(f64, Option<f64>); 3] = it.get(
+        "[[it.velocity, it.next, it.command], [it.odometry, it.next, it.control], [it.aware, it.back,
+            it.reverse]]
+            .map(([model, next, control]) =>
+                [model.prob(next, control, it.start), model.poseDensity(next, control, it.start)])",
+    );
+    assert_eq!(
+        velocity,
+        (VELOCITY.prob(&next(), &COMMAND, &start()), VELOCITY.pose_density(&next(), &COMMAND, &start()))
+    );
+    assert_eq!(
+        odometry,
+        (ODOMETRY.prob(&next(), &CONTROL, &start()), ODOMETRY.pose_density(&next(), &CONTROL, &start()))
+    );
+    let reverse = ReverseAware(ODOMETRY);
+    assert_eq!(
+        aware,
+        (reverse.prob(&back(), &REVERSE, &start()), reverse.pose_density(&back(), &REVERSE, &start()))
+    );
+    assert!(aware.0 > 10.0 * ODOMETRY.prob(&back(), &REVERSE, &start()), "the option counts");
+
+    assert_eq!(
+        it.get::<Vec<f64>>("it.velocity.sample(it.command, it.start, 5, 9)"),
+        drawn(&VELOCITY, &COMMAND)
+    );
+    assert_eq!(
+        it.get::<Vec<f64>>("it.odometry.sample(it.control, it.start, 5, 9)"),
+        drawn(&ODOMETRY, &CONTROL)
+    );
+    assert_eq!(it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"), drawn(&reverse, &REVERSE));
+    it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
+    // A surface of poses has no density in space.
+    let flat = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";
+    assert_eq!(it.get::<Option<f64>>(&format!("{flat}.poseDensity(it.next, it.command, it.start)")), None);
+}
+
+#[wasm_bindgen_test]
+fn covariances_are_propagated_as_in_rust() {
+    let noise = TangentNoiseModel::from_velocity(&VELOCITY, &COMMAND).expect("a covariance");
+    let twist = TangentNoiseModel::twist(&COMMAND);
+    let it = Object::new(VALUES);
+    for (word, order) in [
+        ("chapter", Compounding::Chapter),
+        ("first-order", Compounding::FirstOrder),
+        ("fourth-order", Compounding::FourthOrder),
+    ] {
+        let mut sigma = Matrix3::from_diagonal(&Vector3::new(0.01, 0.02, 0.03));
+        for _ in 0..3 {
+            sigma = noise.propagate(&sigma, &twist, order);
+        }
+        let options = format!(
+            "{{ sigma: [[0.01, 0, 0], [0, 0.02, 0], [0, 0, 0.03]], command: it.command,
+                alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], compounding: '{word}', steps: 3 }}"
+        );
+        assert_eq!(it.get::<Vec<Vec<f64>>>(&format!("motion.propagate({options})")), rows(&sigma), "{word}");
+    }
+    let defaults = "motion.propagate({ command: it.command, alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02] })";
+    let once = noise.propagate(&Matrix3::zeros(), &twist, Compounding::Chapter);
+    assert_eq!(it.get::<Vec<Vec<f64>>>(defaults), rows(&once));
+}
+
+#[wasm_bindgen_test]
+fn a_dragged_end_is_reached_and_seeds_are_random() {
+    let reached =
+        "motion.commandReaching(0.958851077208406, 0.2448348762192546, { v: 2, omega: 0.1, dt: 1 })";
+    assert_near(get(&format!("Object.values({reached})")), [1.0, 0.5], 1e-12);
+    let seeds: Vec<f64> = get("Array.from({ length: 20 }, motion.randomSeed)");
+    assert!(
+        seeds.iter().all(|seed| (0.0..4_294_967_296.0).contains(seed) && seed.fract() == 0.0),
+        "{seeds:?}"
+    );
+    assert!(seeds.iter().any(|seed| *seed != seeds[0]), "{seeds:?}");
+}
+
+#[wasm_bindgen_test]
+fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
+    let it = Object::new(VALUES);
+    it.assert_refused("it", &[
+        (
+            "new motion.VelocityModel({ alphas: [1, 2] })",
+            "RangeError: alphas has length 2; allowed is an array of 6 numbers",
+        ),
+        (
+            "new motion.VelocityModel({ alphas: 0.1 })",
+            "TypeError: alphas is 0.1; allowed is an array of 6 numbers",
+        ),
+        (
+            "new motion.OdometryModel({ alphas: [1, 2, 3, -4] })",
+            "RangeError: alphas[3] is -4; allowed is a number from 0 to 1000000",
+        ),
+        (
+            "new motion.VelocityModel({ alphas: Array(6).fill(0.1), noise: 'loud' })",
+            "RangeError: noise is \"loud\"; allowed is \"normal\" or \"triangular\"",
+        ),
+        (
+            "new motion.OdometryModel({ alphas: Array(4).fill(0.1), reverseAware: 1 })",
+            "TypeError: reverseAware is 1; allowed is true or false",
+        ),
+        (
+            "new motion.VelocityModel({ alphas: Array(6).fill(0.1), seed: 1 })",
+            "TypeError: seed is an unknown key; allowed are alphas, noise",
+        ),
+        (
+            "it.velocity.prob({ x: 1, y: 2 }, it.command, it.start)",
+            "TypeError: next.theta is undefined; allowed is a number",
+        ),
+        (
+            "it.odometry.prob(it.next, it.command, it.start)",
+            "TypeError: control.v is an unknown key; allowed are rot1, trans, rot2",
+        ),
+        (
+            "it.velocity.sample(it.command, it.start, -1, 0)",
+            "RangeError: count is -1; allowed is a whole number from 0 to 10000000",
+        ),
+        (
+            "it.velocity.sample(it.command, it.start, 1, 0.5)",
+            "RangeError: seed is 0.5; allowed is a whole number from 0 to 9007199254740991",
+        ),
+        (
+            "motion.invertArc(it.start, it.next, 0)",
+            "RangeError: dt is 0; allowed is a number from 0.000001 to 1000000",
+        ),
+        (
+            "motion.se2.exp([1, 2, NaN])",
+            "RangeError: twist[2] is NaN; allowed is a number from -1000000 to 1000000",
+        ),
+        (
+            "motion.propagate({ command: it.command, alphas: Array(6).fill(0.1), compounding: 'third' })",
+            "RangeError: compounding is \"third\"; \
+             allowed is \"chapter\" or \"first-order\" or \"fourth-order\"",
+        ),
+        (
+            "motion.propagate({ command: it.command, alphas: Array(6).fill(0.1), sigma: [[1, 2, 0], [2, 1, \
+             0], [0, 0, 1]] })",
+            "RangeError: sigma is no covariance: some direction has a negative variance; \
+             allowed are three rows of three numbers, symmetric, of no negative variance",
+        ),
+        (
+            "motion.propagate({ command: it.command, alphas: Array(6).fill(0.1), sigma: [[1, 2, 0], [0, 1, \
+             0], [0, 0, 1]] })",
+            "RangeError: sigma is no covariance: it differs from its transpose; \
+             allowed are three rows of three numbers, symmetric, of no negative variance",
+        ),
+        (
+            "motion.propagate({
+                command: { v: 1, omega: 3, dt: 0.7 }, alphas: Array(6).fill(1), compounding: 'fourth-order', steps: 7,
+            })",
+            "RangeError: steps is 7; \
+             allowed are at most 2 here: the next leaves no covariance, for the noise is too large",
+        ),
+        (
+            "motion.commandReaching(NaN, 0, it.command)",
+            "RangeError: x is NaN; allowed is a number from -1000000 to 1000000",
+        ),
+        (
+            "motion.commandReaching(1, 0)",
+            "TypeError: command is undefined; allowed is an object with keys from v, omega, dt",
+        ),
+    ]);
+}

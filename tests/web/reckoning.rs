@@ -1,0 +1,160 @@
+//! `DeadReckoning`.
+
+use crate::support::{Object, assert_near, get};
+use wasm_bindgen_test::wasm_bindgen_test;
+
+#[wasm_bindgen_test]
+fn it_opens_as_the_figure_does() {
+    let it = Object::new("motion.DeadReckoning.empty()");
+    assert_eq!(
+        it.get::<String>("JSON.stringify(it.config)"),
+        r#"{"command":{"v":1,"omega":0.5,"dt":0.2},"steps":20,"step":2,"alphas":[0.02,0.02,0.02,0.02,0.005,0.005],"#
+            .to_owned()
+            + r#""per":"step","compounding":"chapter","samples":50000,"seed":29}"#
+    );
+    assert_eq!(
+        it.get::<[usize; 3]>("[it.shown, it.stats.n, motion.DeadReckoning.maxSamples]"),
+        [0, 0, 1_000_000]
+    );
+    let preset: (String, f64, usize) =
+        get("(({ name, command, steps }) => [name, command.dt, steps])(motion.DeadReckoning.presets[2])");
+    assert_eq!(preset, ("fine".to_owned(), 0.02, 200));
+}
+
+/// After twenty steps the chapter's recursion is 6 % short along and 3 % across; the others are not.
+#[wasm_bindgen_test]
+fn recursions_are_compared_with_the_robots() {
+    let it = Object::new("new motion.DeadReckoning({ step: 20 })");
+    for (order, ends) in
+        [("chapter", [-0.061, -0.03]), ("first-order", [0.0, 0.0]), ("fourth-order", [0.0, 0.0])]
+    {
+        let [(along, along_error), (across, across_error)]: [(f64, f64); 2] = it
+            .get(&format!("it.stats.misses['{order}'].slice(0, 2).map(({{ end, error }}) => [end, error])"));
+        assert!(
+            (0.004..0.008).contains(&along_error) && (0.004..0.008).contains(&across_error),
+            "{along_error} {across_error}"
+        );
+        // 4.5 standard errors, and a thousandth for the recursion itself.
+        assert_near([along, across], ends, 4.5 * along_error + 0.001);
+        let propagated: [[f64; 3]; 3] = it.get(&format!(
+            "motion.propagate({{ command: it.config.command, alphas: it.config.alphas,
+                compounding: '{order}', steps: 20 }})"
+        ));
+        let predicted: [[f64; 3]; 3] = it.get(&format!("it.stats.predicted['{order}']"));
+        for (row, expected) in predicted.into_iter().zip(propagated) {
+            assert_near(row, expected, 1e-15);
+        }
+        assert_near(
+            it.get(&format!("it.predicted['{order}'].slice(57)")),
+            [0, 1, 2].map(|i| propagated[i][i]),
+            1e-15,
+        );
+        let ratios: [f64; 2] = it.get(&format!("it.ratios['{order}'].slice(57, 59)"));
+        assert_near(ratios, [along + 1.0, across + 1.0], 1e-12);
+    }
+    it.assert("(({ told, first, last }) => told && first > 1 && last === 20)(it.stats.misses.chapter[0])");
+    let measured: [f64; 3] = it.get("it.measured.slice(57)");
+    assert_near(measured, it.get("it.stats.measured.cov.map((row, i) => row[i])"), 1e-15);
+    assert_eq!(it.get::<usize>("it.relativeErrors.length"), 60);
+}
+
+#[wasm_bindgen_test]
+fn robots_and_outlines_are_those_of_a_step() {
+    let it = Object::new("new motion.DeadReckoning({ samples: 2000 })");
+    assert_eq!(
+        it.get::<[usize; 3]>("[it.poses.length, it.twists.length, it.nominal.length]"),
+        [1800, 1800, 60]
+    );
+    assert_near(it.get("it.nominal.slice(57)"), [2.0 * 2_f64.sin(), 2.0 * (1.0 - 2_f64.cos()), 2.0], 1e-12);
+    assert_near(it.get("it.commanded.slice(-2)"), [2.0 * 2_f64.sin(), 2.0 * (1.0 - 2_f64.cos())], 1e-12);
+    assert_eq!(
+        it.get::<Vec<f64>>("it.rollout(5).slice(3, 6)"),
+        it.get::<Vec<f64>>("it.posesAfter(2).slice(15, 18)")
+    );
+    assert_eq!(it.get::<i32>("it.nearest(it.poses[15], it.poses[16], 1e-9)"), 5);
+    let outlines = "Object.entries(it.outlines(2)).filter(([, line]) => line.length > 60
+        && line[0] === line.at(-2)).map(([name]) => name)";
+    assert_eq!(it.get::<Vec<String>>(outlines), ["ellipse", "exponential", "predicted", "measured"]);
+    assert_eq!(it.get::<(Option<()>, usize)>("[it.outlines(21), it.posesAfter(21).length]"), (None, 0));
+    // α₁v²Δt² is ¼α₃v⁴Δt⁴ where Δt is 2/v √(α₁/α₃).
+    assert_near([it.get("it.straight.crossing")], [2.0], 1e-12);
+    it.assert(
+        "['durations', 'along', 'across', 'alongFirstOrder', 'acrossFirstOrder'].every((key) =>
+        it.straight[key].length === it.straight.durations.length)",
+    );
+}
+
+#[wasm_bindgen_test]
+fn one_level_stands_for_all_heading_noise() {
+    let it = Object::new("new motion.DeadReckoning({ samples: 10, headingNoise: 0.04 })");
+    assert_eq!(it.get::<Vec<f64>>("it.config.alphas"), [0.02, 0.02, 0.04, 0.04, 0.01, 0.01]);
+    assert_eq!(it.get::<f64>("it.headingNoise"), 0.04);
+    it.run("it.configure({ alphas: [0.02, 0.02, 0.04, 0.05, 0.01, 0.01] })");
+    assert_eq!(it.get::<Option<f64>>("it.headingNoise"), None);
+}
+
+#[wasm_bindgen_test]
+fn a_change_in_slices_ends_where_a_change_at_once_does_or_is_given_up() {
+    let it = Object::new(
+        "({ sliced: new motion.DeadReckoning({ samples: 500 }), whole: new motion.DeadReckoning({ samples: \
+         500 }) })",
+    );
+    let same = || {
+        it.get::<bool>(
+            "JSON.stringify([it.sliced.config, it.sliced.stats, [...it.sliced.poses]]) ===
+             JSON.stringify([it.whole.config, it.whole.stats, [...it.whole.poses]])",
+        )
+    };
+    let change = "{ samples: 3000, per: 'path', seed: 4 }";
+    it.run(&format!("it.sliced.begin({change})"));
+    it.assert("!it.sliced.advance(3000) && it.sliced.progress > 0 && it.sliced.progress < 1");
+    it.run("it.sliced.stop()");
+    assert!(it.get::<bool>("it.sliced.advance(1)") && same());
+    it.run(&format!("it.sliced.begin({change})"));
+    it.run("(() => { while (!it.sliced.advance(3000)); })()");
+    it.run(&format!("it.whole.configure({change})"));
+    assert!(same());
+    it.run("it.sliced.restart()");
+    assert_eq!(it.get::<[usize; 2]>("[it.sliced.shown, it.sliced.grow(1000)]"), [0, 1000]);
+    it.run("(() => { it.sliced.beginToGrow(2000); while (!it.sliced.advance(3000)); })()");
+    assert!(same());
+}
+
+#[wasm_bindgen_test]
+fn what_is_refused_changes_nothing() {
+    let it = Object::new("new motion.DeadReckoning({ samples: 20 })");
+    it.assert_refused(
+        "[it.config, it.stats]",
+        &[
+            (
+                "it.configure({ seed: 1, steps: 201 })",
+                "RangeError: steps is 201; allowed is a whole number from 1 to 200",
+            ),
+            ("it.configure({ per: 'day' })", "RangeError: per is \"day\"; allowed is \"step\" or \"path\""),
+            (
+                "it.configure({ compounding: 'second' })",
+                "RangeError: compounding is \"second\"; \
+             allowed is \"chapter\" or \"first-order\" or \"fourth-order\"",
+            ),
+            (
+                "it.configure({ alphas: Array(6).fill(0.1), headingNoise: 0.1 })",
+                "TypeError: headingNoise is given beside alphas; allowed is one of the two",
+            ),
+            (
+                "it.configure({ headingNoise: -1 })",
+                "RangeError: headingNoise is -1; allowed is a number from 0 to 1000000",
+            ),
+            (
+                "it.begin({ samples: 0 })",
+                "RangeError: samples is 0; allowed is a whole number from 1 to 1000000",
+            ),
+            ("it.grow(NaN)", "RangeError: count is NaN; allowed is a whole number from 0 to 1000000"),
+            (
+                "it.rollout(20)",
+                "RangeError: index is 20; allowed is one of the 20 samples shown, counted from 0",
+            ),
+            ("it.outlines(0)", "RangeError: step is 0; allowed is a whole number from 1 to 200"),
+            ("it.posesAfter('1')", "TypeError: step is \"1\"; allowed is a number"),
+        ],
+    );
+}

@@ -1,0 +1,370 @@
+//! `MapSqueeze`: attempts, floor plans and maps.
+
+use crate::support::{Object, assert_near, get};
+use wasm_bindgen_test::wasm_bindgen_test;
+
+/// Map of 4 × 3 cells of half a metre, the lower left one occupied: what its YAML file says, and its image as a PGM file.
+const MAP: &str = "({ machine: new motion.MapSqueeze({ samples: 50, clearance: 0.1 }),
+    yaml: { image: 'map.pgm', resolution: 0.5, origin: [1, 2, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 },
+    pgm: new TextEncoder().encode('P2\\n# by hand\\n4 3\\n255\\n255 255 255 255\\n255 255 255 255\\n0 255 255 255\\n'),
+    image: (greys, opacity = 255, width = 4, height = greys.length / width) =>
+        new ImageData(new Uint8ClampedArray(greys.flatMap((grey) => [grey, grey, grey, opacity])), width, height),
+})";
+const STATE: &str =
+    "[it.machine.config, it.machine.stats, it.machine.plan, it.machine.grid, [...it.machine.verdicts]]";
+
+#[wasm_bindgen_test]
+fn it_opens_as_the_figure_does() {
+    let it = Object::new("new motion.MapSqueeze()");
+    assert_eq!(
+        it.get::<String>("JSON.stringify(it.config)"),
+        r#"{"start":{"x":2.05,"y":2.6,"theta":1.5707963267948966},"command":{"v":1,"omega":0,"dt":2},"#
+            .to_owned()
+            + r#""alphas":[0.12,0.12,0.12,0.12,0.03,0.03],"clearance":0.13,"conditioned":true,"unknown":"free","#
+            + r#""sampler":"endpoint","steps":4,"samples":600,"seed":7}"#
+    );
+    assert_eq!(
+        get::<Vec<String>>("motion.MapSqueeze.presets.map(({ name }) => name)"),
+        ["doorway", "wall", "corridor"]
+    );
+    assert_eq!(
+        get::<[f64; 6]>("motion.MapSqueeze.alphasOfNoise(0.12)"),
+        [0.12, 0.12, 0.12, 0.12, 0.03, 0.03]
+    );
+    assert_eq!(it.get::<[f64; 4]>("it.plan.bounds"), [0.0, 0.0, 12.0, 9.0]);
+    assert_eq!(
+        it.get::<[usize; 3]>("[it.plan.walls.length, it.shown, motion.MapSqueeze.maxSamples]"),
+        [72, 600, 1_000_000]
+    );
+    it.assert("it.startFree && it.grid === null");
+    assert_near(it.get("it.commanded.slice(-2)"), [2.05, 4.6], 1e-12);
+}
+
+/// Published shares of accepted draws, and of those through a wall, to 4.5 standard errors of both samples.
+#[wasm_bindgen_test]
+fn shares_are_the_published_ones() {
+    for (preset, omega, acceptance, through) in
+        [(0, 0.0, 0.849, 0.348), (1, 0.0, 0.832, 0.867), (2, 0.0, 0.84, 0.242), (0, 0.6, 0.781, 0.398)]
+    {
+        let it = Object::new(&format!(
+            "new motion.MapSqueeze({{ start: motion.MapSqueeze.presets[{preset}].start, command: {{ v: 1,
+                omega: {omega}, dt: 2 }},
+                samples: 60_000, seed: 11 }})"
+        ));
+        let error = |share: f64, n: f64| 4.5 * (2.0 * share * (1.0 - share) / n).sqrt() + 0.0005;
+        assert_near([it.get("it.stats.acceptanceRate")], [acceptance], error(acceptance, 6e4));
+        assert_near([it.get("it.stats.throughWallRate")], [through], error(through, 6e4 * acceptance));
+    }
+}
+
+#[wasm_bindgen_test]
+fn statistics_count_the_verdicts() {
+    for (sampler, parts) in [("endpoint", 1.0), ("whole-arc", 1.0), ("sub-stepped", 4.0)] {
+        let it = Object::new(&format!("new motion.MapSqueeze({{ sampler: '{sampler}', samples: 2000 }})"));
+        let verdicts: Vec<u8> = it.get("it.verdicts");
+        let count =
+            |mask: u8, value: u8| verdicts.iter().filter(|verdict| **verdict & mask == value).count() as f64;
+        let [attempts, drawn, accepted, through]: [f64; 4] =
+            it.get("pick(it.stats, 'attempts', 'drawn', 'accepted', 'throughWall')");
+        assert_eq!((attempts, accepted, through), (2000.0, count(4, 4), count(6, 4)), "{sampler}");
+        let rates = it.get("pick(it.stats, 'acceptanceRate', 'throughWallRate', 'drawsPerAccepted')");
+        assert_near(rates, [accepted * parts / drawn, through / accepted, drawn / accepted], 1e-15);
+        it.assert(
+            "(([low, high]) => low <= it.stats.throughWallRate
+            && it.stats.throughWallRate <= high)(it.stats.throughWallInterval)",
+        );
+        it.assert(
+            "it.stats.wallTestsPerAccepted > 0 && it.stats.gaveUp === false
+            && it.poses.length === 6000",
+        );
+    }
+}
+
+#[wasm_bindgen_test]
+fn attempts_come_a_few_at_a_time_with_the_paths_they_took() {
+    let it = Object::new("new motion.MapSqueeze({ sampler: 'sub-stepped', samples: 100 })");
+    let poses: Vec<f64> = it.get("it.poses");
+    it.run("it.restart()");
+    assert_eq!(it.get::<[usize; 4]>("[it.shown, it.grow(30), it.grow(0), it.grow(1000)]"), [0, 30, 30, 100]);
+    assert_eq!(it.get::<Vec<f64>>("it.poses"), poses);
+    let path: Vec<f64> = it.get("it.path(9)");
+    assert_eq!(path[..2], [2.05, 2.6]);
+    assert_near([path[path.len() - 2], path[path.len() - 1]], [poses[27], poses[28]], 1e-12);
+    assert_eq!(
+        it.get::<[i32; 3]>(
+            "[it.nearest(it.poses[27], it.poses[28], 1e-9), it.nearest(1000, 0, 1), it.path(100).length]"
+        ),
+        [9, -1, 0]
+    );
+    it.assert(
+        "(({ draws, wallTests }) => draws >= 400 && draws < 800
+        && wallTests > 0)(it.trial('sub-stepped', 4, 100))",
+    );
+    it.run("it.configure({ noise: 0.2 })");
+    assert_eq!(
+        it.get::<(f64, [f64; 6])>("[it.noise, it.config.alphas]"),
+        (0.2, [0.2, 0.2, 0.2, 0.2, 0.05, 0.05])
+    );
+}
+
+#[wasm_bindgen_test]
+fn a_cell_has_the_colour_of_most_attempts_in_it() {
+    let it = Object::new("new motion.MapSqueeze({ samples: 5000 })");
+    let (columns, rows) = (20_usize, 30_usize);
+    // Red is the kind, and blue the shade.
+    let ramps = "Uint8Array.from({ length: 3072 }, (_, i) => [i >> 10, 0, (i >> 2) & 255, 255][i % 4])";
+    let pixels: Vec<u8> = it.get(&format!("it.picture(0, 2, 4, 7, {columns}, {rows}, {ramps})"));
+    let (poses, verdicts): (Vec<f64>, Vec<u8>) = it.get("[it.poses, it.verdicts]");
+    let mut counts = vec![[0_u32; 3]; columns * rows];
+    for (pose, verdict) in poses.chunks_exact(3).zip(verdicts) {
+        let [column, row] =
+            [pose[0] / 4.0 * columns as f64, (7.0 - pose[1]) / 5.0 * rows as f64].map(f64::floor);
+        if (0.0..columns as f64).contains(&column) && (0.0..rows as f64).contains(&row) {
+            let kind = [0, 0, 0, 0, 2, 2, 1, 1][usize::from(verdict & 6) | usize::from(verdict & 1)];
+            counts[row as usize * columns + column as usize][kind] += 1;
+        }
+    }
+    let most = counts.iter().map(|kinds| kinds.iter().sum::<u32>()).max().expect("cells");
+    for (kinds, pixel) in counts.iter().zip(pixels.chunks_exact(4)) {
+        let all: u32 = kinds.iter().sum();
+        let shade = (255.0 * (f64::from(all) / f64::from(most)).sqrt()).round() as u8;
+        assert_eq!((pixel[2], pixel[3]), (shade, if all == 0 { 0 } else { 255 }), "{kinds:?}");
+        assert_eq!(kinds[usize::from(pixel[0])], *kinds.iter().max().expect("three kinds"), "{kinds:?}");
+    }
+}
+
+#[wasm_bindgen_test]
+fn a_floor_plan_replaces_the_apartment_and_gives_way_to_it() {
+    let it = Object::new("new motion.MapSqueeze({ samples: 100 })");
+    let accepted: usize = it.get("it.stats.accepted");
+    it.run(
+        "it.setPlan({ bounds: new Float64Array([0, 0, 12, 9]), walls: [[10, 8, 11, 8],
+        new Float64Array([0, 0, 12, 0])] })",
+    );
+    assert_eq!(it.get::<[f64; 8]>("it.plan.walls"), [10.0, 8.0, 11.0, 8.0, 0.0, 0.0, 12.0, 0.0]);
+    assert!(it.get::<usize>("it.stats.accepted") > accepted);
+    let plan: String = it.get("JSON.stringify(it.plan)");
+    it.run("it.setPlan(it.plan)");
+    assert_eq!(it.get::<String>("JSON.stringify(it.plan)"), plan);
+    // No room for the robot: it says so and does not wait.
+    it.run(
+        "it.setPlan({ bounds: [2, 2, 2.2, 2.2], walls: [[2, 2, 2.2, 2], [2.2, 2, 2.2, 2.2], [2.2, 2.2,
+        2, 2.2], [2, 2.2, 2, 2]] })",
+    );
+    it.run("it.configure({ start: { x: 2.1, y: 2.1, theta: 0 }, sampler: 'sub-stepped' })");
+    it.assert("!it.startFree && it.openPlace === null && it.stats.gaveUp && it.stats.accepted === 0");
+    it.run("it.setPlan(undefined)");
+    it.run("it.configure({ start: motion.MapSqueeze.presets[0].start, sampler: 'endpoint' })");
+    assert_eq!(it.get::<[usize; 2]>("[it.plan.walls.length, it.stats.accepted]"), [72, accepted]);
+}
+
+#[wasm_bindgen_test]
+fn a_map_is_read_from_a_file_or_from_pixels() {
+    let it = Object::new(MAP);
+    it.run("it.machine.setGrid(it.yaml, it.pgm)");
+    let plan: String = it.get("JSON.stringify(it.machine.plan)");
+    assert_eq!(it.get::<[f64; 4]>("it.machine.plan.bounds"), [1.0, 2.0, 3.0, 3.5]);
+    assert_eq!(it.get::<Vec<f64>>("it.machine.plan.walls.slice(0, 4)"), [1.0, 2.0, 1.5, 2.0]);
+    let grid: (usize, usize, f64, [f64; 3]) =
+        it.get("pick(it.machine.grid, 'columns', 'rows', 'resolution', 'origin')");
+    assert_eq!(grid, (4, 3, 0.5, [1.0, 2.0, 0.0]));
+    assert_eq!(it.get::<Vec<u8>>("it.machine.grid.occupied"), [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(it.get::<[f64; 2]>("pick(it.machine.openPlace, 'x', 'y')"), [2.25, 2.75]);
+    for call in [
+        "{ resolution: 0.5, origin: [1, 2, 0] }, it.pgm",
+        "it.yaml, it.image([...Array(8).fill(255), 0, 255, 255, 255])",
+        "{ ...it.yaml, negate: true, mode: 'scale' }, it.image([...Array(8).fill(0), 255, 0, 0, 0])",
+        "{ ...it.yaml, mode: 'raw' }, { width: 4, height: 3, data: it.image([...Array(8).fill(0), 100, 99, \
+         101, 255]).data }",
+    ] {
+        it.run(&format!("[it.machine.setPlan(undefined), it.machine.setGrid({call})]"));
+        assert_eq!(it.get::<String>("JSON.stringify(it.machine.plan)"), plan, "{call}");
+    }
+    it.run("it.machine.setGrid({ ...it.yaml, origin: [1, 2, Math.PI / 2] }, it.pgm)");
+    assert_near([it.get("it.machine.plan.bounds[0]")], [-0.5], 1e-12);
+
+    // Free, unknown and occupied, in one row.
+    it.run(
+        "it.machine.setGrid({ resolution: 1, origin: [0, 0, 0], free_thresh: 0.196 }, it.image([255,
+        205, 0, 255, 205, 0], 255, 3))",
+    );
+    assert_eq!(
+        it.get::<(Vec<u8>, Vec<u8>)>("[it.machine.grid.unknown, it.machine.grid.occupied]"),
+        (vec![0, 1, 0, 0, 1, 0], vec![0, 0, 1, 0, 0, 1])
+    );
+    it.run("it.machine.configure({ start: { x: 1.5, y: 1, theta: 0 } })");
+    it.assert("it.machine.startFree");
+    it.run("it.machine.configure({ unknown: 'blocked' })");
+    assert!(!it.get::<bool>("it.machine.startFree"));
+}
+
+#[wasm_bindgen_test]
+fn work_in_slices_ends_where_work_at_once_does_or_is_given_up() {
+    let it = Object::new(
+        "({ sliced: new motion.MapSqueeze({ samples: 300 }), whole: new motion.MapSqueeze({ samples: 300 }),
+            pgm: new TextEncoder().encode('P2 256 256 255\\n' + '254 '.repeat(256 * 255) + '0 '.repeat(256)) })",
+    );
+    let same = || {
+        let told = |name: &str| {
+            it.get::<String>(&format!(
+                "JSON.stringify((({{ config, stats, plan, poses }}) => [config,
+                stats, plan, [...poses]])(it.{name}))"
+            ))
+        };
+        told("sliced") == told("whole")
+    };
+    let description = "{ resolution: 0.05, origin: [0, 0, 0] }";
+    it.run(&format!("it.sliced.beginGrid({description}, it.pgm)"));
+    it.assert("!it.sliced.advance(5000) && it.sliced.progress > 0 && it.sliced.progress < 1");
+    it.run("it.sliced.stop()");
+    assert!(it.get::<bool>("it.sliced.advance(1)") && same());
+    it.run(&format!("it.sliced.beginGrid({description}, it.pgm)"));
+    it.run("(() => { while (!it.sliced.advance(5000)); })()");
+    it.run(&format!("it.whole.setGrid({description}, it.pgm)"));
+    assert!(same());
+    it.run(
+        "(() => { it.sliced.begin({ sampler: 'whole-arc',
+        samples: 900 }); while (!it.sliced.advance(100)); })()",
+    );
+    it.run("it.whole.configure({ sampler: 'whole-arc', samples: 900 })");
+    assert!(same());
+    it.run("(() => { it.sliced.restart(); it.sliced.beginToGrow(900); while (!it.sliced.advance(100)); })()");
+    assert!(same());
+}
+
+#[wasm_bindgen_test]
+fn a_refused_setting_changes_nothing() {
+    let it = Object::new(MAP);
+    it.assert_refused(STATE, &[
+        (
+            "it.machine.configure({ seed: 9, clearance: -1 })",
+            "RangeError: clearance is -1; allowed is a number from 0 to 10",
+        ),
+        (
+            "it.machine.configure({ sampler: 'Endpoint' })",
+            "RangeError: sampler is \"Endpoint\"; \
+             allowed is \"endpoint\" or \"whole-arc\" or \"sub-stepped\"",
+        ),
+        (
+            "it.machine.configure({ conditioned: 'true' })",
+            "TypeError: conditioned is \"true\"; allowed is true or false",
+        ),
+        (
+            "it.machine.configure({ steps: 2.5 })",
+            "RangeError: steps is 2.5; allowed is a whole number from 1 to 1000",
+        ),
+        (
+            "it.machine.configure({ start: { x: 1, y: 1 } })",
+            "TypeError: start.theta is undefined; allowed is a number",
+        ),
+        (
+            "it.machine.configure({ noise: 0.1, alphas: Array(6).fill(0.1) })",
+            "TypeError: noise is given beside alphas; allowed is one of the two",
+        ),
+        (
+            "it.machine.configure({ unknown: 'maybe' })",
+            "RangeError: unknown is \"maybe\"; allowed is \"free\" or \"blocked\"",
+        ),
+        (
+            "motion.MapSqueeze.alphasOfNoise(-1)",
+            "RangeError: n is -1; allowed is a number from 0 to 1000000",
+        ),
+        ("it.machine.path(NaN)", "RangeError: index is NaN; allowed is a whole number from 0 to 1000000"),
+        (
+            "it.machine.nearest(0, 0, -1)",
+            "RangeError: radius is -1; allowed is a number from 0 to Infinity",
+        ),
+        (
+            "it.machine.trial('endpoint', 1, 0)",
+            "RangeError: count is 0; allowed is a whole number from 1 to 100000",
+        ),
+        (
+            "it.machine.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))",
+            "RangeError: ramps has length 1024; allowed is a Uint8Array of 3072 bytes, 768 colours of four",
+        ),
+    ]);
+}
+
+#[wasm_bindgen_test]
+fn a_malformed_plan_or_map_is_explained_and_the_present_one_stays() {
+    let it = Object::new(MAP);
+    it.assert_refused(
+        STATE,
+        &[
+            (
+                "it.machine.setPlan('apartment')",
+                "TypeError: plan is \"apartment\"; allowed is an object with keys from bounds, walls",
+            ),
+            (
+                "it.machine.setPlan({ bounds: [0, 0, 1], walls: [] })",
+                "RangeError: bounds has length 3; allowed is an array of 4 numbers",
+            ),
+            (
+                "it.machine.setPlan({ bounds: [1, 0, 0, 1], walls: [] })",
+                "RangeError: bounds is [1, 0, 0, 1]; \
+             allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to 1000000, the \
+              sides from 0.01 to 100000",
+            ),
+            (
+                "it.machine.setPlan({ bounds: [0, 0, 1, 1] })",
+                "TypeError: walls is undefined; allowed is an array of walls, each [x, y, x, y]",
+            ),
+            (
+                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 1]] })",
+                "RangeError: walls[0] has length 3; allowed is an array of 4 numbers",
+            ),
+            (
+                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 2, 0]] })",
+                "RangeError: walls[0] ends at [2, 0]; allowed is a point inside the bounds",
+            ),
+            (
+                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: new Float64Array(3) })",
+                "TypeError: walls is an object; \
+             allowed is an array of walls, or a Float64Array of four numbers a wall",
+            ),
+            (
+                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [], doors: [] })",
+                "TypeError: doors is an unknown key; allowed are bounds, walls",
+            ),
+            ("it.machine.setGrid(null, it.pgm)", "TypeError: description is null; allowed is an object"),
+            (
+                "it.machine.setGrid({ ...it.yaml, resolution: 0 }, it.pgm)",
+                "RangeError: resolution is 0; allowed is a number from 0.001 to 100",
+            ),
+            (
+                "it.machine.setGrid({ ...it.yaml, origin: [0, '0', 0] }, it.pgm)",
+                "TypeError: origin[1] is \"0\"; allowed is a number",
+            ),
+            (
+                "it.machine.setGrid({ ...it.yaml, negate: 2 }, it.pgm)",
+                "RangeError: negate is 2; allowed is a whole number from 0 to 1",
+            ),
+            (
+                "it.machine.setGrid({ ...it.yaml, free_thresh: 0.7 }, it.pgm)",
+                "RangeError: free_thresh is 0.7; allowed is at most occupied_thresh, 0.65",
+            ),
+            (
+                "it.machine.setGrid({ ...it.yaml, mode: 'Trinary' }, it.pgm)",
+                "RangeError: mode is \"Trinary\"; allowed is \"trinary\" or \"scale\" or \"raw\"",
+            ),
+            ("it.machine.setGrid(it.yaml, undefined)", "TypeError: image is undefined; allowed is an object"),
+            (
+                "it.machine.setGrid(it.yaml, { width: 4, height: 4, data: new Uint8ClampedArray(48) })",
+                "RangeError: image.data has length 48; allowed is 64",
+            ),
+            (
+                "it.machine.setGrid(it.yaml, new TextEncoder().encode('GIF89a'))",
+                "RangeError: line 1: the magic number is \"GIF89a\"; allowed is P5 or P2",
+            ),
+            (
+                "it.machine.beginGrid({ ...it.yaml, mode: 1 }, it.pgm)",
+                "TypeError: mode is 1; allowed is \"trinary\" or \"scale\" or \"raw\"",
+            ),
+            (
+                "(() => { it.machine.beginGrid(it.yaml, new TextEncoder().encode('P2 4 3 255 1 2 3')); \
+             while (!it.machine.advance(50)); })()",
+                "RangeError: line 1: a pixel is missing; allowed is a whole number from 0 to 255",
+            ),
+        ],
+    );
+}

@@ -1,0 +1,82 @@
+//! Calls of the JavaScript face: expressions in, values out.
+
+use serde::de::DeserializeOwned;
+use wasm_bindgen::prelude::*;
+
+// The test runner serves the bound module under this address.
+#[wasm_bindgen(inline_js = r#"
+import * as motion from '/wasm-bindgen-test';
+const pick = (object, ...keys) => keys.map((key) => object[key]);
+export const evaluated = (expression, it) =>
+    new Function('motion', 'it', 'pick', `return (${expression})`)(motion, it, pick);
+"#)]
+extern "C" {
+    #[wasm_bindgen(catch)]
+    fn evaluated(expression: &str, it: &JsValue) -> Result<JsValue, JsValue>;
+}
+
+/// JavaScript value that expressions know as `it`. `motion` is the whole face, and `pick` gets some of an object's
+/// properties as an array.
+pub struct Object(JsValue);
+
+impl Object {
+    pub fn new(expression: &str) -> Self {
+        Self(Self(JsValue::UNDEFINED).evaluate(expression))
+    }
+
+    /// Value of an expression.
+    pub fn get<T: DeserializeOwned>(&self, expression: &str) -> T {
+        serde_wasm_bindgen::from_value(self.evaluate(expression))
+            .unwrap_or_else(|error| panic!("{expression}: {error}"))
+    }
+
+    /// Runs an expression for its effect.
+    pub fn run(&self, expression: &str) {
+        self.evaluate(expression);
+    }
+
+    /// Asserts that an expression is true.
+    pub fn assert(&self, expression: &str) {
+        assert!(self.get::<bool>(expression), "{expression}");
+    }
+
+    /// Class and message of the error that an expression throws.
+    pub fn error(&self, expression: &str) -> String {
+        match evaluated(expression, &self.0) {
+            Ok(value) => panic!("{expression} is {value:?} and throws nothing"),
+            Err(error) => error.unchecked_into::<js_sys::Error>().to_string().into(),
+        }
+    }
+
+    /// Asserts that each of the expressions throws this error, and that `state` stays as it was.
+    pub fn assert_refused(&self, state: &str, cases: &[(&str, &str)]) {
+        let state = format!("JSON.stringify({state})");
+        let before: String = self.get(&state);
+        for (expression, error) in cases {
+            assert_eq!(self.error(expression), *error, "{expression}");
+            assert_eq!(self.get::<String>(&state), before, "{expression}");
+        }
+    }
+
+    fn evaluate(&self, expression: &str) -> JsValue {
+        evaluated(expression, &self.0).unwrap_or_else(|error| panic!("{expression}: {error:?}"))
+    }
+}
+
+impl<T: serde::Serialize> From<&T> for Object {
+    fn from(value: &T) -> Self {
+        Self(serde_wasm_bindgen::to_value(value).expect("a plain value"))
+    }
+}
+
+/// Value of an expression without a machine.
+pub fn get<T: DeserializeOwned>(expression: &str) -> T {
+    Object(JsValue::UNDEFINED).get(expression)
+}
+
+/// Asserts that a number of JavaScript, or each of several, is as expected.
+pub fn assert_near<const N: usize>(actual: [f64; N], expected: [f64; N], tolerance: f64) {
+    for (number, wanted) in actual.iter().zip(&expected) {
+        assert!((number - wanted).abs() <= tolerance, "{actual:?} is not {expected:?} to {tolerance}");
+    }
+}

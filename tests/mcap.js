@@ -1,4 +1,4 @@
-/** MCAP recordings as ROS 2 writes them, for tests. */
+/** MCAP recordings as ROS 2 writes them. */
 
 import { Buffer } from 'node:buffer';
 import zstd from '@foxglove/wasm-zstd';
@@ -58,45 +58,12 @@ export const transform = (t, parent, child, x, y, theta) => {
   return { header: { stamp: stampOf(t), frame_id: parent }, child_frame_id: child, transform: { translation: position, rotation: orientation } };
 };
 
-/** One frame of literals and, where a run repeats, matches. @param {Uint8Array} bytes */
-export function lz4(bytes) {
-  /** @type {number[]} */
-  const block = [];
-  const put = (/** @type {number} */ from, /** @type {number} */ to, /** @type {number} */ match, /** @type {number} */ distance) => {
-    const literals = to - from;
-    const length = match ? match - 4 : 0;
-    const more = (/** @type {number} */ rest) => {
-      for (; rest >= 255; rest -= 255) block.push(255);
-      block.push(rest);
-    };
-    block.push((Math.min(literals, 15) << 4) | Math.min(length, 15));
-    if (literals >= 15) more(literals - 15);
-    for (let i = from; i < to; i++) block.push(bytes[i]);
-    if (!match) return;
-    block.push(distance & 255, distance >> 8);
-    if (length >= 15) more(length - 15);
-  };
-  const seen = new Map();
-  let from = 0;
-  for (let at = 0; at + 12 < bytes.length; ) {
-    const key = bytes[at] | (bytes[at + 1] << 8) | (bytes[at + 2] << 16) | (bytes[at + 3] << 24);
-    const before = seen.get(key);
-    seen.set(key, at);
-    if (before === undefined || at - before > 65535) {
-      at += 1;
-      continue;
-    }
-    let length = 4;
-    while (at + length + 5 < bytes.length && bytes[before + length] === bytes[at + length]) length += 1;
-    put(from, at, length, at - before);
-    at += length;
-    from = at;
-  }
-  put(from, bytes.length, 0, 0);
-  const head = [0x04, 0x22, 0x4d, 0x18, 0x40, 0x70, 0xdf];
-  const [size, end] = [block.length, [0, 0, 0, 0]];
-  return Uint8Array.from([...head, size & 255, (size >> 8) & 255, (size >> 16) & 255, size >>> 24, ...block, ...end]);
-}
+/** LZ4 frame with one block that is not compressed. @param {Uint8Array} bytes */
+const lz4 = (bytes) => {
+  const size = Buffer.alloc(4);
+  size.writeUInt32LE(0x80000000 + bytes.length);
+  return Buffer.concat([Buffer.from('04224d184070df', 'hex'), size, bytes, Buffer.alloc(4)]);
+};
 
 /** @type {Record<string, ((bytes: Uint8Array) => { compression: string, compressedData: Uint8Array }) | undefined>} */
 const COMPRESSION = {
@@ -110,6 +77,7 @@ const COMPRESSION = {
  * @typedef {object} Message
  * @property {string} topic
  * @property {string} type
+ * @property {string} [schema] name of another type that is recorded for it
  * @property {any} message
  * @property {number} t when it was recorded, in seconds
  *
@@ -143,10 +111,10 @@ export async function recordingOf(messages, { compression = 'none', index = true
   /** @type {Map<string, { id: number, writer: MessageWriter }>} */
   const channels = new Map();
   let sequence = 0;
-  for (const { topic, type, message, t } of messages) {
+  for (const { topic, type, schema = type, message, t } of messages) {
     let channel = channels.get(topic);
     if (!channel) {
-      const schemaId = await writer.registerSchema({ name: type, encoding: 'ros2msg', data: Buffer.from(`# ${type}`) });
+      const schemaId = await writer.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
       const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
       const all = Object.entries(DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
       const first = all.find(({ name }) => name === type);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, statSync } from 'node:fs';
 import { test } from 'node:test';
 import { LEGS, TRUTH } from '../../scripts/example-log.mjs';
-import { readLog, together } from '../../www/widgets/alpha-calibrator/log/read.js';
+import { pairLogs, readLog } from '../../www/widgets/alpha-calibrator/log/read.js';
 
 const folder = new URL('../../examples/calibration/', import.meta.url);
 const textOf = (/** @type {string} */ name) => readFileSync(new URL(name, folder), 'utf8');
@@ -24,7 +24,7 @@ test('example log is small and read without a complaint', async () => {
     assert.deepEqual([found.gaps.count, found.jumps.count, data.breaks.length], [0, 0, 0]);
     assert.ok(Object.values(found.leftOut).every(({ count }) => count === 0));
   }
-  const { odometry, reference } = together(logs[0], logs[1]);
+  const { odometry, reference } = pairLogs(logs[0], logs[1]);
   const [own, other] = [odometry.data.t, reference.data.t];
   assert.ok(other[0] < own[0] && other[other.length - 1] > own[own.length - 1]);
 });

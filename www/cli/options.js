@@ -1,9 +1,9 @@
-/** What the command line asks for. */
+/** Options of the command line. */
 
 import { parseArgs } from 'node:util';
-import { cut } from '../widgets/alpha-calibrator/log/refusal.js';
+import { cut } from '../widgets/alpha-calibrator/log/log-error.js';
 
-/** Something that cannot be asked for; its message is a sentence. */
+/** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
 
 export const HELP = `motion-widgets calibrate: the α's of a robot's motion model, from a log
@@ -47,148 +47,112 @@ const OPTIONS = {
   noise: text, robust: text, without: text, seed: text, json: flag, help: flag,
 };
 
-/** What can be removed before the α's are fitted. */
+/** Systematic errors that can be removed before the α's are fitted. */
 const SYSTEMATIC = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'];
 
-/** What the core calls the options, where that is another name. @type {Record<string, string>} */
-const FIELDS = {
+/** Options by the fields of `calibrate`. @type {Record<string, string>} */
+const BY_FIELD = {
   'legs.distance': 'distance', 'legs.angle': 'angle', 'legs.duration': 'duration', 'robust.outliers': 'robust',
   'reference.positionDeviation': 'position-deviation', 'reference.headingDeviation': 'heading-deviation',
+  model: 'model', rule: 'rule', noise: 'noise', seed: 'seed',
 };
 
 /**
- * What the core refuses of the options, by their names.
+ * Names the option that an error of the core is about.
  *
- * @param {string} message of its error, which begins with a field
- * @returns {string | undefined} nothing where it is of the logs
+ * @param {string} message begins with a field
+ * @returns {string | undefined} nothing if the error is about the logs
  */
-export function refusalOf(message) {
+export function withOption(message) {
   const [field] = message.split(' ');
-  const name = FIELDS[field] ?? field;
-  return Object.hasOwn(OPTIONS, name) && !(name in LOGS) ? `--${name}${message.slice(field.length)}.` : undefined;
+  return Object.hasOwn(BY_FIELD, field) ? `--${BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
-/** Fields of the core that are logs and no options' values. */
-const LOGS = { odometry: true, reference: true };
-
 /**
- * @typedef {object} Asked
- * @property {Part} odometry
- * @property {Part} reference
+ * @typedef {object} Options
+ * @property {Input} odometry
+ * @property {Input} reference
  * @property {Record<string, any>} fit options of `calibrate`
  * @property {{ positionDeviation?: number, headingDeviation?: number }} deviations of the reference
  * @property {boolean} json
  *
- * @typedef {object} Part of what is read
+ * @typedef {'distance' | 'angle' | 'duration' | 'robust' | 'seed' | 'position-deviation' | 'heading-deviation'} Numeric option
+ *
+ * @typedef {object} Input
  * @property {string} path
  * @property {string | undefined} topic
  * @property {{ parent: string, child: string } | undefined} frames
  */
 
 /**
+ * Parses the arguments.
+ *
  * @param {string[]} args
- * @returns {Asked | undefined} nothing where help is asked for
+ * @returns {Options | undefined} nothing for help
  * @throws {UsageError}
  */
 export function optionsOf(args) {
-  const { values, positionals } = parsed(args);
-  const [command, ...more] = positionals;
-  if (values.help || (command === undefined && args.length === 0)) return undefined;
+  const { values, positionals: [command, stray] } = parsed(args);
+  if (values.help || args.length === 0) return undefined;
   if (command !== 'calibrate') throw new UsageError(`the command is “${cut(command ?? '')}”; expected is calibrate.`);
-  if (more.length) throw new UsageError(`“${cut(more[0])}” belongs to no option; expected are options such as --odometry.`);
+  if (stray !== undefined) throw new UsageError(`“${cut(stray)}” belongs to no option; expected are options such as --odometry.`);
 
-  const number = (/** @type {keyof typeof OPTIONS} */ name) => {
+  const number = (/** @type {Numeric} */ name) => {
     const value = values[name];
     if (value === undefined) return undefined;
-    const is = typeof value === 'string' && value.trim() !== '' ? Number(value) : NaN;
-    if (!Number.isFinite(is)) throw new UsageError(`--${name} is “${cut(String(value))}”; expected is ${numberLike(String(value))}.`);
-    return is;
+    const parsed = value.trim() === '' ? NaN : Number(value);
+    if (Number.isFinite(parsed)) return parsed;
+    const point = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
+    throw new UsageError(`--${name} is “${cut(value)}”; expected is a number${point}.`);
   };
-  const { distance, angle, duration } = { distance: number('distance'), angle: number('angle'), duration: number('duration') };
+  const [distance, angle, duration] = [number('distance'), number('angle'), number('duration')];
   if (duration !== undefined && (distance ?? angle) !== undefined) {
     throw new UsageError(`--duration is ${duration} beside --distance or --angle; expected is either the one or the others.`);
   }
-  const legs = duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration };
   const without = values.without?.split(',').map((name) => name.trim()) ?? [];
-  const stranger = without.find((name) => !SYSTEMATIC.includes(name));
-  if (stranger !== undefined) throw new UsageError(`--without has “${cut(stranger)}”; expected are names of ${SYSTEMATIC.join(', ')}.`);
-  const share = values.robust === '' ? undefined : number('robust');
-  const given = {
-    model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
-    rule: values.rule,
-    noise: values.noise,
-    robust: values.robust === undefined ? undefined : share === undefined ? true : { outliers: share },
-    systematic: without.length ? Object.fromEntries(SYSTEMATIC.map((name) => [name, !without.includes(name)])) : undefined,
-    seed: number('seed'),
+  const unknown = without.find((name) => !SYSTEMATIC.includes(name));
+  if (unknown !== undefined) throw new UsageError(`--without has “${cut(unknown)}”; expected are names of ${SYSTEMATIC.join(', ')}.`);
+  const pathOf = (/** @type {'odometry' | 'reference'} */ role) => {
+    const path = values[role] ?? values.recording;
+    if (!path) throw new UsageError(`--${role} is missing; expected is a file, or --recording with both.`);
+    return path;
   };
   return {
-    odometry: partOf('odometry', values.odometry ?? values.recording, values['odom-topic'], framesOf('odom-frames', values['odom-frames'])),
-    reference: partOf('reference', values.reference ?? values.recording, values['reference-topic'], framesOf('frames', values.frames)),
-    fit: { legs, byLength: true, ...defined(given) },
+    odometry: { path: pathOf('odometry'), topic: values['odom-topic'], frames: framesOf('odom-frames', values['odom-frames']) },
+    reference: { path: pathOf('reference'), topic: values['reference-topic'], frames: framesOf('frames', values.frames) },
+    fit: defined({
+      legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
+      byLength: true,
+      model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
+      rule: values.rule,
+      noise: values.noise,
+      robust: values.robust === '' ? true : values.robust && { outliers: number('robust') },
+      systematic: values.without && Object.fromEntries(SYSTEMATIC.map((name) => [name, !without.includes(name)])),
+      seed: number('seed'),
+    }),
     deviations: defined({ positionDeviation: number('position-deviation'), headingDeviation: number('heading-deviation') }),
     json: values.json ?? false,
   };
 }
 
-/** What is expected in the place of a text. @param {string} text */
-function numberLike(text) {
-  const pointed = text.replace(',', '.');
-  return text.includes(',') && Number.isFinite(Number(pointed)) ? `a number with a decimal point, ${pointed}` : 'a number';
-}
-
-/** @template {object} T @param {T} all @returns {T} those that are something */
+/** @template {object} T @param {T} all @returns {T} without keys that are undefined */
 const defined = (all) => /** @type {T} */ (Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)));
 
 /** @param {string[]} args */
 function parsed(args) {
-  // Node takes a negative number for an option, and knows none whose value may be left out: --robust alone asks for an estimate.
-  const isNumberOf = (/** @type {number} */ i) => isNumber(args[i]) && TAKES_VALUE.test(args[i - 1] ?? '');
-  const whole = args.flatMap((arg, i) => {
-    if (isNumberOf(i)) return [];
-    if (isNumberOf(i + 1)) return [`${arg}=${args[i + 1]}`];
-    return [arg === '--robust' ? '--robust=' : arg];
-  });
+  // The value of --robust is optional, which parseArgs does not know.
+  const explicit = args.map((arg, i) => (arg === '--robust' && (args[i + 1] ?? '--').startsWith('--') ? '--robust=' : arg));
   try {
-    const { tokens, ...all } = parseArgs({ args: whole, options: OPTIONS, allowPositionals: true, tokens: true });
-    const names = tokens.flatMap((token) => (token.kind === 'option' ? [token.name] : []));
-    const twice = names.find((name, i) => names.indexOf(name) < i);
-    if (twice !== undefined) throw new UsageError(`--${twice} is given more than once; expected is one of it.`);
-    return all;
+    return parseArgs({ args: explicit, options: OPTIONS, allowPositionals: true });
   } catch (error) {
-    if (error instanceof UsageError) throw error;
-    const reason = error instanceof Error ? error.message : String(error);
-    const unknown = /Unknown option '(.*?)'/.exec(reason);
-    if (unknown) throw new UsageError(`${cut(unknown[1])} is no option; expected are those of --help.`);
-    const alone = /^Option '(--[\w-]+).*' argument (missing|is ambiguous)/.exec(reason);
-    if (alone) throw new UsageError(`${alone[1]} has no value; expected is one after it, or after = where it begins with -.`);
-    // What follows is advice, in lines of its own.
-    const [first] = reason.split('\n');
-    throw new UsageError(`${cut(first.replace(/\.$/, ''), 200)}; expected is what --help shows.`);
+    throw new UsageError(/** @type {Error} */ (error).message);
   }
 }
 
-/** An option that stands apart from its value. */
-const TAKES_VALUE = new RegExp(`^--(${Object.entries(OPTIONS).flatMap(([name, { type }]) => (type === 'string' ? [name] : [])).join('|')})$`);
-
-/** @param {string | undefined} arg */
-const isNumber = (arg) => arg !== undefined && /^[+-]?\.?\d/.test(arg);
-
-/**
- * @param {'odometry' | 'reference'} role
- * @param {string | undefined} path
- * @param {string | undefined} topic
- * @param {Part['frames']} frames
- * @returns {Part}
- */
-function partOf(role, path, topic, frames) {
-  if (!path) throw new UsageError(`--${role} is missing; expected is a file, or --recording with both.`);
-  return { path, topic, frames };
-}
-
-/** @param {string} name @param {string | undefined} value @returns {Part['frames']} */
+/** @param {string} name @param {string | undefined} value @returns {Input['frames']} */
 function framesOf(name, value) {
   if (value === undefined) return undefined;
   const [parent, child, ...more] = value.split(',').map((each) => each.trim());
-  if (!parent || !child || more.length) throw new UsageError(`--${name} is “${cut(value)}”; expected are a parent and a child, as in map,base_link.`);
-  return { parent, child };
+  if (parent && child && more.length === 0) return { parent, child };
+  throw new UsageError(`--${name} is “${cut(value)}”; expected are a parent and a child, as in map,base_link.`);
 }

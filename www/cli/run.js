@@ -1,49 +1,59 @@
-/** The command: reads logs, has the core calibrate, and says what came out. */
+/** Command `calibrate`: reads logs, calibrates, and prints the result. */
 
+import { openAsBlob } from 'node:fs';
+import { stat } from 'node:fs/promises';
+import { basename } from 'node:path';
 import { log as words } from '../widgets/alpha-calibrator/log/en.js';
-import { isRecording, logsOf, readLog, tell, together, topicsOf, unclear, usefulTopics, usualTopics } from '../widgets/alpha-calibrator/log/read.js';
-import { LogError, cut } from '../widgets/alpha-calibrator/log/refusal.js';
-import { onDisk } from './disk.js';
-import { HELP, UsageError, optionsOf, refusalOf } from './options.js';
+import { LogError, cut } from '../widgets/alpha-calibrator/log/log-error.js';
+import * as reader from '../widgets/alpha-calibrator/log/read.js';
+import { HELP, UsageError, optionsOf, withOption } from './options.js';
 import { jsonOf, textOf } from './report.js';
 
 /**
  * @import { Choice, Topic } from '../widgets/alpha-calibrator/log/read.js'
  * @import { Log } from '../widgets/alpha-calibrator/log/rows.js'
- * @import { Asked, Part } from './options.js'
+ * @import { Input, Options } from './options.js'
  *
- * @typedef {object} Surroundings
+ * @typedef {'odometry' | 'reference'} Role
+ *
+ * @typedef {object} Environment
  * @property {() => Promise<any>} load the core
  * @property {(text: string) => void} print
  * @property {(text: string) => void} complain
  * @property {Date} [now]
  */
 
-/** By which options a topic of a recording is chosen, or the frames of its transforms. */
-const [TOPIC_OPTIONS, FRAMES_OPTIONS] = [{ odometry: '--odom-topic', reference: '--reference-topic' }, { odometry: '--odom-frames', reference: '--frames' }];
+/** Options that choose a topic of a recording. */
+const TOPIC_OPTIONS = { odometry: '--odom-topic', reference: '--reference-topic' };
 
-/** What a shell is told: all is well, or what was asked for or given is not. */
-const [WELL, BAD_INPUT] = [0, 2];
+/** Options that choose the frames of a topic of transforms. */
+const FRAMES_OPTIONS = { odometry: '--odom-frames', reference: '--frames' };
+
+/** Exit codes of a shell. */
+const [SUCCESS, BAD_INPUT] = [0, 2];
 
 /**
+ * Runs the command.
+ *
  * @param {string[]} args
- * @param {Surroundings} surroundings
- * @returns {Promise<number>} the exit code; what is a mistake of the program is thrown
+ * @param {Environment} environment
+ * @returns {Promise<number>} exit code; rejects on a defect of the program
  */
 export async function run(args, { load, print, complain, now = new Date() }) {
   try {
-    const asked = optionsOf(args);
-    if (!asked) {
+    const options = optionsOf(args);
+    if (!options) {
       print(HELP);
-      return WELL;
+      return SUCCESS;
     }
-    const logs = together(...(await read(asked)));
-    const motion = await load();
-    const calibration = calibrate(motion, asked, logs);
-    const told = [logs.odometry, logs.reference].map((log) => ({ name: log.name, found: tell(log, words.found) }));
-    const result = { calibration, fit: asked.fit, deviations: asked.deviations, logs: told, start: logs.start, date: now.toISOString().slice(0, 10) };
-    print(asked.json ? jsonOf(result) : textOf(result));
-    return WELL;
+    const [odometry, reference] = await read(options);
+    const paired = reader.pairLogs(odometry, reference);
+    const calibration = calibrate(await load(), options, paired);
+    const logs = [paired.odometry, paired.reference].map((log) => ({ name: log.name, found: reader.summarize(log, words.found) }));
+    const { fit, deviations, json } = options;
+    const result = { calibration, fit, deviations, logs, start: paired.start, date: now.toISOString().slice(0, 10) };
+    print(json ? jsonOf(result) : textOf(result));
+    return SUCCESS;
   } catch (error) {
     if (!(error instanceof LogError || error instanceof UsageError)) throw error;
     complain(`${error.message}\n`);
@@ -53,123 +63,79 @@ export async function run(args, { load, print, complain, now = new Date() }) {
 
 /**
  * @param {any} motion
- * @param {Asked} asked
+ * @param {Options} options
  * @param {{ odometry: Log, reference: Log }} logs
  */
 function calibrate(motion, { fit, deviations }, { odometry, reference }) {
   try {
     return motion.calibrate({ ...fit, odometry: odometry.data, reference: { ...reference.data, ...deviations } });
   } catch (error) {
-    // It names a field, the value, and what is allowed.
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-    throw new UsageError(refusalOf(error.message) ?? `${odometry.name} and ${reference.name}: ${error.message}.`);
+    throw new UsageError(withOption(error.message) ?? `${odometry.name} and ${reference.name}: ${error.message}.`);
   }
 }
 
-/**
- * @typedef {'odometry' | 'reference'} Role
- *
- * @param {Asked} asked
- * @returns {Promise<[odometry: Log, reference: Log]>}
- */
-async function read(asked) {
-  const both = asked.odometry.path === asked.reference.path && (await readBoth(asked));
-  return both || [await readOne(asked.odometry, 'odometry', asked), await readOne(asked.reference, 'reference', asked)];
+/** @param {Options} options @returns {Promise<Log[]>} odometry and reference */
+async function read({ odometry, reference, fit }) {
+  const kind = fit.model === 'velocity' ? 'commands' : undefined;
+  if (odometry.path !== reference.path) return [await readOne(odometry, 'odometry', kind), await readOne(reference, 'reference', 'poses')];
+  const file = await fileOf(odometry.path);
+  if (!(await reader.isRecording(file))) {
+    throw new UsageError(`${file.name} is no MCAP recording; expected is one for both odometry and reference, or two tables.`);
+  }
+  return reader.logsOf(file, [await choiceOf(file, odometry, 'odometry', kind), await choiceOf(file, reference, 'reference', 'poses')]);
 }
 
-/**
- * @param {Asked} asked of one file
- * @returns {Promise<[Log, Log] | undefined>} nothing where it is no recording
- */
-function readBoth(asked) {
-  return withSource(asked.odometry.path, async (source) => {
-    if (source.size === 0 || !(await isRecording(source))) return undefined;
-    const topics = once(() => topicsOf(source));
-    const odometry = await choiceOf(asked.odometry, 'odometry', asked, source, topics);
-    let reference;
-    try {
-      reference = await choiceOf(asked.reference, 'reference', asked, source, topics);
-    } catch (error) {
-      // What is wrong with the odometry is told first.
-      await logsOf(source, [odometry]);
-      throw error;
-    }
-    return /** @type {[Log, Log]} */ (await logsOf(source, [odometry, reference]));
-  });
+/** @param {Input} input @param {Role} role @param {Choice['kind']} kind */
+async function readOne(input, role, kind) {
+  const file = await fileOf(input.path);
+  if (await reader.isRecording(file)) return reader.readLog(file, await choiceOf(file, input, role, kind));
+  const { topic, frames } = input;
+  const wanted = topic !== undefined ? `topic ${cut(topic)}` : frames && `frames ${cut(frames.parent)} and ${cut(frames.child)}`;
+  if (wanted) throw new UsageError(`${file.name} is no recording and has no ${wanted}; expected is an MCAP file.`);
+  return reader.readLog(file, { kind });
 }
 
-/**
- * @param {Part} part
- * @param {Role} role
- * @param {Asked} asked
- * @returns {Promise<Log>}
- */
-function readOne(part, role, asked) {
-  return withSource(part.path, async (source) => {
-    if (source.size === 0 || !(await isRecording(source))) {
-      if (part.topic !== undefined) throw new UsageError(`${source.name} is no recording and has no topic ${cut(part.topic)}; expected is an MCAP file.`);
-      if (part.frames) throw new UsageError(`${source.name} is no recording and has no frames ${cut(part.frames.parent)} and ${cut(part.frames.child)}; expected is an MCAP file.`);
-      if (asked.odometry.path === asked.reference.path) throw new UsageError(`${source.name} is no MCAP recording; expected is one for both odometry and reference, or two tables.`);
-      return readLog(source, { kind: kindOf(role, asked) });
-    }
-    return readLog(source, await choiceOf(part, role, asked, source, () => topicsOf(source)));
-  });
-}
-
-/**
- * @template Result
- * @param {string} path
- * @param {(source: Awaited<ReturnType<typeof onDisk>>) => Promise<Result>} work
- */
-async function withSource(path, work) {
-  const source = await onDisk(path);
+/** @param {string} path @returns {Promise<File>} rejects with a LogError if there is no such file */
+async function fileOf(path) {
+  const name = basename(path);
   try {
-    return await work(source);
-  } finally {
-    await source.close();
+    if (!(await stat(path)).isFile()) throw Object.assign(new Error(), { code: 'no file' });
+    return new File([await openAsBlob(path)], name);
+  } catch (error) {
+    const { code } = /** @type {NodeJS.ErrnoException} */ (error);
+    throw new LogError({ file: name }, (say) => say.gone(String(code)));
   }
 }
 
-/** @param {Role} role @param {Asked} asked */
-const kindOf = (role, { fit }) => (role === 'reference' ? 'poses' : fit.model === 'velocity' ? 'commands' : undefined);
-
 /**
- * What of a recording is to be read.
+ * Chooses a log of a recording.
  *
- * @param {Part} part
+ * @param {File} file
+ * @param {Input} input
  * @param {Role} role
- * @param {Asked} asked
- * @param {{ name: string }} source
- * @param {() => Promise<Topic[]>} topics
+ * @param {Choice['kind']} kind
  * @returns {Promise<Choice>}
  */
-async function choiceOf({ topic, frames }, role, asked, { name }, topics) {
-  const kind = kindOf(role, asked);
-  return { topic: topic ?? usualTopic(name, await topics(), role, kind, frames), frames, kind };
+async function choiceOf(file, { topic, frames }, role, kind) {
+  return { topic: topic ?? guessTopic(file.name, await reader.topicsOf(file), role, kind, frames), frames, kind };
 }
 
 /**
  * @param {string} file
  * @param {Topic[]} topics
  * @param {Role} role
- * @param {'poses' | 'commands' | undefined} kind
+ * @param {Choice['kind']} kind
  * @param {Choice['frames']} frames
  */
-function usualTopic(file, topics, role, kind, frames) {
-  const useful = usefulTopics(file, topics);
-  // What never changes has a topic of its own, which is read with any.
+function guessTopic(file, topics, role, kind, frames) {
+  const useful = reader.usefulTopics(file, topics);
+  // Static transforms have a topic of their own, which is read with any other.
   const [transforms, ...more] = frames ? useful.filter(({ name, kind }) => kind === 'transforms' && !/static/.test(name)) : [];
   if (transforms && more.length === 0) return transforms.name;
-  const usual = usualTopics(topics, kind)[role];
-  // Of transforms alone the frames tell all.
+  // In a recording of transforms alone the frames identify the topic.
   const options = useful.every(({ kind }) => kind === 'transforms') ? FRAMES_OPTIONS : TOPIC_OPTIONS;
-  if (usual === null) throw unclear(file, useful, role, options[role]);
-  return usual;
-}
-
-/** @template Result @param {() => Result} work @returns {() => Result} that does it when first asked, and once */
-function once(work) {
-  /** @type {{ result: Result } | undefined} */
-  let done;
-  return () => (done ??= { result: work() }).result;
+  const guess = reader.guessTopics(topics, kind)[role];
+  if (guess === null) throw reader.ambiguousTopic(file, useful, role, options[role]);
+  return guess;
 }

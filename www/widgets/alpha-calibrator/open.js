@@ -1,4 +1,4 @@
-/** How a log of the reader's own gets in: chosen or dropped; and why the latest was refused. */
+/** Logs of the reader's own: opened by a file dialog or dropped, read, and shown in a fold. */
 
 import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.js';
@@ -9,88 +9,90 @@ import { deviations } from './controls.js';
 
 /**
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
+ * @typedef {import('./log/log-error.js').LogError} LogError
  * @typedef {import('./log/rows.js').Poses} Poses
  * @typedef {import('./log/read.js').Topic} Topic
  * @typedef {import('../../types.d.ts').CalibrationLog} CalibrationLog
  * @typedef {typeof import('./log/read.js')} Reader
  * @typedef {{ onProgress: (share: number) => void, signal: AbortSignal }} Watched
+ *
+ * @typedef {object} Chosen recording with its topics, or two tables without
+ * @property {File[]} files
+ * @property {Topic[]} topics
+ * @property {string} odometry topic; empty where it is ambiguous
+ * @property {string} reference topic; empty where it is ambiguous
+ * @property {typeof FRAMES} frames of topics of transforms
+ * @property {'commands' | undefined} kind of odometry that the model wanted when it was read
+ * @property {boolean} isExplicit whether the reader chose the topic of the odometry
  */
 
-/** What the names of files may end in. */
+/** Extensions that the file dialog offers. */
 const EXTENSIONS = ['.csv', '.txt', '.tum', '.mcap'];
 
-/** Milliseconds between two looks at how much of a log has been read: to show it takes some of them. */
-const BETWEEN = 100;
-
-/** The fold that says which log is there and why another was refused. */
+/** Id of the fold about the log. */
 export const FOLD = 'log-fold';
 
-/** Which frames of a topic of transforms are usually meant: a parent and a child. */
+/** Usual frames of a topic of transforms: parent and child. */
 const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
-
-/**
- * A recording whose topics are to be chosen, with the frames of those that hold transforms; or two tables. `kind` is what was wanted of the
- * odometry when it was read, `isTold` whether the reader said which topic that is.
- *
- * @typedef {{ files: File[], topics: Topic[], odometry: string, reference: string, frames: typeof FRAMES, kind: 'commands' | undefined, isTold: boolean }} Chosen
- */
-
-/** Of a part of what is watched. @param {Watched} watching @param {number} from @param {number} to @returns {Watched} */
-const partOf = ({ onProgress, signal }, from, to) => ({ signal, onProgress: (share) => onProgress(from + share * (to - from)) });
 
 /** @extends {Part<Figure>} */
 export class LogOpener extends Part {
   dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
   /** Why the latest log was refused. @type {(() => string) | undefined} */
   #complaint;
-  /** What was found in the present log. @type {(() => string[]) | undefined} */
+  /** Summary of the present log. @type {(() => string[]) | undefined} */
   #found;
-  /** What is read, and which of it is which. @type {Chosen | undefined} */
+  /** Files and topics of the latest log. @type {Chosen | undefined} */
   chosen;
-  /** What was opened last, and whether there are poses and commands in its table. @type {{ chosen: Chosen, log: CalibrationLog, hasBoth: boolean } | undefined} */
+  /**
+   * Log that was opened last, and whether its table has poses and commands.
+   *
+   * @type {{ chosen: Chosen, log: CalibrationLog, hasBoth: boolean } | undefined}
+   */
   #opened;
-  /** How much of it has been read; undefined where nothing is. @type {number | undefined} */
+  /** Share of the file that has been read; undefined while none is being read. @type {number | undefined} */
   share;
-  /** Stops what is being read. */
+  /** Cancels the reading. */
   #stopping = new AbortController();
 
-  /** Empty where there is nothing to complain of. */
+  /** Why the latest log was refused; empty where it was not. */
   get complaint() {
     return this.#complaint?.() ?? '';
   }
 
-  /** What was left out of the present log, and what was decided about it. */
+  /** Sentences about the present log: decisions, and rows that were left out. */
   get found() {
     return this.#found?.() ?? [];
   }
 
-  /** What the model takes of an odometry that has both: velocities are commanded. */
+  /** Odometry that the model prefers where a log has both: the velocity model takes commands. */
+  /** @returns {'commands' | undefined} */
   get #kind() {
     return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
   }
 
-  /** Another model may take what else the same files have. */
+  /** Reads the files again where another model prefers another odometry of them. */
   hostUpdated() {
     if (!this.#opened || this.share !== undefined) return;
     const { chosen, log, hasBoth } = this.#opened;
     if (chosen !== this.chosen || log !== this.host.log || chosen.kind === this.#kind) return;
     chosen.kind = this.#kind;
     this.#attempt(async (reader, watching) => {
-      const { odometry } = reader.usualTopics(chosen.topics, chosen.kind);
-      const isOther = odometry !== null && odometry !== chosen.odometry && !chosen.isTold;
+      const { odometry } = reader.guessTopics(chosen.topics, chosen.kind);
+      const isOther = odometry !== null && odometry !== chosen.odometry && !chosen.isExplicit;
       if (isOther) chosen.odometry = odometry;
-      if (isOther || hasBoth) await this.#read(reader, watching);
+      if (isOther || hasBoth) await this.#read(chosen, reader, watching);
     });
   }
 
-  /** Back to the simulated log. */
+  /** Returns to the simulated log. */
   leave() {
     this.#stopping.abort();
     this.share = this.chosen = this.#complaint = this.#found = undefined;
     this.host.open(null);
   }
 
-  /** The reader does not want to wait. */
+  /** Stops reading. */
   stop() {
     this.#stopping.abort();
     this.share = undefined;
@@ -103,95 +105,97 @@ export class LogOpener extends Part {
     if (files.length === 0) return;
     this.chosen = undefined;
     this.#attempt(async (reader, watching) => {
-      if (files.length > 2) throw new Error(words.calibrator.own.two(files.length));
-      const recording = files.length === 1;
-      const [{ name }] = files;
-      // What is called a recording is refused as one.
+      const [{ name }, second] = files;
       const recorded = await Promise.all(files.map(reader.isRecording));
-      if (recording ? !(recorded[0] || /\.mcap$/i.test(name)) : recorded.includes(true)) throw new Error(words.calibrator.own.two(files.length));
-      // To find the topics a recording without an index is read as a whole, and then once more.
-      const topics = recording ? reader.usefulTopics(name, await reader.topicsOf(files[0], partOf(watching, 0, 0.5))) : [];
+      // A file with the extension of a recording is refused as one.
+      const isTaken = second ? files.length === 2 && !recorded.includes(true) : recorded[0] || /\.mcap$/i.test(name);
+      if (!isTaken) throw new Error(words.calibrator.own.two(files.length));
+      const topics = second ? [] : reader.usefulTopics(name, await reader.topicsOf(files[0], watching));
       const kind = this.#kind;
-      const usual = reader.usualTopics(topics, kind);
-      const [first, second] = reader.areSwapped(name, files.at(-1)?.name ?? '') ? [...files].reverse() : files;
-      this.chosen = { files: recording ? files : [first, second], topics, odometry: usual.odometry ?? '', reference: usual.reference ?? '', frames: FRAMES, kind, isTold: false };
-      if (recording) reader.checkClear(name, topics, usual);
-      await this.#read(reader, watching);
+      const guess = reader.guessTopics(topics, kind);
+      const chosen = {
+        files: second && reader.areSwapped(name, second.name) ? files.toReversed() : files,
+        topics,
+        odometry: guess.odometry ?? '',
+        reference: guess.reference ?? '',
+        frames: FRAMES,
+        kind,
+        isExplicit: false,
+      };
+      this.chosen = chosen;
+      const role = guess.odometry === null ? 'odometry' : 'reference';
+      if (!second && guess[role] === null) throw reader.ambiguousTopic(name, topics, role);
+      await this.#read(chosen, reader, watching);
     });
   }
 
-  /** The reader says which is which. @param {Partial<Chosen>} change */
+  /** Takes a choice of the reader. @param {Partial<Chosen>} change */
   change(change) {
-    const { chosen } = this;
-    if (!chosen) return;
-    this.chosen = { ...chosen, ...change, isTold: chosen.isTold || change.odometry !== undefined };
-    const { topics, odometry, reference } = this.chosen;
+    if (!this.chosen) return;
+    const chosen = { ...this.chosen, ...change, isExplicit: this.chosen.isExplicit || change.odometry !== undefined };
+    this.chosen = chosen;
     this.host.requestUpdate();
-    if (topics.length === 0 || (odometry && reference)) this.#attempt((reader, watching) => this.#read(reader, watching));
+    if (chosen.topics.length > 0 && !(chosen.odometry && chosen.reference)) return;
+    this.#attempt((reader, watching) => this.#read(chosen, reader, watching));
   }
 
   /**
+   * @param {Chosen} chosen
    * @param {Reader} reader
    * @param {Watched} watching
    */
-  async #read(reader, watching) {
-    const chosen = /** @type {Chosen} */ (this.chosen);
+  async #read(chosen, reader, watching) {
     const { files, topics, odometry, reference, frames, kind } = chosen;
-    const topic = (/** @type {string} */ name, /** @type {string} */ its) => {
+    const choice = (/** @type {string} */ topic, /** @type {string} */ its) => {
       const [parent, child = ''] = its.split(',').map((frame) => frame.trim());
-      return { topic: name, ...(holdsTransforms(topics, name) && { frames: { parent, child } }) };
+      return { topic, ...(holdsTransforms(topics, topic) && { frames: { parent, child } }) };
     };
-    const both = [topic(odometry, frames.odometry), topic(reference, frames.reference)];
     const [first, second] = topics.length
-      ? await reader.logsOf(files[0], both, partOf(watching, this.share ?? 0, 1))
-      : [await reader.readLog(files[0], { kind, ...partOf(watching, 0, 0.5) }), await reader.readLog(files[1], { kind: 'poses', ...partOf(watching, 0.5, 1) })];
-    // Each of these takes about as long as a frame has.
-    await reader.turn();
-    const logs = reader.together(first, second);
-    await reader.turn();
-    watching.signal.throwIfAborted();
+      ? await reader.logsOf(files[0], [choice(odometry, frames.odometry), choice(reference, frames.reference)], watching)
+      : [await reader.readLog(files[0], { kind, ...watching }), await reader.readLog(files[1], { kind: 'poses', ...watching })];
+    const paired = reader.pairLogs(first, second);
     const name = [...new Set(files.map((file) => file.name))].join(', ');
-    const log = { name, odometry: logs.odometry.data, reference: /** @type {Poses} */ (logs.reference.data) };
+    const log = { name, odometry: paired.odometry.data, reference: /** @type {Poses} */ (paired.reference.data) };
     const say = await wordsOf();
     watching.signal.throwIfAborted();
     this.host.open(log, () => {
       this.#opened = { chosen, log, hasBoth: first.how.hasBoth };
-      this.#found = () => [logs.odometry, logs.reference].flatMap((log) => [`${log.name}: ${reader.tell(log, say().found).join(' ')}`]);
+      const logs = [paired.odometry, paired.reference];
+      this.#found = () => logs.map((each) => `${each.name}: ${reader.summarize(each, say().found).join(' ')}`);
     }, (error) => this.#refuse(error));
   }
 
-  /** Says why a log was refused. @param {unknown} error */
+  /** Shows why a log was refused. @param {unknown} error */
   async #refuse(error) {
-    const { message, sentence } = /** @type {Error & Partial<import('./log/refusal.js').LogError>} */ (error);
+    const { message, sentence } = /** @type {Error & Partial<LogError>} */ (error);
     const say = sentence && (await wordsOf());
     this.#complaint = () => (say ? sentence(say()) : words.calibrator.own.refused(message));
     this.host.requestUpdate();
     await this.dropped.showRefusal();
   }
 
-  /** @param {(reader: Reader, watching: Watched) => Promise<void>} work */
+  /**
+   * Loads the reader of logs, cancels a reading that is under way, and starts another.
+   *
+   * @param {(reader: Reader, watching: Watched) => Promise<void>} work
+   */
   async #attempt(work) {
     this.#stopping.abort();
-    const stopping = (this.#stopping = new AbortController());
+    this.#stopping = new AbortController();
+    const { signal } = this.#stopping;
     this.#complaint = undefined;
-    let shown = -Infinity;
-    const onProgress = (/** @type {number} */ share) => {
-      const now = performance.now();
-      if (stopping.signal.aborted || now - shown < BETWEEN) return;
-      shown = now;
+    const show = (/** @type {number | undefined} */ share) => {
+      if (signal.aborted) return;
       this.share = share;
       this.host.requestUpdate();
     };
+    show(0);
     try {
-      onProgress(0);
-      await work(await import('./log/read.js'), { onProgress, signal: stopping.signal });
+      await work(await import('./log/read.js'), { onProgress: show, signal });
+      show(undefined);
     } catch (error) {
-      if (stopping.signal.aborted) return;
-      this.share = undefined;
-      await this.#refuse(error);
-    } finally {
-      if (!stopping.signal.aborted) this.share = undefined;
-      this.host.requestUpdate();
+      show(undefined);
+      if (!signal.aborted) await this.#refuse(error);
     }
   }
 }
@@ -199,7 +203,7 @@ export class LogOpener extends Part {
 /** @param {Topic[]} topics @param {string} topic */
 const holdsTransforms = (topics, topic) => topics.some(({ name, kind }) => name === topic && kind === 'transforms');
 
-/** The words of logs, which come with the first log. @returns {Promise<() => typeof import('./log/en.js').log>} those of the time when they are said */
+/** Loads the words of logs. @returns {Promise<() => typeof import('./log/en.js').log>} those of the present language */
 async function wordsOf() {
   const [{ log: english }, { log: german }] = await Promise.all([import('./log/en.js'), import('./log/de.js')]);
   return () => (language === 'de' ? german : english);

@@ -18,7 +18,7 @@ const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, tra
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
 
-/** @type {import('./refusal.js').Words} */
+/** @type {import('./log-error.js').Words} */
 export const log = {
   place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
   refused: {

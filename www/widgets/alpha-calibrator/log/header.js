@@ -1,9 +1,9 @@
 /** Which column of a table is what, by the names that people and recorders give them. */
 
-import { LogError, cut, listed } from './refusal.js';
+import { LogError, cut, listed } from './log-error.js';
 
 /**
- * @import { Place } from './refusal.js'
+ * @import { Place } from './log-error.js'
  *
  * @typedef {'seconds' | 'nanoseconds' | 't' | 'x' | 'y' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega'} Field
  *

@@ -1,27 +1,33 @@
-/** The messages of ROS 2 that hold poses or commands: what is at their beginning, as far as it is read. */
+/** Messages of ROS 2 with poses, commands or transforms. */
 
 import { MessageReader } from '@foxglove/rosmsg2-serialization';
-import { headingOf, isRotation } from './table.js';
+import { headingOf, isRotation } from './quaternion.js';
 
 /**
+ * @import { Quaternion, Vector } from './quaternion.js'
+ *
  * @typedef {{ sec: number, nanosec: number }} Stamp
- * @typedef {{ x: number, y: number, z: number }} Vector
- * @typedef {Vector & { w: number }} Quaternion
  * @typedef {{ translation: Vector, rotation: Quaternion }} Transform
  *
  * @typedef {object} Reading
- * @property {Stamp} [stamp] when it was true; where there is none, when it was recorded
+ * @property {Stamp} [stamp] of the header, if the type has one
  * @property {number} a x, or v
  * @property {number} b y, or omega
  * @property {number} c heading, or 0
- * @property {boolean} isRotation whether the heading is one
+ * @property {boolean} isRotation whether the quaternion has length 1
+ *
+ * @typedef {object} Edge
+ * @property {string} parent
+ * @property {string} child
+ * @property {Stamp} stamp
+ * @property {Transform} transform of the child's frame in the parent's
  *
  * @typedef {object} Kind of message
  * @property {'poses' | 'commands' | 'transforms'} kind
- * @property {string} root what of it is read
+ * @property {string} root name of its definition
  */
 
-/** By their types. @type {Record<string, Kind>} */
+/** Kinds by message type. @type {Record<string, Kind>} */
 export const KINDS = {
   'nav_msgs/msg/Odometry': { kind: 'poses', root: 'Odometry' },
   'geometry_msgs/msg/PoseStamped': { kind: 'poses', root: 'PoseStamped' },
@@ -36,22 +42,20 @@ const numbers = (/** @type {string[]} */ ...names) => names.map((name) => ({ typ
 const text = (/** @type {string} */ name) => ({ type: 'string', name });
 const stamp = { type: 'time', name: 'stamp' };
 
-/** A text that nobody reads: its bytes come after their number, as those of an array, and to decode it takes as long as all the rest. */
-const unread = (/** @type {string} */ name) => ({ type: 'uint8', name, isArray: true });
+/** Text that is skipped: its bytes follow their count, as in an array, and decoding it takes as long as all the rest. */
+const skipped = (/** @type {string} */ name) => ({ type: 'uint8', name, isArray: true });
 
-/** The numbers of a pose, and those of a twist. */
 const [POSE, TWIST] = [numbers('x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'), numbers('vx', 'vy', 'vz', 'wx', 'wy', 'wz')];
 
 /**
- * Their fields, in order. A recording says them too, and anything else it likes; they have been the same in all of ROS 2.
- * What comes after these, covariances and the like, is not read. Parts that are always there are written out: in the bytes nothing is
- * between them.
+ * Leading fields of the messages, which are the same in all of ROS 2; covariances and the like follow and are not read. Nested parts of a
+ * pose or twist are written out, as nothing is between them in the bytes.
  */
 const DEFINITIONS = Object.entries({
-  Odometry: [stamp, unread('frame'), unread('child'), ...POSE],
-  PoseStamped: [stamp, unread('frame'), ...POSE],
+  Odometry: [stamp, skipped('frame'), skipped('child'), ...POSE],
+  PoseStamped: [stamp, skipped('frame'), ...POSE],
   Twist: TWIST,
-  TwistStamped: [stamp, unread('frame'), ...TWIST],
+  TwistStamped: [stamp, skipped('frame'), ...TWIST],
   Vector: numbers('x', 'y', 'z'),
   Quaternion: numbers('x', 'y', 'z', 'w'),
   Transform: [part('Vector', 'translation'), part('Quaternion', 'rotation')],
@@ -62,13 +66,14 @@ const DEFINITIONS = Object.entries({
 /** @param {string} type one of KINDS @returns {MessageReader<any>} */
 function readerOf(type) {
   const { root } = KINDS[type];
-  const first = DEFINITIONS.filter(({ name }) => name === root);
-  return new MessageReader([...first, ...DEFINITIONS]);
+  return new MessageReader([...DEFINITIONS.filter(({ name }) => name === root), ...DEFINITIONS]);
 }
 
 /**
- * @param {string} type of poses or commands
- * @returns {(data: Uint8Array) => Reading} throws where bytes are no such message
+ * Returns a reader of poses or commands.
+ *
+ * @param {string} type
+ * @returns {(data: Uint8Array) => Reading} throws if the bytes are no such message
  */
 export function poseReader(type) {
   const reader = readerOf(type);
@@ -84,29 +89,16 @@ export function poseReader(type) {
   };
 }
 
-/** @param {Vector} position @param {Quaternion} turned */
-export function planar(position, { x, y, z, w }) {
-  return { a: position.x, b: position.y, c: headingOf(x, y, z, w), isRotation: isRotation(x, y, z, w) };
-}
+/** Name of a frame without the leading slash of the first tf. @param {string} name */
+export const withoutSlash = (name) => name.replace(/^\/+/, '');
 
-/** The name of a frame: those of the first tf began with a slash. @param {string} name */
-export const bare = (name) => name.replace(/^\/+/, '');
-
-/**
- * @typedef {object} Edge
- * @property {string} parent
- * @property {string} child
- * @property {Stamp} stamp
- * @property {Transform} transform of the child's frame in the parent's
- *
- * @returns {(data: Uint8Array) => Edge[]} throws where bytes are no message of transforms
- */
+/** Returns a reader of transforms. @returns {(data: Uint8Array) => Edge[]} throws if the bytes are no such message */
 export function edgeReader() {
   const reader = readerOf('tf2_msgs/msg/TFMessage');
   return (data) =>
     reader.readMessage(data).transforms.map((/** @type {any} */ { stamp, frame, child, transform }) => ({
-      parent: bare(frame),
-      child: bare(child),
+      parent: withoutSlash(frame),
+      child: withoutSlash(child),
       stamp,
       transform,
     }));

@@ -1,43 +1,43 @@
-/** Logs of robots: poses or commands with times, of CSV, TUM and MCAP files. */
+/** Logs of robots: poses or commands with times, from CSV, TUM and MCAP files. */
 
-import { turn } from '../../../figure/breath.js';
+import { withoutFrozenPoses } from './frozen-pose.js';
+import { LogError, bytesOf, listed } from './log-error.js';
 import { LOG_TIME } from './rows.js';
-import { withoutHeld } from './held.js';
-import { LogError, bytesOf, listed } from './refusal.js';
 import { readTable } from './table.js';
 
 /**
- * @import { Watching } from '../../../figure/breath.js'
- * @import { Source, Words } from './refusal.js'
+ * @import { Source, Watching, Words } from './log-error.js'
  * @import { Log, Reason } from './rows.js'
  *
  * @typedef {object} Topic of a recording
  * @property {string} name
  * @property {string} type
  * @property {number} count of its messages
- * @property {'poses' | 'commands' | 'transforms' | null} kind what it holds; null where it is of no use here
+ * @property {'poses' | 'commands' | 'transforms' | null} kind null for other types
  *
- * @typedef {object} Choice what is to be read
- * @property {'poses' | 'commands'} [kind] poses, or commands where there are some; of a table that has both, poses where nothing is said
+ * @typedef {object} Choice of a log
+ * @property {'poses' | 'commands'} [kind] poses, or commands if there are any; by default poses of a table that has both
  * @property {string} [topic] of a recording
  * @property {{ parent: string, child: string }} [frames] of a topic of transforms
  */
 
-export { LogError, turn };
+export { LogError };
 
-/** The first bytes of every recording. */
+/** First bytes of a recording. */
 const MAGIC = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
 
-/** Whether a file is a recording, with topics to choose of. @param {Source} source @returns {Promise<boolean>} */
+/** Checks whether a file is a recording. @param {Source} source @returns {Promise<boolean>} */
 export async function isRecording(source) {
   const start = await bytesOf(source, 0, MAGIC.length);
   return MAGIC.every((byte, i) => byte === start[i]);
 }
 
 /**
- * @param {Source} source a recording
+ * Lists the topics of a recording.
+ *
+ * @param {Source} source
  * @param {Watching} [watching]
- * @returns {Promise<Topic[]>} by their names; rejects with a LogError
+ * @returns {Promise<Topic[]>} by name; rejects with a LogError
  */
 export async function topicsOf(source, watching = {}) {
   const { listTopics } = await import('./recording.js');
@@ -45,39 +45,40 @@ export async function topicsOf(source, watching = {}) {
 }
 
 /**
+ * Reads one log.
+ *
  * @param {Source} source
  * @param {Choice & Watching} [choice]
  * @returns {Promise<Log>} rejects with a LogError that names file, line or topic, and what is expected
  */
 export async function readLog(source, { kind, topic, frames, ...watching } = {}) {
-  if (source.size === 0) throw new LogError({ file: source.name }, (say) => say.empty);
   if (!(await isRecording(source))) return readTable(source, kind, watching);
   const [log] = await logsOf(source, [{ kind, topic, frames }], watching);
   return log;
 }
 
 /**
- * Several logs of a recording, which is gone through once.
+ * Reads several logs of a recording in one pass.
  *
- * @param {Source} source a recording
+ * @param {Source} source
  * @param {Choice[]} choices
  * @param {Watching} [watching]
- * @returns {Promise<Log[]>} one a choice; rejects as `readLog` of the first that is refused
+ * @returns {Promise<Log[]>} one for each choice; rejects as `readLog`
  */
 export async function logsOf(source, choices, watching = {}) {
   const { readRecording } = await import('./recording.js');
   return readRecording(source, choices, watching);
 }
 
-/** Topics with their types, as a sentence names them. @param {Topic[]} topics */
-export const described = (topics) => listed(topics.map(({ name, type }) => `${name} (${type.replace(/^.*\//, '')})`));
+/** Topics with their types, for a sentence. @param {Topic[]} topics */
+const described = (topics) => listed(topics.map(({ name, type }) => `${name} (${type.replace(/^.*\//, '')})`));
 
 /**
- * Those that hold something for which there is a use.
+ * Returns the topics with messages that can be read.
  *
  * @param {string} file
  * @param {Topic[]} topics
- * @throws {LogError} where there are none
+ * @throws {LogError} if there are none
  */
 export function usefulTopics(file, topics) {
   const useful = topics.filter(({ kind, count }) => kind !== null && count > 1);
@@ -86,87 +87,93 @@ export function usefulTopics(file, topics) {
 }
 
 /**
+ * Error about a topic that has to be chosen.
+ *
  * @param {string} file
- * @param {Topic[]} topics that are of use
- * @param {{ odometry: string | null, reference: string | null }} usual
- * @throws {LogError} where it is not clear which is which
- */
-export function checkClear(file, topics, usual) {
-  const role = usual.odometry === null ? 'odometry' : 'reference';
-  if (usual[role] === null) throw unclear(file, topics, role);
-}
-
-/**
- * @param {string} file
- * @param {Topic[]} topics that are of use
+ * @param {Topic[]} topics that can be read
  * @param {'odometry' | 'reference'} role
- * @param {string} [option] by which one is chosen
+ * @param {string} [option] of the command line
  */
-export function unclear(file, topics, role, option) {
+export function ambiguousTopic(file, topics, role, option) {
   // Transforms may have both, of other frames.
   const isAlone = topics.length === 1 && topics[0].kind !== 'transforms';
   return new LogError({ file }, (say) => (isAlone ? say.alone(described(topics)) : say.choose(role, described(topics), option)));
 }
 
-/** Whether two tables are called as if the second were the odometry, and not the first. @param {string} first @param {string} second */
-export const areSwapped = (first, second) => CALLED_ODOMETRY.test(second) && !CALLED_ODOMETRY.test(first);
-
-/** What is in the names of files of odometry. */
-const CALLED_ODOMETRY = /odom|wheel|cmd/i;
-
-/** Names that recorders give to odometry, to commands, and to what is better. */
-const [ODOMETRY, COMMANDS, REFERENCE] = [/(^|\/)odom(etry)?$/i, /(^|\/)cmd_vel$/i, /truth|gt|mocap|vicon|optitrack|qualisys|vrpn|reference|station|slam|amcl/i];
+const NAME_OF_ODOMETRY = /odom|wheel|cmd/i;
 
 /**
- * Which topics are meant, where that is clear.
+ * Checks whether the second of two tables is named like an odometry, and the first is not.
+ *
+ * @param {string} first
+ * @param {string} second
+ */
+export const areSwapped = (first, second) => NAME_OF_ODOMETRY.test(second) && !NAME_OF_ODOMETRY.test(first);
+
+/** Usual names of topics of odometry, commands and references. */
+const ODOMETRY = /(^|\/)odom(etry)?$/i;
+const COMMANDS = /(^|\/)cmd_vel$/i;
+const REFERENCE = /truth|gt|mocap|vicon|optitrack|qualisys|vrpn|reference|station|slam|amcl/i;
+
+/**
+ * Guesses the topics by their types and names.
  *
  * @param {Topic[]} topics
  * @param {'poses' | 'commands'} [kind] of the odometry, as of a choice
- * @returns {{ odometry: string | null, reference: string | null }}
+ * @returns {{ odometry: string | null, reference: string | null }} null for an ambiguous one
  */
-export function usualTopics(topics, kind) {
-  const poses = topics.filter(({ kind, count }) => kind === 'poses' && count > 1);
-  const only = (/** @type {Topic[]} */ some) => (some.length === 1 ? some[0].name : null);
-  const ofOdometry = poses.filter(({ type, name }) => type === 'nav_msgs/msg/Odometry' && !REFERENCE.test(name));
-  const odometry = only(ofOdometry.filter(({ name }) => ODOMETRY.test(name))) ?? only(ofOdometry);
-  const others = poses.filter(({ name }) => name !== odometry);
-  const driven = topics.filter(({ kind, count }) => kind === 'commands' && count > 1);
-  const commands = only(driven.filter(({ name }) => COMMANDS.test(name))) ?? only(driven);
-  return { odometry: kind === 'commands' ? (commands ?? odometry) : odometry, reference: only(others.filter(({ name }) => REFERENCE.test(name))) ?? only(others) };
+export function guessTopics(topics, kind) {
+  const of = (/** @type {Topic['kind']} */ wanted) => topics.filter(({ kind, count }) => kind === wanted && count > 1);
+  /** Name of the only topic that matches, or of the only one. @param {Topic[]} some @param {RegExp} name */
+  const guess = (some, name) => {
+    const named = some.filter((topic) => name.test(topic.name));
+    const [only] = named.length === 1 ? named : some.length === 1 ? some : [];
+    return only?.name ?? null;
+  };
+  const poses = of('poses');
+  const odometry = guess(poses.filter(({ type, name }) => type === 'nav_msgs/msg/Odometry' && !REFERENCE.test(name)), ODOMETRY);
+  const commands = kind === 'commands' ? guess(of('commands'), COMMANDS) : null;
+  return { odometry: commands ?? odometry, reference: guess(poses.filter(({ name }) => name !== odometry), REFERENCE) };
 }
 
 /**
- * Two logs of one drive: the times of both are those after the same start, and the reference is without rows in which it had lost
- * the robot, as far as their clocks tell. Where they have no time in common, that is said.
+ * Pairs two logs of one drive: with times after the same start, and without rows in which the reference had lost the robot. Logs
+ * without a common time are reported.
  *
  * @param {Log} odometry
- * @param {Log} reference of poses
+ * @param {Log} reference with poses
  * @returns {{ odometry: Log, reference: Log, start: number }}
- * @throws {LogError} where the reference has no poses, or none that follow the robot
+ * @throws {LogError} if the reference has no poses, or does not follow the robot
  */
-export function together(odometry, reference) {
-  if (reference.how.format === 'mcap' && odometry.name === reference.name && isSame(odometry.data, reference.data)) throw new LogError({ file: reference.name }, (say) => say.same);
-  if (reference.kind === 'commands') throw new LogError({ file: reference.name }, (say) => say.noColumns('poses', 't, v, omega'));
+export function pairLogs(odometry, reference) {
+  const place = { file: reference.name };
+  const isOneTopic = reference.how.format === 'mcap' && odometry.name === reference.name;
+  if (isOneTopic && isSame(odometry.data, reference.data)) throw new LogError(place, (say) => say.same);
+  if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [odometry, reference].map((log) => after(start, log));
   const [one, other] = [first.data.t, second.data.t];
   const isApart = one[0] > other[other.length - 1] || other[0] > one[one.length - 1];
-  const reliable = withoutHeld(second, first);
-  if (reliable.data.t.length < 2) throw new LogError({ file: reference.name }, (say) => say.held);
+  const reliable = withoutFrozenPoses(second, first);
+  if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
   const isSwapped = reliable.how.format !== 'mcap' && areSwapped(odometry.name, reference.name);
   /** @type {Log['how']} */
-  const how = { ...reliable.how, ...(isSwapped && { swapped: odometry.name }), ...(isApart ? { apart: [odometry.name, span(reference), span(odometry)] } : {}) };
+  const how = {
+    ...reliable.how,
+    ...(isSwapped && { swapped: odometry.name }),
+    ...(isApart && { apart: [odometry.name, span(reference), span(odometry)] }),
+  };
   return { odometry: first, reference: { ...reliable, how }, start };
 }
 
-/** Whether two logs have the same rows. @param {Log['data']} one @param {Log['data']} other */
+/** Checks whether two logs have the same rows. @param {Log['data']} one @param {Log['data']} other */
 const isSame = (one, other) =>
   Object.entries(one).every(([key, numbers]) => {
     const others = /** @type {Record<string, ArrayLike<number>>} */ (other)[key];
     return others?.length === numbers.length && numbers.every((/** @type {number} */ each, /** @type {number} */ i) => each === others[i]);
   });
 
-/** @param {number} start @param {Log} log @returns {Log} */
+/** Moves times to another start. @param {number} start @param {Log} log @returns {Log} */
 function after(start, log) {
   const later = log.start - start;
   const { found } = log;
@@ -192,13 +199,13 @@ function span({ start, data: { t } }) {
 }
 
 /**
- * What was found in a log, a sentence each: all that was decided or left out.
+ * Summarizes a log, with a sentence for each decision and each reason for leaving rows out.
  *
  * @param {Log} log
  * @param {Words['found']} say
  * @returns {string[]}
  */
-export function tell({ data: { t }, start, how, found }, say) {
+export function summarize({ data: { t }, start, how, found }, say) {
   const { rows, leftOut, gaps, jumps, step } = found;
   const out = /** @type {[Reason, import('./rows.js').Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
   return [

@@ -1,39 +1,39 @@
-/** Logs in text: CSV with a header, and TUM's eight numbers a row. */
+/** Logs in text: CSV with a header, and TUM with eight numbers a row. */
 
-import { ROWS_A_LOOK, breathing } from '../../../figure/breath.js';
 import { isHeader, layoutOf } from './header.js';
-import { Lines } from './lines.js';
-import { numberIn, textOf, time, timeIn } from './numbers.js';
-import { LogError, cut } from './refusal.js';
+import { LogError, bytesOf, cut } from './log-error.js';
+import { numberOf, timeOf } from './numbers.js';
+import { headingOf, isRotation } from './quaternion.js';
 import { Rows } from './rows.js';
 
 /**
- * @import { Watching } from '../../../figure/breath.js'
  * @import { Layout } from './header.js'
- * @import { Place, Source } from './refusal.js'
+ * @import { Place, Source, Watching, Words } from './log-error.js'
  * @import { How, Log } from './rows.js'
  *
  * @typedef {object} Format
  * @property {'csv' | 'tum'} name
- * @property {number} separator its byte; a blank stands for any number of blanks and tabulators
+ * @property {string} separator of cells; a blank stands for any number of blanks and tabs
  * @property {Layout} layout
  * @property {number} width cells of the header
- * @property {boolean} isHeader whether the line that told it is no row itself
+ * @property {number} needed cells of a row
+ * @property {boolean} isHeader whether the line that defined the format is a header and no row
  */
 
-const [TAB, BLANK, QUOTE, COMMA, HASH, SEMICOLON] = ['\t', ' ', '"', ',', '#', ';'].map((each) => each.charCodeAt(0));
+/** Bytes that are read and parsed before the page can paint: about 50 ms. */
+const PIECE = 2 ** 22;
 
-/** By their powers of ten in a second. */
+/** Most characters of a line: a row of a thousand columns. */
+const LONGEST = 2 ** 16;
+
+/** Units of time by the powers of ten that a second has of them. */
 const UNITS = /** @type {const} */ ({ s: 0, ms: 3, us: 6, ns: 9 });
 
-/** From this on, a number is no time in seconds of these centuries but one of the unit: 1e11 s is the year 5138. */
+/** Least size of a time in each unit: 1e11 s is the year 5138. */
 const SIZES = /** @type {const} */ ([['ns', 1e17], ['us', 1e14], ['ms', 1e11]]);
 
-/** The length of a quaternion that is a rotation, give or take. */
-const UNLIKE_ONE = 0.1;
-
-/** Lines whose cells are counted: of numbers with commas there are some among them. */
-const LOOKED_AT = 100;
+/** Lines in which cells are counted to detect decimal commas. */
+const COUNTED = 100;
 
 /** @type {Layout} */
 const TUM = {
@@ -46,234 +46,152 @@ const TUM = {
   degrees: false,
 };
 
-const utf8 = new TextDecoder();
-
-/** A row's cells are found here: their bytes from and to, of each column that is read. One for all, as there are millions. */
-const cells = { from: new Int32Array(16), to: new Int32Array(16), count: 0 };
-
 /**
+ * Reads a table.
+ *
  * @param {Source} source
  * @param {'poses' | 'commands' | undefined} wanted
  * @param {Watching} watching
  * @returns {Promise<Log>} rejects with a LogError
  */
-export async function readTable(source, wanted, watching) {
-  const place = { file: source.name };
-  const lines = new Lines(source);
-  const breathe = breathing(watching);
-  const rows = new Rows(place);
-  /** @type {Format | undefined} */
-  let format;
-  /** @type {ReturnType<typeof rowReader> | undefined} */
-  let read;
-  let comment = '';
-  while (lines.step() || (await lines.more())) {
-    const [from, to] = trimmed(lines.bytes, lines.from, lines.to);
-    if (from === to) continue;
-    if (lines.bytes[from] === HASH) {
-      comment = format ? '' : utf8.decode(lines.bytes.subarray(from + 1, to));
-      continue;
-    }
-    if (!format) {
-      const line = utf8.decode(lines.bytes.subarray(from, to));
-      format = formatOf(line, comment, { ...place, line: lines.number }, wanted);
-      read = rowReader(format, rows, place);
-      if (format.isHeader) continue;
-    }
-    if (lines.number <= LOOKED_AT && format.separator === COMMA) checkWidth(utf8.decode(lines.bytes.subarray(from, to)), format.width, { ...place, line: lines.number });
-    read?.(lines);
-    if (lines.number % ROWS_A_LOOK === 0) await breathe(lines.share);
+export async function readTable(source, wanted, { onProgress, signal }) {
+  const table = new Table(source.name, wanted);
+  const decoder = new TextDecoder();
+  let rest = '';
+  for (let at = 0; at < source.size; at += PIECE) {
+    const bytes = await bytesOf(source, at, Math.min(at + PIECE, source.size));
+    signal?.throwIfAborted();
+    onProgress?.(at / source.size);
+    const text = decoder.decode(bytes, { stream: true });
+    if (text.includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+    const lines = (rest + text).split('\n');
+    rest = lines.pop() ?? '';
+    for (const line of lines) table.take(line, false);
+    if (rest.length > LONGEST) table.take(rest, false);
   }
-  if (!format || !read) throw new LogError(place, (say) => say.empty);
-  const { name, layout } = format;
-  /** @type {How} */
-  const how = {
-    format: name,
-    ...read.unit(),
-    heading: layout.kind === 'commands' ? 'none' : layout.fields.includes('qw') ? 'quaternion' : layout.degrees ? 'degrees' : 'radians',
-    columns: Object.fromEntries(layout.fields.map((field, i) => [field, layout.names[i]])),
-    cutShort: read.cutShort(),
-    hasBoth: layout.hasBoth,
-  };
-  return rows.end(source.name, layout.kind, how, breathe);
+  table.take(rest, true);
+  return table.end();
+}
+
+/** Table that is read line by line. */
+class Table {
+  #file;
+  #wanted;
+  #rows;
+  #line = 0;
+  /** Last comment, which may be the header. */
+  #comment = '';
+  /** @type {Format | undefined} */
+  #format;
+  /** @type {How['unit'] | undefined} */
+  #unit;
+  #cutShort = false;
+
+  /** @param {string} file its name @param {'poses' | 'commands' | undefined} wanted */
+  constructor(file, wanted) {
+    this.#file = file;
+    this.#wanted = wanted;
+    this.#rows = new Rows({ file });
+  }
+
+  /** @param {string} line @param {boolean} isOpen whether no line feed ends it: the file may have been cut off there */
+  take(line, isOpen) {
+    this.#line += 1;
+    if (line.length > LONGEST) this.#refuse((say) => say.longLine(LONGEST));
+    const trimmed = line.trim();
+    if (trimmed === '') return;
+    if (trimmed.startsWith('#')) {
+      this.#comment = trimmed.slice(1);
+      return;
+    }
+    if (!this.#format) {
+      this.#format = formatOf(trimmed, this.#comment, { file: this.#file, line: this.#line }, this.#wanted);
+      this.#unit = this.#format.layout.unit;
+      if (this.#format.isHeader) return;
+    }
+    const { separator, layout, width, needed } = this.#format;
+    const cells = cellsOf(line, separator);
+    if (separator === ',' && this.#line <= COUNTED) {
+      // A decimal comma in each number nearly doubles the cells.
+      const count = cellsOf(line.replace(/[,\s]+$/, ''), ',').length;
+      if (count > width && count <= 2 * width) this.#refuse((say) => say.wide(count, width));
+    }
+    if (cells.length >= needed) return this.#add(cells, layout);
+    if (!isOpen) this.#refuse((say) => say.cells(cells.length, needed));
+    this.#cutShort = true;
+    this.#rows.leaveOut('short', this.#line);
+  }
+
+  /** @param {string[]} cells @param {Layout} layout */
+  #add(cells, { fields, columns, names, kind, degrees }) {
+    const time = cells[columns[0]];
+    if (this.#unit === undefined) {
+      const size = Math.abs(numberOf(time) ?? NaN);
+      if (size >= 0) this.#unit = SIZES.find(([, least]) => size >= least)?.[0] ?? 's';
+    }
+    const values = [];
+    for (let i = 1; i < columns.length; i++) values.push(numberOf(cells[columns[i]]));
+    const at = timeOf(time, UNITS[this.#unit ?? 's']);
+    const wrong = at === undefined ? 0 : values.indexOf(undefined) + 1;
+    if (at === undefined || wrong > 0) this.#refuse((say) => say.number(cut(names[wrong]), cut(cells[columns[wrong]].trim())));
+    const numbers = /** @type {number[]} */ (values);
+    const [seconds, part] = at;
+    const rest = fields[1] === 'nanoseconds' ? part + /** @type {number} */ (numbers.shift()) / 1e9 : part;
+    const [a, b, ...rotation] = numbers;
+    if (kind === 'commands') return this.#rows.add(seconds, rest, a, b, 0, this.#line);
+    if (rotation.length === 1) return this.#rows.add(seconds, rest, a, b, rotation[0] * (degrees ? Math.PI / 180 : 1), this.#line);
+    const [qz, qw] = rotation.slice(-2);
+    const [qx, qy] = rotation.length === 4 ? rotation : [0, 0];
+    if (!isRotation(qx, qy, qz, qw)) return this.#rows.leaveOut('noRotation', this.#line);
+    this.#rows.add(seconds, rest, a, b, headingOf(qx, qy, qz, qw), this.#line);
+  }
+
+  /** @returns {Log} @throws {LogError} if the rows are no log */
+  end() {
+    if (!this.#format) throw new LogError({ file: this.#file }, (say) => say.empty);
+    const { name, layout: { kind, fields, names, unit, degrees, hasBoth } } = this.#format;
+    return this.#rows.end(this.#file, kind, {
+      format: name,
+      unit: this.#unit ?? 's',
+      unitBy: unit ? 'name' : 'size',
+      heading: kind === 'commands' ? 'none' : fields.includes('qw') ? 'quaternion' : degrees ? 'degrees' : 'radians',
+      columns: Object.fromEntries(fields.map((field, i) => [field, names[i]])),
+      cutShort: this.#cutShort,
+      hasBoth,
+    });
+  }
+
+  /** @param {(say: Words['refused']) => string} reason @returns {never} */
+  #refuse(reason) {
+    throw new LogError({ file: this.#file, line: this.#line }, reason);
+  }
 }
 
 /**
- * @param {string} line the first that is no comment
- * @param {string} comment the last before it
+ * Detects the separator and the columns.
+ *
+ * @param {string} line first one that is no comment
+ * @param {string} comment last one before it
  * @param {Place} place of the line
  * @param {'poses' | 'commands' | undefined} wanted
  * @returns {Format}
  */
 function formatOf(line, comment, place, wanted) {
-  const marks = [COMMA, SEMICOLON, TAB].filter((each) => countOf(line, each) > 0);
-  const [separator = BLANK] = marks.toSorted((a, b) => countOf(line, b) - countOf(line, a));
-  const [first, above] = [line, comment].map((each) => split(each, separator));
-  if (isHeader(first)) return { name: 'csv', separator, layout: layoutOf(first, place, wanted), width: first.length, isHeader: true };
-  if (separator === BLANK && first.length === 8) return { name: 'tum', separator, layout: TUM, width: 8, isHeader: false };
-  if (above.length === first.length && isHeader(above)) {
-    return { name: 'csv', separator, layout: layoutOf(above, place, wanted), width: above.length, isHeader: false };
-  }
+  const count = (/** @type {string} */ separator) => line.split(separator).length;
+  const [separator = ' '] = [',', ';', '\t'].filter((each) => count(each) > 1).toSorted((a, b) => count(b) - count(a));
+  const [first, above] = [line, comment].map((text) => cellsOf(text, separator).map((cell) => cell.trim()));
+  const csv = (/** @type {string[]} */ header) => {
+    const layout = layoutOf(header, place, wanted);
+    return { name: /** @type {const} */ ('csv'), separator, layout, width: header.length, needed: Math.max(...layout.columns) + 1 };
+  };
+  if (isHeader(first)) return { ...csv(first), isHeader: true };
+  if (separator === ' ' && first.length === 8) return { name: 'tum', separator, layout: TUM, width: 8, needed: 8, isHeader: false };
+  if (above.length === first.length && isHeader(above)) return { ...csv(above), isHeader: false };
   throw new LogError(place, (say) => say.header(cut(line)));
 }
 
-/**
- * Where commas are both between cells and in numbers, a row has up to twice as many cells as its header.
- *
- * @param {string} line
- * @param {number} width of the header
- * @param {Place} place of the line
- */
-function checkWidth(line, width, place) {
-  const count = split(line.replaceAll(/"[^"]*"/g, '').replace(/[,\s]+$/, ''), COMMA).length;
-  if (count > width && count <= 2 * width) throw new LogError(place, (say) => say.wide(count, width));
-}
-
-/** @param {string} line @param {number} separator */
-const countOf = (line, separator) => line.split(String.fromCharCode(separator)).length - 1;
-
-/** @param {string} line @param {number} separator */
-function split(line, separator) {
-  const all = separator === BLANK ? line.trim().split(/[ \t]+/) : line.split(String.fromCharCode(separator));
-  return all.map((cell) => cell.trim().replace(/^"(.*)"$/, '$1').trim());
-}
-
-/** @param {Uint8Array} bytes @param {number} from @param {number} to @returns {[number, number]} without blanks on either side */
-function trimmed(bytes, from, to) {
-  while (from < to && (bytes[from] === BLANK || bytes[from] === TAB)) from += 1;
-  while (to > from && (bytes[to - 1] === BLANK || bytes[to - 1] === TAB)) to -= 1;
-  return [from, to];
-}
-
-/**
- * What reads a row, and then tells the unit of its times.
- *
- * @param {Format} format
- * @param {Rows} rows
- * @param {Place} place of the file
- */
-function rowReader({ separator, layout }, rows, place) {
-  const { fields, columns, names, kind, degrees } = layout;
-  const slots = new Int32Array(Math.max(...columns) + 1).fill(-1);
-  columns.forEach((column, slot) => (slots[column] = slot));
-  const inTwo = fields[1] === 'nanoseconds';
-  const first = inTwo ? 2 : 1;
-  const last = fields.length - 1;
-  const values = new Float64Array(fields.length);
-  /** @type {How['unit'] | undefined} */
-  let unit = layout.unit;
-  /** @type {How['unitBy']} */
-  const unitBy = inTwo || unit ? 'name' : 'size';
-  let power = unit && UNITS[unit];
-  let cutShort = false;
-
-  /** @param {Lines} lines @param {number} slot @returns {never} */
-  const refuse = (lines, slot) => {
-    const value = cut(textOf(lines.bytes, cells.from[slot], cells.to[slot]));
-    throw new LogError({ ...place, line: lines.number }, (say) => say.number(cut(names[slot]), value));
-  };
-
-  /** @param {Lines} lines */
-  const read = (lines) => {
-    const { bytes, number } = lines;
-    if (!find(lines, slots, separator)) {
-      if (!lines.isOpen) throw new LogError({ ...place, line: number }, (say) => say.cells(cells.count, slots.length));
-      cutShort = true;
-      return rows.leaveOut('short', number);
-    }
-    if (power === undefined) {
-      const size = Math.abs(numberIn(bytes, cells.from[0], cells.to[0]));
-      if (size >= 0) {
-        unit = SIZES.find(([, least]) => size >= least)?.[0] ?? 's';
-        power = UNITS[unit];
-      }
-    }
-    if (!timeIn(bytes, cells.from[0], cells.to[0], power ?? 0)) refuse(lines, 0);
-    for (let slot = 1; slot <= last; slot++) {
-      const value = numberIn(bytes, cells.from[slot], cells.to[slot]);
-      if (value === undefined) refuse(lines, slot);
-      values[slot] = value;
-    }
-    const { seconds } = time;
-    const rest = inTwo ? time.rest + values[1] / 1e9 : time.rest;
-    if (kind === 'commands') return rows.add(seconds, rest, values[first], values[first + 1], 0, number);
-    let heading = values[last];
-    if (fields[last] === 'qw') {
-      const [qz, qw] = [values[last - 1], values[last]];
-      const [qx, qy] = last - first === 5 ? [values[last - 3], values[last - 2]] : [0, 0];
-      if (!isRotation(qx, qy, qz, qw)) return rows.leaveOut('noRotation', number);
-      heading = headingOf(qx, qy, qz, qw);
-    } else if (degrees) heading *= Math.PI / 180;
-    rows.add(seconds, rest, values[first], values[first + 1], heading, number);
-  };
-  return Object.assign(read, {
-    unit: () => ({ unit: unit ?? 's', unitBy }),
-    cutShort: () => cutShort,
-  });
-}
-
-/**
- * The angle about the vertical axis, whatever the length.
- *
- * @param {number} qx
- * @param {number} qy
- * @param {number} qz
- * @param {number} qw
- */
-export function headingOf(qx, qy, qz, qw) {
-  return Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz);
-}
-
-/**
- * Whether a quaternion is a rotation, or says that it is none.
- *
- * @param {number} qx
- * @param {number} qy
- * @param {number} qz
- * @param {number} qw
- */
-export function isRotation(qx, qy, qz, qw) {
-  return !(Math.abs(Math.hypot(qx, qy, qz, qw) - 1) > UNLIKE_ONE);
-}
-
-/**
- * Finds the cells of a row.
- *
- * @param {Lines} lines
- * @param {Int32Array} slots of the columns, −1 where they are not read
- * @param {number} separator
- * @returns {boolean} whether it has them all
- */
-function find({ bytes, from, to }, slots, separator) {
-  let at = from;
-  const isBlank = separator === BLANK;
-  for (let column = 0; column < slots.length; column++) {
-    while (at < to && (bytes[at] === BLANK || (bytes[at] === TAB && separator !== TAB))) at += 1;
-    if (isBlank && at >= to) {
-      cells.count = column;
-      return false;
-    }
-    let start = at;
-    let end;
-    if (bytes[at] === QUOTE) {
-      start += 1;
-      end = bytes.indexOf(QUOTE, start);
-      if (end < 0 || end > to) end = to;
-      at = end;
-    }
-    while (at < to && bytes[at] !== separator && !(isBlank && bytes[at] === TAB)) at += 1;
-    end ??= at;
-    while (end > start && (bytes[end - 1] === BLANK || bytes[end - 1] === TAB)) end -= 1;
-    const slot = slots[column];
-    if (slot >= 0) {
-      cells.from[slot] = start;
-      cells.to[slot] = end;
-    }
-    if (at < to) at += 1;
-    else if (column < slots.length - 1) {
-      cells.count = column + 1;
-      return false;
-    }
-  }
-  return true;
+/** @param {string} line @param {string} separator; those in quotes separate nothing */
+function cellsOf(line, separator) {
+  const plain = line.includes('"') ? line.replaceAll(/"([^"]*)"/g, (_, quoted) => quoted.replaceAll(separator, '_')) : line;
+  return separator === ' ' ? plain.trim().split(/[ \t]+/) : plain.split(separator);
 }

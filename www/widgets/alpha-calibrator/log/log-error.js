@@ -1,29 +1,30 @@
-/** Why a log is refused, and what a source of bytes is. */
+/** Errors of logs, and the bytes that logs are read from. */
 
 import { log as english } from './en.js';
 
 /**
  * @typedef {typeof english} Words
  *
- * @typedef {object} Source a File, or what reads one from a disk
- * @property {string} name
- * @property {number} size in bytes
- * @property {(from: number, to: number) => { arrayBuffer(): Promise<ArrayBuffer> }} slice
+ * @typedef {Pick<File, 'name' | 'size' | 'slice'>} Source
  *
- * @typedef {object} Place where in a source; of line and topic at most one
+ * @typedef {object} Watching
+ * @property {(share: number) => void} [onProgress] is called with the share that has been read, 0 to 1
+ * @property {AbortSignal} [signal] cancels the reading
+ *
+ * @typedef {object} Place position in a source, with a line or a topic but not both
  * @property {string} file
  * @property {number} [line] from 1
  * @property {string} [topic] of a recording
  */
 
-/** Characters of a name or a value that a sentence quotes, and of a reason that a library gave. */
+/** Most characters that a sentence quotes of a name or value, and of a library's message. */
 const [QUOTED, REASON] = [40, 100];
 
-/** One sentence that names the file, the line or topic, the value, and what is expected. */
+/** Error with one sentence that names the file, the line or topic, the value, and what is expected. */
 export class LogError extends Error {
   /**
    * @param {Place} place
-   * @param {(say: Words['refused']) => string} reason in the words of the time when it is shown
+   * @param {(say: Words['refused']) => string} reason in the language of the page when the error is shown
    */
   constructor(place, reason) {
     const sentence = (/** @type {Words} */ say) =>
@@ -36,7 +37,7 @@ export class LogError extends Error {
 }
 
 /**
- * As much of a text as a sentence quotes, on one line.
+ * Shortens a text to one line that a sentence can quote.
  *
  * @param {string} text
  * @param {number} [most] characters
@@ -47,27 +48,25 @@ export function cut(text, most = QUOTED) {
   return line.length > most ? `${line.slice(0, most)}…` : line;
 }
 
-/** What a library said, as the reason of a sentence. @param {unknown} error */
+/** Message of a library's error, for a sentence. @param {unknown} error */
 export function reasonOf(error) {
-  const said = error instanceof Error ? error.message : String(error);
-  return cut(said.replace(/ \[(library=[^\]]*|no header)\]$/, ''), REASON);
+  const message = error instanceof Error ? error.message : String(error);
+  return cut(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), REASON);
 }
 
-/**
- * Names in a list that a sentence quotes: the first few.
- *
- * @param {string[]} names
- */
+/** First few names of a list, for a sentence. @param {string[]} names */
 export function listed(names) {
   const most = 8;
   return [...names.slice(0, most).map((name) => cut(name)), ...(names.length > most ? ['…'] : [])].join(', ');
 }
 
 /**
+ * Reads bytes of a source.
+ *
  * @param {Source} source
  * @param {number} from
  * @param {number} to
- * @returns {Promise<Uint8Array<ArrayBuffer>>} rejects with a LogError where the file has gone since it was chosen
+ * @returns {Promise<Uint8Array<ArrayBuffer>>} rejects with a LogError if the file has been moved or changed since it was chosen
  */
 export async function bytesOf(source, from, to) {
   try {

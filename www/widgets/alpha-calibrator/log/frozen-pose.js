@@ -1,0 +1,70 @@
+/** Reference that has lost the robot and repeats its last pose while the robot drives. */
+
+import { bisectRight } from 'd3-array';
+
+/** @import { Commands, Log, Poses } from './rows.js' */
+
+/** Seconds that are ignored at both ends of a standstill: the clocks may differ by as much. */
+const MARGIN = 1;
+
+/** Least motion of the odometry meanwhile, in metres or radians: at rest it may count a pulse or two. */
+const MOVES = 0.05;
+
+/**
+ * Removes rows of the reference that repeat a pose while the odometry moves on.
+ *
+ * @param {Log} reference
+ * @param {Log} odometry of the same start
+ * @returns {Log}
+ */
+export function withoutFrozenPoses(reference, odometry) {
+  const { t, x, y, theta, breaks: known } = /** @type {Poses} */ (reference.data);
+  const movedAt = pathLength(odometry.data);
+  const isKept = new Uint8Array(t.length).fill(1);
+  const breaks = new Set(known);
+  let first = NaN;
+  for (let from = 0, to; from < t.length; from = to) {
+    for (to = from + 1; to < t.length && x[to] === x[from] && y[to] === y[from] && theta[to] === theta[from]; ) to += 1;
+    const [start, end] = [t[from] + MARGIN, t[to - 1] - MARGIN];
+    if (!(end > start && movedAt(end) - movedAt(start) > MOVES)) continue;
+    if (Number.isNaN(first)) first = t[from + 1];
+    isKept.fill(0, from + 1, to);
+    breaks.add(to);
+  }
+  if (Number.isNaN(first)) return reference;
+  const kept = (/** @type {unknown} */ _, /** @type {number} */ i) => isKept[i] === 1;
+  // Rows get other indices where earlier ones are removed.
+  const indices = new Uint32Array(t.length + 1);
+  for (let i = 0; i < t.length; i++) indices[i + 1] = indices[i] + isKept[i];
+  const left = indices[t.length];
+  const moved = new Set([...breaks].map((row) => indices[row]));
+  return {
+    ...reference,
+    data: {
+      t: t.filter(kept),
+      x: x.filter(kept),
+      y: y.filter(kept),
+      theta: theta.filter(kept),
+      breaks: Uint32Array.from(moved).filter((row) => row < left).sort(),
+    },
+    found: { ...reference.found, leftOut: { ...reference.found.leftOut, held: { count: t.length - left, line: 0, t: first } } },
+  };
+}
+
+/**
+ * Returns the path length of a robot by time, metres and radians together.
+ *
+ * @param {Poses | Commands} data
+ * @returns {(time: number) => number}
+ */
+function pathLength(data) {
+  const { t } = data;
+  const moved = new Float64Array(t.length);
+  const step = (/** @type {number} */ i) => {
+    if ('v' in data) return (Math.abs(data.v[i - 1]) + Math.abs(data.omega[i - 1])) * (t[i] - t[i - 1]);
+    const { x, y, theta } = data;
+    return Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) + 2 * Math.abs(Math.sin((theta[i] - theta[i - 1]) / 2));
+  };
+  for (let i = 1; i < t.length; i++) moved[i] = moved[i - 1] + step(i);
+  return (time) => moved[Math.max(bisectRight(t, time) - 1, 0)];
+}

@@ -240,41 +240,6 @@ test('who stops the reading of a log is told that all is as it was', async ({ pa
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });
 
-test('what is read never goes back, also of a recording that is read twice', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  await fold(widget, 'Your log').locator('summary').click();
-  // Each look at the clock is so much later that all progress is shown.
-  await page.evaluate(() => {
-    let now = performance.now();
-    performance.now = () => (now += 200);
-  });
-  const told = await page.evaluateHandle(() => {
-    const told = /** @type {number[] & { turns: number }} */ (Object.assign([], { turns: 0 }));
-    window.MessageChannel = class extends MessageChannel {
-      constructor() {
-        super();
-        told.turns++;
-      }
-    };
-    const { set } = /** @type {{ set: (this: HTMLProgressElement, share: number) => void }} */ (Object.getOwnPropertyDescriptor(HTMLProgressElement.prototype, 'value'));
-    Object.defineProperty(HTMLProgressElement.prototype, 'value', {
-      set(share) {
-        if (this.ariaLabel === 'Reading') told.push(share);
-        set.call(this, share);
-      },
-    });
-    return told;
-  });
-  const buffer = await recordingWith(['/mocap/pose', '/a', '/b', '/c', '/d', '/e'], { index: false });
-  await widget.locator('#log-files').setInputFiles({ name: 'run.mcap', mimeType: 'application/octet-stream', buffer });
-  await expect(caption(widget)).toHaveText(/of run\.mcap[.,]/);
-  const shares = await told.jsonValue();
-  expect(shares.length).toBeGreaterThan(3);
-  expect(shares).toEqual(shares.toSorted((one, other) => one - other));
-  // Each of them is followed by a turn for the page.
-  expect(await told.evaluate(({ turns }) => turns)).toBeGreaterThan(3);
-});
-
 test('while a log is fitted, whoever asks for the picture does not go on with it: nothing keeps the page', async ({ page }) => {
   const widget = await openCalibrator(page);
   const [before, after] = await widget.evaluate((element) => {

@@ -53,7 +53,7 @@ const ACTS = {
     ['overlay', (widget) => widget.getByRole('checkbox', { name: 'linearized' }).check()],
     ['slider by key', (widget) => widget.locator('#omega').press('ArrowRight')],
     ['handle by key', (widget) => widget.locator('.handle').press('ArrowUp')],
-    ['marker by key', (widget) => widget.locator('.chart-marker').press('ArrowRight')],
+    ['marker by key', (widget) => widget.locator('#chart-omega').press('ArrowRight')],
     ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
     ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
     ['step', (widget) => widget.getByRole('button', { name: 'Step' }).click()],
@@ -324,7 +324,7 @@ test('a key that was used goes no further; any other does', async ({ page }) => 
     addEventListener('keydown', ({ key }) => keys.push(key));
   });
   const passed = () => page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
-  for (const part of ['.handle', '.chart-marker', '#omega', 'input[type=radio] >> nth=0']) {
+  for (const part of ['.handle', '#chart-omega', '#omega', 'input[type=radio] >> nth=0']) {
     await banana.locator(part).focus();
     for (const key of ['ArrowRight', 'ArrowLeft']) await page.keyboard.press(key);
     expect(await passed(), part).toEqual([]);

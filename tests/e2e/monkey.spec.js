@@ -23,7 +23,7 @@ const SEED = Number(process.env.MONKEY_SEED ?? 1);
 const ROUND = 250;
 
 /** What is clicked and dragged of a widget. */
-const PARTS = 'button, summary, input, .handle, canvas, .chart-marker, textarea, label';
+const PARTS = 'button, summary, input, .handle, canvas, textarea, label';
 
 const NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
 const KEYS = ['Tab', 'Shift+Tab', 'Enter', ' ', 'Escape', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', 'c', 'C', '5', 'Backspace', 'Delete'];
@@ -86,7 +86,7 @@ const DEEDS = {
     return `${part?.what}`;
   },
   async drag(page, luck) {
-    const part = await partAt(page, luck, 'input[type=range], .handle, .chart-marker, canvas');
+    const part = await partAt(page, luck, 'input[type=range], .handle, canvas');
     if (!part) return 'nothing';
     const by = [luck.below(400) - 200, luck.below(200) - 100];
     await page.mouse.move(part.x, part.y);

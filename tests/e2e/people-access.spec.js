@@ -125,7 +125,7 @@ test.describe('from the keyboard alone', () => {
       await unfold(widget);
       await widget.evaluate((element) => {
         const root = /** @type {ShadowRoot} */ (element.shadowRoot);
-        const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle, .chart-marker')].filter((each) => {
+        const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((each) => {
           const { type, name, checked } = /** @type {HTMLInputElement} */ (each);
           // The field of a slider's value is reached from the slider, the others of a group from the one that is chosen.
           if (each.matches(':disabled, .typed') || !each.checkVisibility()) return false;
@@ -266,7 +266,7 @@ test.describe('a finger', () => {
 
   /** Where a finger may swipe over each figure. @type {Record<Name, string[]>} */
   const SWIPED = {
-    'banana-machine': ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', 'svg.chart'],
+    'banana-machine': ['canvas.plane', 'canvas.twist', '#omega', '#alpha3', '#samples', '#chart-omega'],
     'map-squeeze': ['canvas.plane', '#omega', '#clearance', '#samples', '[part=table]'],
     'arc-anatomy': ['canvas.plane', '#omega', '#underway', '#alpha3'],
     'odometry-decomposer': ['canvas.plane', 'canvas.world', '#phase', '#drift', '#correlation', '.rules'],
@@ -325,7 +325,7 @@ test.describe('a finger', () => {
   test('that taps sets the chart and marks a robot', async ({ page }) => {
     const widget = await open(page);
     await unfold(widget);
-    const chart = widget.locator('svg.chart');
+    const chart = widget.locator('#chart-omega');
     await chart.scrollIntoViewIfNeeded();
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);

@@ -26,7 +26,7 @@ export const controlStyles = css`
     line-height: 1.25;
   }
 
-  :is(button, input, textarea, summary, .handle, .chart-marker, .reserved):focus-visible {
+  :is(button, input, textarea, summary, .handle, .reserved):focus-visible {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
   }

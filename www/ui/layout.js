@@ -227,7 +227,7 @@ const layout = css`
       }
 
       /* What has the focus stays clear of the floor above it. */
-      :is(button, input, summary, textarea, .chart-marker) {
+      :is(button, input, summary, textarea) {
         scroll-margin-top: calc(38svh + 2em + var(--top));
       }
     }

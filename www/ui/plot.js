@@ -1,10 +1,14 @@
-/** A still plot in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. */
+/**
+ * A chart in SVG: curves with bands, points with error bars, and marks, over linear or logarithmic axes. A slider may lie
+ * over it, which sets an x.
+ */
 
 import { ticks } from 'd3-array';
-import { css, html, nothing, svg } from 'lit';
+import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { clamp } from './clamp.js';
 import { rich } from './controls.js';
 import { powerOfTen, tick } from './format.js';
+import { track } from './slider.js';
 
 const WIDTH = 380;
 const HEIGHT = 250;
@@ -26,7 +30,29 @@ export const plotStyles = css`
   .plot {
     display: block;
     width: 100%;
+  }
+
+  .plotted {
+    position: relative;
     max-width: 26em;
+  }
+
+  /* Inside of the axes; a slider's thumb is half a thumb away from its ends. */
+  .plotted input {
+    position: absolute;
+    top: ${unsafeCSS((100 * TOP) / HEIGHT)}%;
+    left: calc(${unsafeCSS((100 * LEFT) / WIDTH)}% - 0.525em);
+    width: calc(${unsafeCSS((100 * (RIGHT - LEFT)) / WIDTH)}% + 1.05em);
+    height: ${unsafeCSS((100 * (BOTTOM - TOP)) / HEIGHT)}%;
+    --thumb: var(--prior);
+  }
+
+  .plotted input::-webkit-slider-runnable-track {
+    background: none;
+  }
+
+  .plotted input::-moz-range-track {
+    background: none;
   }
 
   .plot text {
@@ -118,12 +144,13 @@ export const plotStyles = css`
  * @property {Curve[]} curves
  * @property {Point[]} [points]
  * @property {Mark[]} [marks]
+ * @property {Omit<Parameters<typeof track>[0], 'min' | 'max'>} [slider] over the whole of the x axis
  */
 
 /** @param {Plot} plot */
-export function plot({ label, x, y, curves, points = [], marks = [] }) {
+export function plot({ label, x, y, curves, points = [], marks = [], slider }) {
   const [toX, toY] = [placing(x, LEFT, RIGHT), placing(y, BOTTOM, TOP)];
-  return html`
+  return html`<div class="plotted">
     <svg class="plot" viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${label} part="chart">
       ${labelsOf(x, MOST_LABELS.x).map(
         ([value, text]) => svg`
@@ -150,6 +177,8 @@ export function plot({ label, x, y, curves, points = [], marks = [] }) {
         )}
       </svg>
     </svg>
+    ${slider ? track({ ...slider, min: x.from, max: x.to }) : nothing}
+    </div>
     <ul class="plot-key" part="legend">
       ${curves.map(
         ({ name, role, dash, area }) => html`<li>

@@ -4,7 +4,6 @@ import { css, html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
 import { live } from 'lit/directives/live.js';
 import { inputOf, longest } from './controls.js';
-import { finger } from './finger.js';
 
 export const sliderStyles = css`
   /* Room for the line of help of the row that has the focus or the pointer. */
@@ -174,6 +173,45 @@ export const sliderStyles = css`
     background: var(--paper);
   }
 `;
+
+/* A finger that goes up or down over a slider scrolls the page and sets nothing; one that goes across or taps sets it. */
+
+/** A finger that has moved less than this, CSS pixels, may be going anywhere. */
+const SLOP = 8;
+
+/** Where a finger came down of which it is not known yet what it wants. @type {{ clientX: number, clientY: number } | undefined} */
+let down;
+
+const forget = () => (down = undefined);
+
+const finger = {
+  /** @param {PointerEvent} event */
+  comes({ pointerType, clientX, clientY }) {
+    down = pointerType === 'touch' ? { clientX, clientY } : undefined;
+    // What it came down on may leave the page, and does not hear then that it goes.
+    addEventListener('pointerup', forget);
+    addEventListener('pointercancel', forget);
+  },
+
+  /** @param {PointerEvent} event */
+  moves(event) {
+    if (!down) return;
+    const [across, along] = [Math.abs(event.clientX - down.clientX), Math.abs(event.clientY - down.clientY)];
+    if (across > SLOP && across > along) down = undefined;
+  },
+
+  /** @returns {boolean} whether it only tapped */
+  goes() {
+    const tapped = down !== undefined;
+    down = undefined;
+    return tapped;
+  },
+
+  /** Whether it may still be on its way up or down the page. */
+  get waits() {
+    return down !== undefined;
+  },
+};
 
 /** What begins a number, typed where a slider has the focus. */
 const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;

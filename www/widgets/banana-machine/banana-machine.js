@@ -14,11 +14,11 @@ import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.js';
-import { chart } from '../../ui/chart.js';
 import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
 import { fold } from '../../ui/fold.js';
 import { fixed } from '../../ui/format.js';
+import { plot } from '../../ui/plot.js';
 import { alphaControls, commandControls, modelControls, overlayToggles, presets } from './controls.js';
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
@@ -41,6 +41,9 @@ const EXECUTED_COLUMNS = {
   velocity: ['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
   odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
 };
+
+/** Heights that the chart of the skew may have, so that it holds still while a slider is dragged. */
+const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
 
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.
@@ -231,24 +234,35 @@ export class BananaMachineElement extends FigureElement {
       </div>`;
   }
 
-  /** @param {Reading} reading */
-  #chart({ config: { command }, stats, exactSkew }) {
-    const { chart: label, chartAxis, chartMarker, chartText, chartRemark } = words.banana;
-    return chart({
-      ...looks.omega,
-      label,
-      axes: { x: 'ω (rad/s)', y: chartAxis },
-      marker: {
-        name: chartMarker,
-        text: chartText(fixed(command.omega, 2), skewText(exactSkew)),
-        x: command.omega,
-        y: exactSkew,
+  /** The skew against ω; a slider over it sets ω. @param {Reading} reading */
+  #chart({ config: { command: { omega } }, stats, exactSkew }) {
+    const say = words.banana;
+    const curve = this.#curve.of(/** @type {Machine} */ (this.machine));
+    const { min, max, step } = looks.omega;
+    const peak = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
+    const height = SKEWS.find((each) => each >= peak) ?? peak;
+    const ends = [min, max];
+    return plot({
+      label: say.chart,
+      x: { name: 'ω (rad/s)', from: min, to: max },
+      y: { name: say.chartAxis, from: -height, to: height },
+      curves: [
+        { name: say.chartAxis, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
+        { name: say.chartGaussian, role: 'prediction', dash: '7 4', x: ends, y: [0, 0] },
+      ],
+      points: [
+        { role: 'prior', x: omega, y: exactSkew, error: 0 },
+        { role: 'prediction', x: omega, y: stats.crossTrackSkew, error: stats.crossTrackSkewError },
+      ],
+      slider: {
+        id: 'chart-omega',
+        name: say.chartMarker,
+        step,
+        value: omega,
+        text: say.chartText(fixed(omega, 2), skewText(exactSkew)),
+        input: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to } })),
+        commit: () => this.gesture.commit(),
       },
-      curve: this.#curve.of(/** @type {Machine} */ (this.machine)),
-      remark: { x: 0, text: chartRemark },
-      measured: { value: stats.crossTrackSkew, error: stats.crossTrackSkewError },
-      move: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to(command.omega) } })),
-      commit: () => this.gesture.commit(),
     });
   }
 }

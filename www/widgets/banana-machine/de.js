@@ -131,7 +131,7 @@ export const de = {
   chartCaption:
     'Exakte Schiefe über dem befohlenen *ω*, und die der Roboter mit ihrem Standardfehler. Die gestrichelte Linie ist jede Gauß-Verteilung in *(x, y)*. ' +
     'Bei *ω* = 0 ist sie der Symmetrie wegen 0, wie krumm die Wolke auch sei: siehe den Gewinn.',
-  chartRemark: 'symmetrisch, doch krumm',
+  chartGaussian: 'jede Gaußverteilung in *(x, y)*',
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     skewDetail: (exactly) => `genau ${exactly}`,

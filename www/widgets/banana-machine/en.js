@@ -136,7 +136,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   chartCaption:
     'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*. ' +
     'At *ω* = 0 it is 0 by symmetry, however bent the cloud is: see the gain.',
-  chartRemark: 'symmetric, still bent',
+  chartGaussian: 'any Gaussian in *(x, y)*',
   readouts: {
     skew: 'cross-track skew',
     skewDetail: (exactly) => `exactly ${exactly}`,

@@ -1,8 +1,8 @@
 /** What the Banana Machine's page has of its own. */
 
 import { css } from 'lit';
-import { chartStyles } from '../../ui/chart.js';
 import { layoutStyles } from '../../ui/layout.js';
+import { plotStyles } from '../../ui/plot.js';
 
 const own = css`
   canvas {
@@ -122,4 +122,4 @@ const own = css`
 
 `;
 
-export const bananaStyles = [...layoutStyles, chartStyles, own];
+export const bananaStyles = [...layoutStyles, plotStyles, own];

@@ -3,7 +3,7 @@
 import { createHash } from 'node:crypto';
 import { appendFileSync, chmodSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
-import { keptTillThen } from '../www/figure/page/room.js';
+import { roomBefore } from '../www/figure/page/room.js';
 import * as declared from '../www/settings.js';
 import { widgets } from './declarations.mjs';
 import { licences, packagesOf } from './licences.mjs';
@@ -211,7 +211,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   }
   // Before and after: a page that takes all margins away takes this too. Where scripts are off, nothing is to come, and what
   // stands between the tags is shown.
-  const kept = `@media (scripting:enabled){\n${keptTillThen(await rooms())}\n}`;
+  const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);
   for (const { path, contents } of tags.map(moduleOf)) write(at(path), contents);
@@ -265,7 +265,7 @@ export function filesOf(path) {
 }
 
 /**
- * What external.js loads when it meets a tag, the keys of the messages that come with it, and the room that is kept till then.
+ * Loaders of the widgets that external.js meets, and the keys of the messages that come with them.
  *
  * @returns {Promise<string>} a module
  */
@@ -275,15 +275,8 @@ async function chunks() {
   return (
     '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
     `export const widgets = {\n${loaders.join('')}};\n\n` +
-    `export const vocabularies = ${JSON.stringify(modules.map(({ vocabulary }) => vocabulary))};\n\n` +
-    `/** @type {Record<string, import('../www/figure/page/reserve.js').Room>} */\nexport const rooms = ${JSON.stringify(await rooms())};\n`
+    `export const vocabularies = ${JSON.stringify(modules.map(({ vocabulary }) => vocabulary))};\n`
   );
-}
-
-/** @returns {Promise<Record<string, import('../www/figure/page/reserve.js').Room>>} what each figure takes, by its tag */
-async function rooms() {
-  const modules = await Promise.all(WIDGETS.map((tag) => import(`../www/widgets/${tag}/settings.js`)));
-  return Object.fromEntries(WIDGETS.map((tag, i) => [tag, modules[i].room]));
 }
 
 /** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */

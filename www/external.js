@@ -3,9 +3,9 @@
  * loaded when its tag is met: in the document, or in an open shadow root.
  */
 
-import { rooms, vocabularies, widgets } from '../build/widgets.js';
+import { vocabularies, widgets } from '../build/widgets.js';
 import { expected } from './core.js';
-import { keptTillThen } from './figure/page/room.js';
+import { roomBefore } from './figure/page/room.js';
 import { en } from './messages/en.js';
 import { addEnglish } from './messages/registry.js';
 
@@ -60,7 +60,7 @@ function watch(root) {
 if (observer) {
   // Nothing is to move when they come.
   const sheet = new CSSStyleSheet();
-  sheet.replaceSync(keptTillThen(rooms));
+  sheet.replaceSync(roomBefore());
   document.adoptedStyleSheets.push(sheet);
   watch(document);
 }

@@ -338,32 +338,6 @@ test.describe('a finger', () => {
   });
 });
 
-for (const width of [1280, 375]) {
-  test(`nothing shifts while the page loads and both widgets start, at ${width} px`, FRESH, async ({ page }) => {
-    await page.setViewportSize({ width, height: 812 });
-    await page.addInitScript(() => {
-      const shifts = /** @type {{ value: number, what: string[] }[]} */ ([]);
-      Object.assign(window, { shifts });
-      new PerformanceObserver((list) => {
-        for (const entry of /** @type {any[]} */ (list.getEntries())) {
-          const what = entry.sources.map((/** @type {any} */ { node, previousRect, currentRect }) => [node?.outerHTML?.slice(0, 80) ?? node?.textContent, JSON.stringify(previousRect), JSON.stringify(currentRect)]);
-          shifts.push({ value: entry.value, what });
-        }
-      }).observe({ type: 'layout-shift', buffered: true });
-    });
-    await open(page);
-    await page.evaluate(async () => {
-      for (let y = 0; y < document.documentElement.scrollHeight; y += 400) {
-        scrollTo({ top: y, behavior: 'instant' });
-        for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame);
-      }
-    });
-    await expect(page.locator('map-squeeze').first().getByRole('button', { name: /^(Play|Pause)$/ })).toBeVisible();
-    await frames(page);
-    expect(await page.evaluate(() => Reflect.get(window, 'shifts'))).toEqual([]);
-  });
-}
-
 test.describe('on paper', () => {
   test.use(STILL);
 

@@ -294,7 +294,7 @@ async function still(page, site) {
   const { total, sources, grown } = await page.evaluate(shifts, movesItself);
   assert.ok(total < MOST_SHIFT, `things moved by ${total.toFixed(3)}: ${sources.join('; ')}`);
   // Where not all is counted that moves, nothing of it is the figures'. On a phone they may be a few lines higher than what
-  // is kept where letters are as wide as those that stand in here for a system's own: see www/figure/page/reserve.js.
+  // is kept where letters are as wide as those that stand in here for a system's own: see www/figure/page/room.js.
   if (!movesItself || page.viewportSize()?.width === PHONE.width) return;
   assert.ok(grown.length > 0, 'No figure was seen before its script came.');
   assert.ok(grown.every((pixels) => Math.abs(pixels) < 1), `The figures became higher by ${grown.join(', ')} px.`);

@@ -412,8 +412,8 @@ export class FigureElement extends LitElement {
     if (old === text) return;
     this.reflection.hear(name, text);
     if (!(name in COMMON)) return;
-    this.presenting.follow();
     this.requestUpdate();
+    this.presenting.follow();
     this.stage.recolour();
   }
 

@@ -59,7 +59,7 @@ export class Stage extends Part {
     const { signal } = this.#listening;
     onPrint((printing) => this.#print(printing), signal);
     // Where the observer tells of lengths in CSS pixels alone, as in WebKit.
-    onPixels(() => this.measure(), signal);
+    onPixels(() => this.#measure(), signal);
     onLanguage(this.host, () => this.#speakAgain(), signal);
     // What the text around says at once, a background that fades says when it has arrived.
     const faded = (/** @type {TransitionEvent} */ { target, propertyName }) => {
@@ -84,12 +84,12 @@ export class Stage extends Part {
     if (!this.host.machine || this.#canvases) return;
     this.#canvases = [...this.host.renderRoot.querySelectorAll('canvas')];
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
-    this.measure();
+    this.#measure();
     this.wake();
   }
 
-  /** Tells what size the canvases have, now and whenever it changes. What enlarges them as they are, has to ask for it. */
-  measure() {
+  /** Observes the sizes of the canvases, beginning with the present ones. */
+  #measure() {
     if (!this.#sizes || !this.#canvases) return;
     this.#sizes.disconnect();
     for (const canvas of this.#canvases) {
@@ -217,9 +217,8 @@ export class Stage extends Part {
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = /** @type {HTMLCanvasElement} */ (target);
       const exact = devicePixelContentBoxSize?.[0];
-      const { zoom } = this.host.presenting;
-      canvas.width = Math.round(zoom * (exact?.inlineSize ?? devicePixelRatio * contentRect.width));
-      canvas.height = Math.round(zoom * (exact?.blockSize ?? devicePixelRatio * contentRect.height));
+      canvas.width = Math.round(exact?.inlineSize ?? devicePixelRatio * contentRect.width);
+      canvas.height = Math.round(exact?.blockSize ?? devicePixelRatio * contentRect.height);
     }
     // Inside a closed tab neither.
     this.#colour();

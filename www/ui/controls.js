@@ -91,7 +91,7 @@ export const controlStyles = css`
     }
   }
 
-  /* Text that comes and goes has room for the longest that may come: nothing moves when it does. */
+  /* Text with room for a longer one, which nobody sees. */
   .roomy::after {
     content: attr(data-room);
     display: block;

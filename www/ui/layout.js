@@ -135,25 +135,11 @@ const layout = css`
     background: var(--prior);
   }
 
+  /* Two lines, however short the sentence is: nothing moves when another one comes. */
   .caption {
-    display: grid;
+    min-height: 2lh;
     margin: 0;
     padding: 0.25em 0;
-  }
-
-  .caption > * {
-    grid-area: 1 / 1;
-  }
-
-  /* Room for the longest note, which is indented. */
-  .caption::after {
-    grid-area: 1 / 1;
-    height: auto;
-    padding-left: calc(0.8em + 3px);
-  }
-
-  .caption.note::after {
-    padding-left: 0;
   }
 
   .note {
@@ -168,6 +154,7 @@ const layout = css`
 
   @container (max-width: 34em) {
     .caption {
+      min-height: 4lh;
       font-size: 0.95em;
       line-height: 1.25;
     }

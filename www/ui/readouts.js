@@ -12,6 +12,11 @@ export const readoutStyles = css`
     margin: 0.1em 0 0.5em;
   }
 
+  /* A longer value moves no neighbour. */
+  .readouts > div {
+    min-width: 5em;
+  }
+
   .readouts dt {
     color: var(--muted);
     font-size: 0.84em;
@@ -103,18 +108,15 @@ export const readoutStyles = css`
 `;
 
 /**
- * @typedef {[text: string, longest?: string]} Roomy a text that changes, with room for the longest that it may be
- *
- * @param {[name: string, value: string, longest?: string, detail?: Roomy][]} rows each with what it may need to be
- *   understood, in smaller print
+ * @param {[name: string, value: string, detail?: string][]} rows each with an optional detail in smaller print
  */
 export function readoutList(rows) {
   return html`<dl class="readouts" part="readouts">
     ${rows.map(
-      ([name, value, longest = value, detail]) => html`<div>
+      ([name, value, detail]) => html`<div>
         <dt>${rich(name)}</dt>
-        <dd class="roomy" data-room=${longest}>${value}</dd>
-        ${detail ? html`<dd class="detail roomy" data-room=${detail[1] ?? detail[0]}>${rich(detail[0])}</dd>` : nothing}
+        <dd>${value}</dd>
+        ${detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing}
       </div>`,
     )}
   </dl>`;
@@ -125,14 +127,13 @@ export function readoutList(rows) {
  * @param {unknown} table.caption
  * @param {unknown[]} table.columns their names, that of the rows' names first
  * @param {unknown[][]} table.rows the name of each first; a single cell after it takes the place of all
- * @param {string} table.longest of all cells: while they change, no column moves
  * @param {boolean} [table.outdated] whether other figures are on their way
  */
-export function figureTable({ caption, columns, rows, longest, outdated = false }) {
+export function figureTable({ caption, columns, rows, outdated = false }) {
   const cells = (/** @type {unknown[]} */ [first, ...others]) =>
     others.length === 0
       ? html`<td colspan=${columns.length - 1}>${first}</td>`
-      : [first, ...others].map((cell) => html`<td class="roomy" data-room=${longest}>${cell}</td>`);
+      : [first, ...others].map((cell) => html`<td>${cell}</td>`);
   return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
     <caption>${caption}</caption>
     <thead>

@@ -1,46 +1,48 @@
-/** How high figures are, as style sheets have it; also before anything else of them has come. */
+/** Heights that are kept free for figures, so that the text below one stays in its place while the figure loads. */
 
+import { css, unsafeCSS } from 'lit';
 import { likedWidth } from '../../ui/width.js';
 
-/** @import { Room } from './reserve.js' */
-
-/** Narrower than this, em, pictures have at most a share of the screen: see the phone's rules in ui/layout.js. */
-const PHONE = 30;
+/**
+ * Heights by the tag, em: below a width of 30 em, from there on, and from 56 em on. They are measured as the figures open,
+ * in a usual font.
+ *
+ * @type {Record<string, [narrow: number, middle: number, wide: number]>}
+ */
+const HEIGHTS = {
+  'banana-machine': [84, 40.5, 38],
+  'map-squeeze': [63, 39.5, 37],
+  'arc-anatomy': [60, 48, 46],
+  'odometry-decomposer': [78, 37.5, 37.5],
+  'dead-reckoning': [90, 42, 33],
+  'alpha-calibrator': [90, 42.5, 35],
+};
 
 /**
- * The room as a length of CSS, which is that of its one row that is meant for the width: a million of what is missing from
- * any other is taken away from it. A row ends before the width where the next begins, by less than a layout can tell.
+ * Height for whatever width: a million times the excess is subtracted from the height of a narrower class.
  *
- * @param {Room} room
- * @param {'%' | 'cqi'} unit the hundredth of the figure's width
+ * @param {string} tag
+ * @param {'%' | 'cqi'} unit a hundredth of the figure's width
  */
-export function roomLength(room, unit) {
-  const rows = room.map(([from, height, share], i) => {
-    const to = room[i + 1]?.[0];
-    const off = [...(from ? [`${from}em - 100${unit}`] : []), ...(to ? [`100${unit} - ${to}em + .01px`] : [])];
-    // 38svh each, where they are 80 hundredths high.
-    const pictures = from < PHONE ? `min(${share}${unit},${(share * 38) / 80}*var(--svh,1e4px))` : share + unit;
-    return `${height}em + ${pictures} - 1e6*max(0em,${off})`;
-  });
-  return `max(${rows})`;
+function heightOf(tag, unit) {
+  const [narrow, middle, wide] = HEIGHTS[tag];
+  const below = (/** @type {number} */ height, /** @type {number} */ width) => `${height}em - 1e6*max(0em,100${unit} - ${width - 0.001}em)`;
+  return `max(${wide}em,${below(middle, 56)},${below(narrow, 30)})`;
 }
 
-/** On a low screen, a phone's pictures have all of their height. @param {string} selector of the element */
-export const highScreen = (selector) => `@media (min-height:37.5em){${selector}{--svh:1svh}}`;
+/** Style of a figure: it is as high as the room that was kept for it. @param {string} tag */
+export const reserve = (tag) => css`
+  ${unsafeCSS(`.reserved,.machine{min-height:${heightOf(tag, 'cqi')}}`)}
+`;
 
-/**
- * The heights of the elements before their script is there.
- *
- * @param {Record<string, Room>} rooms by the tag
- */
-export function keptTillThen(rooms) {
-  const waiting = (/** @type {string | string[]} */ tags) => `:is(${tags}):not(:defined)`;
-  const all = waiting(Object.keys(rooms));
+/** Style sheet of a page: the room for elements before their script has defined them. */
+export function roomBefore() {
+  const tags = Object.keys(HEIGHTS);
+  const waiting = (/** @type {string | string[]} */ each) => `:is(${each}):not(:defined)`;
   return [
-    `${all}{display:block;position:relative;min-width:0;max-width:100%}`,
-    `${all}::before{${likedWidth}}`,
-    `${all}>:not([slot]){position:absolute;top:0;margin:0}`,
-    ...Object.entries(rooms).map(([tag, room]) => `${waiting(tag)}::before{padding-top:${roomLength(room, '%')}}`),
-    highScreen(all),
+    `${waiting(tags)}{display:block;position:relative;min-width:0;max-width:100%}`,
+    `${waiting(tags)}::before{${likedWidth}}`,
+    `${waiting(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    ...tags.map((tag) => `${waiting(tag)}::before{padding-top:${heightOf(tag, '%')}}`),
   ].join('\n');
 }

@@ -32,12 +32,11 @@ const SIZE = { width: 720, height: 432 };
  * @param {number} ratio pixels a CSS pixel
  * @param {(size: { width: number, height: number }) => unknown} makeContext
  */
-function drawOn({ scene, pictures: [first], plate, stage, presenting: { zoom } }, ratio, makeContext) {
+function drawOn({ scene, pictures: [first], plate, stage }, ratio, makeContext) {
   const picture = plate ?? first;
   const canvas = stage.canvasOf(first);
   const box = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : SIZE;
-  // Enlarged for an audience or not, it is the same picture.
-  const [clientWidth, height] = plate ? inCss(plate.size, canvas) : [box.width, box.height].map((length) => length / zoom);
+  const [clientWidth, height] = plate ? inCss(plate.size, canvas) : [box.width, box.height];
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const context = /** @type {CanvasRenderingContext2D} */ (makeContext(size));
   const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), getContext: () => context };

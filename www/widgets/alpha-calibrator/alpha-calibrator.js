@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { object } from '../../figure/checks.js';
 import { canvas } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
-import { reserve } from '../../figure/page/reserve.js';
+import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { LONGEST_WORK, advancing } from '../../figure/settings.js';
@@ -21,9 +21,9 @@ import { LegPicture, WayPicture } from './pictures.js';
 import { Plate } from './plate.js';
 import { legOf, readingOf } from './reading.js';
 import { alphaTable, alphaTexts, systematicTable, systematicTexts } from './readouts.js';
-import { attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { attributes, declared, looks, own, vocabulary } from './settings.js';
 import { calibratorStyles } from './styles.js';
-import { captionOf, legText, longestCaption, wayText } from './words.js';
+import { captionOf, legText, wayText } from './words.js';
 
 /**
  * @import { AlphaCalibrator as Machine, CalibrationLog } from '../../types.d.ts'
@@ -44,7 +44,7 @@ const DEVIATIONS = /** @type {const} */ (['positionDeviation', 'headingDeviation
  * @extends {FigureElement<Machine, Reading>}
  */
 export class AlphaCalibratorElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(room), ...calibratorStyles];
+  static styles = [...FigureElement.styles, reserve('alpha-calibrator'), ...calibratorStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -258,9 +258,7 @@ export class AlphaCalibratorElement extends FigureElement {
           <div class="stage one">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>
           ${this.stage.later(() => html`
           <div class="looked">${legControls(this)}</div>
-          <p part="caption" class="caption roomy ${verdict !== 'fits' && 'note'}" data-room=${longestCaption(this.logName, this.exact)}>
-            <span>${captionOf(reading, this.logName, this.exact)}</span>
-          </p>
+          <p part="caption" class="caption ${verdict !== 'fits' && 'note'}">${captionOf(reading, this.logName, this.exact)}</p>
           <div class="tables">${alphaTable(reading)} ${systematicTable(this)}</div>`)}
         </div>
         ${this.stage.later(() => html`

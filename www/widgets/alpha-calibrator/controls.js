@@ -59,10 +59,10 @@ function saidOf({ reading: { legs, stats }, chosen, predicted: leg }) {
   const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;
   const [squared, bad] = leg ? [legs.squaredError[chosen], legs.bad[chosen]] : [NaN, NaN];
   return [
-    [say.off, `${fixed(off, 3)} m`, '0.000 m'],
-    [say.squared(String(told)), fixed(squared, 1), '0000.0'],
+    [say.off, `${fixed(off, 3)} m`],
+    [say.squared(String(told)), fixed(squared, 1)],
     // Where no leg is taken for bad, nobody knows whether this one is.
-    [say.bad, percent(stats.outliers === null ? NaN : bad), percent(0.999)],
+    [say.bad, percent(stats.outliers === null ? NaN : bad)],
   ];
 }
 

@@ -129,7 +129,6 @@ export function doubts(figure) {
             [say.outliers, outliers === null ? NOTHING : percent(outliers), NOTHING],
             [say.gaps, `${counted(gaps.odometry)}, ${counted(gaps.reference)}`, NOTHING],
           ],
-          longest: '99.9 – 99.9 %',
         })}
         <div class="buttons" role="group" aria-label=${say.worst}>
           ${worst.slice(0, 5).map((leg) => button(say.worstLeg(String(leg + 1)), () => figure.choose(leg), { pressed: leg === figure.chosen }))}

@@ -68,9 +68,3 @@ export const looks = {
   headingDeviation: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
   inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
 };
-
-/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
-export const room = [
-  [0, 58.4, 160], [21, 54.5, 160], [30, 48.1, 160], [34, 47.2, 160], [38, 26.6, 45], [41, 27.4, 45], [41.5, 25.2, 45], [45, 26.8, 37.5],
-  [50, 26.6, 37.5], [56, 15.4, 35], [60, 14.6, 35], [70, 11.6, 35], [90, 9.2, 35],
-];

@@ -140,17 +140,6 @@ const own = css`
     --beside: 0.4em;
   }
 
-  /* Below the buttons of the presentation, which take no room of their own. */
-  @media (min-width: 30em) and (min-height: 30em) {
-    :host([presentation]) .views {
-      padding-top: 2.2em;
-    }
-  }
-
-  :host([presentation]) .surface:not(.with-controls) .looked > :is(fieldset, button) {
-    display: none;
-  }
-
   .models {
     display: flex;
     flex-wrap: wrap;

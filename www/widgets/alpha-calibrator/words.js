@@ -1,7 +1,6 @@
 /** What the Alpha Calibrator says when, in the words of the present language. */
 
 import { addEnglish, words } from '../../messages/registry.js';
-import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent, powerOfTen, rounded, significant } from '../../ui/format.js';
 import { en } from './en.js';
 
@@ -42,12 +41,6 @@ export function captionOf({ stats: { doubts: { verdict, heldOut } }, legs }, log
   const say = words.calibrator;
   if (legs.count === 0) return say.none;
   return `${say.present(log, counted(legs.count), exact && say.exact[exact])} ${say.verdicts[verdict](percent(heldOut.coverage))}`;
-}
-
-/** The longest of these, to keep room for. @param {string} log @param {Exact} exact */
-export function longestCaption(log, exact) {
-  const { verdicts, present, exact: parts } = words.calibrator;
-  return `${present(log, counted(10_000), exact && parts[exact])} ${longest(Object.values(verdicts).map((verdict) => verdict(percent(0.999))))}`;
 }
 
 /**

@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { canvas } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
-import { reserve } from '../../figure/page/reserve.js';
+import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { exportMenu } from '../../figure/takeaway/export.js';
 import { words } from '../../messages/registry.js';
@@ -15,9 +15,9 @@ import { formsPlot } from './forms.js';
 import { ArcPicture, RADIUS } from './picture.js';
 import { readingOf } from './reading.js';
 import { factorBars, legend, likelihoods, tableOf } from './readouts.js';
-import { REACH, WHOLE, attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { REACH, WHOLE, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { anatomyStyles } from './styles.js';
-import { longestVerdict, pictureText, verdictOf } from './words.js';
+import { pictureText, verdictOf } from './words.js';
 
 /**
  * @import { ArcAnatomy as Machine } from '../../types.d.ts'
@@ -38,7 +38,7 @@ const BOUNDS = [-REACH, -REACH, REACH, REACH];
  * @extends {FigureElement<Machine, Reading>}
  */
 export class ArcAnatomyElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(room), ...anatomyStyles];
+  static styles = [...FigureElement.styles, reserve('arc-anatomy'), ...anatomyStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -128,7 +128,7 @@ export class ArcAnatomyElement extends FigureElement {
             ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
           </div>
           ${this.stage.later(() => html`
-          <p class="verdict caption roomy" part="caption" data-room=${longestVerdict()}><span>${verdictOf(reading)}</span></p>
+          <p class="verdict caption" part="caption">${verdictOf(reading)}</p>
           <div class="aside">
             ${factorBars(reading, this.state.own.line)} ${likelihoods(reading)} ${presets(this)} ${printedCheck(this)}
           </div>`)}

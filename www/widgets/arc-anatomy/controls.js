@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { check, choices, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, longest, rich, toggle } from '../../ui/controls.js';
+import { button, rich, toggle } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { track } from '../../ui/slider.js';
 import { presetButtons } from '../shared/presets.js';
@@ -70,11 +70,10 @@ export function lineStepper(figure) {
   const say = words.anatomy.table;
   const { line } = figure.state.own;
   const go = (/** @type {number} */ to) => () => figure.gesture.choose('line', to);
-  const texts = Array.from({ length: LINES }, (_, i) => lineText(figure.reading, i + 1));
   return html`<div class="stepper" role="group" aria-label=${say.label}>
     ${button(sign('‹', say.back), go(line - 1), { disabled: line === 0, title: say.back })}
     ${button(sign('›', say.on), go(line + 1), { disabled: line === LINES, title: say.on })}
-    <p class="roomy" data-room=${longest(texts).replaceAll('*', '')} role="status"><span>${line === 0 ? say.begin : rich(texts[line - 1])}</span></p>
+    <p role="status">${line === 0 ? say.begin : rich(lineText(figure.reading, line))}</p>
   </div>`;
 }
 

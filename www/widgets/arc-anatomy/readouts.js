@@ -65,10 +65,10 @@ export function likelihoods({ stats: { prob, share, density, xi } }) {
   const say = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
   return readoutList([
-    ['*p*', densityText(prob), densityText(1.5e-123)],
-    [say.share, shareText(share), shareText(1.5e-123)],
-    [say.density, density === null ? say.none : densityText(density), densityText(1.5e-123)],
-    ['*ξ* (m, m, rad)', `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`, '(−0.00, −0.00, −0.00)'],
+    ['*p*', densityText(prob)],
+    [say.share, shareText(share)],
+    [say.density, density === null ? say.none : densityText(density)],
+    ['*ξ* (m, m, rad)', `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`],
   ]);
 }
 

@@ -97,9 +97,3 @@ export const looks = { ...COMMAND, ...ALPHAS };
 
 /** How far the poses can be dragged from the origin, m. */
 export const REACH = 4;
-
-/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
-export const room = [
-  [0, 61.8, 80], [20.6, 59.5, 80], [21.5, 57, 80], [22, 45.9, 80], [23, 43.9, 80], [27.75, 43, 80], [30, 41.5, 80], [37.25, 38.2, 80], [37.55, 39.8, 80], [38, 52.5, 0],
-  [38.5, 49, 0], [60.25, 47.8, 0], [74, 5.5, 57.2],
-];

@@ -118,6 +118,7 @@ const own = css`
   }
 
   .stepper p {
+    min-height: 2lh;
     margin: 0.2em 0 0 0.4em;
   }
 
@@ -137,11 +138,6 @@ const own = css`
   .underway output {
     min-width: 4em;
     text-align: right;
-  }
-
-  /* With its controls it is to fit on the screen of an audience. */
-  :host([presentation]) :is(.stepper, .underway) {
-    margin-bottom: 0.25em;
   }
 
   .lines {

@@ -1,7 +1,6 @@
 /** What Arc Anatomy says when, in the words of the present language. */
 
 import { addEnglish, words } from '../../messages/registry.js';
-import { longest } from '../../ui/controls.js';
 import { fixed, percent, powerOfTen, significant } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
@@ -43,13 +42,6 @@ export function verdictOf({ config, stats: { factors, weakest, share, driven, in
   if (share === 1) return say.peak;
   if (deviation === 0) return say.noiseless(symbol);
   return say.off(symbol, fixed(Math.abs(deviations), 1), shareText(kept), shareText(share));
-}
-
-/** The longest of the sentences that may come, to keep room for. */
-export function longestVerdict() {
-  const { verdict } = words.anatomy;
-  const share = shareText(1.5e-123);
-  return longest([verdict.printed('−1.00', share), verdict.peak, verdict.noiseless('γ̂'), verdict.off('γ̂', '88.8', share, share)]);
 }
 
 /** @param {Pose} pose */

@@ -8,7 +8,7 @@ import { object } from '../../figure/checks.js';
 import { Cloud, shownOf } from '../../figure/cloud.js';
 import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
-import { reserve } from '../../figure/page/reserve.js';
+import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
@@ -24,9 +24,9 @@ import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
-import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { bananaStyles } from './styles.js';
-import { announcementOf, captionOf, longestNote, planeText, skewText, twistCaption, twistText } from './words.js';
+import { announcementOf, captionOf, planeText, skewText, twistCaption, twistText } from './words.js';
 
 /**
  * @import { BananaMachine as Machine } from '../../types.d.ts'
@@ -57,7 +57,7 @@ const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
  * @extends {FigureElement<Machine, Reading>}
  */
 export class BananaMachineElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(room), ...bananaStyles];
+  static styles = [...FigureElement.styles, reserve('banana-machine'), ...bananaStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -206,9 +206,7 @@ export class BananaMachineElement extends FigureElement {
           <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
         </div>
         ${this.stage.later(() => html`
-        <p part="caption" class="caption roomy ${note && 'note'}" data-room=${longestNote()}>
-          <span>${captionOf(reading)}</span>
-        </p>
+        <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
         ${readouts(reading)} ${presets(this)}
         <div class="controls" part="controls">
           <div>${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>

@@ -15,40 +15,26 @@ import { figureTable, readoutList } from '../../ui/readouts.js';
 /** Share of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const NOMINAL = 1 - Math.exp(-2);
 
-/** A cloud's skew, and at most its error, as wide as they print. */
-const longestSkew = () => withError(-1, 1, 4);
-
 /**
  * The three that matter: whether the cloud leans, how much likelier the other coordinates make it, and how much floor the
  * ellipse wastes.
  *
  * @param {Reading} reading
  */
-export function readouts({ config, stats, exactSkew, gain }) {
+export function readouts({ stats, exactSkew, gain }) {
   const say = words.banana.readouts;
   const { coverage, areaRatio } = stats;
-  const all = counted(config.samples);
   return readoutList([
     [
       say.skew,
       withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
-      longestSkew(),
-      [Number.isNaN(exactSkew) ? NOTHING : say.skewDetail(fixed(exactSkew, 3)), say.skewDetail(fixed(-1, 3))],
+      Number.isNaN(exactSkew) ? NOTHING : say.skewDetail(fixed(exactSkew, 3)),
     ],
-    [
-      gain.unbounded ? say.gainOnFloor : say.gain,
-      withError(gain.value, gain.error, 3),
-      withError(-1, 1, 4),
-      [gainText(gain), say.likelier(counted(config.samples), all, powerOfE(config.samples))],
-    ],
+    [gain.unbounded ? say.gainOnFloor : say.gain, withError(gain.value, gain.error, 3), gainText(gain)],
     [
       say.area,
       fixed(areaRatio, 2),
-      fixed(-1, 2),
-      [
-        [coverage.ellipse, coverage.exponential].every(Number.isNaN) ? NOTHING : say.areaDetail(percent(coverage.ellipse), percent(coverage.exponential)),
-        say.areaDetail(percent(1), percent(1)),
-      ],
+      [coverage.ellipse, coverage.exponential].every(Number.isNaN) ? NOTHING : say.areaDetail(percent(coverage.ellipse), percent(coverage.exponential)),
     ],
   ]);
 }
@@ -65,15 +51,14 @@ function gainText({ n, unbounded, value }) {
 
 /** The others. @param {Reading} reading */
 export function otherReadouts({ config, stats, gain, table }) {
-  const all = counted(config.samples);
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutList([
-    [say.robots, nOfAll(counted(stats.n), all), nOfAll(all, all)],
-    [say.gaussian, fixed(stats.gaussianSkew, 3), fixed(-1, 3)],
-    [say.rho, fixed(stats.rhoCrossHeading, 3), fixed(-1, 3)],
-    [say.exactGain, fixed(gain.exact, 4), fixed(-1, 4)],
-    [say.exactArea, fixed(table.exact.areaRatio, 3), fixed(-1, 3)],
+    [say.robots, nOfAll(counted(stats.n), counted(config.samples))],
+    [say.gaussian, fixed(stats.gaussianSkew, 3)],
+    [say.rho, fixed(stats.rhoCrossHeading, 3)],
+    [say.exactGain, fixed(gain.exact, 4)],
+    [say.exactArea, fixed(table.exact.areaRatio, 3)],
     [say.nominal, percent(NOMINAL)],
   ]);
 }
@@ -117,9 +102,6 @@ function legsOf(driven, read) {
 const DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
-/** As wide as any of what is measured: while the cloud grows, no column does. */
-const longestMeasured = () => significant(-1e-5, MEASURED_DIGITS);
-
 /** @param {string} indices */
 const sigma = (indices) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 
@@ -152,7 +134,6 @@ export function workedExample({ table: { linearized, exact, measured }, stats })
       ...computed.map((column) => significant(of(column), DIGITS)),
       withItsError ?? significant(of(measured), MEASURED_DIGITS),
     ]),
-    longest: longestMeasured(),
   });
 }
 
@@ -171,6 +152,5 @@ export function twistTable({ table: { tangent }, stats: { exponential } }) {
       tangent === null ? NOTHING : significant(of(tangent), DIGITS),
       significant(of(exponential), MEASURED_DIGITS),
     ]),
-    longest: longestMeasured(),
   });
 }

@@ -47,9 +47,3 @@ export const looks = { ...COMMAND, ...alphaLooks(6) };
 
 /** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
 export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);
-
-/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
-export const room = [
-  [0, 53.8, 160], [21.75, 52.4, 160], [23.1, 51.1, 160], [26.6, 44.6, 160], [30, 44.4, 40], [33.75, 43.1, 40], [37.5, 31.1, 40], [40, 27.4, 40],
-  [42.75, 24.2, 40], [56, 24.4, 25],
-];

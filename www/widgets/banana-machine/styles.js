@@ -9,11 +9,6 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
-  /* One below the other the pictures share what there is: a row as high as its canvas would change with it, frame by frame. */
-  :host([presentation]) .surface:not(.with-controls) .views {
-    grid-auto-rows: minmax(0, 1fr);
-  }
-
   @container (min-width: 30em) {
     .views {
       grid-template-columns: 1fr 1fr;

@@ -4,26 +4,16 @@
  */
 
 import { addEnglish, words } from '../../messages/registry.js';
-import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent, withError } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
-import { deviation, silenceOf, spreadOf } from './reading.js';
+import { deviation, spreadOf } from './reading.js';
 
 /**
  * @import { Reading } from './reading.js'
  */
 
 addEnglish({ banana: en });
-
-/** The longest of the sentences that may come, to keep room for. */
-export function longestNote() {
-  const { notes, settings, bend } = words.banana;
-  const skew = withError(-1, 1, 4);
-  const { velocity, odometry } = settings.alphas.effects;
-  const silences = [...velocity.map((_, i) => silenceOf('velocity', i)), ...odometry.map((_, i) => silenceOf('odometry', i))];
-  return longest([...Object.values(notes), ...silences, ...Object.values(bend.bowTie).map((say) => say('−1.00', '1.00', skew)), `${bend.neither(skew)} ${bend.wide('1.00')}`]);
-}
 
 /** What is announced after a change has come to rest. @param {Reading} reading */
 export function announcementOf({ config, stats, note }) {

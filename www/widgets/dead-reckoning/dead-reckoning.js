@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
 import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
-import { reserve } from '../../figure/page/reserve.js';
+import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
@@ -13,9 +13,9 @@ import { commandAndNoise, pathControls, presets, recursionChoice, walkControls }
 import { PathPicture, StepPicture } from './pictures.js';
 import { COMPONENTS, readingOf } from './reading.js';
 import { markedRobot, missReadouts, missTable, ratioPlot, straightPlot } from './readouts.js';
-import { RECURSIONS, SAMPLE_COUNTS, attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { RECURSIONS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { reckoningStyles } from './styles.js';
-import { announcementOf, captionOf, longestCaption, planeText, stepText } from './words.js';
+import { announcementOf, captionOf, planeText, stepText } from './words.js';
 
 /**
  * @import { DeadReckoning as Machine } from '../../types.d.ts'
@@ -38,7 +38,7 @@ const columnsOf = (quantity) => COMPONENTS.map((name) => `${quantity}_${name}_${
  * @extends {FigureElement<Machine, Reading>}
  */
 export class DeadReckoningElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(room), ...reckoningStyles];
+  static styles = [...FigureElement.styles, reserve('dead-reckoning'), ...reckoningStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -119,9 +119,7 @@ export class DeadReckoningElement extends FigureElement {
           ${this.stage.later(() => html`<div class="aside">
             <div class="told">
               ${walkControls(this)}
-              <p part="caption" class="caption roomy ${condition !== 'told' && 'note'}" data-room=${longestCaption()}>
-                <span>${captionOf(reading)}</span>
-              </p>
+              <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading)}</p>
             </div>
             <div class="told">${recursionChoice(this)} ${missReadouts(reading)}</div>
           </div>`)}

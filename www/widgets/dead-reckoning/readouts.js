@@ -86,13 +86,7 @@ function missed({ told, first, last, end }) {
 /** Of the recursion that is looked at. @param {Reading} reading */
 export function missReadouts({ config: { compounding }, stats: { misses } }) {
   const say = words.reckoning;
-  const longest = say.misses.from(100, 200);
-  const rows = misses[compounding].map((each, axis) => /** @type {[string, string, string, [string, string]]} */ ([
-    say.components[COMPONENTS[axis]],
-    missed(each),
-    longest,
-    [endText(each), endText({ end: -0.999, error: 0.09 })],
-  ]));
+  const rows = misses[compounding].map((each, axis) => /** @type {[string, string, string]} */ ([say.components[COMPONENTS[axis]], missed(each), endText(each)]));
   return html`<p class="missed">${say.missed}</p>${readoutList(rows)}`;
 }
 
@@ -106,7 +100,6 @@ export function missTable({ stats: { misses } }) {
       [say.components[component], ...RECURSIONS.map((recursion) => missed(misses[recursion][axis]))],
       [say.misses.endOf(say.components[component]), ...RECURSIONS.map((recursion) => endText(misses[recursion][axis]))],
     ]),
-    longest: say.misses.from(100, 200),
   });
 }
 

@@ -79,9 +79,3 @@ export const looks = {
 
 /** Sample counts of the slider; a larger cloud is slow to follow one. */
 export const SAMPLE_COUNTS = [2, 3, 4].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(100_000, 200_000);
-
-/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
-export const room = [
-  [0, 61.4, 160], [18.9, 57.8, 160], [30, 32.4, 60], [33.15, 31, 60], [35.2, 31.7, 60], [36.5, 37.9, 20], [37.8, 45, 0],
-  [48, 45.6, 0], [51.9, 47.1, 0], [56, 18.2, 26.7],
-];

@@ -9,6 +9,10 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
+  .views {
+    grid-template: 'floor' 'ratios' 'step' 'aside' / minmax(0, 1fr);
+  }
+
   .ratios .plot-key {
     margin: 0;
   }
@@ -48,21 +52,6 @@ const own = css`
     grid-area: aside;
   }
 
-  :host([presentation]) .surface:not(.with-controls) .told > :is(fieldset, .choices) {
-    display: none;
-  }
-
-  /* On a phone the pictures need the room. */
-  @container (max-width: 30em) {
-    :host([presentation]) .views {
-      grid-template: 'floor' 'step' 'ratios' 'aside' / minmax(0, 1fr);
-    }
-
-    :host([presentation]) .surface:not(.with-controls) .told {
-      display: none;
-    }
-  }
-
   @container (min-width: 30em) {
     canvas {
       aspect-ratio: 8 / 5;
@@ -75,15 +64,6 @@ const own = css`
 
     .ratios .plot {
       max-width: 20em;
-    }
-  }
-
-  /* Clear of the buttons, which have no row of their own where there is height enough. */
-  @media (min-height: 30em) {
-    @container (30em <= width < 56em) {
-      :host([presentation]) .views {
-        padding-top: 1.6em;
-      }
     }
   }
 
@@ -141,44 +121,6 @@ const own = css`
       display: grid;
       grid-template-columns: 1fr 1fr;
       gap: 2em;
-    }
-
-    /* Clear of the buttons. */
-    :host([presentation]) .ratios {
-      padding-top: 1.6em;
-    }
-
-    :host([presentation]) .aside {
-      padding-top: 0;
-    }
-
-    :host([presentation]) .surface:not(.with-controls) .views {
-      grid-template: 'floor step ratios' auto 'floor step aside' minmax(0, 1fr) / 1.25fr 1.25fr 1fr;
-    }
-
-    :host([presentation]) .surface:not(.with-controls) .aside {
-      display: block;
-    }
-
-    /* In so narrow a column each component has a line. */
-    :host([presentation]) .surface:not(.with-controls) .readouts {
-      grid-template-columns: auto 1fr auto;
-      align-items: baseline;
-      gap: 0 0.25em;
-      margin: 0;
-    }
-
-    :host([presentation]) .surface:not(.with-controls) .readouts > div {
-      display: contents;
-    }
-
-    :host([presentation]) .surface:not(.with-controls) .readouts dd {
-      font-size: 0.84em;
-      white-space: normal;
-    }
-
-    :host([presentation]) .surface:not(.with-controls) .readouts .roomy::after {
-      display: none;
     }
   }
 `;

@@ -1,7 +1,6 @@
 /** What Dead Reckoning says when, in the words of the present language. */
 
 import { addEnglish, words } from '../../messages/registry.js';
-import { longest } from '../../ui/controls.js';
 import { NOTHING, counted, fixed, withError } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
@@ -69,12 +68,4 @@ export function stepText({ config: { step, compounding }, stats: { measured, pre
   const say = words.reckoning;
   const deviations = (/** @type {number[][] | null} */ cov) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
   return say.stepText(String(step), deviations(measured.cov), deviations(predicted[compounding]));
-}
-
-/** The longest caption there may be, to keep room for. */
-export function longestCaption() {
-  const say = words.reckoning;
-  const list = listOf([0, 0, 0, 0, 0]);
-  const [end, where] = [signed(-0.999), say.where.along];
-  return longest([...Object.values(say.conditions), say.worse(end, where, say.of.along, list), `${say.wrong(end, where)} ${say.begins(say.of.along, list)}`, say.right(counted(1_000_000))]);
 }

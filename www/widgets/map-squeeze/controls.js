@@ -6,7 +6,7 @@
 import { html, nothing } from 'lit';
 import { check, choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, choice, longest, radioGroup, rich } from '../../ui/controls.js';
+import { button, choice, radioGroup, rich } from '../../ui/controls.js';
 import { fileInput } from '../shared/files.js';
 import { EXTENSIONS } from './maps/open.js';
 import { MOST_SAMPLES, MOTION, PRESETS, SAMPLERS } from './settings.js';
@@ -74,9 +74,7 @@ export function judgeControls(figure) {
         }),
       )}
     </div>
-    <p class="effect caption roomy" id="sampler-effect" data-room=${longest(Object.values(say.samplerEffects))}>
-      <span>${rich(effect)}</span>
-    </p>
+    <p class="effect caption" id="sampler-effect">${rich(effect)}</p>
   </fieldset>`;
 }
 

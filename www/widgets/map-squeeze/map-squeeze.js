@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
 import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
-import { reserve } from '../../figure/page/reserve.js';
+import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { LONG, LONGEST_WORK, advancing } from '../../figure/settings.js';
@@ -19,9 +19,9 @@ import { FOLD, MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
 import { costTable, legend, markedDraw, rates, tally } from './readouts.js';
-import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, room, vocabulary } from './settings.js';
+import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
-import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
+import { mapText, pictureText, verdictOf } from './words.js';
 
 /**
  * @import { Job } from '../../figure/settings.js'
@@ -40,7 +40,7 @@ import { longestVerdict, mapText, pictureText, verdictOf } from './words.js';
  * @extends {FigureElement<Machine, Reading>}
  */
 export class MapSqueezeElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(room), ...squeezeStyles];
+  static styles = [...FigureElement.styles, reserve('map-squeeze'), ...squeezeStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -380,9 +380,7 @@ export class MapSqueezeElement extends FigureElement {
             ${this.#handles.render()}
           </div>
           ${this.stage.later(() => html`
-          <p class="verdict caption roomy ${note && 'note'}" part="caption" data-room=${longestVerdict(config)}>
-            <span>${verdictOf(reading)}</span>
-          </p>
+          <p class="verdict caption ${note && 'note'}" part="caption">${verdictOf(reading)}</p>
           <div class="aside">${rates(reading)} ${placeControls(this)} ${hasUnknown ? unknownChoice(this) : nothing} ${judgeControls(this)}</div>`)}
         </div>
         ${this.stage.later(() => html`

@@ -61,9 +61,6 @@ export function legend({ config, sorted }, hasUnknown) {
   <p class="about">${sorted ? nothing : say.density} ${say.overview}</p>`;
 }
 
-/** The share that is longest in print. @type {Pick<Stats, 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} */
-const CERTAIN = { throughWallRate: 1, throughWallInterval: [1, 1], gaveUp: false };
-
 /** The two rates that matter. @param {Reading} reading */
 export function rates({ stats, config }) {
   const say = words.squeeze.rates;
@@ -71,23 +68,22 @@ export function rates({ stats, config }) {
   const accepted = !conditioned ? say.kept : sampler === 'sub-stepped' ? say.ofParts : say.accepted;
   const share = shareOf(stats, config);
   return readoutList([
-    [accepted, percent(stats.acceptanceRate), percent(1)],
-    [share.interval ? say.interval : say.through, share.text, shareOf(CERTAIN, config).text],
+    [accepted, percent(stats.acceptanceRate)],
+    [share.interval ? say.interval : say.through, share.text],
   ]);
 }
 
 /** @param {Reading} reading */
 export function tally({ stats, config, paths: { length: paths } }) {
   const { kept, through } = keptWords(config);
-  const all = counted(config.samples);
   const say = words.squeeze.tally;
   return readoutList([
-    [say.drawn, counted(stats.drawn), all],
-    [kept, counted(stats.accepted), all],
-    [through, counted(stats.throughWall), all],
-    [say.paths, paths < stats.throughWall ? say.first(counted(paths)) : counted(paths), say.first(all)],
-    [say.draws(kept), fixed(stats.drawsPerAccepted, 2), fixed(10, 2)],
-    [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2), fixed(10, 2)],
+    [say.drawn, counted(stats.drawn)],
+    [kept, counted(stats.accepted)],
+    [through, counted(stats.throughWall)],
+    [say.paths, paths < stats.throughWall ? say.first(counted(paths)) : counted(paths)],
+    [say.draws(kept), fixed(stats.drawsPerAccepted, 2)],
+    [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2)],
   ]);
 }
 
@@ -123,7 +119,6 @@ export function costTable({ costs, current }, steps) {
       caption: say.caption,
       columns: [say.sampler, say.draws, say.tests, 'µs', say.core],
       rows: SAMPLERS.map(row),
-      longest: fixed(10, 2),
       outdated: !current,
     })}
   </div>`;

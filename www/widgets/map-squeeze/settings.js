@@ -66,11 +66,5 @@ export const SAMPLERS = /** @type {('endpoint' | 'whole-arc' | 'sub-stepped')[]}
 /** Sample counts of the slider. The machine takes more, but they would be slow to follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
-/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
-export const room = [
-  [0, 56, 80], [20, 51.2, 80], [20.25, 48.9, 80], [21.75, 45.2, 80], [28.25, 43.9, 80], [30, 43.9, 80], [35.75, 41.2, 80], [38, 47.1, 0], [38.5, 42.6, 0],
-  [43.75, 43.6, 0], [45, 8.5, 75], [50, 43.8, 0], [55.25, 9.2, 62.5], [57.25, 7.4, 62.5], [60, 40.6, 0], [71, 10.9, 41.7],
-];
-
 /** In one step; as many fewer in several. */
 export const MOST_SAMPLES = declared.find(({ key }) => key === 'samples')?.max ?? 0;

@@ -5,12 +5,10 @@
 
 import { addEnglish, words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { longest } from '../../ui/controls.js';
 import { counted, fixed, percent } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
 import { throughText } from './reading.js';
-import { SAMPLERS } from './settings.js';
 
 /**
  * @import { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts'
@@ -65,12 +63,6 @@ export function verdictOf({ config, stats, note }) {
   if (attempts === 0) return words.squeeze.noneYet;
   const sentence = sentenceOf(config, { ...stats, all: attempts });
   return note ? `${sentence} ${note}` : sentence;
-}
-
-/** The longest verdict under these settings, for its room: that on a robot which is put where it does not fit. @param {Settings} config */
-export function longestVerdict({ samples }) {
-  const all = { accepted: samples, all: samples, throughWall: samples, throughWallRate: 1 };
-  return `${longest(SAMPLERS.map((sampler) => sentenceOf({ conditioned: true, sampler }, all)))} ${words.squeeze.noRoom}`;
 }
 
 /**

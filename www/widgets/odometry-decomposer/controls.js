@@ -29,7 +29,6 @@ export function rulesTable(figure) {
         choice({ group: 'rule', label: names[rule], checked: rule === present, choose: () => figure.gesture.decide({ rule }) }),
         ...[...deviations, crossTrack, heading].map((value) => fixed(value, 3)),
       ]),
-      longest: fixed(0, 3),
     })}
   </div>`;
 }

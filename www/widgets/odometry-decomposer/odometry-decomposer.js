@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
 import { canvas, takeAlong } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
-import { reserve } from '../../figure/page/reserve.js';
+import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
@@ -17,9 +17,9 @@ import { noiseControls, playable, presets, rulesTable } from './controls.js';
 import { LegsPicture, RADIUS, WorldPicture } from './pictures.js';
 import { readingOf } from './reading.js';
 import { readouts, spreads } from './readouts.js';
-import { attributes, declared, looks, own, room, vocabulary } from './settings.js';
+import { attributes, declared, looks, own, vocabulary } from './settings.js';
 import { decomposerStyles } from './styles.js';
-import { apart, captionOf, legsText, longestCaption, worldText } from './words.js';
+import { apart, captionOf, legsText, worldText } from './words.js';
 
 /**
  * @import { OdometryDecomposer as Machine } from '../../types.d.ts'
@@ -39,7 +39,7 @@ const FLOOR = [-4, -4, 4, 4];
  * @extends {FigureElement<Machine, Reading>}
  */
 export class OdometryDecomposerElement extends FigureElement {
-  static styles = [...FigureElement.styles, reserve(room), ...decomposerStyles];
+  static styles = [...FigureElement.styles, reserve('odometry-decomposer'), ...decomposerStyles];
 
   static declared = declared;
   static attributes = attributes;
@@ -145,8 +145,8 @@ export class OdometryDecomposerElement extends FigureElement {
           </div>
           <div class="stage beside">${canvas(this, this.#world, worldText(reading))}</div>
           ${this.stage.later(() => html`
-          <p class="caption roomy said" part="caption" data-room=${longestCaption()}><span>${captionOf(reading)}</span></p>
-          <p class="caption drifting"><span>${rich(say.worldCaption(fixed(apart(reading), 2)))}</span></p>`)}
+          <p class="caption said" part="caption">${captionOf(reading)}</p>
+          <p class="caption drifting">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
         </div>
         ${this.stage.later(() => html`
         <div class="plays">${playable(this, 'phase', say.way)} ${playable(this, 'drift', say.drift)}</div>

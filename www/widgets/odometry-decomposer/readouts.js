@@ -19,13 +19,12 @@ const metres = (value) => `${fixed(value, 3)} m`;
 export function readouts({ stats }) {
   const say = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
-  const room = withError(0, 0, 3);
   const exactly = say.exactly(fixed(exactHeading, 3));
   const both = say.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
   return readoutList([
-    [say.lever, metres(stats.lever), metres(0)],
-    [say.crossTrack, `${withError(crossTrack, crossTrackError, 3)} m`, `${room} m`, [say.exactly(metres(exactCrossTrack))]],
-    [say.heading, `${withError(heading, headingError, 3)} rad`, `${room} rad`, [exactHeading === independentHeading ? exactly : both, both]],
+    [say.lever, metres(stats.lever)],
+    [say.crossTrack, `${withError(crossTrack, crossTrackError, 3)} m`, say.exactly(metres(exactCrossTrack))],
+    [say.heading, `${withError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactly : both],
   ]);
 }
 

@@ -65,9 +65,3 @@ export const looks = {
 };
 
 export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
-
-/** What the figure takes, in letters of whatever width. @type {import('../../figure/page/reserve.js').Room} */
-export const room = [
-  [0, 47.2, 160], [20.3, 45.8, 160], [22.5, 44.1, 160], [23, 43.4, 160], [24.5, 40.9, 160], [26.5, 36, 160], [30, 33.4, 125],
-  [38, 27.1, 36], [41, 24.8, 36], [55, 23.4, 31.2], [65, 23.4, 25.2],
-];

@@ -56,13 +56,6 @@ const own = css`
     }
   }
 
-  /* Where one is above the other, both have room. */
-  @container (width < 38em) {
-    :host([presentation]) .views {
-      grid-template-rows: repeat(2, minmax(0, 1fr));
-    }
-  }
-
   /* Wider, and not higher: all of it is to fit on a screen. */
   @container (min-width: 45em) {
     .views > .stage {
@@ -87,10 +80,6 @@ const own = css`
       font-size: 0.92em;
       line-height: 1.25;
     }
-  }
-
-  .caption.drifting::after {
-    content: none;
   }
 
   .playable {

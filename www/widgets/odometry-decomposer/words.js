@@ -1,7 +1,6 @@
 /** What the Odometry Decomposer says when, in the words of the present language. */
 
 import { addEnglish, words } from '../../messages/registry.js';
-import { longest } from '../../ui/controls.js';
 import { counted, fixed } from '../../ui/format.js';
 import { en } from './en.js';
 import { poseIn } from './reading.js';
@@ -28,13 +27,6 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
   }
   if (rule === 'table' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return say.reverse;
   return say.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
-}
-
-/** The longest of these, to keep room for. */
-export function longestCaption() {
-  const { lever, reverse, rest, restSpin, spin, spinEitherWay, omni, still } = words.decomposer.caption;
-  const one = '−0.00';
-  return longest([lever(one, one, one), reverse, rest(one, one), restSpin(one), spin, spinEitherWay(one), omni(one), still]);
 }
 
 /** How far the odometry's own pose is from where the robot is predicted, m. @param {Reading} reading */

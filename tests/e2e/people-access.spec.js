@@ -2,7 +2,7 @@ import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL, KNOWN, ready, show } from './element-support.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { FRESH, STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test, unfold } from './support.js';
+import { STILL, boxOf, centreOf, frames, open, pictureOf, pixelsOf, state, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page

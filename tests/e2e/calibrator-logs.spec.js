@@ -27,32 +27,6 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });
 
-test('where to read a log takes as long as a frame has, nothing is fitted before the next', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  const steps = await widget.evaluate((element) => {
-    const calibrator = /** @type {AlphaCalibratorElement} */ (element);
-    const { prototype } = calibrator.machine.constructor;
-    const { beginLog, advance } = prototype;
-    let count = 0;
-    prototype.beginLog = function (/** @type {any[]} */ ...log) {
-      const end = performance.now() + 30;
-      while (performance.now() < end);
-      return beginLog.apply(this, log);
-    };
-    prototype.advance = function (/** @type {number} */ work) {
-      count += 1;
-      return advance.call(this, work);
-    };
-    const t = Float64Array.from({ length: 2000 }, (_, i) => i / 20);
-    const poses = { t, x: t.map((time) => time / 2), y: t.map(() => 0), theta: t.map(Math.sin) };
-    calibrator.log = { name: 'long.csv', odometry: poses, reference: poses };
-    Object.assign(prototype, { beginLog, advance });
-    return count;
-  });
-  expect(steps).toBe(0);
-  await expect(caption(widget)).toHaveText(/of long\.csv[.,]/);
-});
-
 for (const [attributes, options, legs] of /** @type {[string, string, object][]} */ ([
   ['', '', { distance: 0.25, angle: 0.2 }],
   ['duration="0.8" positiondeviation="0.004" headingdeviation="0.003"', '--duration 0.8 --position-deviation 0.004 --heading-deviation 0.003', { duration: 0.8 }],
@@ -374,62 +348,6 @@ test('a log without legs says so, and trouble with it is no failure', async ({ p
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
   expect(await heard(page, ['error'])).toEqual([]);
-});
-
-test('a way of many legs is drawn in the time that frames have for it, and is whole in the end', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  const { pieces, shown, atOnce, inks } = await widget.evaluate(async (element) => {
-    const calibrator = /** @type {any} */ (element);
-    // A robot that drives around in a hall, and turns at each corner.
-    const count = 20_000;
-    const made = () => Object.fromEntries(['t', 'x', 'y', 'theta'].map((key) => [key, new Float64Array(count + 1)]));
-    const log = { odometry: made(), reference: made() };
-    const random = (/** @type {number} */ i) => (((i * 7919) % 1009) / 1009 - 0.5) * Math.sqrt(12);
-    for (let i = 1; i <= count; i++) {
-      const turn = i % 20 === 0 ? Math.PI / 2 + 0.3 * Math.sin(i) : 0.02 * Math.sin(i);
-      for (const [poses, error] of /** @type {const} */ ([[log.odometry, 0], [log.reference, 1]])) {
-        const { t, x, y, theta } = poses;
-        t[i] = i / 2;
-        theta[i] = theta[i - 1] + turn + 0.02 * error * random(3 * i);
-        const way = 0.3 + 0.01 * error * random(3 * i + 1);
-        x[i] = x[i - 1] + way * Math.cos(theta[i]);
-        y[i] = y[i - 1] + way * Math.sin(theta[i]);
-      }
-    }
-    const [way] = calibrator.pictures;
-    const { draw } = way;
-    const pieces = /** @type {boolean[]} */ ([]);
-    way.draw = function (/** @type {any[]} */ ...given) {
-      const moving = draw.apply(this, given);
-      if (calibrator.machine.count > 10_000) pieces.push(this.unfinished);
-      return moving;
-    };
-    calibrator.log = log;
-    while (pieces.at(-1) !== false) await new Promise(requestAnimationFrame);
-    const canvas = calibrator.stage.canvasOf(way);
-    const shown = canvas.toDataURL();
-    draw.call(way, canvas, calibrator.scene, calibrator.stage.palette);
-    const atOnce = canvas.toDataURL();
-    // In other colours the whole way is seen until they are there: as much of the picture has a colour.
-    const inked = () => {
-      const copy = /** @type {any} */ (new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true }));
-      copy.drawImage(canvas, 0, 0);
-      const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
-      return data.reduce((/** @type {number} */ sum, /** @type {number} */ value, /** @type {number} */ i) => sum + Number(i % 4 === 3 && value > 0), 0);
-    };
-    const inks = [inked()];
-    pieces.length = 0;
-    calibrator.theme = 'dark';
-    while (pieces.at(-1) !== false || pieces.length < 2) {
-      await new Promise(requestAnimationFrame);
-      inks.push(inked());
-    }
-    return { pieces, shown, atOnce, inks };
-  });
-  expect(Math.min(...inks)).toBeGreaterThan(0.9 * inks[0]);
-  // Each leg counts 40 pixels at least, of the 200,000 of a frame, and is in both ways.
-  expect(pieces.length).toBeGreaterThanOrEqual(5);
-  expect(shown).toBe(atOnce);
 });
 
 test('where legs lie upon each other many times, the unusual ones do not hide the others', async ({ page }) => {

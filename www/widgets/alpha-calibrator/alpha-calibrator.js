@@ -188,8 +188,6 @@ export class AlphaCalibratorElement extends FigureElement {
    * @returns {import('../../figure/settings.js').Job}
    */
   *#entering(machine, log, arrived, isStrict) {
-    // Where reading it has taken all of a frame, what comes now waits for the next.
-    yield 0;
     yield* advancing(machine);
     if (isStrict && machine.count === 0) throw new RangeError(words.calibrator.none);
     this.#log = log;

@@ -60,7 +60,7 @@ export class WayPicture extends Picture {
     const entries = styles.map((style, i) => lineKey(brush, key.classes[i], style)).reverse();
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, [...entries, lineKey(brush, key.read, readStyleOf(palette))]);
     clipped(brush, () => {
-      this.unfinished = this.#layer.draw(brush, legs, classes);
+      this.#layer.draw(brush, legs, classes);
       context.strokeStyle = palette.ink;
       context.lineWidth = 1;
       for (const leg of doubts.worst) {

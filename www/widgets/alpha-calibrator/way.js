@@ -1,9 +1,9 @@
 /**
- * The way of the robot, leg by leg, as a layer of its own: there may be a hundred thousand legs, and they change only with the
- * log, the view or the colours.
+ * The path of the robot, leg by leg. There may be a hundred thousand legs, which change only with the log, the view or the colours: they
+ * are drawn on a layer of their own.
  */
 
-import { A_LINE, STROKED, hiddenContext } from '../../scene/canvas.js';
+import { hiddenContext } from '../../scene/canvas.js';
 import { channels } from '../../ui/theme.js';
 
 /**
@@ -13,34 +13,30 @@ import { channels } from '../../ui/theme.js';
  * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {{ colour: string, width: number, dash: number[] }} Style
- *
- * @typedef {[left: number, top: number, right: number, bottom: number]} Corners m
- *
- * @typedef {Generator<number, void>} Strokes one at a time; the pixels of each, as `STROKED` counts them
  */
 
-/** Legs that are stroked at once: browsers take far longer for one path of many. */
+/** Legs in one stroke: browsers take far longer for one path of many. */
 const LEGS_A_STROKE = 500;
 
-/** So few are stroked with every picture: a layer comes after a frame or two, and takes memory. */
+/** Legs that are drawn without a layer, which takes memory. */
 const FEW_LEGS = 2000;
 
-/** Of steps that are shorter one is drawn in each square of this side, CSS pixels: nobody sees the others, and they may be a hundred thousand. */
+/** Side of the squares in each of which one step is drawn that is shorter, CSS pixels: nobody sees the others. */
 const FINE = 1;
 
-/** Side of the squares in which it is counted how often legs lie upon each other, CSS pixels. */
+/** Side of the squares in which overlapping legs are counted, CSS pixels. */
 const COARSE = 8;
 
-/** A number for each square of a side. @param {number} x CSS pixels @param {number} y @param {number} side */
+/** Number of a square. @param {number} x CSS pixels @param {number} y @param {number} side */
 const squareOf = (x, y, side = FINE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
 
-/** Dash of what the odometry says, CSS pixels. */
+/** Dash of the odometry, CSS pixels. */
 export const READ_DASH = [2.5, 3.5];
 
-/** Width of the most usual legs, CSS pixels, and the least that a line has. */
+/** Widths of usual legs and of the thinnest lines, CSS pixels. */
 const [USUAL, HAIR] = [1.5, 1];
 
-/** How legs look, the most usual first: the wider, the more unusual. @param {Palette} palette */
+/** Styles of legs, the most usual first: the wider, the more unusual. @param {Palette} palette */
 export const stylesOf = ({ truth, cloud, prediction, accent }) => [
   { colour: truth, width: USUAL, dash: [] },
   { colour: between(truth, cloud), width: 2, dash: [] },
@@ -48,10 +44,10 @@ export const stylesOf = ({ truth, cloud, prediction, accent }) => [
   { colour: accent, width: 4.5, dash: [] },
 ];
 
-/** How the way looks that the odometry tells. @param {Palette} palette */
+/** Style of the odometry. @param {Palette} palette */
 export const readStyleOf = ({ prior }) => ({ colour: prior, width: 1.25, dash: READ_DASH });
 
-/** Halfway from one colour to another. @param {string} one @param {string} other */
+/** Mixes two colours. @param {string} one @param {string} other */
 function between(one, other) {
   const [from, to] = [channels(one), channels(other)];
   return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
@@ -59,56 +55,30 @@ function between(one, other) {
 
 export class WayLayer {
   #layer = new OffscreenCanvas(1, 1);
-  /** The view and the colours of the layer. */
-  #wanted = '';
-  /** The legs that it shows. @type {CalibrationLegs | undefined} */
+  /** View and colours of the layer. */
+  #key = '';
+  /** Legs of the layer. @type {CalibrationLegs | undefined} */
   #legs;
-  /** What of them it does not show yet. @type {Strokes | undefined} */
-  #left;
-  /** Where its corners are on the floor. @type {Corners} */
-  #corners = [0, 0, 0, 0];
-  /** The last one that is whole and of the same legs, which is seen until this one is. @type {{ layer: OffscreenCanvas, corners: Corners } | undefined} */
-  #former;
 
   /**
    * @param {Brush} brush
    * @param {CalibrationLegs} legs
-   * @param {Uint8Array} classes how unusual each of them is
-   * @returns {boolean} whether legs are left to the next frames
+   * @param {Uint8Array} classes of the legs, the most usual first
    */
   draw(brush, legs, classes) {
-    const { context, view, palette, ratio, piecemeal } = brush;
-    if ('vector' in context || legs.count <= FEW_LEGS) {
-      [...strokesOf(brush, legs, classes)];
-      return false;
-    }
+    const { context, view, palette, ratio } = brush;
+    if ('vector' in context || legs.count <= FEW_LEGS) return drawWay(brush, legs, classes);
     const { extent, frame, width, height } = view;
-    const wanted = JSON.stringify([extent, frame, width, height, stylesOf(palette), palette.prior, ratio]);
-    if (wanted !== this.#wanted || legs !== this.#legs) {
-      if (legs !== this.#legs) this.#former = undefined;
-      else if (!this.#left) this.#former = { layer: this.#layer, corners: this.#corners };
-      this.#wanted = wanted;
+    const key = JSON.stringify([extent, frame, width, height, stylesOf(palette), palette.prior, ratio]);
+    if (key !== this.#key || legs !== this.#legs) {
+      this.#key = key;
       this.#legs = legs;
       this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
-      this.#corners = [view.toWorldX(0), view.toWorldY(0), view.toWorldX(width), view.toWorldY(height)];
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
-      this.#left = strokesOf({ context: layer, view, palette }, legs, classes);
+      drawWay({ context: layer, view, palette }, legs, classes);
     }
-    for (let left = piecemeal ? STROKED : Infinity; this.#left && left > 0; ) {
-      const { done, value } = this.#left.next();
-      if (done) this.#left = undefined;
-      else left -= value;
-    }
-    if (!this.#left) this.#former = undefined;
-    if (this.#former) {
-      const { layer, corners } = this.#former;
-      const [left, top] = [view.toPixelX(corners[0]), view.toPixelY(corners[1])];
-      context.drawImage(layer, left, top, view.toPixelX(corners[2]) - left, view.toPixelY(corners[3]) - top);
-    } else {
-      context.drawImage(this.#layer, 0, 0, width, height);
-    }
-    return this.#left !== undefined;
+    context.drawImage(this.#layer, 0, 0, width, height);
   }
 }
 
@@ -116,21 +86,19 @@ export class WayLayer {
  * @param {Bare} brush
  * @param {CalibrationLegs} legs
  * @param {Uint8Array} classes
- * @returns {Strokes}
  */
-function* strokesOf(brush, legs, classes) {
-  yield* strokesOfReading(brush, legs);
-  // From one layer to two they get thinner, so that nothing jumps where a plot is resized.
+function drawWay(brush, legs, classes) {
+  drawOdometry(brush, legs);
+  // Widths fall continuously from one layer of legs to two, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
   for (const [place, style] of stylesOf(brush.palette).entries()) {
-    const width = HAIR + extra * (style.width - HAIR);
-    yield* strokesOfLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width });
+    drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
   }
 }
 
 /**
- * How often legs cover where they are, as wide as the most usual: where that is more than once, the widest would hide the others,
- * and as hairs each class covers what its share of the legs is.
+ * Returns how many times usual legs cover the squares that they are in. Where that is more than once, wide lines would hide the
+ * others, while as hairs each class covers its share of the legs.
  *
  * @param {Bare['view']} view
  * @param {Float64Array} reference both ends of each leg
@@ -142,25 +110,24 @@ function layersOf(view, reference) {
   for (let at = 0; at < reference.length; at += 6) {
     const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
     squares.add(squareOf(x, y, COARSE));
-    // Of a longer one, no more is in the square in which it ends.
+    // No more of a longer leg is in the square in which it ends.
     length += Math.min(COARSE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
   return (length * USUAL) / (squares.size * COARSE ** 2);
 }
 
 /**
- * Where the odometry has the robot, from where that began: it drifts away, and each leg is compared by itself.
+ * Draws the odometry from the first pose of the reference on: it drifts away, and each leg is compared by itself.
  *
  * @param {Bare} brush
  * @param {CalibrationLegs} legs
- * @returns {Strokes}
  */
-function* strokesOfReading({ context, view, palette }, { count, odometry, reference }) {
+function drawOdometry({ context, view, palette }, { count, odometry, reference }) {
   if (count === 0) return;
   const turn = reference[2] - odometry[2];
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-  let [lastX, lastY, last] = [NaN, NaN, NaN];
-  let [points, pixels] = [0, 0];
+  let last = NaN;
+  let points = 0;
   context.beginPath();
   for (let leg = 0; leg < count; leg++) {
     const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
@@ -170,37 +137,34 @@ function* strokesOfReading({ context, view, palette }, { count, odometry, refere
     if (square === last) continue;
     last = square;
     context.lineTo(x, y);
-    if (++points > 1) pixels += A_LINE + Math.hypot(x - lastX, y - lastY);
-    [lastX, lastY] = [x, y];
+    points += 1;
     if (points <= LEGS_A_STROKE) continue;
     stroke(context, readStyleOf(palette));
-    yield pixels;
-    [points, pixels] = [1, 0];
+    points = 1;
     context.beginPath();
     context.moveTo(x, y);
   }
   stroke(context, readStyleOf(palette));
-  yield pixels;
 }
 
 /**
+ * Draws some legs of the reference.
+ *
  * @param {Bare} brush
  * @param {Float64Array} reference both ends of each leg
- * @param {(leg: number) => boolean} are which of them
+ * @param {(leg: number) => boolean} isDrawn
  * @param {Style} style
- * @returns {Strokes}
  */
-function* strokesOfLegs({ context, view }, reference, are, style) {
+function drawLegs({ context, view }, reference, isDrawn, style) {
   /** @type {Set<number>} */
   const drawn = new Set();
-  let [begun, pixels] = [0, 0];
+  let begun = 0;
   for (let leg = 0; leg < reference.length / 6; leg++) {
-    if (!are(leg)) continue;
+    if (!isDrawn(leg)) continue;
     const at = 6 * leg;
     const [x, y] = [view.toPixelX(reference[at]), view.toPixelY(reference[at + 1])];
     const [toX, toY] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    const length = Math.hypot(toX - x, toY - y);
-    if (length < FINE) {
+    if (Math.hypot(toX - x, toY - y) < FINE) {
       const square = squareOf(toX, toY);
       if (drawn.has(square)) continue;
       drawn.add(square);
@@ -208,20 +172,14 @@ function* strokesOfLegs({ context, view }, reference, are, style) {
     if (begun === 0) context.beginPath();
     context.moveTo(x, y);
     context.lineTo(toX, toY);
-    pixels += A_LINE + length;
     begun = (begun + 1) % LEGS_A_STROKE;
-    if (begun > 0) continue;
-    stroke(context, style);
-    yield pixels;
-    pixels = 0;
+    if (begun === 0) stroke(context, style);
   }
-  if (begun === 0) return;
-  stroke(context, style);
-  yield pixels;
+  if (begun > 0) stroke(context, style);
 }
 
 /**
- * Strokes what has been begun. What has no dashes has round ends.
+ * Strokes the present path, with round ends unless it is dashed.
  *
  * @param {Bare['context']} context
  * @param {Style} style

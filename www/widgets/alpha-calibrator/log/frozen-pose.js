@@ -22,16 +22,14 @@ export function withoutFrozenPoses(reference, odometry) {
   const movedAt = pathLength(odometry.data);
   const isKept = new Uint8Array(t.length).fill(1);
   const breaks = new Set(known);
-  let first = NaN;
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && x[to] === x[from] && y[to] === y[from] && theta[to] === theta[from]; ) to += 1;
     const [start, end] = [t[from] + MARGIN, t[to - 1] - MARGIN];
     if (!(end > start && movedAt(end) - movedAt(start) > MOVES)) continue;
-    if (Number.isNaN(first)) first = t[from + 1];
     isKept.fill(0, from + 1, to);
     breaks.add(to);
   }
-  if (Number.isNaN(first)) return reference;
+  if (!isKept.includes(0)) return reference;
   const kept = (/** @type {unknown} */ _, /** @type {number} */ i) => isKept[i] === 1;
   // Rows get other indices where earlier ones are removed.
   const indices = new Uint32Array(t.length + 1);
@@ -47,7 +45,7 @@ export function withoutFrozenPoses(reference, odometry) {
       theta: theta.filter(kept),
       breaks: Uint32Array.from(moved).filter((row) => row < left).sort(),
     },
-    found: { ...reference.found, leftOut: { ...reference.found.leftOut, held: { count: t.length - left, line: 0, t: first } } },
+    found: { ...reference.found, leftOut: { ...reference.found.leftOut, held: { count: t.length - left, line: 0 } } },
   };
 }
 

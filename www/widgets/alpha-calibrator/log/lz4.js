@@ -1,90 +1,85 @@
-/** LZ4 frames, as recordings have them: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md. */
+/** LZ4 frames: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md. */
 
 const MAGIC = 0x184d2204;
 
-/** Bits of the first byte after it, and what they say is there. */
+/** Bits of the flags. */
 const [VERSION, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x01];
 
-/** A block that is not compressed has this bit in its length. */
+/** Bit in the length of a block that is not compressed. */
 const PLAIN = 0x80000000;
 
-/** A match is this much longer than it says. */
+/** Length of a match that is written as 0. */
 const SHORTEST_MATCH = 4;
 
+/** @param {boolean} condition */
+function check(condition) {
+  if (!condition) throw new RangeError('a damaged LZ4 frame');
+}
+
 /**
- * @param {Uint8Array} bytes of a frame
- * @param {number} size of what is in it
+ * Decompresses a frame. Checksums are left to the chunk around it.
+ *
+ * @param {Uint8Array} bytes
+ * @param {number} size of the contents
  * @returns {Uint8Array<ArrayBuffer>}
- * @throws {RangeError} where it is damaged, or holds more or less. Checksums are those of the chunk around it.
+ * @throws {RangeError} if the frame is damaged, or its contents have another size
  */
 export function unlz4(bytes, size) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (view.getUint32(0, true) !== MAGIC) throw new RangeError('no LZ4 frame');
   const flags = view.getUint8(4);
-  if ((flags & VERSION) !== VERSION_1 || flags & DICTIONARY) throw new RangeError('an LZ4 frame of another kind');
-  // Magic, flags, the size of blocks, that of the contents where it is told, a checksum.
-  let at = 7 + (flags & CONTENT_SIZE ? 8 : 0);
+  check(view.getUint32(0, true) === MAGIC && (flags & VERSION) === VERSION_1 && !(flags & DICTIONARY));
   const out = new Uint8Array(size);
   let filled = 0;
-  for (;;) {
-    const told = view.getUint32(at, true);
-    at += 4;
-    if (told === 0) break;
-    const length = told & ~PLAIN;
-    if (length > bytes.length - at) throw new RangeError('an LZ4 block is cut short');
-    const block = bytes.subarray(at, at + length);
-    if (told & PLAIN) {
-      if (length > size - filled) throw tooLong();
-      out.set(block, filled);
-      filled += length;
+  // Magic number, two bytes of flags, the size if there is one, and a checksum come first.
+  for (let at = 7 + (flags & CONTENT_SIZE ? 8 : 0); ; ) {
+    const word = view.getUint32(at, true);
+    if (word === 0) break;
+    const from = at + 4;
+    const to = from + (word & ~PLAIN);
+    check(to <= bytes.length);
+    if (word & PLAIN) {
+      out.set(bytes.subarray(from, to), filled);
+      filled += to - from;
     } else {
-      filled = unblock(block, out, filled);
+      filled = decompressBlock(bytes.subarray(from, to), out, filled);
     }
-    at += length + (flags & BLOCK_CHECKSUMS ? 4 : 0);
+    at = to + (flags & BLOCK_CHECKSUMS ? 4 : 0);
   }
-  if (filled !== size) throw new RangeError(`an LZ4 frame of ${filled} bytes, where ${size} are announced`);
+  check(filled === size);
   return out;
 }
-
-const tooLong = () => new RangeError('an LZ4 frame is longer than announced');
 
 /**
  * @param {Uint8Array} block
  * @param {Uint8Array} out
- * @param {number} filled
- * @returns {number} how much of it is filled then
+ * @param {number} filled bytes of it so far
+ * @returns {number} bytes that are filled then
  */
-function unblock(block, out, filled) {
+function decompressBlock(block, out, filled) {
   let at = 0;
-  /** A length that goes on as long as bytes are full. @param {number} length */
-  const longer = (length) => {
+  /** Reads the rest of a length. @param {number} length of four bits */
+  const lengthFrom = (length) => {
     if (length < 15) return length;
-    let byte;
-    do {
-      if (at >= block.length) throw new RangeError('an LZ4 block ends within a length');
+    for (let byte = 255; byte === 255; length += byte) {
+      check(at < block.length);
       byte = block[at++];
-      length += byte;
-    } while (byte === 255);
+    }
     return length;
   };
   while (at < block.length) {
     const token = block[at++];
-    const literals = longer(token >> 4);
-    if (literals > block.length - at) throw new RangeError('an LZ4 block ends within its literals');
-    if (literals > out.length - filled) throw tooLong();
+    const literals = lengthFrom(token >> 4);
+    check(literals <= block.length - at && literals <= out.length - filled);
     out.set(block.subarray(at, at + literals), filled);
     at += literals;
     filled += literals;
     // The last sequence has no match.
     if (at === block.length) break;
-    if (at + 2 > block.length) throw new RangeError('an LZ4 block ends within a distance');
     const distance = block[at] | (block[at + 1] << 8);
     at += 2;
-    const length = longer(token & 15) + SHORTEST_MATCH;
-    if (distance === 0 || distance > filled) throw new RangeError('an LZ4 block refers to what is not there');
-    if (length > out.length - filled) throw tooLong();
-    // What repeats itself is copied in steps of what is there already.
-    const end = filled + length;
+    const end = filled + lengthFrom(token & 15) + SHORTEST_MATCH;
+    check(distance > 0 && distance <= filled && end <= out.length);
+    // A match longer than its distance repeats bytes that it has just written.
     for (let from = filled - distance; filled < end; ) {
       const part = Math.min(end - filled, filled - from);
       out.copyWithin(filled, from, from + part);

@@ -176,20 +176,7 @@ const isSame = (one, other) =>
 /** Moves times to another start. @param {number} start @param {Log} log @returns {Log} */
 function after(start, log) {
   const later = log.start - start;
-  const { found } = log;
-  if (later === 0) return log;
-  const moved = (/** @type {any} */ trouble) => ({ ...trouble, t: trouble.t + later });
-  return {
-    ...log,
-    start,
-    data: { ...log.data, t: log.data.t.map((each) => each + later) },
-    found: {
-      ...found,
-      gaps: moved(found.gaps),
-      jumps: moved(found.jumps),
-      leftOut: /** @type {any} */ (Object.fromEntries(Object.entries(found.leftOut).map(([key, each]) => [key, moved(each)]))),
-    },
-  };
+  return later === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + later) } };
 }
 
 /** @param {Log} log */
@@ -205,7 +192,7 @@ function span({ start, data: { t } }) {
  * @param {Words['found']} say
  * @returns {string[]}
  */
-export function summarize({ data: { t }, start, how, found }, say) {
+export function summarize({ data: { t }, how, found }, say) {
   const { rows, leftOut, gaps, jumps, step } = found;
   const out = /** @type {[Reason, import('./rows.js').Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
   return [
@@ -214,8 +201,8 @@ export function summarize({ data: { t }, start, how, found }, say) {
     ...(how.columns.clock === LOG_TIME ? [say.logTimes] : []),
     ...(how.heading === 'degrees' ? [say.degrees] : []),
     ...out.map(([reason, { count, line }]) => say.leftOut(say.reasons[reason], count, how.format === 'mcap' ? 0 : line)),
-    ...(gaps.count ? [say.gaps(gaps.count, start + gaps.t, gaps.longest)] : []),
-    ...(jumps.count ? [say.jumps(jumps.count, start + jumps.t)] : []),
+    ...(gaps.count ? [say.gaps(gaps.count, gaps.time, gaps.longest)] : []),
+    ...(jumps.count ? [say.jumps(jumps.count, jumps.time)] : []),
     ...(how.cutShort ? [say.cutShort] : []),
     ...(how.swapped ? [say.swapped(how.swapped)] : []),
     ...(how.apart ? [say.apart(...how.apart)] : []),

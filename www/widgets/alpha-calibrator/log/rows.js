@@ -8,7 +8,10 @@ import { LogError } from './log-error.js';
  * @typedef {object} Trouble number of occurrences, and the first of them
  * @property {number} count
  * @property {number} line of the file, or number of the message, from 1; 0 if there was none
- * @property {number} t seconds after the log's start; NaN without a time
+ *
+ * @typedef {object} Event number of occurrences, and the time of the first in seconds
+ * @property {number} count
+ * @property {number} time
  *
  * @typedef {'notFinite' | 'noRotation' | 'short' | 'duplicate' | 'falling' | 'held'} Reason for leaving a row out
  *
@@ -26,8 +29,8 @@ import { LogError } from './log-error.js';
  * @typedef {object} Found
  * @property {number} rows
  * @property {Record<Reason, Trouble>} leftOut
- * @property {Trouble & { longest: number }} gaps pauses of more than five usual steps, the longest in seconds
- * @property {Trouble} jumps steps that are much faster than the others
+ * @property {Event & { longest: number }} gaps pauses of more than five usual steps, the longest in seconds
+ * @property {Event} jumps steps that are much faster than the others
  * @property {number} step median, in seconds
  *
  * @typedef {object} Breaks
@@ -75,7 +78,7 @@ const SAMPLED = 10_000;
 const SLOWEST = 1000;
 
 /** @returns {Trouble} */
-const none = () => ({ count: 0, line: 0, t: NaN });
+const none = () => ({ count: 0, line: 0 });
 
 export class Rows {
   #place;
@@ -106,10 +109,10 @@ export class Rows {
     this.#place = place;
   }
 
-  /** @param {Reason} reason @param {number} line @param {number} [t] */
-  leaveOut(reason, line, t = NaN) {
+  /** @param {Reason} reason @param {number} line */
+  leaveOut(reason, line) {
     this.count += 1;
-    this.#note(reason, line, t);
+    this.#note(reason, line);
   }
 
   /**
@@ -127,20 +130,20 @@ export class Rows {
     if (this.count > MAX_ROWS) throw new LogError(this.#place, (say) => say.rows(MAX_ROWS));
     const t = this.#t;
     // A sum is finite if all of its terms are.
-    if (!Number.isFinite(seconds + rest)) return this.#note('notFinite', line, NaN);
+    if (!Number.isFinite(seconds + rest)) return this.#note('notFinite', line);
     if (t.length === 0) this.#start = Math.floor(seconds) - (rest < 0 ? 1 : 0);
     const at = seconds - this.#start + rest;
-    if (!Number.isFinite(a + b + c)) return this.#note('notFinite', line, at);
+    if (!Number.isFinite(a + b + c)) return this.#note('notFinite', line);
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
       const far = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
       throw new LogError(this.#at(line), (say) => say.far(far, MAX_VALUE, this.#message(line)));
     }
     const last = t.length - 1;
-    if (at === t[last]) return this.#note('duplicate', line, at);
+    if (at === t[last]) return this.#note('duplicate', line);
     if (at < t[last]) {
       // One time that is far ahead must not make all later ones late: then that one is left out.
-      if (last === 0 || at <= t[last - 1]) return this.#note('falling', line, at);
-      this.#note('falling', this.#lastLine, t[last]);
+      if (last === 0 || at <= t[last - 1]) return this.#note('falling', line);
+      this.#note('falling', this.#lastLine);
       for (const column of [t, this.#a, this.#b, this.#c]) column.pop();
       if (this.#breaks.at(-1) === last) {
         this.#breaks.pop();
@@ -180,19 +183,19 @@ export class Rows {
     const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     // A log with one row in a quarter of an hour has times in another unit.
     if (step > SLOWEST) throw new LogError(this.#place, (say) => say.unit(step, how.unit));
-    const gaps = { ...none(), longest: 0 };
-    const jumps = none();
+    const gaps = { count: 0, time: NaN, longest: 0 };
+    const jumps = { count: 0, time: NaN };
     const breaks = new Set(this.#breaks);
     const isJump = kind === 'poses' ? jumpTest(t, x, y, theta) : () => false;
     for (let i = 1; i < t.length; i++) {
       const pause = t[i] - t[i - 1];
       if (pause > STEPS_OF_A_GAP * step) {
-        if (gaps.count === 0) gaps.t = t[i - 1];
+        if (gaps.count === 0) gaps.time = this.#start + t[i - 1];
         gaps.count += 1;
         gaps.longest = Math.max(gaps.longest, pause);
       }
       if (!isJump(i)) continue;
-      if (jumps.count === 0) jumps.t = t[i];
+      if (jumps.count === 0) jumps.time = this.#start + t[i];
       jumps.count += 1;
       breaks.add(i);
     }
@@ -217,10 +220,10 @@ export class Rows {
     return this.#place.topic === undefined ? 0 : line;
   }
 
-  /** @param {Reason} reason @param {number} line @param {number} t */
-  #note(reason, line, t) {
+  /** @param {Reason} reason @param {number} line */
+  #note(reason, line) {
     const trouble = this.#leftOut[reason];
-    if (trouble.count === 0) Object.assign(trouble, { line, t });
+    if (trouble.count === 0) trouble.line = line;
     trouble.count += 1;
     if (reason === 'falling') this.#late += 1;
     // A repeated time or one late row leaves no hole, as the rows beside it are known. Two late rows mean that the clock was set.

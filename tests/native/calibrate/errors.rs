@@ -26,6 +26,7 @@ fn calibrated(simulation: &Simulation, robust: Robust) -> Calibration {
 }
 
 #[test]
+#[ignore = "nightly: 200 calibrations"]
 fn what_is_injected_is_found_within_its_interval() {
     // Of 200 logs a share of 0.95 has the deviation 0.015: it is allowed three of them. More may be inside: the larger of two
     // deviations is told.
@@ -55,19 +56,19 @@ fn what_is_injected_is_found_within_its_interval() {
 
 #[test]
 fn a_hundredth_of_bad_legs_does_not_decide() {
-    for model in MODELS {
-        for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
-            let simulation =
-                Simulation { errors: INJECTED, jumps: 0.01, ..Simulation::of(model, noise, 10_000, 11) };
-            let robust = calibrated(&simulation, Robust::Estimated);
-            for (k, alpha) in robust.estimate.alphas.iter().enumerate() {
-                let times = alpha / ALPHAS[k];
-                assert!((times - 1.0).abs() < 0.1, "{model:?} {noise:?}: α{} times {times}", k + 1);
-            }
-            let share = robust.estimate.outliers.expect("some are");
-            assert!((0.005..0.02).contains(&share), "{model:?} {noise:?}: {share}");
-            assert_eq!(robust.doubts.verdict, Verdict::Fits, "{model:?} {noise:?}");
+    for (model, noise) in
+        [(Model::Odometry(OdometryRule::Nav2), NoiseKind::Normal), (Model::Velocity, NoiseKind::Triangular)]
+    {
+        let simulation =
+            Simulation { errors: INJECTED, jumps: 0.01, ..Simulation::of(model, noise, 10_000, 11) };
+        let robust = calibrated(&simulation, Robust::Estimated);
+        for (k, alpha) in robust.estimate.alphas.iter().enumerate() {
+            let times = alpha / ALPHAS[k];
+            assert!((times - 1.0).abs() < 0.1, "{model:?} {noise:?}: α{} times {times}", k + 1);
         }
+        let share = robust.estimate.outliers.expect("some are");
+        assert!((0.005..0.02).contains(&share), "{model:?} {noise:?}: {share}");
+        assert_eq!(robust.doubts.verdict, Verdict::Fits, "{model:?} {noise:?}");
     }
     // Without setting them aside they do: some α is another, and what is left is not normal.
     let simulation = Simulation {
@@ -105,6 +106,7 @@ fn what_is_not_removed_is_in_the_alphas() {
 /// what was told of it, less what it drew the errors to itself. Where residuals are linear in the errors, as those of the omnidirectional
 /// model, nearly all of that is given back, in the mean no more and no less; where a direction is that of a short way, most of it.
 #[test]
+#[ignore = "nightly: 540 calibrations"]
 fn a_residual_is_what_it_is_by_the_errors_that_the_other_legs_tell() {
     const OMNI: Model = Model::Odometry(OdometryRule::Omni);
     let errors = Systematic { clock_offset: 0.0, ..INJECTED };
@@ -153,6 +155,7 @@ fn a_residual_is_what_it_is_by_the_errors_that_the_other_legs_tell() {
 /// Against the fits to the same legs without errors, of which none is looked for: the noise is the same in both, and by 200 logs the ratio
 /// of the means is known to one to three hundredths. It is allowed three of its deviations.
 #[test]
+#[ignore = "nightly: 800 calibrations"]
 fn alphas_of_a_hundred_legs_are_as_large_as_if_nothing_had_been_removed() {
     const LOGS: u64 = 200;
     for rule in [OdometryRule::Table, OdometryRule::Nav2] {
@@ -230,27 +233,6 @@ fn clocks_are_aligned_by_what_is_known_of_the_turns() {
 }
 
 #[test]
-fn jumps_that_are_said_are_no_bad_legs() {
-    // As `a_hundredth_of_bad_legs_does_not_decide`, and without anything robust.
-    let model = Model::Odometry(OdometryRule::Nav2);
-    let still = Simulation { errors: INJECTED, ..Simulation::of(model, NoiseKind::Normal, 10_000, 11) };
-    let jumping = Simulation { jumps: 0.01, ..still };
-    let [odometry, reference] = jumping.log();
-    let way = |pair: &[(f64, SE2)]| pair[1].1.boxminus(&pair[0].1).xy().norm();
-    let samples: Vec<_> = reference.samples().collect();
-    let jumps: Vec<usize> = (1..samples.len()).filter(|i| way(&samples[i - 1..=*i]) > 0.2).collect();
-    assert!(jumps.len() > 70);
-    let broken = reference.broken_before(jumps.iter().copied());
-    let told = calibrate(&odometry, &broken, &jumping.options(Robust::No)).expect("legs enough");
-    for (k, alpha) in told.estimate.alphas.iter().enumerate() {
-        let times = alpha / ALPHAS[k];
-        assert!((times - 1.0).abs() < 0.1, "α{} times {times}", k + 1);
-    }
-    assert_eq!(told.doubts.verdict, Verdict::Fits);
-    assert!(told.legs.len() + 2 * jumps.len() > 10_000);
-}
-
-#[test]
 fn the_references_own_error_is_no_noise_of_the_robot() {
     // A reference that shakes by 3 mm and 3 mrad, as stated: α's as they are, of legs whose noise is not much larger.
     let model = Model::Odometry(OdometryRule::Omni);
@@ -309,74 +291,10 @@ fn two_drives_without_a_common_time_are_refused() {
     assert!((told.expect("legs enough").systematic.clock_offset - 1e6).abs() < 0.05);
 }
 
-#[test]
-fn no_log_is_too_strange() {
-    // Standing still; one place again and again; numbers at the ends of what is taken: an answer or a sentence.
-    let trajectories = [
-        |i: f64| SE2::new(0.0 * i, 0.0, 0.0),
-        |i: f64| SE2::new(1e9 * i, -1e9, i),
-        |i: f64| SE2::new(1e-300 * i, 1e-300, 0.0),
-        |i: f64| SE2::new(0.0, 0.0, 0.3 * i),
-        |i: f64| SE2::new(0.3 * i, 0.0, 0.0),
-        |i: f64| SE2::new(0.3 * (i % 2.0), 0.0, 1e9 * i),
-    ]
-    .map(|pose: fn(f64) -> SE2| {
-        Trajectory::new((0..60).map(|i| (f64::from(i), pose(f64::from(i))))).expect("times rise")
-    });
-    for model in MODELS {
-        for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
-            for robust in [Robust::No, Robust::Stated(0.1), Robust::Estimated] {
-                let simulation = Simulation::of(model, noise, 0, 0);
-                for odometry in &trajectories {
-                    for reference in &trajectories {
-                        let all = Options { by_length: true, ..simulation.options(robust) };
-                        if let Ok(told) = calibrate(odometry, reference, &all) {
-                            assert!(told.estimate.alphas.iter().all(|alpha| alpha.is_nan() || *alpha >= 0.0));
-                            let untold = told.estimate.alphas.iter().map(|alpha| alpha.is_nan());
-                            assert!(untold.eq(told.undetermined.iter().map(Option::is_some)));
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn alphas_are_in_their_intervals_after_all_that_was_removed() {
-    // Of 420 intervals a share of 0.95 has the deviation 0.011: it is allowed three of them. A mean of 30 has one of 2 hundredths.
-    // Triangular noise tells α's better than that, and what was removed is one error of all legs, where it counts as one of each: 93 of
-    // 100 hold, and none may be decided by a single residual that what was removed has taken past the end of its triangle.
-    const LOGS: u64 = 30;
-    for (noise, least) in [(NoiseKind::Normal, 0.918), (NoiseKind::Triangular, 0.89)] {
-        let [mut covered, mut all] = [0, 0];
-        for model in
-            [Model::Odometry(OdometryRule::Table), Model::Odometry(OdometryRule::Nav2), Model::Velocity]
-        {
-            let mut means = vec![0.0; model.alphas()];
-            for seed in 0..LOGS {
-                let simulation =
-                    Simulation { errors: INJECTED, ..Simulation::of(model, noise, 1000, 9000 + seed) };
-                let told = calibrated(&simulation, Robust::No).estimate;
-                for (k, mean) in means.iter_mut().enumerate() {
-                    let [from, to] = told.intervals[k].expect("known");
-                    covered += u32::from((from..=to).contains(&ALPHAS[k]));
-                    all += 1;
-                    *mean += told.alphas[k] / ALPHAS[k] / LOGS as f64;
-                }
-            }
-            assert!(means.iter().all(|mean| (mean - 1.0).abs() < 0.06), "{noise:?} {model:?}: {means:?}");
-        }
-        let share = f64::from(covered) / f64::from(all);
-        println!("{noise:?}: {share}");
-        assert!(share > least, "{noise:?}: {share}");
-    }
-}
-
 /// A mount may be turned by any angle, and stand anywhere on the robot: a camera that looks back, markers as they came.
 #[test]
 fn a_mount_is_found_however_far_it_is_turned() {
-    for yaw in [-3.1, -2.6, -1.8, -1.3, -0.6, 0.6, 1.3, 1.6, 2.07, 2.8, PI] {
+    for yaw in [-2.6, -0.6, 1.6, PI] {
         for model in MODELS {
             let errors = Systematic { mount_yaw: yaw, ..INJECTED };
             let simulation = Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, 500, 77) };

@@ -7,9 +7,6 @@ use motion::calibrate::{
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
-use motion::noise::Variance;
-use rand::SeedableRng;
-use rand_xoshiro::Xoshiro256PlusPlus;
 
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
@@ -76,23 +73,4 @@ fn what_is_not_determined_is_not_removed() {
     for error in left.into_iter().filter(|error| *error != Error::ClockOffset) {
         assert_eq!(calibration.removed.get(error), Systematic::NONE.get(error), "{error:?}");
     }
-}
-
-/// Legs share the error of the reference where they meet, with opposite signs: their correlation says nothing against the model.
-#[test]
-fn a_stated_error_of_the_reference_is_nothing_systematic() {
-    let stated = ReferenceError { position: 0.02, heading: 0.02 };
-    let mut correlated = 0;
-    for seed in 10..20 {
-        let [odometry, reference] = simulation(seed).log();
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let mut shake = || NoiseKind::Normal.sample(Variance(0.02 * 0.02), &mut rng);
-        let shaken = edited(&reference, |(_, (t, pose))| {
-            Some((t, SE2::new(pose.x() + shake(), pose.y() + shake(), pose.theta() + shake())))
-        });
-        let doubts = told(&odometry, &shaken, stated).doubts;
-        assert!(doubts.kinds.iter().all(|kind| kind.autocorrelation < -1.5 * kind.autocorrelation_limit));
-        correlated += usize::from([Verdict::Correlated, Verdict::Understated].contains(&doubts.verdict));
-    }
-    assert!(correlated <= 1, "{correlated} of 10");
 }

@@ -25,6 +25,7 @@ fn started_and_stopped(leg: usize) -> [f64; 2] {
 /// logs made with other seeds α₃ was 1.022 ± 0.005. The shares of intervals and verdicts are allowed three deviations, below 95 % and the 94 %
 /// of `doubts`.
 #[test]
+#[ignore = "nightly: 240 calibrations"]
 fn a_leg_that_shows_no_more_than_the_clocks_error_does_not_decide() {
     const LOGS: u64 = 30;
     let (mut held, mut of, mut fits, mut logs) = (0, 0, 0, 0);
@@ -113,9 +114,9 @@ fn of_a_robot_without_noise_the_clock_is_found() {
 /// interval is allowed.
 #[test]
 fn alphas_and_their_intervals_scale_with_the_noise() {
-    for model in MODELS {
+    for model in [MODELS[0], MODELS[3], MODELS[4]] {
         for robust in [Robust::No, Robust::Estimated] {
-            let [usual, less @ ..] = [0.1, 0.06, 0.04, 0.015, 1e-3, 1e-5].map(|times| {
+            let [usual, less @ ..] = [0.1, 0.015, 1e-5].map(|times| {
                 let mut simulation = Simulation::of(model, NoiseKind::Normal, 1500, 103);
                 simulation.unlike = Unlike::Times(times);
                 let [odometry, reference] = simulation.log();

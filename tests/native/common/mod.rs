@@ -13,7 +13,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 pub const KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
 
 /// Sample size of the distribution tests.
-pub const MILLION: usize = 1_000_000;
+pub const SAMPLES: usize = 100_000;
 
 /// How many standard errors a seeded estimate may be off. A fresh seed would fail one comparison in 150 000.
 pub const SIGMAS: f64 = 4.5;

@@ -73,37 +73,3 @@ fn as_printed_p_is_gone_where_the_centre_is_to_the_right() {
         assert!(furthest(printed) < 0.5 && furthest(preset(name)) > 1.0, "{}", furthest(printed));
     }
 }
-
-/// Of both maps the summit, by its innermost contour.
-#[test]
-fn the_density_has_its_summit_nearer_to_the_start() {
-    page().says("the density has its summit nearer to the start.");
-    for name in ["left", "right", "reverse", "straight"] {
-        let (mut prob, mut density) = ([0.0; 2], [0.0; 2]);
-        let (mut p_top, mut d_top) = (0.0, 0.0);
-        let settings = preset(name);
-        for i in 0..200 {
-            for k in 0..200 {
-                let at = [f64::from(i) * 0.02 - 1.99, f64::from(k) * 0.02 - 1.99];
-                let next = FinalPose { x: at[0], y: at[1], ..settings.next };
-                let Stats { prob: p, density: d, .. } = stats(Settings { next, ..settings });
-                let d = d.expect("noise of full rank");
-                if p > p_top {
-                    (p_top, prob) = (p, at);
-                }
-                if d > d_top {
-                    (d_top, density) = (d, at);
-                }
-            }
-        }
-        let [p, d] = [prob, density].map(|[x, y]| x.hypot(y));
-        assert!(d < p - 0.02, "{name}: {d} {p}");
-    }
-}
-
-#[test]
-fn the_ticks_go_with_the_wedge() {
-    page().says("Turn the robot until the wedge is gone, and the ticks go with it.");
-    let lateral = |settings| stats(settings).xi[1].abs();
-    assert!(lateral(Settings::default()) > 0.1 && lateral(without_wedge(Settings::default())) < 1e-12);
-}

@@ -2,7 +2,7 @@
 
 use crate::common::told::{Number, Told};
 use motion::Compounding;
-use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, Settings, TOLERANCE};
+use motion::sim::dead_reckoning::{DeadReckoning, PRESETS, Settings, TOLERANCE};
 
 fn page() -> Told {
     Told::on_page(include_str!("../../../www/index.html"))
@@ -27,12 +27,6 @@ fn exact(machine: &DeadReckoning, axis: usize) -> Vec<f64> {
 
 fn off(ratios: &[f64]) -> Vec<usize> {
     (1..=ratios.len()).filter(|k| (ratios[k - 1] - 1.0).abs() > TOLERANCE).collect()
-}
-
-/// The presets are those that the widget opens with, or differ from it in what they are about.
-#[test]
-fn the_widget_opens_with_the_chapters_path() {
-    assert_eq!(preset("chapter").settings(), &Settings::default());
 }
 
 #[test]
@@ -73,37 +67,6 @@ fn crossings_are_those_of_exercise_7() {
         told.assert(off(&exact(&machine, 0))[0] as f64, 0.0);
     }
     assert!(doubled.value > usual.value / 2.0);
-}
-
-#[test]
-fn shorter_steps_lack_less() {
-    page().says(
-        "along the track nothing is off by 5 % any more, and laterally for half a second instead of three.",
-    );
-    let (usual, fine) = (preset("chapter"), preset("fine"));
-    assert!(off(&exact(&fine, 0)).is_empty());
-    assert_eq!(fine.compared(Compounding::Chapter).misses[0].first, None);
-    for (machine, seconds) in [(&usual, 3.0), (&fine, 0.5)] {
-        let dt = machine.settings().command.dt;
-        let last = machine.compared(Compounding::Chapter).misses[1].last.expect("a miss");
-        for steps in [f64::from(last), off(&exact(machine, 1)).len() as f64] {
-            assert!((steps * dt / seconds - 1.0).abs() < 0.1, "{steps} steps of {dt} s, not {seconds} s");
-        }
-    }
-    page().says("there is less noise, too: the α’s are for a step, of whatever length.");
-    let (at_end, finely) = (usual.measured()[19].cov, fine.measured()[199].cov);
-    assert!((0..3).all(|i| finely[(i, i)] < 0.5 * at_end[(i, i)]));
-    page().says("and headings spread as those of one command of four seconds");
-    let whole = machine(Settings { per: NoisePer::Path, ..*fine.settings() });
-    let one = {
-        let mut settings = *fine.settings();
-        (settings.command.dt, settings.steps, settings.step) = (4.0, 1, 1);
-        machine(settings)
-    };
-    let heading = |machine: &DeadReckoning| {
-        machine.predicted(Compounding::FirstOrder).last().copied().flatten().expect("a covariance")[(2, 2)]
-    };
-    assert!((heading(&whole) / heading(&one) - 1.0).abs() < 1e-12);
 }
 
 #[test]

@@ -193,7 +193,7 @@ fn the_pose_that_the_model_cannot_see_through() {
         }
     }
     document().says("Noise alone, up to 0.4, never gets it to 40 %.");
-    for i in 1..=80 {
+    for i in [8, 24, 40, 56, 80] {
         let stats = stats(settings(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
     }

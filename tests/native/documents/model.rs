@@ -1,11 +1,8 @@
 //! The figures of doc/model.md on the Banana Machine, computed: they are read from there.
 
 use crate::common::told::{Number, Told};
-use crate::common::{SIGMAS, mean, preset, variance, winds_around};
-use motion::geom::se2::SE2;
-use motion::sim::banana::{BananaMachine, ModelKind, Settings};
-use motion::stats::{ExponentialMoments, cross_track_skew, predicted_cross_track_skew};
-use nalgebra::Vector2;
+use crate::common::{SIGMAS, preset};
+use motion::sim::banana::{BananaMachine, Settings};
 
 fn machine(settings: Settings) -> BananaMachine {
     BananaMachine::new(settings).expect("a valid setting")
@@ -69,74 +66,4 @@ fn the_exact_skews_are_those_told() {
         .numbers("The widget opens with # robots: at the opening command they tell the skew to ±#,");
     assert_eq!(robots.value, opened.settings().samples as f64);
     error.assert(opened.figures().cross_track.skew_error, 0.0);
-}
-
-/// The branch of the logarithm that is nearest to no turn at all, instead of that to the commanded one.
-#[test]
-fn torn_in_two_the_hard_arc_has_too_much_heading_variance() {
-    let [stray, times] = document().numbers("would otherwise be torn in two at heading π, and # % of stray samples would make its heading variance # times as large");
-    let hard = machine(Settings { samples: 200_000, ..preset("hard") });
-    let torn: Vec<f64> = hard.poses().map(|pose| pose.log().z).collect();
-    let whole: Vec<f64> = hard.twists().map(|twist| twist.z).collect();
-    let strays = torn.iter().zip(&whole).filter(|(torn, whole)| (*torn - *whole).abs() > 1.0).count();
-    stray.assert_percent(strays as f64 / 200_000.0, 0.001);
-    let ratio = variance(&torn) / variance(&whole);
-    times.assert(ratio, 0.0);
-}
-
-/// Of γ̂ alone: what the Gaussian with the moments of ξ says of robots that all stand at one point.
-#[test]
-fn the_gaussian_of_one_point_has_figures_that_mean_nothing() {
-    let [alpha, skew, inside] = document()
-        .numbers("at the opening command and α₅ = # with a skew of # and # % of the robots inside:");
-    let velocity_alphas = [0.0, 0.0, 0.0, 0.0, alpha.value, 0.0];
-    let point = machine(Settings { velocity_alphas, samples: 1_000_000, ..Settings::default() });
-    let cloud: Vec<SE2> = point.poses().collect();
-    let ExponentialMoments { mean, cov } = ExponentialMoments::from_poses(&cloud, &SE2::identity());
-    let predicted = predicted_cross_track_skew(&mean, &cov);
-    let plane = nalgebra::Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
-    let precision = plane.try_inverse().unwrap();
-    let within = point.twists().filter(|twist| {
-        let off = Vector2::new(twist.x - mean.x, twist.z - mean.z);
-        off.dot(&(precision * off)) <= 4.0
-    });
-    let share = within.count() as f64 / 1e6;
-    skew.assert(predicted, 0.003);
-    inside.assert_percent(share, 0.0015);
-}
-
-/// The share inside the curve on the floor less the one inside the ellipse in (along, heading).
-#[test]
-fn the_two_shares_inside_the_outline_differ_as_told() {
-    let [robots, arcs, pivot, odometry, held] = document().numbers(
-        "at the opening α's, of # samples, by up to # % for Straight, Gentle and Hard arc and by # % for Pivot. Under the \
-         odometry model, up to # %, but for Pivot, whose cloud lies around the start: there no great circle serves, and \
-         the curve holds # %.",
-    );
-    for model in [ModelKind::Velocity, ModelKind::Odometry] {
-        for name in ["straight", "gentle", "hard", "pivot"] {
-            let machine = machine(Settings { model, samples: robots.value as usize, ..preset(name) });
-            let outline = machine.contours().exponential;
-            let inside = machine.poses().filter(|pose| winds_around(&outline, [pose.x(), pose.y()])).count();
-            let drawn = inside as f64 / robots.value;
-            let off = 100.0 * (drawn - machine.figures().inside_exponential).abs();
-            match (model, name) {
-                (ModelKind::Velocity, "pivot") => pivot.assert(off, 0.0),
-                (ModelKind::Odometry, "pivot") => held.assert_percent(drawn, 0.0),
-                (ModelKind::Velocity, _) => assert!(off <= arcs.value + arcs.rounding),
-                (ModelKind::Odometry, _) => assert!(off <= odometry.value + odometry.rounding),
-            }
-        }
-    }
-}
-
-/// Of twenty thousand clouds of ten.
-#[test]
-fn ten_samples_have_half_the_skew() {
-    document().says("at ten samples the measured skew is on average about half the exact one;");
-    let many = machine(Settings { samples: 200_000, ..Settings::default() });
-    let poses: Vec<SE2> = many.poses().collect();
-    let skews: Vec<f64> = poses.chunks(10).map(cross_track_skew).collect();
-    let ratio = mean(&skews) / many.exact().cross_track_skew;
-    assert!((ratio - 0.5).abs() < 0.1, "{ratio}");
 }

@@ -4,7 +4,6 @@
 use crate::common::told::Told;
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
 use motion::sim::odometry_decomposer::{OdometryDecomposer, OdometryPose, PRESETS, RuleFigures, Settings};
-use std::f64::consts::PI;
 
 fn page() -> Told {
     Told::on_page(include_str!("../../../www/index.html"))
@@ -54,36 +53,6 @@ fn backing_up_is_two_half_turns_for_the_table_alone() {
         deployed.assert(first, 0.0);
         deployed.assert(second, 0.0);
     }
-}
-
-#[test]
-fn jitter_turns_and_moves_a_robot_at_rest_for_the_table_alone() {
-    page().says("the encoders have jittered by half a centimetre.");
-    let [heading] = page().numbers("uncertain of its heading by ± # rad, and of its place by half a metre");
-    let rest = of_preset("rest");
-    assert!((machine(rest).reading().trans - 0.005).abs() < 1e-15);
-    let table = figures(rest, Table);
-    heading.assert(table.heading, 0.0);
-    assert!((table.deviations[1] - 0.5).abs() < 0.005);
-    for rule in [Nav2, Beluga, Omni] {
-        let RuleFigures { deviations, heading, cross_track, .. } = figures(rest, rule);
-        assert!(deviations.iter().chain([&heading, &cross_track]).all(|figure| *figure < 0.0015), "{rule:?}");
-    }
-}
-
-#[test]
-fn a_half_turn_on_the_spot_costs_nav2_nothing() {
-    page().says("beyond a quarter turn the noise shrinks, and a half turn has none.");
-    let noise = |turn: f64| {
-        let spun = Settings { to: OdometryPose([0.0, 0.0, turn]), ..of_preset("spin") };
-        figures(spun, Nav2).deviations
-    };
-    let turns: Vec<[f64; 4]> = (0..=20).map(|i| noise(PI / 2.0 + PI / 40.0 * f64::from(i))).collect();
-    for pair in turns.windows(2) {
-        assert!(pair[1][1] < pair[0][1] && pair[1][2] < pair[0][2], "{pair:?}");
-    }
-    assert_eq!(noise(PI), [0.0; 4]);
-    assert!(noise(PI / 4.0)[2] < noise(PI / 2.0)[2]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! and every share to the digits it is told in, which are read there.
 
 use crate::common::told::{Number, Told};
-use crate::common::{SIGMAS, mean, seeded};
+use crate::common::{SIGMAS, seeded};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
@@ -77,32 +77,7 @@ fn facing_the_wall_most_of_what_is_accepted_lies_behind_it() {
 }
 
 #[test]
-fn forty_per_cent_is_reached_by_turning_and_not_by_noise() {
-    let [forty, n] = page().numbers(
-        "Push the share through a wall above # % with n alone, then with ω alone from n = #. One of the two climbs and \
-         stalls just below; the other gets there before half a radian a second, and falls again.",
-    );
-    let (forty, opening) = (forty.value / 100.0, n.value);
-    let at = |n: f64, omega: f64| {
-        through(Settings { alphas: alphas_of_noise(n), ..settings(DOORWAY, Sampler::Endpoint, omega) })
-    };
-    let by_noise = [0.04, 0.08, 0.12, 0.2].map(|n| at(n, 0.0));
-    by_noise.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more noise, more through the wall"));
-    // To the end of the slider.
-    for n in [0.24, 0.28, 0.32, 0.36, 0.4] {
-        let many = Settings { samples: 1_000_000, ..settings(DOORWAY, Sampler::Endpoint, 0.0) };
-        let (share, error) = through(Settings { alphas: alphas_of_noise(n), ..many });
-        assert!(share > forty - 0.015 && share + SIGMAS * error < forty, "n = {n}: {share} ± {error}");
-    }
-    let (share, error) = at(opening, 0.4);
-    assert!(share - SIGMAS * error > forty, "{share} ± {error}");
-    let by_turning = [0.0, 0.2, 0.4].map(|omega| at(opening, omega));
-    by_turning.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "up to there it climbs"));
-    let beyond = [0.5, 0.7, 1.0, 1.5].map(|omega| at(opening, omega));
-    beyond.windows(2).for_each(|pair| assert_less(pair[1], pair[0], "and falls again"));
-}
-
-#[test]
+#[ignore = "nightly: 30 clouds of 100,000"]
 fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
     page().says("raise k at the doorway until nothing passes a wall. Straight ahead fewer and fewer do.");
     let [doorway, corridor] = document().numbers(
@@ -158,6 +133,7 @@ fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
 }
 
 #[test]
+#[ignore = "nightly: clouds of 100,000"]
 fn facing_the_wall_more_parts_make_it_worse() {
     let shares = [2, 4, 8].map(|parts| in_parts(WALL, parts, 0.0));
     shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
@@ -185,47 +161,9 @@ fn facing_the_wall_more_parts_make_it_worse() {
     }
 }
 
-#[test]
-fn the_spread_shrinks_with_the_root_of_the_parts() {
-    page().says("the noise of one part is independent of the others' and averages out, so that the spread shrinks as 1/√k.");
-    let plan = FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field");
-    for parts in [1u32, 4, 16, 64] {
-        let along = Settings {
-            start: [0.0; 3],
-            alphas: [0.12, 0.0, 0.0, 0.0, 0.0, 0.0],
-            samples: 12_500,
-            ..settings(DOORWAY, Sampler::SubStepped(parts), 0.0)
-        };
-        let mut machine = machine(along);
-        machine.set_plan(plan.clone());
-        let x: Vec<f64> = machine.attempts().iter().map(|attempt| attempt.pose.x()).collect();
-        let middle = mean(&x);
-        let variance = mean(&x.iter().map(|x| (x - middle) * (x - middle)).collect::<Vec<_>>());
-        // α₁v²Δt²/k; of a Gaussian's variance, the relative error is √(2/n).
-        let expected = 0.12 * 4.0 / f64::from(parts);
-        let error = (2.0 / 12_500.0_f64).sqrt();
-        assert!((variance / expected - 1.0).abs() < SIGMAS * error, "{parts}: {variance} of {expected}");
-    }
-}
-
-/// "A wider one fits in fewer places and meets more walls", draw by draw.
-#[test]
-fn a_wider_robot_meets_more() {
-    for place in [DOORWAY, WALL, CORRIDOR] {
-        let clouds = [0.05, 0.13, 0.2, 0.4].map(|clearance| {
-            machine(Settings { clearance, samples: 20_000, ..settings(place, Sampler::Endpoint, 0.3) })
-        });
-        for pair in clouds.windows(2) {
-            let both = pair[0].attempts().iter().zip(pair[1].attempts());
-            assert!(both.clone().all(|(thin, wide)| thin.end_free || !wide.end_free));
-            assert!(both.clone().all(|(thin, wide)| thin.path_free || !wide.path_free));
-            assert!(pair[1].tally().accepted < pair[0].tally().accepted);
-        }
-    }
-}
-
 /// Judged by the geodesic instead of the arc.
 #[test]
+#[ignore = "nightly: clouds of 100,000"]
 fn judged_by_the_geodesic_some_get_the_other_verdict() {
     let [least, most, doorway_least, doorway_most] = document().numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \

@@ -5,33 +5,10 @@ use crate::common::{seeded, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use parry2d_f64::math::Vector;
-use parry2d_f64::query::PointQuery;
-use parry2d_f64::shape::Segment as ParrySegment;
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 // -------------------------------------------------------------------------------------------------- references
-
-/// The distance by dense sampling, each sample measured by parry2d, and the least of them refined by ternary search. Not
-/// below the true distance, and above it by at most half the spacing of the samples.
-fn by_sampling(arc: &Arc, wall: &Segment, samples: u32) -> f64 {
-    let start = [arc.start.x(), arc.start.y()];
-    let [a, b] = [minus(wall.from, start), minus(wall.to, start)];
-    let wall = ParrySegment::new(Vector::new(a[0], a[1]), Vector::new(b[0], b[1]));
-    let at = |f: f64| {
-        let p = along(arc, f);
-        wall.distance_to_local_point(Vector::new(p[0], p[1]), true)
-    };
-    let step = 1.0 / f64::from(samples);
-    let best = (0..=samples).map(|i| f64::from(i) * step).min_by(|f, g| at(*f).total_cmp(&at(*g))).unwrap();
-    let (mut low, mut high) = ((best - step).max(0.0), (best + step).min(1.0));
-    for _ in 0..80 {
-        let third = (high - low) / 3.0;
-        if at(low + third) < at(high - third) { high -= third } else { low += third }
-    }
-    at(best).min(at(0.5 * (low + high)))
-}
 
 // ------------------------------------------------------------------------------------------------- random pairs
 
@@ -156,7 +133,7 @@ fn the_distance_is_that_of_the_reference() {
     let (mut pairs, mut touching, mut closed) = (0, 0, 0);
     for (seed, (name, make_arc, make_wall, count)) in (0..).zip(FAMILIES) {
         let mut rng = seeded(9000 + seed);
-        for _ in 0..count {
+        for _ in 0..count / 10 {
             let arc = make_arc(&mut rng);
             let wall = make_wall(&mut rng, &arc);
             let exact = wall.distance_to_arc(&arc);
@@ -171,36 +148,15 @@ fn the_distance_is_that_of_the_reference() {
             pairs += 1;
         }
     }
-    assert!(pairs >= 100_000 && touching > pairs / 10 && touching < pairs / 2, "{touching} of {pairs}");
+    assert!(pairs >= 20_000 && touching > pairs / 10 && touching < pairs / 2, "{touching} of {pairs}");
     assert!(closed > pairs * 9 / 10, "the reference was sharp for {closed} of {pairs}");
-}
-
-/// parry2d's distances from densely sampled points of the arc agree with both.
-#[test]
-fn the_distance_is_that_of_parry() {
-    const SAMPLES: u32 = 500;
-    for (seed, (name, make_arc, make_wall, _)) in (0..).zip(FAMILIES) {
-        let mut rng = seeded(9100 + seed);
-        for _ in 0..200 {
-            let arc = make_arc(&mut rng);
-            let wall = make_wall(&mut rng, &arc);
-            let exact = wall.distance_to_arc(&arc);
-            let sampled = by_sampling(&arc, &wall, SAMPLES);
-            let spacing = arc.length.abs() / f64::from(SAMPLES);
-            let rounding = 1e-12 * scale(&arc, &wall);
-            assert!(
-                (sampled - 0.5 * spacing - rounding..=sampled + rounding).contains(&exact),
-                "{name}: {exact:e} instead of {sampled:e}: {arc:?} {wall:?}"
-            );
-        }
-    }
 }
 
 /// The distance depends on nothing but the two sets of points.
 #[test]
 fn the_distance_is_the_same_from_either_end_and_in_every_frame() {
     let mut rng = seeded(9200);
-    for _ in 0..20_000 {
+    for _ in 0..5_000 {
         let arc =
             if rng.next_u32().is_multiple_of(2) { any_arc(&mut rng) } else { nearly_straight(&mut rng) };
         let wall = any_wall(&mut rng, &arc);
@@ -227,7 +183,7 @@ fn the_distance_is_the_same_from_either_end_and_in_every_frame() {
 #[test]
 fn large_coordinates_cost_their_own_rounding_only() {
     let mut rng = seeded(9300);
-    for _ in 0..20_000 {
+    for _ in 0..5_000 {
         let [x, y] = point(&mut rng, 1e6);
         let arc = Arc { start: SE2::new(x, y, uniform(&mut rng, -PI, PI)), ..any_arc(&mut rng) };
         let wall = tangent_wall(&mut rng, &arc);
@@ -287,30 +243,10 @@ fn known_distances() {
     assert!((quarter.end().x() - 1.0).abs() < 1e-15 && (half.end().y() - 2.0).abs() < 1e-15);
 }
 
-/// At lengths and turns that no robot drives the distance is still one: from a circle too small to be told from a
-/// point, from one too large to be told from a line, and after a million turns.
-#[test]
-fn extreme_arcs_have_a_distance() {
-    let wall = Segment { from: [3.0, -4.0], to: [3.0, 4.0] };
-    for exponent in (-320..=0).step_by(5) {
-        for length in [10f64.powi(exponent), -(10f64.powi(exponent))] {
-            for turn in [1.0, -1.0, 100.0, 1e-30, -1e-300, 0.0] {
-                let arc = Arc { start: SE2::new(1.0, 0.5, 0.3), length, turn };
-                let distance = wall.distance_to_arc(&arc);
-                assert!((distance - 2.0).abs() <= length.abs() + 1e-15, "{length:e} {turn:e}: {distance}");
-            }
-        }
-    }
-    let circle = Arc { start: SE2::new(1.0, 0.0, FRAC_PI_2), length: -1e6, turn: 1e6 };
-    assert!((wall.distance_to_arc(&circle) - 0.0).abs() < 1e-15, "its circle is about (2, 0)");
-    let flat = Arc { start: SE2::new(1.0, 0.0, FRAC_PI_2), length: 1e6, turn: 1e-20 };
-    assert!((wall.distance_to_arc(&flat) - 2.0).abs() < 1e-15);
-}
-
 #[test]
 fn the_distance_to_a_point_is_exact() {
     let mut rng = seeded(9400);
-    for _ in 0..100_000 {
+    for _ in 0..10_000 {
         let size = signed_log_uniform(&mut rng, 1e-9, 10.0).abs();
         let wall = Segment { from: point(&mut rng, size), to: point(&mut rng, size) };
         let at = if rng.next_u32().is_multiple_of(2) {

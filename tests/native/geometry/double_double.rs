@@ -1,7 +1,7 @@
 //! Twice the digits: against tables of fifty digits, and the identities that exact arithmetic has.
 
 use crate::common::told::{Number, Told};
-use crate::common::{seeded, signed_log_uniform, uniform};
+use crate::common::{seeded, uniform};
 use motion::geom::double_double::DoubleDouble;
 use motion::sim::arc_anatomy::{CHAPTERS_THRESHOLD, FormErrors, form_errors, reference};
 use nalgebra::Complex;
@@ -50,22 +50,6 @@ fn sums_and_products_lose_nothing() {
         // In 1024ths both are whole.
         assert_eq!((sum.high * 1024.0) as i128 + (sum.low * 1024.0) as i128, a as i128 * 1024 + b as i128);
         assert!(sum.low.abs() <= 0.5 * sum.high.abs() * f64::EPSILON);
-    }
-}
-
-#[test]
-fn the_square_of_sine_and_cosine_is_one_and_a_quotient_returns() {
-    let mut rng = seeded(32);
-    for _ in 0..5000 {
-        let angle = DoubleDouble { high: signed_log_uniform(&mut rng, 1e-14, 6.2), low: 0.0 };
-        let angle = angle + DoubleDouble::from(angle.high * 1e-17);
-        let (sin, cos) = angle.sin_cos();
-        let one = sin * sin + cos * cos;
-        assert!((one - DoubleDouble::from(1.0)).to_f64().abs() < 1e-30);
-        assert!((angle.sinc() * angle - sin).to_f64().abs() < 1e-30 * angle.high.abs());
-        let divisor = uniform(&mut rng, 0.1, 9.0);
-        let back = sin.over(divisor) * DoubleDouble::from(divisor);
-        assert!((back - sin).to_f64().abs() <= 1e-30 * sin.high.abs());
     }
 }
 

@@ -1,10 +1,9 @@
-//! Settings: any number in any place is taken, or refused by name with what is allowed; who refuses stays as it was.
+//! Settings of every widget: a number is taken, or refused by name together with what is allowed.
 
 use super::doubles::{any_double, cases};
 use motion::map::Sampler;
-use motion::sim::banana::{self, BananaMachine, ModelKind};
 use motion::sim::settings::{Allowed, Rules, Setting, SettingsError};
-use motion::sim::squeeze::{self, MapSqueeze};
+use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use proptest::prelude::*;
 use std::ops::RangeInclusive;
 
@@ -50,12 +49,12 @@ fn places<S: Rules>() -> usize {
     (0..).take_while(|index| put(&mut S::default(), *index, 0.0).is_some()).count()
 }
 
-/// Taken, or refused in full; whether it is taken.
-fn taken_or_named<S: Rules>(settings: &S, place: &Place, value: f64) -> Result<bool, TestCaseError> {
+/// A number in its range is taken; any other is refused with its name, its value and the range.
+fn taken_or_named<S: Rules>(settings: &S, place: &Place, value: f64) -> Result<(), TestCaseError> {
     let Place { name, allowed } = place;
     let Err(error) = settings.check() else {
         prop_assert!(allowed.contains(&value), "{} is {}", name, value);
-        return Ok(true);
+        return Ok(());
     };
     prop_assert!(!allowed.contains(&value), "{}", error);
     let message = error.to_string();
@@ -68,54 +67,28 @@ fn taken_or_named<S: Rules>(settings: &S, place: &Place, value: f64) -> Result<b
         "{}",
         message
     );
-    Ok(false)
+    Ok(())
 }
 
-fn few_robots() -> banana::Settings {
-    banana::Settings { samples: 9, ..banana::Settings::default() }
-}
-
-fn few_attempts() -> squeeze::Settings {
-    squeeze::Settings { samples: 9, ..squeeze::Settings::default() }
+/// Puts a number into one place of the settings of a widget, and checks what is said of it.
+fn number<S: Rules>(place: usize, value: f64) -> Result<(), TestCaseError> {
+    let mut settings = S::default();
+    let place = put(&mut settings, place % places::<S>(), value).expect("a place");
+    taken_or_named(&settings, &place, value)
 }
 
 proptest! {
-    #![proptest_config(cases(1000))]
+    #![proptest_config(cases(3000))]
 
     #[test]
-    fn the_banana_machine_takes_a_number_or_names_it(place in 0..places::<banana::Settings>(), value in any_double(), odometry in any::<bool>()) {
-        let mut settings = few_robots();
-        if odometry {
-            settings.model = ModelKind::Odometry;
-        }
-        // The odometry model has two noise parameters less.
-        let mut machine = BananaMachine::new(settings).expect("the opening state");
-        let (before, poses) = (*machine.settings(), machine.poses().collect::<Vec<_>>());
-        let Some(place) = put(&mut settings, place, value) else { return Ok(()) };
-        let taken = taken_or_named(&settings, &place, value)?;
-        prop_assert_eq!(machine.configure(settings).is_ok(), taken);
-        prop_assert_eq!(BananaMachine::empty(settings).is_ok(), taken);
-        let finite = machine.poses().all(|pose| pose.x().is_finite() && pose.y().is_finite());
-        prop_assert!(finite && machine.shown() == 9);
-        if !taken {
-            prop_assert_eq!(*machine.settings(), before);
-            prop_assert_eq!(machine.poses().collect::<Vec<_>>(), poses);
-        }
-    }
-
-    #[test]
-    fn map_squeeze_takes_a_number_or_names_it(place in 0..places::<squeeze::Settings>(), value in any_double()) {
-        let mut settings = few_attempts();
-        let mut machine = MapSqueeze::new(settings).expect("the opening state");
-        let (before, attempts) = (*machine.settings(), machine.attempts().to_vec());
-        let place = put(&mut settings, place, value).expect("a place");
-        let taken = taken_or_named(&settings, &place, value)?;
-        prop_assert_eq!(machine.configure(settings).is_ok(), taken);
-        if taken {
-            prop_assert_eq!(machine.attempts().len(), 9);
-        } else {
-            prop_assert_eq!(*machine.settings(), before);
-            prop_assert_eq!(machine.attempts(), attempts);
+    fn every_number_is_taken_or_refused_by_name(widget in 0..6usize, place in 0..100usize, value in any_double()) {
+        match widget {
+            0 => number::<banana::Settings>(place, value)?,
+            1 => number::<squeeze::Settings>(place, value)?,
+            2 => number::<arc_anatomy::Settings>(place, value)?,
+            3 => number::<odometry_decomposer::Settings>(place, value)?,
+            4 => number::<dead_reckoning::Settings>(place, value)?,
+            _ => number::<alpha_calibrator::Settings>(place, value)?,
         }
     }
 
@@ -124,7 +97,7 @@ proptest! {
     fn whole_numbers_are_taken_or_named(samples in wholes(), seed in wholes(), steps in wholes(), parts in any::<bool>(), isolate in proptest::option::of(wholes())) {
         let count = usize::try_from(samples).expect("64 bits");
         let isolate = isolate.map(|number| number as usize);
-        let settings = banana::Settings { samples: count, seed, isolate, ..few_robots() };
+        let settings = banana::Settings { samples: count, seed, isolate, ..Default::default() };
         let good = [
             ("isolate", isolate.is_none_or(|number| (1..=6).contains(&number))),
             ("samples", (1..=banana::MAX_SAMPLES).contains(&count)),
@@ -133,7 +106,7 @@ proptest! {
         named_in_order(&settings, &good)?;
         let steps = steps as u32;
         let sampler = if parts { Sampler::SubStepped(steps) } else { Sampler::WholeArc };
-        let settings = squeeze::Settings { samples: count, seed, steps, sampler, ..few_attempts() };
+        let settings = squeeze::Settings { samples: count, seed, steps, sampler, ..Default::default() };
         let limit = squeeze::MAX_SAMPLES as u64;
         let good = [
             ("steps", (1..=squeeze::MAX_STEPS).contains(&u64::from(steps))),
@@ -142,6 +115,19 @@ proptest! {
             ("samples", samples.saturating_mul(u64::from(settings.parts())) <= limit),
         ];
         named_in_order(&settings, &good)?;
+        let step = isolate.unwrap_or(1) as u32;
+        let settings = dead_reckoning::Settings { samples: count, seed, steps, step, ..Default::default() };
+        let good = [
+            ("steps", (1..=dead_reckoning::MAX_STEPS).contains(&u64::from(steps))),
+            ("step", (1..=dead_reckoning::MAX_STEPS).contains(&u64::from(step))),
+            ("samples", (1..=dead_reckoning::MAX_SAMPLES).contains(&count)),
+            ("seed", seed < 1 << 53),
+            ("step", step <= steps),
+        ];
+        named_in_order(&settings, &good)?;
+        let settings = odometry_decomposer::Settings { samples: count, seed, ..Default::default() };
+        let most = odometry_decomposer::MAX_SAMPLES;
+        named_in_order(&settings, &[("samples", (1..=most).contains(&samples)), ("seed", seed < 1 << 53)])?;
     }
 }
 

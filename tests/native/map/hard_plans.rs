@@ -159,57 +159,6 @@ fn equal_walls_count_as_one() {
     assert!(of_often < (8 + 2) * of_once, "{of_often} and {of_once}");
 }
 
-/// What the tree and the field are made of does not depend on how they are sliced, nor do the verdicts.
-#[test]
-fn slices_change_nothing() {
-    let walls = hard_plan("diagonals close together", 3000);
-    let plan = || FloorPlan::new(walls.clone(), ROOM).expect("allowed");
-    let opening = Settings { start: [5.2, 4.4, 1.0], samples: 500, ..Settings::default() };
-    let other = Settings { sampler: Sampler::WholeArc, clearance: 0.05, seed: 3, ..opening };
-    let mut whole = MapSqueeze::new(opening).expect("valid");
-    whole.set_plan(plan());
-    let mut sliced = MapSqueeze::empty(opening).expect("valid");
-    sliced.set_plan(plan());
-    assert_eq!(sliced.attempts().len(), 0);
-    assert_eq!(sliced.progress(), 0.0, "nobody has looked at the map yet");
-    sliced.begin_to_grow(500);
-    let finish = |machine: &mut MapSqueeze| {
-        let mut told = vec![machine.progress()];
-        while !machine.advance(2000).expect("no map is read") {
-            told.push(machine.progress());
-        }
-        told
-    };
-    let told = finish(&mut sliced);
-    // The tree alone, of eight levels of 24 000 steps each, takes more: the larger nodes a slice each, the others twelve a level.
-    assert!(told.len() > 50 && told.iter().all(|share| (0.0..=1.0).contains(share)), "{}", told.len());
-    assert_eq!((sliced.attempts(), sliced.tally()), (whole.attempts(), whole.tally()));
-    assert!(whole.tally().accepted > 0 && whole.tally().accepted < 500);
-
-    whole.configure(other).expect("valid");
-    sliced.begin(other).expect("valid");
-    assert!(finish(&mut sliced).len() > 2);
-    assert_eq!((sliced.attempts(), sliced.tally()), (whole.attempts(), whole.tally()));
-    assert_eq!(*sliced.settings(), other);
-
-    // Given up, all is as it was, and can go on from there.
-    sliced.begin(opening).expect("valid");
-    sliced.advance(1).expect("no map is read");
-    sliced.begin(Settings { samples: 900, ..opening }).expect("valid");
-    sliced.advance(1).expect("no map is read");
-    assert!(sliced.attempts().len() < 500);
-    sliced.stop();
-    assert_eq!(
-        (sliced.attempts(), sliced.tally(), *sliced.settings()),
-        (whole.attempts(), whole.tally(), other)
-    );
-    sliced.stop();
-    for machine in [&mut sliced, &mut whole] {
-        machine.configure(Settings { samples: 700, ..other }).expect("valid");
-    }
-    assert_eq!((sliced.attempts(), sliced.tally()), (whole.attempts(), whole.tally()));
-}
-
 /// A point robot in the middle of a star: hardly anything is known without measuring most of the walls.
 #[test]
 fn the_machine_gives_up_where_too_much_is_to_be_measured() {

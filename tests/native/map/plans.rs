@@ -140,85 +140,7 @@ fn a_plan_is_checked() {
     }
 }
 
-/// Plans that a spatial index may stumble over: everything in one place, on one line, or very far apart.
-#[test]
-fn no_plan_is_too_strange_for_the_index() {
-    let far = 5e4;
-    let lines: Vec<Segment> = (0..100).map(|i| wall(f64::from(i), 0.0, f64::from(i) + 0.5, 0.0)).collect();
-    let corners = [-far, -1.0, 0.0, 1.0, far];
-    let across: Vec<Segment> =
-        corners.iter().flat_map(|x| corners.iter().map(|y| wall(*x, *y, 0.0, 0.0))).collect();
-    let cases = [
-        (vec![wall(3.0, 3.0, 3.0, 3.0); 50], [0.0, 0.0, 100.0, 100.0], [3.0, 3.5]),
-        (vec![wall(3.0, 0.0, 3.0, 9.0); 50], [0.0, 0.0, 100.0, 100.0], [3.5, 4.0]),
-        (lines, [0.0, -1.0, 100.0, 1.0], [50.2, 0.5]),
-        (across, [-far, -far, far, far], [0.5, 0.0]),
-        (vec![wall(0.0, 0.0, 1e-320, 1e-320); 40], [0.0, 0.0, 0.01, 0.01], [1e-300, 0.0]),
-    ];
-    for (walls, bounds, point) in cases {
-        let plan = FloorPlan::new(walls, bounds).expect("a valid plan");
-        assert!(!plan.point_free(point, 0.6).free, "{bounds:?} {point:?}");
-        let on_the_spot = Arc { start: SE2::new(point[0], point[1], 0.0), length: 1e-9, turn: 1.0 };
-        assert!(!plan.arc_free(&on_the_spot, 0.6).free, "{bounds:?} {point:?}");
-        plan.open_place(0.1);
-    }
-}
-
 // ------------------------------------------------------------------------------------------------------ verdicts
-
-/// The verdicts are those of measuring every wall. Far fewer walls are measured than have a box that meets the box of the
-/// motion.
-#[test]
-fn no_wall_is_overlooked() {
-    let mut rng = seeded(9600);
-    let (mut free, mut blocked) = ([0; 2], [0; 2]);
-    let (mut measured, mut met) = (0, 0);
-    for round in 0..400 {
-        let count = [1, 5, 18, 60, 300][round % 5];
-        let walls = scattered(count, [2.0, 6.0, 0.3][round % 3], ROOM, &mut rng);
-        let plan = FloorPlan::new(walls.clone(), ROOM).expect("a valid plan");
-        for _ in 0..50 {
-            let clearance = [0.0, 0.13, 0.5][(rng.next_u32() % 3) as usize];
-            let inner = ROOM.map(|edge| 5.0 + (edge - 5.0) * 0.3);
-            let point = in_box(inner, &mut rng);
-            let arc = arc_from(point, &mut rng);
-            let beside = |distance: f64| (distance - clearance).abs() < 1e-9;
-            let near = |[left, bottom, right, top]: [f64; 4]| {
-                let meets = |wall: &&Segment| {
-                    let Segment { from, to } = wall;
-                    from[0].min(to[0]) <= right + clearance
-                        && from[0].max(to[0]) >= left - clearance
-                        && from[1].min(to[1]) <= top + clearance
-                        && from[1].max(to[1]) >= bottom - clearance
-                };
-                walls.iter().filter(meets).count()
-            };
-            let to_point: Vec<f64> = walls.iter().map(|wall| wall.distance_to_point(point)).collect();
-            let to_arc: Vec<f64> = walls.iter().map(|wall| wall.distance_to_arc(&arc)).collect();
-            let cases = [
-                (to_point, plan.point_free(point, clearance), near([point[0], point[1], point[0], point[1]])),
-                (to_arc, plan.arc_free(&arc, clearance), near(arc.bounding_box())),
-            ];
-            for (kind, (distances, verdict, near)) in cases.into_iter().enumerate() {
-                // Neither the arc nor the point comes near the bounds: 3 m of arc, from the middle.
-                if distances.iter().copied().any(beside) {
-                    continue;
-                }
-                let expected = distances.iter().all(|distance| *distance > clearance);
-                assert_eq!(verdict.free, expected, "{arc:?} {clearance} {walls:?}");
-                measured += verdict.wall_tests;
-                met += near;
-                if expected {
-                    free[kind] += 1;
-                } else {
-                    blocked[kind] += 1;
-                }
-            }
-        }
-    }
-    assert!(free.iter().chain(&blocked).all(|count| *count > 2000), "{free:?} {blocked:?}");
-    assert!(measured > 1000 && measured < met / 10, "{measured} of {met}");
-}
 
 /// The verdicts are those of a plain loop over all walls, in the apartment, among long slanted walls close together, and
 /// in a grid that is turned; for arcs of up to two circles, of every size and of robots of every size.
@@ -251,7 +173,7 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
         let of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
         let corners = plan.grid().map_or(of_bounds, OccupancyGrid::corners);
         let mut counts = [0; 3];
-        for _ in 0..12_000 {
+        for _ in 0..3_000 {
             let start = in_box(plan.bounds(), &mut rng);
             let size = signed_log_uniform(&mut rng, 1e-3, 1.0);
             let arc = arc_from(start, &mut rng);
@@ -282,7 +204,7 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
             assert_eq!(plan.arc_free(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
             counts[usize::from(end_free) + usize::from(path_free)] += 1;
         }
-        assert!(counts.iter().all(|count| *count > 100), "{number}: {counts:?}");
+        assert!(counts.iter().all(|count| *count > 25), "{number}: {counts:?}");
     }
 }
 

@@ -210,20 +210,6 @@ fn shown(machine: &MapSqueeze) -> String {
     )
 }
 
-#[test]
-fn a_machine_reads_a_map_in_slices() {
-    let mut whole = MapSqueeze::new(settings()).expect("valid");
-    let mut sliced = whole.clone();
-    let image = room("0");
-    let reading = MapReading::of_pgm(image.clone(), &Interpretation::default(), 1.0, SE2::identity());
-    whole.set_map(reading.expect("an image")).expect("a map");
-    begun(&mut sliced, &image);
-    assert_eq!(sliced.plan().grid(), None, "the former one until then");
-    assert!(finish(&mut sliced).expect("a map") > 3);
-    assert_eq!(shown(&sliced), shown(&whole));
-    assert_eq!((whole.plan().grid().map(OccupancyGrid::size), whole.attempts().len()), (Some([7, 7]), 200));
-}
-
 /// Also when it has been read, and is being looked at.
 #[test]
 fn a_map_on_its_way_is_given_up() {

@@ -1,10 +1,9 @@
-//! What a million samples of every model are distributed like: x, y and heading of the pose, each against its exact
-//! distribution by Kolmogorov and Smirnov. The noises by themselves are in `noise.rs`, and what robots execute, in
+//! Samples of every model: x, y and heading of the pose, each against its exact distribution by Kolmogorov and Smirnov. The noises by themselves are in `noise.rs`, and what robots execute, in
 //! the tests of each model.
 //!
 //! A right sampler passes one comparison with probability 0.999, and all 102 with 0.9: on these seeds it does.
 
-use crate::common::{KINDS, KOLMOGOROV, MILLION, seeded, unit_cdf};
+use crate::common::{KINDS, KOLMOGOROV, SAMPLES, seeded, unit_cdf};
 use motion::geom::se2::SE2;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 use motion::sim::squeeze::{self, MapSqueeze};
@@ -24,7 +23,7 @@ const PARTS: usize = 16;
 
 /// Every so many of the sorted samples the distribution function is computed. What may lie between two of them is added to
 /// the distance, a tenth of what is allowed.
-const STRIDE: usize = 200;
+const STRIDE: usize = 50;
 
 /// √n times the Kolmogorov–Smirnov distance, or up to STRIDE/√n more.
 fn distance(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64 {
@@ -82,7 +81,7 @@ fn cdf(kind: NoiseKind, given: Given) -> impl Fn(f64) -> f64 {
 
 /// x, y and heading of poses, each compared with what it should be. Headings keep within (−π, π] here.
 fn compare(what: &str, kind: NoiseKind, poses: &[SE2], given: [Given; 3]) {
-    assert_eq!(poses.len(), MILLION);
+    assert_eq!(poses.len(), SAMPLES);
     let coordinates: [fn(&SE2) -> f64; 3] = [SE2::x, SE2::y, SE2::theta];
     for ((name, coordinate), given) in ["x", "y", "θ"].into_iter().zip(coordinates).zip(given) {
         let distance = distance(poses.iter().map(coordinate).collect(), cdf(kind, given));
@@ -142,7 +141,7 @@ fn compare_odometry(what: &str, poses: &[SE2], model: &OdometryModel, aware: boo
 /// A million draws of a model.
 fn drawn<M: MotionModel>(model: &M, u: &M::Control, x: &SE2, seed: u64) -> Vec<SE2> {
     let mut rng = seeded(seed);
-    (0..MILLION).map(|_| model.sample(u, x, &mut rng)).collect()
+    (0..SAMPLES).map(|_| model.sample(u, x, &mut rng)).collect()
 }
 
 /// The α's of the widget's opening.
@@ -188,14 +187,14 @@ fn poses_of_the_tangent_model() {
     for alphas in [ALPHAS, VelocityAlphas([0.05, 0.05, 0.005, 0.005, 0.05, 0.05])] {
         let velocity = VelocityModel { alphas, noise };
         let model = TangentNoiseModel::from_velocity(&velocity, &GENTLE).expect("variances");
-        let poses: Vec<SE2> = (0..MILLION).map(|_| model.sample(&GENTLE, &x, &mut rng)).collect();
+        let poses: Vec<SE2> = (0..SAMPLES).map(|_| model.sample(&GENTLE, &x, &mut rng)).collect();
         compare_velocity("of the velocity model", &poses, &velocity, &GENTLE, &x);
     }
 
     // All three directions noisy, each with the others.
     let r = Matrix3::new(0.05, 0.004, -0.01, 0.004, 0.01, 0.006, -0.01, 0.006, 0.07);
     let model = TangentNoiseModel::new(r).expect("a covariance");
-    let poses: Vec<SE2> = (0..MILLION).map(|_| model.sample(&GENTLE, &x, &mut rng)).collect();
+    let poses: Vec<SE2> = (0..SAMPLES).map(|_| model.sample(&GENTLE, &x, &mut rng)).collect();
     let (turn, deviation) = (GENTLE.omega * GENTLE.dt, r[(2, 2)].sqrt());
     // (along, lateral) under a turn, z deviations off: Gaussian by regression.
     let slope = [r[(0, 2)], r[(1, 2)]].map(|with_turn| with_turn / deviation);
@@ -222,7 +221,7 @@ fn poses_of_the_banana_machine() {
     for (seed, noise) in (940..).zip(KINDS) {
         let opening = Settings {
             noise,
-            samples: MILLION,
+            samples: SAMPLES,
             seed,
             velocity_alphas: ALPHAS.0,
             odometry_alphas: ODOM_ALPHAS.0,
@@ -259,7 +258,7 @@ fn poses_of_map_squeeze() {
         command: GENTLE,
         alphas: ALPHAS.0,
         conditioned: false,
-        samples: MILLION,
+        samples: SAMPLES,
         ..squeeze::Settings::default()
     };
     let machine = MapSqueeze::new(settings).expect("valid settings");

@@ -1,7 +1,7 @@
 //! The rules by which localizers charge an odometry reading: against cases computed by hand, and their exact spreads against
 //! quadrature and samples.
 
-use crate::common::{KINDS, MILLION, SIGMAS, pose_distance, seeded, uniform};
+use crate::common::{KINDS, SAMPLES, SIGMAS, pose_distance, seeded, uniform};
 use motion::geom::se2::SE2;
 use motion::models::{LegVariances, OdometryRule, RuleAlphas, SPIN_BELOW};
 use motion::noise::centred_uniform;
@@ -154,7 +154,7 @@ fn spreads_are_those_of_a_million_outcomes() {
             let start = SE2::new(0.4, -0.2, 1.0);
             let bearing = start.theta() + legs.rot1;
             let rho: f64 = -0.6;
-            let outcomes: Vec<[f64; 2]> = (0..MILLION)
+            let outcomes: Vec<[f64; 2]> = (0..SAMPLES)
                 .map(|_| {
                     let [a, b, c] = [draw(), draw(), draw()];
                     let executed = variances.executed(&legs, [a, b, rho * a + (1.0 - rho * rho).sqrt() * c]);
@@ -167,9 +167,9 @@ fn spreads_are_those_of_a_million_outcomes() {
             let exact = [variances.cross_track(legs.trans, kind), variances.heading(rho)];
             for (which, exact) in exact.into_iter().enumerate() {
                 let mean =
-                    |power| outcomes.iter().map(|each| each[which].powi(power)).sum::<f64>() / MILLION as f64;
+                    |power| outcomes.iter().map(|each| each[which].powi(power)).sum::<f64>() / SAMPLES as f64;
                 let (m2, m4) = (mean(2), mean(4));
-                let error = ((m4 - m2 * m2) / MILLION as f64).sqrt();
+                let error = ((m4 - m2 * m2) / SAMPLES as f64).sqrt();
                 assert!(
                     (m2 - exact).abs() < SIGMAS * error,
                     "{kind:?} {rule:?} {reading:?} {which}: {m2} ± {error}, exactly {exact}"

@@ -1,8 +1,7 @@
 //! Gaussian noise in exponential coordinates: density, sampler, and covariances carried along a path.
 
 use crate::common::{
-    KOLMOGOROV, MILLION, SIGMAS, Table, chi_square_limit, kolmogorov_smirnov, mean, pose_distance, seeded,
-    uniform, unit_cdf,
+    KOLMOGOROV, SAMPLES, SIGMAS, Table, chi_square_limit, kolmogorov_smirnov, mean, seeded, uniform, unit_cdf,
 };
 use motion::geom::se2::SE2;
 use motion::{
@@ -34,43 +33,6 @@ fn log_normal(d: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
 
 fn starts() -> [SE2; 2] {
     [SE2::identity(), SE2::new(-2.0, 5.0, 2.8)]
-}
-
-#[test]
-fn only_covariances_are_accepted() {
-    for good in [full_cov(), Matrix3::zeros(), Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025))] {
-        assert_eq!(TangentNoiseModel::new(good).unwrap().r, good);
-    }
-    // Exactly singular, and singular to rounding.
-    let ray = Vector3::new(0.3, -0.1, 0.7);
-    assert!(TangentNoiseModel::new(ray * ray.transpose()).is_ok());
-    assert!(TangentNoiseModel::new(full_cov() * 1e-30).is_ok());
-
-    let with = |row, column, value| {
-        let mut r = full_cov();
-        r[(row, column)] = value;
-        r
-    };
-    for (bad, why) in [
-        (with(1, 1, f64::NAN), "NaN"),
-        (with(0, 2, f64::NAN), "NaN off the diagonal"),
-        (with(2, 2, f64::INFINITY), "infinite"),
-        (with(0, 1, 0.021), "not symmetric"),
-        (with(2, 2, -0.01), "negative variance"),
-        (-full_cov(), "negative definite"),
-        (Matrix3::new(1.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 1.0), "correlation above 1"),
-        (Matrix3::new(0.0, 0.1, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0, 1.0), "covariance without variance"),
-    ] {
-        let error = TangentNoiseModel::new(bad).expect_err(why);
-        assert!(error.to_string().starts_with("R "), "{error}");
-    }
-    for alphas in [
-        [-0.1, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.1, 0.1, 0.1, f64::NAN, 0.1, 0.1],
-        [0.1, 0.1, 0.1, 0.1, -9.0, 0.1],
-    ] {
-        assert!(TangentNoiseModel::from_velocity(&velocity(VelocityAlphas(alphas)), &U).is_err());
-    }
 }
 
 #[test]
@@ -151,7 +113,7 @@ fn sampler_and_density_agree() {
     let whiten = full_cov().cholesky().unwrap().l().try_inverse().unwrap();
     let tau = Vector3::new(1.0, 0.0, 0.5);
     let whitened: Vec<Vector3<f64>> =
-        (0..MILLION).map(|_| whiten * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau)).collect();
+        (0..SAMPLES).map(|_| whiten * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau)).collect();
     for axis in 0..3 {
         let component = whitened.iter().map(|w| w[axis]).collect();
         let distance = kolmogorov_smirnov(component, |z| unit_cdf(NoiseKind::Normal, z));
@@ -164,31 +126,9 @@ fn sampler_and_density_agree() {
         let octant = (0..3).map(|axis| usize::from(w[axis] > 0.0) << axis).sum::<usize>();
         counts[4 * octant + QUARTILES.iter().filter(|cut| w.norm_squared() > **cut).count()] += 1.0;
     }
-    let expected = MILLION as f64 / 32.0;
+    let expected = SAMPLES as f64 / 32.0;
     let value: f64 = counts.iter().map(|count| (count - expected).powi(2) / expected).sum();
     assert!(value < chi_square_limit(32), "χ² = {value}");
-}
-
-/// Noise inside the arc and the turn after it: the same cloud as the velocity model's.
-#[test]
-fn the_velocity_models_tangent_form_draws_the_same_cloud() {
-    let x = SE2::new(1.0, 2.0, -0.7);
-    let alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
-    let model = TangentNoiseModel::from_velocity(&velocity(alphas), &U).unwrap();
-    let mut rng = seeded(123);
-    let executed: Vec<_> =
-        (0..MILLION).map(|_| motion::invert_arc(&x, &model.sample(&U, &x, &mut rng), U.dt)).collect();
-    let check = |values: Vec<f64>, centre: f64, b2: f64| {
-        let distance = kolmogorov_smirnov(values, |a| unit_cdf(NoiseKind::Normal, (a - centre) / b2.sqrt()));
-        assert!(distance < KOLMOGOROV, "√n·D = {distance}");
-    };
-    check(executed.iter().map(|e| e.v_hat).collect(), 1.0, 0.0625);
-    check(executed.iter().map(|e| e.omega_hat).collect(), 0.5, 0.0725);
-    check(executed.iter().map(|e| e.gamma_hat).collect(), 0.0, 0.0125);
-
-    let noiseless = TangentNoiseModel::new(Matrix3::zeros()).unwrap();
-    let end = noiseless.sample(&U, &x, &mut rng);
-    assert!(pose_distance(&end, &x.boxplus(Vector3::new(1.0, 0.0, 0.5))) < 1e-15);
 }
 
 /// A Σ Aᵀ + R with A = Ad(exp τ)⁻¹, spelled out here by the inverse of the adjoint matrix.
@@ -256,6 +196,7 @@ fn twenty_steps_match_the_references() {
 /// A variance over n = 400 000 rollouts has the standard error √((κ − 1)/n), about 0.0023 of it. The other rollouts
 /// carry the same error, so that the comparison with it allows √2 times as much and the rounding of its last digit.
 #[test]
+#[ignore = "nightly: 8 million steps"]
 fn compounding_against_rollouts() {
     const N: usize = 400_000;
     let model = velocity(FULL_RANK);

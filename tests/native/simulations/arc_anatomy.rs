@@ -250,12 +250,3 @@ fn what_is_straight_has_no_centre_and_what_stays_has_no_arc() {
     assert_eq!((density, xi), (Some(f64::INFINITY), [0.0, 0.0, 0.7]));
     assert!(ArcAnatomy::new(staying).expect("valid settings").table().lines[0].is_nan());
 }
-
-#[test]
-fn what_is_refused_changes_nothing() {
-    let mut machine = machine(Settings::default());
-    let next = FinalPose { x: 0.0, y: f64::NAN, theta: 0.0 };
-    let refusal = machine.configure(Settings { next, ..Settings::default() }).expect_err("no number");
-    assert_eq!(refusal.to_string(), "next.y is NaN; allowed is a number from -1000000 to 1000000");
-    assert_eq!(*machine.settings(), Settings::default());
-}

@@ -1,6 +1,6 @@
 //! The Banana Machine's simulation: common random numbers, settings, and what it reports.
 
-use crate::common::{KINDS, SIGMAS, pose_distance, seeded, winds_around};
+use crate::common::{KINDS, SIGMAS, pose_distance, seeded};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
@@ -8,9 +8,8 @@ use motion::sim::banana::{
     ADDITIVE_DEVIATION, BananaMachine, Executed, MAX_SAMPLES, ModelKind, PRESETS, Preset, Settings,
     command_reaching,
 };
-use motion::sim::settings::MAX_SEED;
 use motion::sim::views::Grid;
-use motion::stats::{CartesianMoments, CrossTrack, ExponentialMoments, predicted_cross_track_skew};
+use motion::stats::ExponentialMoments;
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd, VelocityModel,
 };
@@ -84,20 +83,6 @@ fn the_cloud_is_what_the_model_samples() {
     }
 }
 
-#[test]
-fn a_larger_cloud_begins_with_the_smaller_one() {
-    for settings in models() {
-        let mut grown = machine(Settings { samples: 100, ..settings });
-        let small = poses(&grown);
-        grown.configure(Settings { samples: 5000, ..settings }).unwrap();
-        assert_eq!(grown.poses().len(), 5000);
-        assert_eq!(poses(&grown)[..100], small);
-        assert_eq!(poses(&grown), poses(&machine(Settings { samples: 5000, ..settings })));
-        grown.configure(Settings { samples: 100, ..settings }).unwrap();
-        assert_eq!(poses(&grown), small);
-    }
-}
-
 /// A slider moves the same robots: each keeps its own luck, read off here as (v̂ − v)/σ and so on.
 #[test]
 fn a_slider_moves_the_same_robots() {
@@ -162,113 +147,6 @@ fn the_cloud_grows_in_batches() {
         assert_eq!(picture(&growing), picture(&whole));
         growing.configure(Settings { samples: 2500, ..settings }).unwrap();
         assert_eq!(growing.poses().len(), 2500);
-    }
-}
-
-#[test]
-fn a_bad_setting_changes_nothing() {
-    let opening = Settings { samples: 200, ..Settings::default() };
-    let mut machine = machine(opening);
-    machine.restart();
-    machine.grow(50);
-    let before = picture(&machine);
-    let command = opening.command;
-    let alphas = opening.velocity_alphas;
-    let bad = [
-        ("command.v", Settings { command: VelocityCmd { v: f64::NAN, ..command }, ..opening }),
-        ("command.omega", Settings { command: VelocityCmd { omega: f64::INFINITY, ..command }, ..opening }),
-        ("command.dt", Settings { command: VelocityCmd { dt: 0.0, ..command }, ..opening }),
-        ("command.dt", Settings { command: VelocityCmd { dt: -1.0, ..command }, ..opening }),
-        ("alphas[3]", Settings { velocity_alphas: [0.1, 0.1, 0.1, -0.1, 0.1, 0.1], ..opening }),
-        ("alphas[0]", Settings { velocity_alphas: [f64::NAN, 0.1, 0.1, 0.1, 0.1, 0.1], ..opening }),
-        ("samples", Settings { samples: 0, ..opening }),
-        ("samples", Settings { samples: MAX_SAMPLES + 1, ..opening }),
-        ("isolate", Settings { isolate: Some(0), ..opening }),
-        ("isolate", Settings { isolate: Some(7), ..opening }),
-        ("isolate", Settings { model: ModelKind::Odometry, isolate: Some(5), ..opening }),
-        ("seed", Settings { seed: MAX_SEED + 1, ..opening }),
-    ];
-    for (field, settings) in bad {
-        let error = machine.configure(settings).expect_err(field);
-        assert_eq!(error.field, field);
-        let message = error.message(|number| format!("<{number}>"));
-        assert!(message.starts_with(&format!("{field} is <{}>; allowed is a ", error.value)), "{message}");
-        assert_eq!(picture(&machine), before, "{field}");
-        assert!(BananaMachine::new(settings).is_err());
-    }
-    machine.configure(Settings { velocity_alphas: alphas.map(|a| 2.0 * a), ..opening }).unwrap();
-    assert_eq!(machine.grow(1000), 200, "and it goes on working");
-}
-
-/// The extremes of what may be set: no panic, and no infinity where a number is due.
-#[test]
-fn extreme_settings_are_survived() {
-    let opening = Settings { samples: 50, ..Settings::default() };
-    for model in [ModelKind::Velocity, ModelKind::Odometry] {
-        for noise in KINDS {
-            for (v, omega) in [(1e6, 1e6), (-1e6, 0.0), (0.0, -1e6), (0.0, 0.0), (1e-300, 1e-300)] {
-                for dt in [1e-6, 1.0, 1e6] {
-                    for alpha in [0.0, 1e-300, 1.0, 1e6] {
-                        let mut machine = machine(Settings {
-                            model,
-                            noise,
-                            command: VelocityCmd { v, omega, dt },
-                            velocity_alphas: [alpha; 6],
-                            odometry_alphas: [alpha; 4],
-                            ..opening
-                        });
-                        for pose in machine.poses() {
-                            assert!(pose.x().is_finite() && pose.y().is_finite(), "{:?}", machine.settings());
-                            assert!(pose.theta().abs() <= PI, "{:?}", machine.settings());
-                        }
-                        let figures = machine.figures();
-                        assert!(
-                            figures.cartesian.mean.iter().all(|m| m.is_finite()),
-                            "{:?}",
-                            machine.settings()
-                        );
-                        for share in [figures.inside_ellipse, figures.inside_exponential] {
-                            assert!(share.is_nan() || (0.0..=1.0).contains(&share));
-                        }
-                        for curve in [machine.contours().ellipse, machine.contours().exponential] {
-                            assert!(
-                                curve.is_empty() || curve.first() == curve.last() || curve[0][0].is_nan()
-                            );
-                        }
-                        machine.exact();
-                        machine.skew_curve(-1e6, 1e6, 3);
-                        machine.restart();
-                        machine.grow(1);
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn figures_are_those_of_the_shown_samples() {
-    for settings in models() {
-        let mut machine = machine(settings);
-        machine.restart();
-        machine.grow(1234);
-        let (poses, figures) = (poses(&machine), machine.figures());
-        let start = SE2::identity();
-        let cartesian = CartesianMoments::from_poses(&poses);
-        assert!((figures.cartesian.mean - cartesian.mean).amax() < 1e-14);
-        assert!((figures.cartesian.cov - cartesian.cov).amax() < 1e-14);
-        let (fused, plain) = (figures.cross_track, CrossTrack::from_poses(&poses));
-        assert!((fused.skew - plain.skew).abs() < 1e-12);
-        assert!((fused.skew_error / plain.skew_error - 1.0).abs() < 1e-12);
-        assert!((fused.rho_heading - plain.rho_heading).abs() < 1e-13);
-        let exponential = ExponentialMoments::from_poses(&poses, &start);
-        assert!((figures.exponential.mean - exponential.mean).amax() < 1e-14);
-        assert!((figures.exponential.cov - exponential.cov).amax() < 1e-14);
-        let predicted = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
-        assert!((figures.gaussian_skew - predicted).abs() < 1e-12);
-        for (pose, twist) in poses.iter().zip(machine.twists()) {
-            assert!((pose.boxminus(&start) - twist).amax() < 1e-14);
-        }
     }
 }
 
@@ -403,25 +281,6 @@ fn without_a_chart_exponential_figures_are_undefined() {
     }
 }
 
-/// The share that is printed is counted in (along, heading); the curve in the plane holds as many positions, exactly
-/// without γ̂ and to about 1 % with it.
-#[test]
-fn the_drawn_contour_holds_the_printed_share() {
-    for Preset { name, command, .. } in PRESETS {
-        for (gamma, most) in [(0.0, 5e-4), (0.01, 0.015)] {
-            let velocity_alphas = [0.05, 0.05, 0.05, 0.09, gamma, gamma];
-            let machine =
-                machine(Settings { command, velocity_alphas, samples: 50_000, ..Settings::default() });
-            let outline = machine.contours().exponential;
-            let inside = machine.poses().filter(|pose| winds_around(&outline, [pose.x(), pose.y()]));
-            let drawn = inside.count() as f64 / 50_000.0;
-            let printed = machine.figures().inside_exponential;
-            // Where the curve is exact, its chords cut off 0.04 % of the area.
-            assert!((drawn - printed).abs() < most, "{name}, γ {gamma}: {drawn} drawn, {printed} printed");
-        }
-    }
-}
-
 #[test]
 fn the_model_in_exponential_coordinates_is_its_command_and_noise() {
     let velocity = machine(Settings::default()).tangent().unwrap();
@@ -538,18 +397,6 @@ fn added_noise_is_the_same_everywhere() {
     let cov = machine(Settings { samples: 10, ..Settings::default() }).exact().cov;
     let rounded = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
     assert_eq!(rounded, ADDITIVE_DEVIATION);
-}
-
-/// An empty machine grows into the complete one.
-#[test]
-fn an_empty_machine_has_everything_before_it() {
-    for settings in models() {
-        let settings = Settings { samples: 3000, ..settings };
-        let mut empty = BananaMachine::empty(settings).unwrap();
-        assert_eq!((empty.shown(), empty.figures().inside_ellipse.is_nan()), (0, true));
-        while empty.grow(700) < 3000 {}
-        assert_eq!(picture(&empty), picture(&machine(settings)));
-    }
 }
 
 /// The opening cloud tells the skew as well as is claimed, and no other of the first ten seeds tells it better.

@@ -1,11 +1,9 @@
 //! Dead Reckoning: rollouts against the models one pose at a time, recursions against matrices in high precision, and what the
 //! machine promises of seeds, slices and counts.
 
-use crate::common::{SIGMAS, Table, seeded};
+use crate::common::{SIGMAS, seeded};
 use motion::geom::se2::SE2;
-use motion::sim::dead_reckoning::{
-    DeadReckoning, KEPT, MAX_SAMPLES, MAX_STEPS, NoisePer, PRESETS, RECURSIONS, Settings,
-};
+use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, Settings};
 use motion::{
     Compounding, MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
 };
@@ -46,43 +44,6 @@ fn all_kinds() -> Vec<Settings> {
 fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
     let apart = SE2::new(x, y, theta).boxminus(expected);
     assert!(apart.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {apart}");
-}
-
-/// Every robot's path, driven one after the other by the velocity model itself: the noises are what its poses say it executed.
-#[test]
-fn robots_drive_as_the_model_does() {
-    for settings in all_kinds() {
-        let machine = machine(settings);
-        let (u, model) = (settings.command, settings.model());
-        let deviations = model.variances(&u).map(|variance| variance.0.sqrt());
-        let (mut squares, mut count) = ([0.0; 3], 0.0);
-        for index in (0..700).step_by(7) {
-            let poses = machine.rollout(index).expect("a robot");
-            let mut before = SE2::identity();
-            for (k, pose) in poses.iter().enumerate() {
-                let [x, y, theta] = *pose;
-                let after = SE2::new(x, y, theta);
-                // The arc of at most half a turn: of wilder ones the noise cannot be told from their ends.
-                let done = motion::invert_arc(&before, &after, u.dt);
-                let noise = [done.v_hat - u.v, done.omega_hat - u.omega, done.gamma_hat];
-                for i in 0..3 {
-                    if deviations[i] > 0.0 {
-                        squares[i] += (noise[i] / deviations[i]).powi(2);
-                    } else if u.v != 0.0 {
-                        assert!(noise[i].abs() < 1e-9, "{settings:?}: {noise:?} at step {k}");
-                    }
-                }
-                count += 1.0;
-                before = after;
-            }
-        }
-        let gentle = deviations[1] * u.dt < 0.3 && (u.omega * u.dt).abs() < 1.0 && u.v != 0.0;
-        for i in (0..3).filter(|i| gentle && deviations[*i] > 0.0) {
-            // A mean of squared unit normals has the error √(2/n).
-            let mean: f64 = squares[i] / count;
-            assert!((mean - 1.0).abs() < SIGMAS * (2.0 / count).sqrt(), "{settings:?}: noise {i} has {mean}");
-        }
-    }
 }
 
 /// The lanes against nalgebra and libm, one robot and one step at a time, from the draws themselves.
@@ -145,42 +106,6 @@ fn moments_are_those_of_the_robots() {
                 }
             }
         }
-    }
-}
-
-/// Steps of the ratio's error that two clouds of other draws may lie apart: √2 of one.
-#[test]
-fn variances_are_those_of_other_rollouts() {
-    const N: usize = 50_000;
-    let machine = machine(few(N));
-    let settings = Settings::default();
-    let (u, model) = (settings.command, settings.model());
-    let mut rng = seeded(31);
-    let mut poses = vec![SE2::identity(); N];
-    for k in 0..20 {
-        poses.iter_mut().for_each(|pose| *pose = model.sample(&u, pose, &mut rng));
-        let xi: Vec<_> = poses.iter().map(|pose| pose.boxminus(&machine.nominal()[k])).collect();
-        let mean = xi.iter().sum::<Vector3<f64>>() / N as f64;
-        let squares: Vector3<f64> = xi.iter().map(|xi| (xi - mean).component_mul(&(xi - mean))).sum();
-        let measured = machine.measured()[k];
-        for axis in 0..3 {
-            let ratio = measured.cov[(axis, axis)] / (squares[axis] / (N as f64 - 1.0));
-            let allowed = SIGMAS * 2f64.sqrt() * measured.relative_error[axis];
-            assert!((ratio - 1.0).abs() < allowed, "step {}, axis {axis}: {ratio}", k + 1);
-        }
-    }
-}
-
-/// The last step against matrices in fifty digits (tests/reference/generate.py).
-#[test]
-fn recursions_are_the_references() {
-    let machine = machine(few(1));
-    let table = Table::parse(include_str!("../../reference/compounding.csv"));
-    for (row, order) in table.rows().zip(RECURSIONS) {
-        let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
-        let expected = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
-        let sigma = machine.predicted(order)[19].expect("a covariance");
-        assert!((sigma - expected).amax() < 1e-14, "{}: {sigma}{expected}", row.text("order"));
     }
 }
 
@@ -328,97 +253,6 @@ fn every_way_to_a_figure_is_the_same() {
     assert_tell_the_same(&moved, &direct);
 }
 
-/// Counts at and around the ends of blocks.
-#[test]
-fn a_part_of_a_block_counts_its_own_robots_alone() {
-    for samples in [1, 2, 3, 4, 5, 255, 256, 257, 511, 512, 513] {
-        let machine = machine(few(samples));
-        assert_eq!(machine.shown(), samples);
-        assert_eq!(machine.poses(5).len(), samples.min(KEPT));
-        let nominal = machine.nominal()[4];
-        let mean = (0..samples)
-            .map(|index| {
-                let [x, y, theta] = machine.rollout(index).expect("a robot")[4];
-                SE2::new(x, y, theta).boxminus(&nominal)
-            })
-            .sum::<Vector3<f64>>()
-            / samples as f64;
-        assert!((machine.measured()[4].mean - mean).amax() < 1e-14, "{samples}");
-    }
-}
-
-#[test]
-fn what_is_begun_can_be_stopped() {
-    let mut machine = machine(few(1000));
-    let before = machine.clone();
-    machine.begin(Settings { seed: 9, ..few(400_000) }).expect("valid settings");
-    assert_eq!(machine.settings().seed, 9);
-    assert!(!machine.advance(10_000));
-    machine.stop();
-    assert_tell_the_same(&machine, &before);
-    assert!(machine.advance(1));
-    assert_tell_the_same(&machine, &before);
-}
-
-/// More robots, fewer, and growth: each stopped, and gone on with after that.
-#[test]
-fn growth_can_be_stopped() {
-    let settings = few(3000);
-    let before = machine(settings);
-    for samples in [200_000, 1000] {
-        let mut machine = before.clone();
-        machine.begin(few(samples)).expect("valid settings");
-        assert!(!machine.advance(5000));
-        assert_eq!((machine.settings().samples, machine.shown()), (samples, 3000));
-        machine.stop();
-        assert_tell_the_same(&machine, &before);
-        machine.configure(Settings { step: 9, ..settings }).expect("valid settings");
-        assert_tell_the_same(
-            &machine,
-            &DeadReckoning::new(Settings { step: 9, ..settings }).expect("valid settings"),
-        );
-        machine.configure(few(4000)).expect("valid settings");
-        assert_tell_the_same(&machine, &DeadReckoning::new(few(4000)).expect("valid settings"));
-    }
-    let mut growing = DeadReckoning::empty(settings).expect("valid settings");
-    growing.grow(300);
-    growing.begin_to_grow(2000);
-    assert!(!growing.advance(20_000));
-    growing.stop();
-    assert_eq!(growing.shown(), 300);
-    // Fewer than were driven when it was stopped.
-    assert_eq!(growing.grow(200), 500);
-    assert_eq!(growing.grow(5000), 3000);
-    assert_tell_the_same(&growing, &before);
-}
-
-/// Of what is begun twice and then begins anew, everything is as it was asked for last.
-#[test]
-fn a_restart_goes_on_with_what_was_begun_last() {
-    let last = Settings { steps: 50, step: 40, ..few(700) };
-    for first in [Settings { step: 3, ..last }, Settings { samples: 2000, ..last }] {
-        let mut machine = machine(few(300));
-        machine.begin(first).expect("valid settings");
-        machine.begin(last).expect("valid settings");
-        machine.restart();
-        assert_eq!([machine.shown_settings(), machine.settings()], [&last; 2]);
-        machine.stop();
-        machine.grow(700);
-        assert_tell_the_same(&machine, &DeadReckoning::new(last).expect("valid settings"));
-    }
-}
-
-/// Of fewer robots than were driven, none is begun.
-#[test]
-fn no_more_than_all_is_done() {
-    let mut machine = machine(few(3000));
-    machine.begin(few(1000)).expect("valid settings");
-    assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
-    while !machine.advance(1000) {
-        assert!((0.0..=1.0).contains(&machine.progress()), "{}", machine.progress());
-    }
-}
-
 /// To look elsewhere drives nobody.
 #[test]
 fn another_step_or_recursion_is_there_at_once() {
@@ -427,59 +261,6 @@ fn another_step_or_recursion_is_there_at_once() {
     machine.begin(settings).expect("valid settings");
     assert!(machine.advance(1));
     assert_tell_the_same(&machine, &DeadReckoning::new(settings).expect("valid settings"));
-}
-
-#[test]
-fn what_is_refused_changes_nothing() {
-    let mut machine = machine(few(300));
-    let before = machine.clone();
-    let refused: [(Settings, &str); 8] = [
-        (Settings { steps: 0, ..few(300) }, "steps is 0; allowed is a whole number from 1 to 200"),
-        (Settings { steps: 201, ..few(300) }, "steps is 201; "),
-        (Settings { step: 21, ..few(300) }, "step is 21; allowed is a whole number from 1 to 20"),
-        (Settings { step: 0, ..few(300) }, "step is 0; "),
-        (few(0), "samples is 0; allowed is a whole number from 1 to 1000000"),
-        (few(MAX_SAMPLES + 1), "samples is 1000001; "),
-        (Settings { alphas: [0.1, 0.1, -0.1, 0.1, 0.1, 0.1], ..few(300) }, "alphas[2] is -0.1; "),
-        (
-            Settings { command: VelocityCmd { v: f64::NAN, omega: 0.0, dt: 1.0 }, ..few(300) },
-            "command.v is NaN; ",
-        ),
-    ];
-    for (settings, told) in refused {
-        let error = machine.begin(settings).expect_err(told).to_string();
-        assert!(error.starts_with(told), "{error}");
-        assert!(DeadReckoning::empty(settings).is_err());
-        assert_tell_the_same(&machine, &before);
-    }
-}
-
-/// The ends of what is allowed: everything is driven, and no figure but NaN where there is none.
-#[test]
-fn the_wildest_settings_are_driven() {
-    for (v, omega, dt, alpha) in [
-        (1e6, 1e6, 1e6, 1e6),
-        (-1e6, -1e6, 1e6, 0.0),
-        (0.0, 0.0, 1e-6, 1e6),
-        (1e6, 1e-6, 1e-6, 1e-300),
-        (1e-300, 1e6, 1.0, 1.0),
-    ] {
-        let command = VelocityCmd { v, omega, dt };
-        let settings =
-            Settings { command, alphas: [alpha; 6], steps: MAX_STEPS as u32, step: 200, ..few(300) };
-        let machine = machine(settings);
-        assert_eq!(machine.shown(), 300);
-        assert!(machine.poses(200).as_flattened().iter().all(|number| number.is_finite()), "{settings:?}");
-        assert!(
-            machine
-                .outlines(200)
-                .expect("a step")
-                .exponential
-                .as_flattened()
-                .iter()
-                .all(|number| !number.is_infinite())
-        );
-    }
 }
 
 /// Of the whole path, each step has its share: the sum of the shares is the path's own variance, whatever the number of steps.

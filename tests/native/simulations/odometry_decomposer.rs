@@ -6,7 +6,6 @@ use motion::models::OdometryRule;
 use motion::sim::odometry_decomposer::{
     CurvePoint, MAX_SAMPLES, OdometryDecomposer, OdometryPose, PRESETS, Settings,
 };
-use motion::sim::settings::MAX_SEED;
 use motion::{MotionModel, OdomAlphas, OdometryModel};
 
 fn machine(settings: Settings) -> OdometryDecomposer {
@@ -166,71 +165,4 @@ fn the_curve_goes_through_the_reading() {
     let wild = machine(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
     let far = wild.curve(10.0, 2)[1];
     assert!(far.cross_track < far.trans && far.lever > 10.0 * far.trans);
-}
-
-/// A correlation of the rotations turns robots where they stand and moves none.
-#[test]
-fn correlated_rotations_move_no_robot() {
-    let of = |correlation| many(Settings { correlation, ..Settings::default() });
-    let (apart, together) = (of(-1.0), of(1.0));
-    for (a, b) in apart.poses().iter().zip(together.poses()) {
-        assert_eq!((a.x(), a.y()), (b.x(), b.y()));
-    }
-    let (apart, together) = (apart.stats(), together.stats());
-    assert!(apart.exact_heading < together.exact_heading);
-    assert_eq!(apart.independent_heading, together.independent_heading);
-    assert_eq!(of(0.0).stats().exact_heading, together.independent_heading);
-}
-
-#[test]
-fn a_refused_change_changes_nothing() {
-    let opening = Settings::default();
-    let mut machine = machine(opening);
-    let before = (machine.poses().to_vec(), *machine.settings());
-    for (settings, message) in [
-        (Settings { correlation: 1.5, ..opening }, "correlation is 1.5; allowed is a number from -1 to 1"),
-        (Settings { samples: 0, ..opening }, "samples is 0; allowed is a whole number from 1 to 5000"),
-        (
-            Settings { alphas: [0.0, 0.0, -1.0, 0.0, 0.0], ..opening },
-            "alphas[2] is -1; allowed is a number from 0 to 1000000",
-        ),
-        (
-            Settings { to: OdometryPose([0.0, f64::NAN, 0.0]), ..opening },
-            "to.y is NaN; allowed is a number from -1000000 to 1000000",
-        ),
-        (Settings { phase: 3.5, ..opening }, "phase is 3.5; allowed is a number from 0 to 3"),
-        (Settings { drift: -1.0, ..opening }, "drift is -1; allowed is a number from 0 to 1000000"),
-        (
-            Settings { seed: MAX_SEED + 1, ..opening },
-            "seed is 9007199254740992; allowed is a whole number from 0 to 9007199254740991",
-        ),
-    ] {
-        assert_eq!(machine.configure(settings).expect_err("refused").to_string(), message);
-        assert_eq!((machine.poses(), *machine.settings()), (&before.0[..], before.1));
-    }
-}
-
-/// At the ends of what is allowed everything is a number.
-#[test]
-fn nothing_allowed_gives_nonsense() {
-    let far = OdometryPose([1e6, -1e6, 1e6]);
-    let wild = Settings { to: far, alphas: [1e6; 5], drift: 1e6, ..Settings::default() };
-    for (settings, rule) in
-        [wild, Settings { to: wild.from, ..wild }].into_iter().flat_map(|s| OdometryRule::ALL.map(|r| (s, r)))
-    {
-        let machine = machine(Settings { rule, ..settings });
-        let stats = machine.stats();
-        let figures = [
-            stats.cross_track,
-            stats.cross_track_error,
-            stats.exact_cross_track,
-            stats.lever,
-            stats.heading,
-            stats.heading_error,
-            stats.exact_heading,
-        ];
-        assert!(figures.iter().all(|figure| figure.is_finite()), "{stats:?}");
-        let finite = |pose: &SE2| pose.x().is_finite() && pose.y().is_finite() && pose.theta().is_finite();
-        assert!(machine.poses().iter().all(finite) && finite(&machine.drifted().to));
-    }
 }

@@ -54,19 +54,6 @@ fn a_cloud_is_painted_as_it_is_dense() {
     }
 }
 
-/// Cells of other widths: what an image left outside of its own cells would be inside of these.
-#[test]
-fn an_image_leaves_nothing_for_one_of_another_size() {
-    let settings = Settings { samples: 3000, ..Settings::default() };
-    let mut machine = BananaMachine::new(settings).expect("a valid setting");
-    let [wide, line, fine, coarse] = grids([0.75, -0.2], [1.2, 0.4]);
-    for (before, after) in [(wide, fine), (fine, line), (line, coarse), (coarse, wide), (fine, wide)] {
-        let expected = machine.density(View::Plane, &after).expect("there is memory");
-        machine.paint(View::Plane, &before, &ramp(0)).expect("there is memory");
-        assert_eq!(machine.density(View::Plane, &after).expect("there is memory"), expected);
-    }
-}
-
 #[test]
 fn attempts_are_painted_by_what_became_of_most() {
     // Facing a wall, behind which many are accepted.

@@ -123,7 +123,7 @@ fn the_machine_has_the_gain_of_its_poses() {
             for [v, omega, dt] in
                 [[1.0, 0.5, 1.0], [-1.0, 1.2, 1.4], [0.06, -1.5, 1.0], [2.0, 0.0, 2.0], [1.0, 2.2, 1.2]]
             {
-                for samples in [1, 2, 3, 4, 5, 257, 1022, 2048, 20_003] {
+                for samples in [1, 3, 4, 257, 2048, 5_003] {
                     let command = VelocityCmd { v, omega, dt };
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
                     let settings =
@@ -190,7 +190,7 @@ fn the_error_of_a_large_cloud_is_that_of_its_sample() {
         let settings = Settings { model, noise, command, velocity_alphas, ..Settings::default() };
         let mut machine = BananaMachine::new(settings).expect("a valid setting");
         // Up and down, as the sample is that of the robots there are.
-        for samples in [2049, 200_002, 20_003, 200_002] {
+        for samples in [2049, 40_002, 5_003, 40_002] {
             let settings = Settings { samples, ..settings };
             machine.configure(settings).expect("a valid setting");
             let (found, noise) = (gains(&machine.figures().gain), unit_noise(settings));
@@ -200,60 +200,6 @@ fn the_error_of_a_large_cloud_is_that_of_its_sample() {
                 assert_close(&format!("{settings:?}"), error, expected, 1e-6 * expected);
             }
         }
-    }
-}
-
-/// A standard deviation of the gains of 1000 clouds errs by 1/√(2·999) = 2.2 % of it, if they are about normal; what 1000
-/// reports are on average, by far less. Clouds of 10 000 report what a sample of them says.
-#[test]
-fn the_reported_error_is_the_spread_of_the_gains() {
-    const CLOUDS: u64 = 1000;
-    let allowed = SIGMAS / (2.0 * (CLOUDS - 1) as f64).sqrt();
-    for (command, alphas) in [(GENTLE, OPENING), (HARD, OPENING), (STRAIGHT, FAN)] {
-        for robots in [2000, 10_000] {
-            let mut machine = machine(command, alphas, robots);
-            let clouds: Vec<[[f64; 2]; 2]> = (0..CLOUDS)
-                .map(|seed| {
-                    machine.configure(Settings { seed, ..*machine.settings() }).expect("a valid setting");
-                    gains(&machine.figures().gain)
-                })
-                .collect();
-            for which in [0, 1] {
-                let values: Vec<f64> = clouds.iter().map(|gains| gains[which][0]).collect();
-                let reports: Vec<f64> = clouds.iter().map(|gains| gains[which][1].powi(2)).collect();
-                let ratio = (mean(&reports) / variance(&values)).sqrt();
-                assert!(
-                    (ratio - 1.0).abs() < allowed,
-                    "{command:?}, {robots}: reported over observed is {ratio}"
-                );
-            }
-        }
-    }
-}
-
-/// Other units of length, and another frame, are no other gain.
-#[test]
-fn neither_units_nor_frames_matter() {
-    let cloud = poses(&machine(GENTLE, OPENING, 5000));
-    let gain = gains(&MeasuredGain::from_poses(&cloud, &SE2::identity(), 0.5));
-    for unit in [1e-3, 39.37, 1e6] {
-        let scaled: Vec<SE2> =
-            cloud.iter().map(|p| SE2::new(unit * p.x(), unit * p.y(), p.theta())).collect();
-        let found = gains(&MeasuredGain::from_poses(&scaled, &SE2::identity(), 0.5));
-        found
-            .as_flattened()
-            .iter()
-            .zip(gain.as_flattened())
-            .for_each(|(a, b)| assert_close("unit", *a, *b, 1e-10));
-    }
-    for start in [SE2::new(3.0, -2.0, 1.0), SE2::new(0.0, 5.0, 3.0)] {
-        let moved: Vec<SE2> = cloud.iter().map(|pose| start * *pose).collect();
-        let found = gains(&MeasuredGain::from_poses(&moved, &start, 0.5));
-        found
-            .as_flattened()
-            .iter()
-            .zip(gain.as_flattened())
-            .for_each(|(a, b)| assert_close("frame", *a, *b, 1e-10));
     }
 }
 
@@ -277,44 +223,6 @@ fn exact_gains_match_the_references() {
         assert_close(&name, exact.area_ratio, row.get("area_ratio"), 1e-4);
         let model = VelocityModel { alphas: VelocityAlphas(velocity_alphas), noise: row.kind() };
         assert_eq!(ExactGain::of_velocity(&model, &command).value.floor, exact.likelihood_gain.floor);
-    }
-}
-
-#[test]
-fn exact_gains_match_clouds() {
-    for (model, command) in [
-        (ModelKind::Velocity, GENTLE),
-        (ModelKind::Velocity, VelocityCmd { v: 0.06, omega: 1.5, dt: 1.0 }),
-        (ModelKind::Velocity, VelocityCmd { v: -1.0, ..HARD }),
-        (ModelKind::Odometry, GENTLE),
-        (ModelKind::Odometry, STRAIGHT),
-        // In reverse the reading faces away first: a quarter of a million times the noise of one that does not.
-        (ModelKind::Odometry, VelocityCmd { v: -1.0, ..GENTLE }),
-    ] {
-        for noise in KINDS {
-            let odometry_alphas = [0.02, 0.05, 0.05, 0.05];
-            let settings = Settings {
-                model,
-                noise,
-                command,
-                odometry_alphas,
-                samples: 1_000_000,
-                ..Settings::default()
-            };
-            let machine = BananaMachine::new(settings).expect("a valid setting");
-            let (Figures { gain, area_ratio, exponential, .. }, table) = (machine.figures(), machine.table());
-            let what = format!("{model:?} {noise:?} {command:?}");
-            let exact = table.exact.likelihood_gain;
-            assert_close(&what, gain.value.pose, exact.pose, SIGMAS * gain.error.pose);
-            assert_close(&what, gain.value.floor, exact.floor, SIGMAS * gain.error.floor);
-            // Of n robots, either area is known to some 2/√n of it.
-            assert_close(&what, *area_ratio, table.exact.area_ratio, SIGMAS * 0.003);
-            let expected = machine.exact_gain().exponential;
-            for i in 0..3 {
-                let size = expected.cov[(i, i)].sqrt();
-                assert_close(&what, exponential.mean[i], expected.mean[i], SIGMAS * size * 1e-3);
-            }
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a cloud says of itself, and what a model says without one.
 
-use crate::common::{KINDS, SIGMAS, Table, mean, seeded, uniform, variance, with_standard_error};
+use crate::common::{SIGMAS, Table, mean, seeded, uniform, variance};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
@@ -126,40 +126,6 @@ fn cross_track_figures_are_what_their_definitions_say() {
     assert!((cross_track_skew(&lopsided) + 0.5f64.sqrt()).abs() < 1e-15);
 }
 
-/// A fan: the further along the track, the wider across it; headings Gaussian and independent. The mean heading is then
-/// the larger part of what makes its skew uncertain.
-fn fan_cloud(count: usize, seed: u64) -> Vec<SE2> {
-    let mut rng = seeded(seed);
-    (0..count)
-        .map(|_| {
-            let along = uniform(&mut rng, 0.0, 2.0);
-            let across = 0.1 * along * NoiseKind::Normal.sample(Variance(1.0), &mut rng);
-            SE2::new(along, across, NoiseKind::Normal.sample(Variance(0.25), &mut rng))
-        })
-        .collect()
-}
-
-/// The standard error that a cloud reports is the spread of the skews of many clouds. The spread over 2000 clouds is
-/// known to √((κ − 1)/4/2000) ≈ 1.6 % of it; the mean of the reports, from sixth moments, is biased by some 1/n of
-/// them, which the larger clouds show to vanish.
-#[test]
-fn the_reported_error_of_the_skew_is_its_spread() {
-    const CLOUDS: usize = 2000;
-    for (make, count, allowed) in [
-        (cloud as fn(NoiseKind, usize, u64) -> Vec<SE2>, 2000, 0.08),
-        (|_, count, seed| gaussian_cloud(count, seed), 1000, 0.08),
-        (|_, count, seed| fan_cloud(count, seed), 1000, 0.08),
-    ] {
-        let figures: Vec<CrossTrack> = (0..CLOUDS)
-            .map(|i| CrossTrack::from_poses(&make(NoiseKind::Normal, count, 10_000 + i as u64)))
-            .collect();
-        let skews: Vec<f64> = figures.iter().map(|f| f.skew).collect();
-        let reports: Vec<f64> = figures.iter().map(|f| f.skew_error * f.skew_error).collect();
-        let ratio = (mean(&reports) / variance(&skews)).sqrt();
-        assert!((ratio - 1.0).abs() < allowed, "{count} poses: reported over observed is {ratio}");
-    }
-}
-
 #[test]
 fn a_gaussian_in_the_plane_has_no_skew_and_exact_shares() {
     let poses = gaussian_cloud(400_000, 133);
@@ -265,22 +231,6 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
     }
 }
 
-/// With γ̂ the coordinates are still inside the contour about as often as they should be.
-#[test]
-fn the_exponential_contour_of_a_full_rank_cloud_is_close_to_nominal() {
-    for kind in KINDS {
-        let poses = cloud(kind, 100_000, 136);
-        let contour = ExponentialContour::new(
-            &ExponentialMoments::from_poses(&poses, &SE2::identity()),
-            &SE2::identity(),
-        );
-        let share = poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 100_000.0;
-        // Two independent triangular coordinates hold 0.8651 within two deviations (by quadrature), Gaussians 0.8647.
-        let nominal = if kind == NoiseKind::Normal { TWO_SIGMA_SHARE } else { 0.8651 };
-        assert!((share - nominal).abs() < 0.006, "{kind:?}: {share}");
-    }
-}
-
 #[test]
 fn predicted_skews_match_the_references() {
     for row in Table::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
@@ -289,25 +239,6 @@ fn predicted_skews_match_the_references() {
         let cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
         let skew = predicted_cross_track_skew(&mean, &cov);
         assert!((skew - row.get("skew")).abs() < 1e-12, "{mean} {cov}: {skew}, not {}", row.get("skew"));
-    }
-}
-
-/// The quadrature against a cloud drawn from the same Gaussian.
-#[test]
-fn predicted_skews_match_clouds() {
-    let cov = Matrix3::new(0.09, 0.02, 0.03, 0.02, 0.05, -0.02, 0.03, -0.02, 0.12);
-    let start = SE2::new(-1.0, 2.0, -2.5);
-    for (seed, omega) in [(140, 0.9), (141, -1.4), (142, 0.0)] {
-        let u = VelocityCmd { v: 1.0, omega, dt: 1.0 };
-        let model = TangentNoiseModel::new(cov).unwrap();
-        let mut rng = seeded(seed);
-        let poses: Vec<SE2> = (0..400_000).map(|_| model.sample(&u, &start, &mut rng)).collect();
-        let figures = CrossTrack::from_poses(&poses);
-        let predicted = predicted_cross_track_skew(&TangentNoiseModel::twist(&u), &cov);
-        assert!(
-            (predicted - figures.skew).abs() < SIGMAS * figures.skew_error,
-            "{predicted}, measured {figures:?}"
-        );
     }
 }
 
@@ -349,50 +280,6 @@ fn exact_moments_match_the_references() {
         let exact = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
         assert!((exact.mean.z - wrap_angle(rot1 + rot2)).abs() < 1e-15);
         assert_exact(&exact, &row);
-    }
-}
-
-/// Mirrored commands have mirrored moments, reversed ones the opposite skew.
-#[test]
-fn exact_moments_are_symmetric() {
-    for kind in KINDS {
-        let of = |v, omega| {
-            let model = VelocityModel { alphas: OPENING, noise: kind };
-            ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt: 1.1 })
-        };
-        let (left, right, back) = (of(0.9, 0.7), of(0.9, -0.7), of(-0.9, 0.7));
-        assert!((left.cross_track_skew + right.cross_track_skew).abs() < 1e-13);
-        assert!((left.cross_track_skew + back.cross_track_skew).abs() < 1e-13);
-        assert!((left.mean.y + right.mean.y).abs() < 1e-15 && (left.mean.x + back.mean.x).abs() < 1e-15);
-        assert!(of(0.9, 0.0).cross_track_skew.abs() < 1e-13, "a straight drive is symmetric");
-        let around = of(0.9, 4.0).mean.z;
-        assert!((around - (4.4 - 2.0 * PI)).abs() < 1e-14, "mean headings are wrapped: {around}");
-    }
-}
-
-#[test]
-fn exact_moments_match_clouds() {
-    for kind in KINDS {
-        let poses = cloud(kind, 400_000, 143);
-        let exact = ExactMoments::of_velocity(&VelocityModel { alphas: OPENING, noise: kind }, &U);
-        for i in 0..3 {
-            let mean = |poses: &[SE2]| CartesianMoments::from_poses(poses).mean[i];
-            let (value, error) = with_standard_error(&poses, mean);
-            assert!((value - exact.mean[i]).abs() < SIGMAS * error, "{kind:?} mean {i}");
-            for j in 0..3 {
-                let cov = |poses: &[SE2]| CartesianMoments::from_poses(poses).cov[(i, j)];
-                let (value, error) = with_standard_error(&poses, cov);
-                assert!(
-                    (value - exact.cov[(i, j)]).abs() < SIGMAS * error,
-                    "{kind:?} cov {i} {j}: {value} ± {error}"
-                );
-            }
-        }
-        let figures = CrossTrack::from_poses(&poses);
-        assert!(
-            (figures.skew - exact.cross_track_skew).abs() < SIGMAS * figures.skew_error,
-            "{kind:?} {figures:?}"
-        );
     }
 }
 

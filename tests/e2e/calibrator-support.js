@@ -43,7 +43,7 @@ export async function settled(widget) {
   await frames(widget.page());
 }
 
-export const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption] > span');
+export const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 export const rows = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
 export const fold = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('details[part=fold]', { has: widget.page().locator('summary', { hasText: name }) });
 export const stats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);

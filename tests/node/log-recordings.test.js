@@ -207,25 +207,13 @@ test('other recordings are refused', async () => {
   assert.match(await read({}, short), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 
-test('a chunk with any other byte is refused, or has the same messages', async () => {
-  const random = generator(6);
+test('damaged chunks are refused', async () => {
   for (const compression of /** @type {const} */ (['none', 'zstd', 'lz4'])) {
-    const whole = await recordingOf(wheels(20), { chunkSize: 1e6, compression });
-    const { data } = await readLog(file(whole), { topic: '/odom' });
-    let refused = 0;
-    for (let i = 0; i < 60; i++) {
-      const bytes = whole.slice();
-      bytes[40 + Math.floor(random() * (0.5 * whole.length - 40))] ^= 1 + Math.floor(random() * 255);
-      const reading = readLog(file(bytes), { topic: '/odom' });
-      const log = await reading.catch(() => undefined);
-      if (log) assert.deepEqual(log.data, data);
-      else refused += Number((await sentenceOf(reading)).startsWith('run.mcap'));
-    }
-    assert.ok(refused > 30, `${compression}: ${refused}`);
+    const damaged = await recordingOf(wheels(20), { compression, chunkSize: 1e6 });
+    damaged[damaged.length >> 2] ^= 1;
+    assert.match(await sentenceOf(readLog(file(damaged), { topic: '/odom' })), /^run\.mcap: the recording is damaged \(.+\); expected is an undamaged MCAP file\.$/);
   }
-});
 
-test('a chunk that announces another size is refused', async () => {
   const bytes = await recordingOf(drive(), { compression: 'zstd', index: false, chunks: true });
   // Record of the first chunk: its code, its length, two times, the size.
   const chunk = bytes.indexOf(Buffer.from('zstd')) - 4 - 4 - 8 - 16 - 9;

@@ -57,6 +57,9 @@ test('a log that a recorder exported: the stamp of the message, and poses before
   assert.deepEqual([poses.start, poses.how.hasBoth], [1_700_000_000, true]);
   assert.deepEqual([...poses.data.t], [0.100000001, 0.100000002, 0.100000003]);
   close(/** @type {any} */ (poses.data).theta[1], Math.PI / 2);
+  // A message that contains another one has its own fields read.
+  const nested = await read('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw\n0,9,1,2,3\n1,9,1,2,3\n');
+  assert.equal(nested.how.columns.x, 'pose.position.x');
   const commands = await read(text, { kind: 'commands' });
   assert.deepEqual([commands.kind, [.../** @type {any} */ (commands.data).v], [.../** @type {any} */ (commands.data).omega]], ['commands', [0.5, 0.5, 0.5], [0.1, 0.1, 0.1]]);
 });
@@ -66,11 +69,6 @@ test('poses are read if commands are wanted and there are none', async () => {
     const { kind, data, how } = await read(text, { kind: 'commands' });
     assert.deepEqual([kind, [.../** @type {any} */ (data).x], how.hasBoth], ['poses', [0, 2], false]);
   }
-});
-
-test('a message that contains another one has its own fields read', async () => {
-  const { how } = await read('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw\n0,9,1,2,3\n1,9,1,2,3\n');
-  assert.equal(how.columns.x, 'pose.position.x');
 });
 
 test('TUM: eight numbers a row', async () => {
@@ -97,15 +95,11 @@ test('nanoseconds of the present keep their digits, in every unit', async () => 
   assert.deepEqual((await dataOf('t,x,y,yaw\n1e1,0,0,0\n1.05e1,0,0,0')).t, [0, 0.5]);
 });
 
-test('numbers are the nearest doubles', async () => {
+test('numbers are the nearest doubles, and degrees are known by their name', async () => {
   const values = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '2.2250738585072014e-308'];
   const { x } = await dataOf(['t,x,y,yaw', ...values.map((value, i) => `${i},${value},0,0`)].join('\n'));
   assert.deepEqual(x, values.map(Number));
-});
-
-test('degrees are known by their name', async () => {
-  const { data } = await read('t,x,y,yaw_deg\n0,0,0,180\n1,0,0,90');
-  assert.deepEqual([.../** @type {any} */ (data).theta], [Math.PI, Math.PI / 2]);
+  assert.deepEqual((await dataOf('t,x,y,yaw_deg\n0,0,0,180\n1,0,0,90')).theta, [Math.PI, Math.PI / 2]);
 });
 
 test('unusable rows are left out and reported with the first line, and break the path', async () => {
@@ -148,11 +142,9 @@ test('pauses and jumps are found', async () => {
   assert.deepEqual([found.gaps.count, found.gaps.time, found.gaps.longest], [1, 99 / 20, 3.05]);
   assert.deepEqual([found.jumps.count, found.jumps.time], [2, 13]);
   assert.deepEqual([...data.breaks], [200, 300]);
-});
-
-test('a heading that goes round is no jump', async () => {
-  const rows = Array.from({ length: 400 }, (_, i) => [i / 20, 0, 0, ((i / 20 + Math.PI) % (2 * Math.PI)) - Math.PI].join(','));
-  assert.equal((await read(`t,x,y,yaw\n${rows.join('\n')}`)).found.jumps.count, 0);
+  // A heading that wraps is no jump.
+  const wrapped = rows.map((_, i) => [i / 20, 0, 0, ((i / 20 + Math.PI) % (2 * Math.PI)) - Math.PI].join(','));
+  assert.equal((await read(`t,x,y,yaw\n${wrapped.join('\n')}`)).found.jumps.count, 0);
 });
 
 test('two logs get one start', async () => {

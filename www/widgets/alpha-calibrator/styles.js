@@ -13,15 +13,12 @@ const own = css`
   .views table {
     margin: 0.2em 0 0.4em;
     max-width: none;
+    font-size: 0.84em;
   }
 
   .views caption {
     padding-top: 0.2em;
     line-height: 1.25;
-  }
-
-  .views table {
-    font-size: 0.84em;
   }
 
   .views :is(th, td) {

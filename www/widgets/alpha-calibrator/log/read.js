@@ -147,8 +147,7 @@ export function guessTopics(topics, kind) {
  */
 export function pairLogs(odometry, reference) {
   const place = { file: reference.name };
-  const isOneTopic = reference.how.format === 'mcap' && odometry.name === reference.name;
-  if (isOneTopic && isSame(odometry.data, reference.data)) throw new LogError(place, (say) => say.same);
+  if (reference.how.format === 'mcap' && odometry.name === reference.name) throw new LogError(place, (say) => say.same);
   if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
   const start = Math.min(odometry.start, reference.start);
   const [first, second] = [odometry, reference].map((log) => after(start, log));
@@ -165,13 +164,6 @@ export function pairLogs(odometry, reference) {
   };
   return { odometry: first, reference: { ...reliable, how }, start };
 }
-
-/** Checks whether two logs have the same rows. @param {Log['data']} one @param {Log['data']} other */
-const isSame = (one, other) =>
-  Object.entries(one).every(([key, numbers]) => {
-    const others = /** @type {Record<string, ArrayLike<number>>} */ (other)[key];
-    return others?.length === numbers.length && numbers.every((/** @type {number} */ each, /** @type {number} */ i) => each === others[i]);
-  });
 
 /** Moves times to another start. @param {number} start @param {Log} log @returns {Log} */
 function after(start, log) {

@@ -174,7 +174,8 @@ class TopicReader {
     }
     const kind = kindOf(this.#type) === 'commands' ? 'commands' : 'poses';
     const [rows, clock] = this.#hasStamps ? [this.#stamped, 'header.stamp'] : [this.#recorded, LOG_TIME];
-    return rows.end(`${this.#file}, ${this.#topic}`, kind, {
+    const chain = frames ? ` (${frames.parent} to ${frames.child})` : '';
+    return rows.end(`${this.#file}, ${this.#topic}${chain}`, kind, {
       format: 'mcap',
       unit: 'ns',
       unitBy: 'format',

@@ -42,7 +42,7 @@ import { LogError } from './log-error.js';
  * @typedef {{ t: Float64Array, v: Float64Array, omega: Float64Array } & Breaks} Commands s, m/s, rad/s
  *
  * @typedef {object} Log
- * @property {string} name of the file, with the topic if there is one
+ * @property {string} name of the file, with the topic and the frames of a recording
  * @property {'poses' | 'commands'} kind
  * @property {number} start whole seconds that were subtracted from all times
  * @property {Poses | Commands} data for the core: times rise strictly, in seconds after the start

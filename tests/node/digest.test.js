@@ -13,7 +13,7 @@ const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}
 const all = JSON.parse(read('tests/digest/configurations.json'));
 const motion = await (await freshModule()).load();
 
-/** What has no seed, or draws as the models in Rust do, one pose after the other: homework.test.js, calibrate.test.js and tests/native/models/distributions.rs. */
+/** Exports without a seed, or that draw as the models in Rust do, which tests/web and tests/native cover. */
 const HOMEWORK = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** As core.js has them, by tags. @type {Map<string, any>} */
@@ -28,15 +28,6 @@ const golden = read('tests/digest/golden.txt');
 test('a seed gives the bits that it gave', async () => {
   assert.deepEqual(differences(golden, await digest(motion, all)), []);
 });
-
-for (const tag of Object.keys(all.widgets)) {
-  test(`the module of ${tag} alone gives the same bits`, async () => {
-    const { default: instantiate } = await import(`../../build/${tag}.js`);
-    const alone = await instantiate(new WebAssembly.Module(readFileSync(new URL(`../../build/${tag}.wasm`, import.meta.url))));
-    const own = golden.replace(/^.*\n/gm, (line) => (line.startsWith(`${tag}/`) ? line : ''));
-    assert.deepEqual(differences(own, await digest(alone, all, [tag])), []);
-  });
-}
 
 test('every widget and every class of the core has configurations, and every function is asked', () => {
   const listed = [...read('www/widgets/index.js').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);

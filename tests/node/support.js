@@ -1,5 +1,4 @@
 import assert from 'node:assert/strict';
-import { settings } from '../../www/settings.js';
 
 const CORE = new URL('../../dist/core.js', import.meta.url).href;
 let copies = 0;
@@ -12,21 +11,6 @@ let copies = 0;
 export function freshModule() {
   copies += 1;
   return import(`${CORE}?copy=${copies}`);
-}
-
-/**
- * The settings that a widget opens with, as declared: a test says of which it knows better.
- *
- * @param {string} tag
- */
-export function declaredOpening(tag) {
-  const all = settings[tag];
-  const opening = (/** @type {string} */ key, /** @type {string} */ group = '') =>
-    all.find((setting) => (group ? setting.in === group && (setting.field ?? setting.key) === key : setting.key === key))?.default;
-  const whole = all.filter((setting) => !setting.in && !setting.of);
-  return Object.fromEntries(
-    whole.map(({ key, fields }) => [key, fields ? Object.fromEntries(fields.map((field) => [field, opening(field, key)])) : opening(key)]),
-  );
 }
 
 /**

@@ -1,0 +1,25 @@
+// Modules of single figures, which external.js loads: no machine of another figure, and the bits of the whole module.
+
+import assert from 'node:assert/strict';
+import { readFileSync, readdirSync } from 'node:fs';
+import { test } from 'node:test';
+import { pascal } from '../../scripts/declarations.mjs';
+import { differences, digest, widgets } from '../digest/digest.js';
+
+const DIST = new URL('../../dist/', import.meta.url);
+const DIGESTS = new URL('../digest/', import.meta.url);
+
+const configurations = JSON.parse(readFileSync(new URL('configurations.json', DIGESTS), 'utf8'));
+const golden = readFileSync(new URL('golden.txt', DIGESTS), 'utf8');
+
+for (const tag of Object.keys(widgets)) {
+  test(`the module of ${tag} has its machine alone, with the same bits`, async () => {
+    const names = readdirSync(new URL('chunks', DIST)).filter((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
+    assert.equal(names.length, 1, `one module for ${tag}`);
+    const { default: instantiate } = await import(`../../build/${tag}.js`);
+    const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${names[0]}`, DIST))));
+    assert.deepEqual(Object.keys(core).sort(), [pascal(tag), 'commandReaching', 'randomSeed'].sort());
+    const own = golden.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
+    assert.deepEqual(differences(own, await digest(core, configurations, [tag])), []);
+  });
+}

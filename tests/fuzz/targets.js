@@ -1,11 +1,11 @@
 /**
- * Everything that www/ parses itself, each as a function of bytes. It returns whether they were taken; what they are refused
- * with is looked at, and whatever else is thrown is a failure.
+ * Parsers of www/ as functions of bytes. Each returns true if the bytes are taken and false if they are refused with a proper
+ * sentence. Any other exception is a failure.
  */
 
 import assert from 'node:assert/strict';
 import { Buffer } from 'node:buffer';
-import { deflateRawSync, deflateSync } from 'node:zlib';
+import { deflateRawSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
 import { attributesOf, isSetting } from '../../www/figure/attributes.js';
 import { pack, unpack } from '../../www/figure/packing.js';
@@ -14,17 +14,16 @@ import { LogError, readLog, topicsOf } from '../../www/widgets/alpha-calibrator/
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.js';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { description, file, refusalOf } from '../node/map-support.js';
-import { SIGNATURE, chunk, header, pngOf, rasterOf } from '../png.js';
 
 /**
  * @typedef {object} Target
- * @property {Uint8Array[]} corpus that is taken, most of it
+ * @property {Uint8Array[]} corpus valid inputs, most of them
  * @property {(bytes: Buffer<ArrayBuffer>) => Promise<boolean>} run
  */
 
 const motion = await load();
 
-/** With a log of a second, which is looked at anew after each change. */
+/** Calibrator with a log of one second, which it calibrates again after each change. */
 const calibrator = new motion.AlphaCalibrator();
 const second = { t: [0, 0.5, 1], x: [0, 0.5, 1], y: [0, 0, 0], theta: [0, 0, 0] };
 calibrator.setLog(second, second);
@@ -32,7 +31,7 @@ calibrator.setLog(second, second);
 const squeeze = new motion.MapSqueeze({ samples: 1 });
 
 /**
- * The machines that attributes are of, and how they open.
+ * Machines of the elements, with their attributes and opening settings.
  *
  * @type {{ attributes: ReturnType<typeof attributesOf>, machine: any, opening: any }[]}
  */
@@ -45,10 +44,10 @@ const machines = [
   { attributes: attributesOf(settings['alpha-calibrator']), machine: calibrator },
 ].map((each) => ({ ...each, opening: each.machine.config }));
 
-/** Characters of a sentence: what it quotes is cut. */
+/** Largest length of a sentence: long quotations are cut. */
 const LONGEST = 700;
 
-/** What every refusal says. */
+/** Pattern of every refusal. */
 const SENTENCE = /(; (allowed|expected) (is|are) |: there are no fields in it; expected )/;
 
 /** @param {string} sentence */
@@ -66,7 +65,7 @@ async function filesAreTaken(...files) {
   return false;
 }
 
-/** What a machine does of a map at a time. */
+/** Cells that a machine reads at a time. */
 const SLICE = 1_000_000;
 
 /** Puts a map into Map Squeeze, all of it. @param {unknown} map */
@@ -78,7 +77,7 @@ function enter(map) {
 }
 
 /**
- * Whether what the core is given is taken.
+ * Returns true if the core takes the value, and checks the message of a refusal.
  *
  * @param {() => void} give
  */
@@ -94,7 +93,7 @@ function isTaken(give) {
 }
 
 /**
- * Whether a log is read, and then as it is promised: finite numbers, and times that rise.
+ * Returns true if a log is read. It must have finite numbers and rising times.
  *
  * @param {() => ReturnType<typeof readLog>} read
  */
@@ -137,45 +136,21 @@ async function recordings() {
 function unchecked(bytes) {
   const [CHUNK, FOOTER] = [6, 2];
   for (let at = 8; at + 9 < bytes.length; at += 9 + Number(bytes.readBigUInt64LE(at + 1))) {
-    // Behind two times and a size; behind two places.
+    // Offsets of the checksum: after two times and a size, and after two positions.
     const before = { [CHUNK]: 24, [FOOTER]: 16 }[bytes[at]];
     if (before) bytes.writeUInt32LE(0, at + 9 + before);
   }
   return bytes;
 }
 
-/** What of a recording is read. */
+/** Topics and frames that are read from a recording. */
 const CHOICES = [{ topic: '/odom' }, { topic: '/pose' }, { topic: '/cmd_vel' }, { topic: '/tf', frames: { parent: 'map', child: 'base' } }];
 
-/** A PNG image with the checksums of its chunks put right, as far as it has chunks. @param {Buffer} bytes */
-function mended(bytes) {
-  const parts = [bytes.subarray(0, SIGNATURE.length)];
-  let at = SIGNATURE.length;
-  while (at + 12 <= bytes.length) {
-    const end = at + 12 + bytes.readUInt32BE(at);
-    if (end > bytes.length) break;
-    parts.push(chunk(bytes.toString('latin1', at + 4, at + 8), bytes.subarray(at + 8, end - 4)));
-    at = end;
-  }
-  return Buffer.concat([...parts, bytes.subarray(at)]);
-}
-
-/** What describes an image of which little is occupied, only what is nearly white: what is made of walls is the core's, and takes longest. */
+/** Description of an image in which few cells are occupied: walls are slow, and the core has its own targets. */
 const bare = (/** @type {string} */ image) => description({ image, negate: 1, occupied_thresh: 0.99 });
 
-/** How what is to be inflated is deflated: as soon as can be. */
+/** Options of the fastest deflation. */
 const STORED = { level: 0, memLevel: 1 };
-
-/** Bytes of images, by what they are. @type {Map<string, number>} */
-const lengths = new Map();
-
-/** @param {Omit<import('../png.js').Image, 'sample'>} image @returns bytes of what is deflated */
-function lengthOf(image) {
-  const key = Object.values(image).join();
-  const length = lengths.get(key) ?? rasterOf({ ...image, sample: () => 0 }).length;
-  lengths.set(key, length);
-  return length;
-}
 
 const texts = (/** @type {string[]} */ ...all) => all.map((text) => Buffer.from(text));
 
@@ -191,36 +166,8 @@ const PLANS = texts(
   '{\n  # by hand\n  bounds: [-1e2, -3, 6, 4],\n  walls: [],\n}',
 );
 
-const [column, row] = [(/** @type {number} */ x) => x % 2, (/** @type {number} */ _, /** @type {number} */ y) => y % 2];
-
 /** @type {Record<string, Target>} */
 export const targets = {
-  png: {
-    corpus: [
-      pngOf({ width: 5, height: 4, sample: (x, y) => (40 * x + y) % 256, filter: (y) => y, pieces: 2 }),
-      pngOf({ width: 9, height: 9, depth: 1, interlaced: true, sample: column, before: [['gAMA', [0, 0, 0xb1, 0x8f]]] }),
-      pngOf({ width: 3, height: 3, depth: 2, colour: 3, sample: row, before: [['PLTE', [0, 0, 0, 255, 255, 255]], ['tRNS', [7]]] }),
-      pngOf({ width: 3, height: 2, depth: 16, colour: 6, interlaced: true, sample: (x, y, part) => 9999 * part + x + y }),
-      pngOf({ width: 4, height: 2, colour: 4, sample: (x) => 60 * x }),
-      pngOf({ width: 4, height: 2, colour: 2, sample: (x) => 60 * x, before: [['tRNS', [0, 60, 0, 60, 0, 60]]] }),
-    ],
-    run: (bytes) => filesAreTaken(bare('map.png'), file('map.png', bytes.length % 4 ? mended(bytes) : bytes)),
-  },
-  pixels: {
-    corpus: [Buffer.alloc(42), Buffer.from([...Array(6)].flatMap((_, y) => [y, 1, 2, 3, 4, 5, 250]))],
-    // What an image inflates to, behind a header that its first bytes choose.
-    run: (bytes) => {
-      const kinds = [0, 2, 3, 4, 6].flatMap((colour) => [1, 2, 4, 8, 16].map((depth) => ({ colour, depth })));
-      const { colour, depth } = kinds[(bytes[0] ?? 0) % kinds.length];
-      const [width, height, interlaced] = [1 + ((bytes[1] ?? 0) % 8), 1 + ((bytes[2] ?? 0) % 8), ((bytes[0] ?? 0) & 128) > 0];
-      // As long as it should be, but for one in eight.
-      const length = lengthOf({ width, height, depth, colour, interlaced });
-      const raster = bytes.length % 8 ? Buffer.concat([bytes, Buffer.alloc(length)]).subarray(0, length) : bytes;
-      const palette = colour === 3 ? [chunk('PLTE', bytes.subarray(0, 6))] : [];
-      const parts = [header({ width, height, depth, colour, interlaced }), ...palette, chunk('IDAT', deflateSync(raster, STORED)), chunk('IEND', [])];
-      return filesAreTaken(bare('map.png'), file('map.png', Buffer.concat([SIGNATURE, ...parts])));
-    },
-  },
   pgm: {
     corpus: texts('P2\n# by hand\n4 3\n255\n0 255 51 7\n102 153 204 8\n1 2 3 4\n', 'P5\n3 2\n255\nabcdef', 'P5 2 2 65535\nabcdefgh'),
     run: (bytes) => filesAreTaken(bare('map.pgm'), file('map.pgm', bytes)),
@@ -246,7 +193,7 @@ export const targets = {
       const source = new File([bytes], 'run.mcap');
       const { length } = CHOICES;
       const taken = await logIsRead(() => readLog(source, CHOICES[bytes.length % length]));
-      // It reads in the same way: one of four is asked.
+        // One input in four lists the topics too.
       if (Math.floor(bytes.length / length) % 4) return taken;
       try {
         for (const { name, count } of await topicsOf(source)) assert.ok(typeof name === 'string' && count >= 0);
@@ -281,7 +228,7 @@ export const targets = {
         return false;
       }
       const { map = null, ...rest } = Object(state);
-      // An element has looked at it already.
+      // The element checks this field before.
       delete rest.widget;
       const before = mapOf(squeeze, '');
       const taken = map === null || isTaken(() => enter(map));
@@ -298,7 +245,7 @@ export const targets = {
       const { attributes, machine, opening } = machines[bytes.length % machines.length];
       const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
       if (!isSetting(attribute)) return false;
-      // Millions of robots have the memory that they are asked for.
+      // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(name) && Number(rest.join('=')) > 1e5) return false;
       const present = () => ({ config: machine.config, machine });
       if (!isTaken(() => machine.configure(attribute.change(attribute.kind.parse(rest.join('=')), present())))) return false;

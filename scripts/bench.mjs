@@ -19,7 +19,7 @@ const ISOLATED = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-em
 
 /** @param {boolean} quick */
 async function bench(quick) {
-  await build();
+  await build({ local: true });
   const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
   const options = { quick, log: { odometry, reference } };
   const machine = await describe();

@@ -4,7 +4,7 @@
 import { load } from './core.js';
 import { run } from './cli/run.js';
 
-// Whoever reads it may have seen enough, as `head` has.
+// A reader such as `head` may close the pipe.
 process.stdout.on('error', (error) => {
   if (/** @type {NodeJS.ErrnoException} */ (error).code !== 'EPIPE') throw error;
 });

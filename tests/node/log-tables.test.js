@@ -89,7 +89,7 @@ test('nanoseconds of the present keep their digits, in every unit', async () => 
     const named = await read(`t_${unit},x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
     assert.deepEqual([named.data, named.how.unitBy], [data, 'name']);
   }
-  // What the size does not tell, a name does; negative times, and short ones.
+  // Units by name alone, negative times and short ones.
   assert.deepEqual((await dataOf('time (ms),x,y,yaw\n-250,0,0,0\n5,0,0,0\n10.5,0,0,0')).t, [0.75, 1.005, 1.0105]);
   assert.deepEqual((await dataOf('t_ns,x,y,yaw\n5,0,0,0\n10,0,0,0')).t, [5e-9, 1e-8]);
   assert.deepEqual((await dataOf('t,x,y,yaw\n1e1,0,0,0\n1.05e1,0,0,0')).t, [0, 0.5]);
@@ -124,7 +124,7 @@ test('one time that is far ahead is left out by itself', async () => {
   assert.equal(log.data.t.length, 49);
   assert.deepEqual(log.found.leftOut.falling, { count: 1, line: 22 });
   assert.deepEqual([...log.data.breaks], []);
-  // What was of no use before it is a hole as it was.
+  // An unusable row before it still breaks the path.
   const lost = await read(`t,x,y,yaw\n${rows.toSpliced(20, 0, '1.95,nan,0,0').join('\n')}`);
   assert.deepEqual([...lost.data.breaks], [20]);
 });

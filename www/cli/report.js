@@ -1,4 +1,4 @@
-/** What came out, as text and as JSON. */
+/** Result as text and as JSON. */
 
 import { en } from '../widgets/alpha-calibrator/en.js';
 import { OVERSTATED, adviceOf, between, fixed, isZero, mostOf, nav2Lines, neededFor, short } from '../widgets/alpha-calibrator/lines.js';
@@ -9,14 +9,14 @@ import { OVERSTATED, adviceOf, between, fixed, isZero, mostOf, nav2Lines, needed
  *
  * @typedef {object} Result
  * @property {any} calibration of the core
- * @property {Record<string, any>} fit what was asked of it
+ * @property {Record<string, any>} fit options of `calibrate`
  * @property {{ positionDeviation?: number, headingDeviation?: number }} deviations of the reference, as stated
- * @property {{ name: string, found: string[] }[]} logs odometry and reference, and what was found in them
- * @property {number} start whole seconds that were taken from all times
+ * @property {{ name: string, found: string[] }[]} logs odometry and reference with their summaries
+ * @property {number} start whole seconds that were subtracted from all times
  * @property {string} date
  */
 
-/** What is systematic: its name, its unit, and how many numbers it has. @type {[string, string, string][]} */
+/** Systematic errors: key, name and unit. @type {[string, string, string][]} */
 const SYSTEMATIC = [
   ['clockOffset', 'clock offset', 's'],
   ['mountYaw', 'mount yaw', 'rad'],
@@ -64,7 +64,7 @@ export function textOf({ calibration, fit, deviations, logs, start, date }) {
   ].join('\n');
 }
 
-/** What the reference errs by is noise to whoever is not told. @param {Result['deviations']} stated */
+/** Says which errors of the reference were stated. @param {Result['deviations']} stated */
 function exactnessOf({ positionDeviation = 0, headingDeviation = 0 }) {
   const errors = [...(positionDeviation ? [`${positionDeviation} m`] : []), ...(headingDeviation ? [`${headingDeviation} rad`] : [])];
   const stated = errors.length ? `the reference errs by ${errors.join(' and ')}, as stated` : '';
@@ -80,7 +80,7 @@ function lengthOf({ distance, angle, duration }) {
 }
 
 /**
- * What the log lacks, and what to drive.
+ * Says which α's the log does not determine, and what to drive.
  *
  * @param {any} calibration
  * @param {string} model
@@ -97,11 +97,11 @@ function undeterminedOf({ alphas, intervals, undetermined, doubts: { verdict } }
   });
 }
 
-/** An α's value, or the most that it may be. @param {number | null} alpha @param {Interval | undefined} interval */
+/** Prints an α, or its upper bound if it is not told from 0. @param {number | null} alpha @param {Interval | undefined} interval */
 const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${mostOf(interval)}` : fixed(alpha, interval));
 
 /**
- * A table of the α's by the length of legs, of each its value and its interval by the bootstrap: that knows if few legs decide.
+ * Table of the α's by the length of legs, each with its interval by the bootstrap, which is wide if few legs decide.
  *
  * @param {any} calibration
  * @param {Legs} legs
@@ -146,7 +146,7 @@ function doubtRows({ kinds, heldOut, squaredError }) {
   ];
 }
 
-/** By the times of the logs. @param {any} doubts @param {any} legs @param {number} start @returns {string[]} */
+/** Lists the worst legs by the times of the logs. @param {any} doubts @param {any} legs @param {number} start @returns {string[]} */
 function worstOf({ worst }, legs, start) {
   if (!worst.length) return [];
   const times = worst.slice(0, 5).map((/** @type {number} */ leg) => `${(start + legs.times[2 * leg]).toFixed(2)} s`);
@@ -154,7 +154,7 @@ function worstOf({ worst }, legs, start) {
 }
 
 /**
- * What there is to doubt, in a sentence.
+ * Verdict on the model, in a sentence.
  *
  * @param {Result['calibration']} calibration
  */

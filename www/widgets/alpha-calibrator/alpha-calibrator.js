@@ -30,10 +30,10 @@ import { captionOf, legText, wayText } from './words.js';
  * @import { Reading } from './reading.js'
  */
 
-/** What a log consists of. */
+/** Keys of a log. */
 const KEYS = ['name', 'odometry', 'reference'];
 
-/** What a reference errs by. */
+/** Settings of the reference's own error. */
 const DEVIATIONS = /** @type {const} */ (['positionDeviation', 'headingDeviation']);
 
 /**
@@ -58,13 +58,13 @@ export class AlphaCalibratorElement extends FigureElement {
   plate = new Plate(this);
   #opener = new LogOpener(this);
   #copied = new Copied(this);
-  /** A log of the reader's or of the page's; null for the simulated one. @type {CalibrationLog | null} */
+  /** Log of the reader or of the page; null for the simulated one. @type {CalibrationLog | null} */
   #log = null;
 
   /** @type {FigureElement<Machine, Reading>['createMachine']} */
   createMachine = (motion, state) => {
     if (!state) return new motion.AlphaCalibrator();
-    // It has begun, and is fitted in slices.
+    // Fitting goes on in later frames.
     const machine = motion.AlphaCalibrator.empty(this.settings.declared(state));
     return orFree(machine, () => this.#log && machine.beginLog(this.#log.odometry, this.#log.reference));
   };
@@ -77,21 +77,21 @@ export class AlphaCalibratorElement extends FigureElement {
     return reading;
   }
 
-  /** Whose copies the reading has. @type {Machine | undefined} */
+  /** Machine of the latest reading, whose copies are used again. @type {Machine | undefined} */
   #readOf;
-  /** The log that the reading is of: for a moment the former one. @type {CalibrationLog | null} */
+  /** Log of the latest reading. @type {CalibrationLog | null} */
   #logRead = null;
 
   machineChanged() {
     this.#readOf = undefined;
   }
 
-  /** The leg that is looked at, from 0; −1 where there is none. */
+  /** Leg that is shown, from 0; −1 if there is none. */
   get chosen() {
     return legOf(this.reading, this.state.own.leg);
   }
 
-  /** What is predicted of that leg, and where it ended, as last read: whatever is being fitted goes on. */
+  /** Prediction and end of that leg, as of the latest fit that is complete. */
   get predicted() {
     const { chosen } = this;
     return chosen < 0 ? null : (this.machine?.leg(chosen) ?? null);
@@ -102,20 +102,20 @@ export class AlphaCalibratorElement extends FigureElement {
     return { ...reading, chosen: this.chosen, leg: this.predicted };
   }
 
-  /** The reader looks at a leg, and may go on to others. @param {number} leg from 0 */
+  /** Shows a leg while the reader moves between legs. @param {number} leg from 0 */
   look(leg) {
     this.state.own.leg = leg;
     this.gesture.step();
     this.stage.wake();
   }
 
-  /** The reader has chosen a leg. @param {number} leg from 0 */
+  /** Shows a leg that the reader has chosen. @param {number} leg from 0 */
   choose(leg) {
     this.look(leg);
     this.gesture.commit();
   }
 
-  /** The reader has pressed on the way. @param {MouseEvent} event */
+  /** Shows the leg that was clicked in the picture. @param {MouseEvent} event */
   #press = (event) => {
     this.runtime.attempt(() => {
       const { machine } = this;
@@ -146,11 +146,11 @@ export class AlphaCalibratorElement extends FigureElement {
   }
 
   /**
-   * The reader opens a log.
+   * Opens a log of the reader's.
    *
    * @param {CalibrationLog | null} log
-   * @param {() => void} [arrived] is called when it is there
-   * @param {(error: unknown) => void} [refuse] is called where it is refused later than here, as one of which nothing can be said
+   * @param {() => void} [arrived] is called when the log is fitted
+   * @param {(error: unknown) => void} [refuse] is called if the log is refused while it is fitted, as one without legs
    */
   open(log, arrived, refuse) {
     this.runtime.attempt(() => this.#enter(log, () => {
@@ -162,18 +162,16 @@ export class AlphaCalibratorElement extends FigureElement {
   }
 
   /**
-   * Puts another log in the place of the present one. A machine of its own tries it: all stays as it is where the log is
-   * refused, or the reader does not want to wait.
+   * Replaces the log. Another machine is fitted to it first: all stays as it is if the log is refused, or the reader stops.
    *
    * @param {CalibrationLog | null} log
-   * @param {() => void} [arrived] is called when it is there
-   * @param {(error: unknown) => void} [refuse] is called where it is refused later than here; without it a log says what it says
-   * @throws {TypeError | RangeError} and nothing is changed
+   * @param {() => void} [arrived] is called when the log is fitted
+   * @param {(error: unknown) => void} [refuse] is called if the log is refused while it is fitted; without it a log may have no legs
+   * @throws {TypeError | RangeError} if the log is refused at once
    */
   #enter(log, arrived = () => this.reflection.tell(), refuse = undefined) {
     const { motion, settings } = this;
     if (!motion) return;
-    // To read a long log takes as long as a frame has.
     const end = performance.now() + LONGEST_WORK;
     const machine = motion.AlphaCalibrator.empty(settings.declared(settings.wanted));
     orFree(machine, () => log && machine.beginLog(log.odometry, log.reference));
@@ -184,7 +182,7 @@ export class AlphaCalibratorElement extends FigureElement {
    * @param {Machine} machine with the log
    * @param {CalibrationLog | null} log
    * @param {() => void} arrived
-   * @param {boolean} isStrict whether it has to say something
+   * @param {boolean} isStrict whether the log must have legs
    * @returns {import('../../figure/settings.js').Job}
    */
   *#entering(machine, log, arrived, isStrict) {
@@ -199,12 +197,12 @@ export class AlphaCalibratorElement extends FigureElement {
     arrived();
   }
 
-  /** What the log is called. */
+  /** Name of the log. */
   get logName() {
     return this.#logRead ? this.#logRead.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
-  /** What of the reference of the reader's own log nothing says the error of. */
+  /** Parts of the reference whose error is not stated, and taken to be 0. */
   get exact() {
     const { reference } = this.#logRead ?? {};
     const [position, heading] = DEVIATIONS.map((key) => reference !== undefined && !this.settings.told[key] && !reference[key]);

@@ -1,4 +1,4 @@
-/** The Alpha Calibrator's controls: the leg that is looked at, the model, and what a leg is. */
+/** Controls of the Alpha Calibrator: the leg that is shown, the model, and the length of legs. */
 
 import { html } from 'lit';
 import { check, choices, slider } from '../../figure/controls.js';
@@ -11,12 +11,12 @@ import { kindOf, settingsFor } from './settings.js';
 
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
 
-/** Which leg is looked at, and how far it is off. @param {Figure} figure */
+/** Slider of the leg that is shown, and readouts of its error. @param {Figure} figure */
 export function legControls(figure) {
   const { reading: { legs, stats }, chosen } = figure;
   const say = words.calibrator.leg;
   const { worst } = stats.doubts;
-  // From each of them to the next; that at which it opens may be among them.
+  // The leg that is shown may be one of the worst.
   const next = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
   const take = (/** @type {number} */ number) => figure.look(number - 1);
   return html`<fieldset class="leg">
@@ -52,7 +52,7 @@ export function legControls(figure) {
     ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })} ${readoutList(saidOf(figure))}`;
 }
 
-/** How far the leg is off. @param {Figure} figure @returns {Parameters<typeof readoutList>[0]} */
+/** Readouts of the leg's error. @param {Figure} figure @returns {Parameters<typeof readoutList>[0]} */
 function saidOf({ reading: { legs, stats }, chosen, predicted: leg }) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
@@ -61,7 +61,7 @@ function saidOf({ reading: { legs, stats }, chosen, predicted: leg }) {
   return [
     [say.off, `${fixed(off, 3)} m`],
     [say.squared(String(told)), fixed(squared, 1)],
-    // Where no leg is taken for bad, nobody knows whether this one is.
+    // Without a fitted share of bad legs, no leg has a probability.
     [say.bad, percent(stats.outliers === null ? NaN : bad)],
   ];
 }
@@ -76,18 +76,18 @@ export function modelControls(figure) {
   </div>`;
 }
 
-/** Where a leg ends. @param {Figure} figure */
+/** Sliders of the length of a leg. @param {Figure} figure */
 export function legLengths(figure) {
   const off = figure.settings.told.duration > 0;
   const show = (/** @type {number} */ seconds) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
   return inGroups(words.calibrator.leg.name, [slider(figure, 'distance', { off }), slider(figure, 'angle', { off }), slider(figure, 'duration', { show })]);
 }
 
-/** How well the reference is known by itself. @param {Figure} figure */
+/** Sliders of the reference's own error. @param {Figure} figure */
 export const deviations = (figure) =>
   inGroups(words.calibrator.own.reference, [slider(figure, 'positionDeviation'), slider(figure, 'headingDeviation')]);
 
-/** Each beside the others, with room for its own line of help. @param {string} name @param {unknown[]} sliders */
+/** Fieldset for each slider, with room for its own line of help. @param {string} name @param {unknown[]} sliders */
 const inGroups = (name, sliders) => html`<div class="controls">
   ${sliders.map((each) => html`<fieldset>
     <legend class="visually-hidden">${name}</legend>

@@ -1,7 +1,7 @@
-/** Curves of which a few points are known. */
+/** Curves through a few points. */
 
 /**
- * The value of a curve between its points, by the logarithm of where.
+ * Interpolates a curve linearly in the logarithm of its abscissa.
  *
  * @param {ArrayLike<number>} at where its points are, rising
  * @param {ArrayLike<number>} values
@@ -17,11 +17,11 @@ export function between(at, values, where) {
   return Number.isFinite(value) ? value : NaN;
 }
 
-/** Beside it nobody sees a half. */
+/** Size beyond which a half cannot be seen. */
 const BEYOND = 1e9;
 
 /**
- * From where to where an axis is to reach, for the highest points of a curve; what is beyond all axes counts as not finite.
+ * Range of an axis that shows the highest points of a curve. Values of more than 10⁹ count as infinite.
  *
  * @param {ArrayLike<number>} values
  * @param {number} depth below the highest of them
@@ -34,8 +34,8 @@ export function axisOf(values, depth) {
 }
 
 /**
- * From where to where the axis of squares is to reach: all bins and the line are on it, and of their bars half as much again, as one that a single
- * leg decides would leave the others no room.
+ * Range of an axis of squares: all bins and the line, and half as much again of their bars. The bar of a single leg would leave the
+ * others no room.
  *
  * @param {number[]} squares of bins
  * @param {number[]} error of each

@@ -1,4 +1,4 @@
-/** The Alpha Calibrator's doubts: what drives the residuals, how they are distributed, and what inflation does to them. */
+/** Diagnostics of the Alpha Calibrator: drivers of the residuals, their distribution, and the effect of inflation. */
 
 import { html } from 'lit';
 import { slider } from '../../figure/controls.js';
@@ -18,7 +18,7 @@ import { alphaName, significantly, thousandths } from './words.js';
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
 
-/** A square of way or turn below it is none: a millimetre, or a thousandth of a radian. */
+/** Least square of a way or turn: a millimetre, or a thousandth of a radian. */
 const DRIVEN = 1e-6;
 
 /** Larger figures have an exponent: the noise of a log that is exact to rounding is 10³⁰ times as large as expected. */
@@ -43,7 +43,7 @@ export function panels(figure) {
     <p class="figcaption">${rich(say.caption)}</p>`;
 }
 
-/** The panels with their plots; none where there are no legs. @param {Figure} figure */
+/** Panels with their plots; none without legs. @param {Figure} figure */
 export function panelsOf({ machine, reading: { config, legs, stats }, state: { own: { driver } } }) {
   const say = words.calibrator.panels;
   const axes = config.model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
@@ -63,7 +63,7 @@ export function panelsOf({ machine, reading: { config, legs, stats }, state: { o
 function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   const say = words.calibrator.panels;
   const furthest = Math.max(0, ...x);
-  // Of a log that has nothing of what drives it the axis is an empty one.
+  // A log without turns or without ways has an empty axis.
   const last = furthest > DRIVEN ? 1.06 * furthest : 1;
   const { from, to } = axisOfSquares(y, error, (slope ?? 0) * last);
   const highest = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
@@ -85,7 +85,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }, kind, axis) {
   };
 }
 
-/** What a line does not tell of its α. @param {CalibrationPanel} panel @param {import('./reading.js').Reading} reading */
+/** Note on an α that is not determined or not told from 0. @param {CalibrationPanel} panel @param {import('./reading.js').Reading} reading */
 function noteOf({ alpha, slope, interval }, { config: { model }, stats: { doubts: { verdict } } }) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && (!isZero(slope, interval) || verdict === OVERSTATED)) return '';
@@ -93,7 +93,7 @@ function noteOf({ alpha, slope, interval }, { config: { model }, stats: { doubts
   return html`<p class="note">${rich(slope === null ? say.noSlope(name) : say.zero(name, adviceOf(lacking, model, neededFor(model, alpha)).drive))}</p>`;
 }
 
-/** How the curve of each noise looks. @type {{ role: Role, dash?: string }[]} */
+/** Styles of the curves. @type {{ role: Role, dash?: string }[]} */
 const LOOKS = [{ role: 'prediction' }, { role: 'prior', dash: '7 4' }, { role: 'posterior', dash: '2 4' }];
 
 /** @param {Figure} figure */
@@ -137,7 +137,7 @@ export function doubts(figure) {
     </div>`;
 }
 
-/** What inflation does to legs that were not fitted. @param {Figure} figure */
+/** Effect of the inflation on held-out legs. @param {Figure} figure */
 export function inflation(figure) {
   const { config: { inflation: factor }, stats: { inflation: { factors, coverage, logLikelihood }, doubts: { heldOut, verdict } } } = figure.reading;
   const say = words.calibrator.inflation;
@@ -148,7 +148,7 @@ export function inflation(figure) {
   const ends = axisOf(logLikelihood, 6);
   const [covered, nats] = [between(factors, coverage, factor), between(factors, logLikelihood, factor)];
   const [low, high] = heldOut.interval;
-  // Where the reference's error makes the intervals, no factor has a signature.
+  // An overstated error of the reference, not the factor, decides the coverage.
   const signature = Number.isNaN(covered) || verdict === OVERSTATED ? '' : covered < low ? say.signature.small : covered > high ? say.signature.large : say.signature.right;
   return html`<fieldset>${slider(figure, 'inflation')}</fieldset>
     <div class="figures">

@@ -1,4 +1,4 @@
-/** The Alpha Calibrator's α's by the length of legs: level where the tables are right, falling where noise grows with the way itself. */
+/** Plots of the α's by the length of legs: level if the tables are right, falling if noise grows with the way itself. */
 
 import { html } from 'lit';
 import { check } from '../../figure/controls.js';
@@ -15,7 +15,7 @@ import { alphaName, significantly } from './words.js';
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
 
-/** Decades of an axis at least: over one a law is hard to see. */
+/** Least decades of an axis: over one a law is hard to see. */
 const DECADES = 2;
 
 /** @param {Figure} figure */

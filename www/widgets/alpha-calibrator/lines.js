@@ -1,4 +1,4 @@
-/** What came out as the lines of nav2_params.yaml that it is for, and its numbers as files have them, whatever the reader's language. */
+/** Lines for nav2_params.yaml, with numbers in the format of files in every language. */
 
 /**
  * @typedef {[number, number] | null} Interval
@@ -32,34 +32,34 @@ const MOST_DECIMALS = 12;
 /** From it on whole numbers have an exponent: times since 1970 have none. */
 const LONG = 1e15;
 
-/** An error as large as the motion that drives it, or of a radian a metre: no robot's, whatever made the log say so. */
+/** Largest plausible α: an error as large as the motion, or of a radian a metre. */
 const MOST = 1;
 
-/** What stands for a figure that a log is too short for. */
+/** Placeholder for a missing number. */
 const NONE = '–';
 
-/** What Nav2 calls its models. @type {Record<string, string>} */
+/** Plugins of Nav2 by model. @type {Record<string, string>} */
 const NAV2 = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
-/** Of a reference that is taken for worse than it is, no drive would tell more. */
+/** Verdict on a reference whose stated error is too large: no drive would tell more. */
 export const OVERSTATED = 'overstated';
 
-/** Of these nothing is to be taken along. */
+/** Verdicts under which no α is exported. */
 const USELESS = ['few-legs', 'unrelated', OVERSTATED];
 
-/** The rules under which Nav2's models are. */
+/** Rules of Nav2's models. */
 const ITS_RULES = ['nav2', 'omni'];
 
 /** @param {number | null} value */
 export const short = (value, digits = DIGITS) => (value !== null && Number.isFinite(value) ? pointed(String(Number(value.toPrecision(digits)))) : NONE);
 
-/** To readers of YAML 1.1 a number with an exponent is a text unless it has a point. @param {string} number */
+/** Adds a point to an exponent, without which YAML 1.1 reads a text. @param {string} number */
 const pointed = (number) => number.replace(/^(-?\d)e/, '$1.0e');
 
-/** As Nav2 takes it: its parameters are doubles, and it refuses whole numbers. @param {string} number */
+/** Adds decimals to a whole number, which Nav2 refuses for its doubles. @param {string} number */
 const double = (number) => (number.includes('.') ? number : `${number}.0`);
 
-/** As many decimals as an interval has a meaning in. @param {number | null} value @param {Interval | undefined} interval */
+/** Prints the decimals that an interval leaves meaning to. @param {number | null} value @param {Interval | undefined} interval */
 export function fixed(value, interval) {
   const width = interval ? interval[1] - interval[0] : 0;
   if (value === null || !(Math.abs(value) < LONG) || !(width > 0 && width < Infinity)) return short(value);
@@ -69,22 +69,22 @@ export function fixed(value, interval) {
   return digits < 0 ? '0' : pointed(value.toExponential(Math.min(MOST_DECIMALS, digits)));
 }
 
-/** Nothing where an end is nowhere. @param {Interval | undefined} interval */
+/** Prints an interval; empty if an end is not finite. @param {Interval | undefined} interval */
 export const between = (interval) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
 
 /**
- * Whether an α is nothing beside what is known of it: a zero would look like a result.
+ * Checks whether an α is 0 in the digits of its interval. A printed zero would look like a result.
  *
  * @param {number | null} alpha
  * @param {Interval | undefined} interval
  */
 export const isZero = (alpha, interval) => alpha !== null && Number(fixed(alpha, interval)) === 0;
 
-/** The most that an α may be. @param {Interval | undefined} interval */
+/** Upper end of an interval. @param {Interval | undefined} interval */
 export const mostOf = (interval) => short(interval?.[1] ?? null, OF_WIDTH);
 
 /**
- * What the variance that an α belongs to is driven by.
+ * Returns the motion that an α multiplies.
  *
  * @param {string} model
  * @param {number} index of the α, from 0
@@ -96,7 +96,7 @@ export function driverOf(model, index) {
 }
 
 /**
- * What a log lacks for an α, and what to drive.
+ * Says why an α is not determined, and the drive that would determine it.
  *
  * @param {typeof import('./en.js').en.alphas.lacking} lacking
  * @param {string} model
@@ -107,13 +107,13 @@ export function adviceOf(lacking, model, reason) {
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
-/** What would tell an α from 0: more of what drives it. @param {string} model @param {number} index @returns {'turns-too-little' | 'drives-too-little'} */
+/** Reason whose advice would tell an α from 0. @param {string} model @param {number} index @returns {'turns-too-little' | 'drives-too-little'} */
 export const neededFor = (model, index) => (driverOf(model, index) === 'turn' ? 'turns-too-little' : 'drives-too-little');
 
 /**
  * @param {Fitted} fitted
  * @param {Words} say
- * @returns {string[]} none where Nav2 has no such model
+ * @returns {string[]} none if Nav2 has no such model
  */
 export function nav2Lines({ alphas, intervals, bootstrap, count, model, rule, legs, log, date, verdict, doubt, systematic, inflation = 1 }, say) {
   if (!Object.hasOwn(NAV2, model)) return [];
@@ -133,7 +133,7 @@ export function nav2Lines({ alphas, intervals, bootstrap, count, model, rule, le
     const value = fixed(inflation * alpha, interval);
     return alpha > MOST ? `# alpha${i + 1}: ${value}, ${say.tooLarge}` : `alpha${i + 1}: ${double(value)}${ends ? `  # ${between(ends)}` : ''}`;
   });
-  // A name may have lines of its own, which would end the comment.
+  // A line break in a file's name would end the comment.
   const comments = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifth = alphas.length < 5 ? [`# ${say.fifth}`] : [];
   const triggers = duration === undefined ? [`update_min_d: ${double(short(distance ?? null))}`, `update_min_a: ${double(short(angle ?? null))}`] : [];
@@ -142,7 +142,7 @@ export function nav2Lines({ alphas, intervals, bootstrap, count, model, rule, le
 }
 
 /**
- * What was removed is still in the odometry of the robot, in the names that it has in the answer.
+ * Lists the systematic errors that were removed: the odometry of the robot still has them.
  *
  * @param {any} systematic
  * @returns {string[]} one, or none

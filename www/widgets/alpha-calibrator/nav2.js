@@ -1,4 +1,4 @@
-/** What the Alpha Calibrator's figures are for: lines of nav2_params.yaml, and everything as JSON. */
+/** Exports of the Alpha Calibrator: lines of nav2_params.yaml, and everything as JSON. */
 
 import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.js';
@@ -12,10 +12,10 @@ import { legsOf } from './settings.js';
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
 
 /**
- * Lines for nav2_params.yaml, each with what is known of it.
+ * Lines for nav2_params.yaml.
  *
  * @param {Figure} figure
- * @returns {string} none where Nav2 has no such model
+ * @returns {string} empty if Nav2 has no such model
  */
 function yamlOf({ reading: { config, stats, legs: { count } }, logName }) {
   const { model, rule, inflation } = config;
@@ -26,25 +26,25 @@ function yamlOf({ reading: { config, stats, legs: { count } }, logName }) {
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 
-/** All that was found, with typed arrays as plain ones. @param {Figure} figure */
+/** All results, with typed arrays as plain ones. @param {Figure} figure */
 function jsonOf({ reading: { config, stats, legs, truth }, logName }) {
   const all = { log: logName, date: new Date().toISOString(), settings: config, ...stats, ...(truth && { truth }), legs };
   return JSON.stringify(all, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value), 1);
 }
 
-/** What was copied last. @extends {Part<Figure>} */
+/** Text that was copied last. @extends {Part<Figure>} */
 export class Copied extends Part {
   /** @type {string | undefined} */
   #text;
 
-  /** Whether these lines are on the clipboard. @param {string} text */
+  /** Checks whether a text was copied last. @param {string} text */
   has(text) {
     return this.#text === text;
   }
 
   /** @param {string} text */
   async copy(text) {
-    // Refused in a frame without the permission, and absent where the page came without encryption: the lines are there to be copied.
+    // A frame may lack the permission, and a page without encryption the clipboard: the lines can still be selected.
     await Promise.resolve(navigator.clipboard?.writeText(text).then(() => (this.#text = text))).catch(() => undefined);
     this.host.requestUpdate();
   }

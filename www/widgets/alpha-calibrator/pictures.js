@@ -1,4 +1,4 @@
-/** The Alpha Calibrator's two pictures: the way of the robot, and one leg of it from where that began. */
+/** Pictures of the Alpha Calibrator: the path of the robot, and one leg in the frame of its start. */
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
@@ -12,10 +12,10 @@ import { READ_DASH, WayLayer, readStyleOf, stylesOf } from './way.js';
  * @import { AlphaCalibrator as Machine, LegView } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
  *
- * @typedef {Reading & { chosen: number, leg: LegView | null }} Scene what both pictures are of: with the leg that is looked at
+ * @typedef {Reading & { chosen: number, leg: LegView | null }} Scene with the leg that is shown
  */
 
-/** How near to a leg the pointer must be to choose it, CSS pixels. */
+/** Largest distance from the pointer to the leg that it chooses, CSS pixels. */
 const REACH = 16;
 
 /** Room for a key in two lines, CSS pixels. */
@@ -77,7 +77,7 @@ export class WayPicture extends Picture {
 }
 
 /**
- * One leg in the frame of the robot at its beginning: where it may have ended, and where it did.
+ * One leg in the frame of the robot at its start: predicted ends, and the ends by odometry and reference.
  *
  * @extends {Picture<Scene>}
  */

@@ -1,4 +1,4 @@
-/** The Alpha Calibrator to take along: the way, the α's with their intervals, why they are these, what was removed, and the verdict. */
+/** Exported picture: the path, the α's with their intervals, the panels, the systematic errors, and the verdict. */
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
@@ -18,15 +18,15 @@ import { captionOf } from './words.js';
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
 
-/** Pixels of the view: the way at the left, the α's beside it; below them the panels, and six lines. */
+/** Pixels: the path at the left, the α's beside it; below them the panels, and six lines. */
 const [WIDTH, HEIGHT] = [720, 712];
 const WAY = { width: 430, height: 344 };
 const PANEL = { width: WIDTH / 3, height: 236 };
 
-/** From line to line. */
+/** Distance of lines. */
 const LINE = 18;
 
-/** Of a band. */
+/** Opacity of a band. */
 const PALE = 0.22;
 
 /** @extends {Picture<Scene>} */

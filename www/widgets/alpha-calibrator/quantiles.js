@@ -1,10 +1,9 @@
-/** Quantiles of the residuals, and of what they add up to, were the noise of the model true. */
+/** Quantiles of residuals and of their sums of squares under the noise of the model. */
 
 /** @typedef {import('../../types.d.ts').AlphaCalibratorSettings['noise']} Noise */
 
 /**
- * Shares of the legs that are below the squared error of each class, were the model true: the last class has one leg in a
- * thousand.
+ * Shares of the legs below the squared error of each class if the model is true: the last class has one leg in a thousand.
  */
 export const SHARES = [0.5, 0.95, 0.999];
 
@@ -19,7 +18,7 @@ export const SQUARED = {
   triangular: [[0, 0, 0], [0.515, 3.617, 5.626], [1.573, 5.27, 8.943], [2.632, 6.863, 11.186]],
 };
 
-/** What the normal quantiles reach to, standard deviations. */
+/** Largest normal quantile, standard deviations. */
 export const REACH = 4;
 
 /** Quantiles of variance 1 at each hundredth from 0.01 to 0.99. @type {Record<Noise, Float64Array>} */
@@ -45,7 +44,7 @@ function normalQuantile(share) {
   return (low + high) / 2;
 }
 
-/** Of the triangle from −√6 to √6. @param {number} share @returns {number} */
+/** Quantile of the triangular distribution on −√6 to √6. @param {number} share @returns {number} */
 function triangularQuantile(share) {
   return share <= 0.5 ? Math.sqrt(6) * (Math.sqrt(2 * share) - 1) : -triangularQuantile(1 - share);
 }

@@ -1,4 +1,4 @@
-/** What the Alpha Calibrator shows of its machine. */
+/** View model of the Alpha Calibrator. */
 
 import { SHARES, SQUARED } from './quantiles.js';
 import { SIMULATED } from './settings.js';
@@ -11,19 +11,19 @@ import { SIMULATED } from './settings.js';
 /**
  * @typedef {object} Reading
  * @property {Machine['config']} config
- * @property {number} fits how often the figures had become others
+ * @property {number} fits number of the fit
  * @property {Machine['stats']} stats
  * @property {CalibrationLegs} legs
  * @property {Machine['truth']} truth
- * @property {Uint8Array} classes how unusual each leg is
- * @property {number} opening the leg that is looked at where none was chosen
+ * @property {Uint8Array} classes of the legs, the most usual first
+ * @property {number} opening leg that is shown if none was chosen
  */
 
 /**
- * Everything that the pictures and readouts need of the machine, asked once a change.
+ * Reads the machine for pictures and readouts, once a change.
  *
  * @param {Machine} machine
- * @param {Reading | undefined} before what was read of the same machine: its copies serve as long as they are true
+ * @param {Reading | undefined} before latest reading of the same machine, whose copies are used again if they still hold
  * @returns {Reading}
  */
 export function readingOf(machine, before) {
@@ -33,11 +33,11 @@ export function readingOf(machine, before) {
   return { config, fits, stats, legs, truth, classes: classesOf(legs, config.noise), opening: openingOf(legs, config.duration > 0 ? SHORTEST : config.distance) };
 }
 
-/** A leg that is shorter tells no direction, m. */
+/** Least length of a leg with a direction, m. */
 const SHORTEST = 0.01;
 
 /**
- * How unusual each leg is: the place among `SHARES` of the first that it is below.
+ * Returns the class of each leg: the index of the first of `SHARES` that it is below.
  *
  * @param {CalibrationLegs} legs
  * @param {Noise} noise of the model
@@ -51,8 +51,7 @@ export function classesOf({ count, squaredError, residuals }, noise) {
 }
 
 /**
- * The worst of the legs that are not bad and tell all: what is bad is no word against the model, and a turn on the spot has no
- * cloud to see.
+ * Returns the worst leg that is driven and not bad: a bad leg is no evidence against the model, and a turn on the spot shows no cloud.
  *
  * @param {CalibrationLegs} legs
  * @param {number} distance that a leg is to be long
@@ -65,13 +64,13 @@ function openingOf({ squaredError, bad, odometry }, distance) {
 }
 
 /**
- * The leg that is looked at: where none was chosen, the worst of those that are not bad; −1 where there is none.
+ * Returns the leg that is shown; −1 if there is none.
  *
  * @param {Reading} reading
  * @param {number | null} chosen
  */
 export const legOf = ({ opening, legs }, chosen) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
-/** Whether the true α's are those of the present fit: of its rule, and of its legs. @param {Reading} reading */
+/** Checks whether the true α's are of the rule and the legs of the present fit. @param {Reading} reading */
 export const truthHolds = ({ truth, config: { rule, model, distance, angle, duration } }) =>
   truth !== null && model === 'odometry' && rule === 'table' && distance === SIMULATED.distance && angle === SIMULATED.angle && duration === 0;

@@ -15,13 +15,13 @@ import { alphaName, significantly } from './words.js';
  * @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure
  */
 
-/** Of a whisker's row. */
+/** Size of a whisker's row. */
 const CHART = { width: 200, height: 24, middle: 18.5, inset: 12 };
 
-/** Between the labels of the axis, at most. */
+/** Most decades between labels of the axis. */
 const MOST_DECADES = 4;
 
-/** The likeliest α's, each with its interval on an axis that all of them share. @param {Reading} reading */
+/** Table of the α's, each with its interval on a common axis. @param {Reading} reading */
 export function alphaTable(reading) {
   const { alphas, intervals } = reading.stats;
   const say = words.calibrator.alphas;
@@ -53,10 +53,10 @@ export function alphaTable(reading) {
   </table>`;
 }
 
-/** An α, or the most that it may be. @param {number} alpha @param {Interval | null} interval */
+/** Prints an α, or its upper bound if it is not told from 0. @param {number} alpha @param {Interval | null} interval */
 export const toldOf = (alpha, interval) => (isZero(alpha, interval) ? `≤ ${interval ? significant(interval[1], 2) : NOTHING}` : significantly(alpha));
 
-/** Why an α is not determined, and what to drive. @param {Reading} reading @param {number} index */
+/** Says why an α is not determined, and the drive that would determine it. @param {Reading} reading @param {number} index */
 function lackOf({ stats: { undetermined }, config: { model } }, index) {
   const say = words.calibrator.alphas;
   const reason = undetermined[index];
@@ -85,8 +85,7 @@ function trueCaption() {
 }
 
 /**
- * Turns values into pixels, by their logarithms: from a decade below the least to one above the greatest, as far as these are
- * whole.
+ * Logarithmic axis over the decades of some values.
  *
  * @param {(number | null)[]} values
  */
@@ -97,7 +96,7 @@ function axisOf(values) {
   const { width, inset } = CHART;
   const at = (/** @type {number} */ value) => {
     const share = (Math.log10(Math.max(value, 0)) - from) / (to - from);
-    // What is beyond has its mark at the edge, whole.
+    // A mark beyond the axis stays whole at its edge.
     return Math.max(inset / 3, Math.min(width - inset / 3, inset + share * (width - 2 * inset)));
   };
   // More labels would touch.
@@ -122,11 +121,11 @@ function whisker({ at, decades }, value, interval, truth) {
   </svg>`;
 }
 
-/** Of what is systematic, at most: a micrometre. */
+/** Most decimals of a systematic error: a micrometre. */
 const MOST_DECIMALS = 6;
 
 /**
- * What is systematic as two texts: what was removed, and what the α's answer for.
+ * Systematic errors as two texts: those that were removed, and those that the α's include.
  *
  * @param {Reading} reading
  */
@@ -141,7 +140,7 @@ export function systematicTexts({ stats: { systematic } }) {
   return [...(removed.length ? [say.removed(removed.join('; '))] : []), ...(left.length ? [say.left(left.join('; '))] : [])];
 }
 
-/** What is systematic, each with a box that says whether it is removed. @param {Figure} figure */
+/** Table of the systematic errors, each with a box for its removal. @param {Figure} figure */
 export function systematicTable(figure) {
   const { stats: { systematic }, truth } = figure.reading;
   const say = words.calibrator.systematic;
@@ -174,7 +173,7 @@ export function systematicTable(figure) {
 const lines = (texts) => texts.map((text) => html`<div>${text}</div>`);
 
 /**
- * What is printed of an error, as far as it is determined: its values, two of a lever arm, and half the width of the interval of each.
+ * Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval.
  *
  * @param {{ value: number | null | (number | null)[], interval: Interval | (Interval | null)[] | null }} error
  */
@@ -187,5 +186,5 @@ function digitsOf({ value, interval }) {
   };
 }
 
-/** Three, or as many as tell what is known better than to a thousandth. @param {number | null | undefined} half of an interval */
+/** Decimals of an error: three, or more if it is known better than to a thousandth. @param {number | null | undefined} half of an interval */
 const decimalsOf = (half) => (half ? Math.min(MOST_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);

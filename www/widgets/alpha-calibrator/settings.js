@@ -8,17 +8,17 @@ import { settings } from '../../settings.js';
 
 export const declared = settings['alpha-calibrator'];
 
-/** The key of its words in the catalogues. */
+/** Key of the words in the catalogues. */
 export const vocabulary = 'calibrator';
 
 export const attributes = attributesOf(declared);
 
-/** What a variance is made of: the squares of the turn and of the way. */
+/** Motions whose squares a variance is made of. */
 export const DRIVERS = /** @type {const} */ (['turn', 'way']);
 
 /** @typedef {(typeof DRIVERS)[number]} Driver */
 
-/** Of a leg's number: how many there are is not known before all is fitted. */
+/** Largest number of a leg in a link: the count is not known before the fit. */
 const MOST_LEGS = 9_999_999;
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
@@ -36,7 +36,7 @@ export const documentation = {
   },
 };
 
-/** What the models are called together with their rules: two settings, and one choice. */
+/** Models with their rules: two settings, but one choice. */
 export const KINDS = /** @type {const} */ (['table', 'nav2', 'beluga', 'omni', 'velocity']);
 
 /** Legs of the simulated log: those that the element opens with. */
@@ -44,7 +44,7 @@ export const SIMULATED = { distance: 0.25, angle: 0.2 };
 
 /** @typedef {(typeof KINDS)[number]} Kind */
 
-/** Where legs end, as `calibrate` takes it. @param {AlphaCalibratorSettings} config @returns {{ duration: number } | { distance: number, angle: number }} */
+/** Length of legs as an option of `calibrate`. @param {AlphaCalibratorSettings} config @returns {{ duration: number } | { distance: number, angle: number }} */
 export const legsOf = ({ distance, angle, duration }) => (duration > 0 ? { duration } : { distance, angle });
 
 /** @param {AlphaCalibratorSettings} config @returns {Kind} */
@@ -56,7 +56,7 @@ export function settingsFor(kind) {
   return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
 }
 
-/** What is systematic, in the order in which it is told. */
+/** Systematic errors in the order of the table. */
 export const SYSTEMATIC = /** @type {const} */ (['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale']);
 
 /** @type {Record<string, import('../../figure/controls.js').Look>} */

@@ -1,4 +1,4 @@
-/** What the Alpha Calibrator's page has of its own. */
+/** Styles of the Alpha Calibrator. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';

@@ -1,4 +1,4 @@
-/** What the Alpha Calibrator says when, in the words of the present language. */
+/** Texts of the Alpha Calibrator in the present language. */
 
 import { addEnglish, words } from '../../messages/registry.js';
 import { counted, fixed, percent, powerOfTen, rounded, significant } from '../../ui/format.js';
@@ -16,11 +16,11 @@ addEnglish({ calibrator: en });
 /** The subscript of an α. @param {number} index from 0 */
 export const alphaName = (index) => String.fromCharCode(0x2081 + index);
 
-/** An α as it is printed: three digits, as its interval has no more to say, and two where they need a power of ten. @param {number} alpha */
+/** Prints an α with three digits, or two with a power of ten. @param {number} alpha */
 export const significantly = (alpha) => (alpha >= 1e-4 ? rounded(alpha, 3) : significant(alpha, 2));
 
 /**
- * Small numbers have no room beside an axis: in thousandths, or thousandths of these.
+ * Scales small numbers by a power of 1000, as they have no room beside an axis.
  *
  * @param {number} highest
  * @returns {{ scaled: (value: number) => number, unit: string }} the unit is empty where it is 1
@@ -31,11 +31,11 @@ export function thousandths(highest) {
 }
 
 /**
- * What stands under the pictures: how much was fitted, and whether the model is any good.
+ * Caption of the pictures: the legs, and the verdict on the model.
  *
  * @param {Reading} reading
  * @param {string} log its name
- * @param {Exact} exact what of its reference is taken to be so
+ * @param {Exact} exact part of its reference that is taken to be exact
  */
 export function captionOf({ stats: { doubts: { verdict, heldOut } }, legs }, log, exact) {
   const say = words.calibrator;

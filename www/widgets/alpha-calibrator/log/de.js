@@ -1,4 +1,4 @@
-/** What is said of logs, in German. */
+/** Sentences about logs, in German. */
 
 /** @type {Record<string, string>} */
 const FIELDS = {

@@ -1,4 +1,4 @@
-/** What is said of logs, in English. */
+/** Sentences about logs, in English. */
 
 /** Fields of a table, as a sentence names them. @type {Record<string, string>} */
 const FIELDS = {
@@ -18,7 +18,7 @@ const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, trans
 export const log = {
   place: (/** @type {string} */ file, /** @type {number} */ line, /** @type {string} */ topic) =>
     `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
-  /** Why a log is refused, each after its place. */
+  /** Reasons for refusing a log, each after its place. */
   refused: {
     gone: (/** @type {string} */ reason) => `the file cannot be read (${reason}); expected is one that is still there.`,
     empty: 'there is nothing in it; expected is a log of poses or commands.',
@@ -43,7 +43,7 @@ export const log = {
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, go back in time; expected are times that grow.`,
     few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {string} */ reason) =>
       `${kept} of ${rows} rows can be used${reason && ` (${reason})`}; expected are at least 2.`,
-    /** Why rows cannot be used. */
+    /** Reasons for not using rows. */
     reasons: /** @type {Record<string, string>} */ ({
       notFinite: 'a value here is no finite number',
       noRotation: 'the quaternion here has not the length 1',
@@ -53,7 +53,7 @@ export const log = {
     }),
     unit: (/** @type {number} */ step, /** @type {string} */ unit) =>
       `in ${unit}, ${Math.round(step)} s pass from row to row; expected is another unit in the name of the time, as in t_ns.`,
-    /** Of recordings. */
+    /** Errors of recordings. */
     damaged: (/** @type {string} */ reason) => `the recording is damaged (${reason}); expected is an undamaged MCAP file.`,
     large: (/** @type {string} */ what, /** @type {string} */ bytes, /** @type {number} */ most) =>
       `${what} of ${bytes} bytes is announced; expected are at most ${most}.`,
@@ -71,11 +71,11 @@ export const log = {
     noChain: (/** @type {string} */ frames, /** @type {string} */ known) =>
       `no transforms lead from ${frames.replace(',', ' to ')}; expected are frames that are connected, of ${known || 'none'}.`,
     noMessages: 'there are no messages on it; expected are at least 2.',
-    /** Of two logs. */
+    /** Errors of two logs. */
     same: 'it is both odometry and reference; expected are two logs of one drive.',
     held: 'its pose stands while the odometry moves on; expected is one that follows the robot.',
   },
-  /** What was found in a log, a sentence each. */
+  /** Summary of a log. */
   found: {
     rows: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {number} */ seconds, /** @type {number} */ rate) =>
       `${kept} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz`,

@@ -1,4 +1,4 @@
-/** Which column of a table is what, by the names that people and recorders give them. */
+/** Columns of a table, by the names that people and recorders give them. */
 
 import { LogError, cut, listed } from './log-error.js';
 
@@ -18,8 +18,8 @@ import { LogError, cut, listed } from './log-error.js';
  */
 
 /**
- * Names of each field, the likeliest first, as patterns of a name in small letters whose parts are set apart by dots. A
- * recording that was exported has paths: pose.pose.position.x, field.header.stamp.
+ * Patterns of the names of each field, the likeliest first. Names are in small letters, with dots between their parts: exported
+ * recordings have paths such as pose.pose.position.x or field.header.stamp.
  *
  * @type {Record<Field, RegExp[]>}
  */
@@ -38,7 +38,7 @@ const NAMES = {
   omega: [/^(omega|w|ω)$/, /^(.+\.)?angular\.z$/, /^(angular(\.velocity)?|yaw\.?rate|turn\.?rate|wz|ang)$/, /^(.+\.)?(angular\.velocity\.z|wz)$/],
 };
 
-/** Units that a name may end with, and the times that it may be said with. */
+/** Units at the end of a name. */
 const UNITS = /** @type {const} */ ([
   ['ns', /(^|[._ ([])(ns|nsecs?|nano?secs?|nanoseconds?)[)\]]?$/],
   ['us', /(^|[._ ([])(us|µs|μs|usecs?|microsecs?|microseconds?)[)\]]?$/],
@@ -48,7 +48,7 @@ const UNITS = /** @type {const} */ ([
 
 const DEGREES = /(^|[._ ([])(deg|degrees?|°)[)\]]?$/;
 
-/** What may stand at the end of a name without being a part of it. */
+/** Unit at the end of a name. */
 const SUFFIX = /[._ ]*[([]?(?<=[._ ([])(ns|nsecs?|us|µs|μs|usecs?|ms|msecs?|s|secs?|nano?seconds?|microseconds?|milliseconds?|seconds?|m|rad|deg|degrees?|°|m\/s|rad\/s)?[)\]]?$/;
 
 /**
@@ -109,7 +109,7 @@ function columnOf(field, names, place) {
     const matches = paths.flatMap((path, at) => (pattern.test(path) ? [at] : []));
     if (matches.length === 1) return matches[0];
     if (matches.length > 1) {
-      // Of a message that holds another, the shorter path is its own. Those of two messages are not told apart.
+      // A message's own field has a shorter path than that of a message inside of it. Two messages are ambiguous.
       const [own, ...others] = matches.toSorted((a, b) => paths[a].length - paths[b].length);
       const stranger = others.find((other) => !paths[other].endsWith(`.${paths[own]}`));
       if (stranger === undefined) return own;
@@ -119,5 +119,5 @@ function columnOf(field, names, place) {
   return undefined;
 }
 
-/** Whether a row is a header: some cell of it is no number. @param {string[]} cells */
+/** Checks for a header: some cell is no number. @param {string[]} cells */
 export const isHeader = (cells) => cells.some((cell) => /[a-zθω]/i.test(cell) && !/^[+-]?(nan|inf(inity)?|[\d.]+e[+-]?\d+)$/i.test(cell.trim()));

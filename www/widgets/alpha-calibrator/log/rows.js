@@ -93,7 +93,7 @@ export class Rows {
   #c = [];
   /** @type {Record<Reason, Trouble>} */
   #leftOut = { notFinite: none(), noRotation: none(), short: none(), duplicate: none(), falling: none(), held: none() };
-  /** Whether the path since the last row that was kept is unknown. */
+  /** True if the path since the last row that was kept is unknown. */
   #broken = false;
   /** Rows in succession that went back in time. */
   #late = 0;

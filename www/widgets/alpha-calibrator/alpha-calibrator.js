@@ -71,19 +71,7 @@ export class AlphaCalibratorElement extends FigureElement {
 
   /** @param {Machine} machine */
   read(machine) {
-    const reading = readingOf(machine, this.#readOf === machine ? this.reading : undefined);
-    this.#readOf = machine;
-    this.#logRead = this.#log;
-    return reading;
-  }
-
-  /** Machine of the latest reading, whose copies are used again. @type {Machine | undefined} */
-  #readOf;
-  /** Log of the latest reading. @type {CalibrationLog | null} */
-  #logRead = null;
-
-  machineChanged() {
-    this.#readOf = undefined;
+    return readingOf(machine, this.#log, this.reading);
   }
 
   /** Leg that is shown, from 0; −1 if there is none. */
@@ -192,19 +180,19 @@ export class AlphaCalibratorElement extends FigureElement {
     this.state.own.leg = null;
     this.runtime.replace(machine);
     this.settings.arrive();
-    this.machineChanged();
     this.settings.stale = true;
     arrived();
   }
 
   /** Name of the log. */
   get logName() {
-    return this.#logRead ? this.#logRead.name || words.calibrator.own.odometry : words.calibrator.simulated;
+    const { log } = this.reading;
+    return log ? log.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
   /** Parts of the reference whose error is not stated, and taken to be 0. */
   get exact() {
-    const { reference } = this.#logRead ?? {};
+    const { reference } = this.reading.log ?? {};
     const [position, heading] = DEVIATIONS.map((key) => reference !== undefined && !this.settings.told[key] && !reference[key]);
     return position && heading ? 'reference' : position ? 'position' : heading ? 'heading' : null;
   }

@@ -4,12 +4,14 @@ import { SHARES, SQUARED } from './quantiles.js';
 import { SIMULATED } from './settings.js';
 
 /**
- * @import { AlphaCalibrator as Machine, CalibrationLegs } from '../../types.d.ts'
+ * @import { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from '../../types.d.ts'
  * @import { Noise } from './quantiles.js'
  */
 
 /**
  * @typedef {object} Reading
+ * @property {Machine} machine
+ * @property {CalibrationLog | null} log null for the simulated one
  * @property {Machine['config']} config
  * @property {number} fits number of the fit
  * @property {Machine['stats']} stats
@@ -23,14 +25,25 @@ import { SIMULATED } from './settings.js';
  * Reads the machine for pictures and readouts, once a change.
  *
  * @param {Machine} machine
- * @param {Reading | undefined} before latest reading of the same machine, whose copies are used again if they still hold
+ * @param {CalibrationLog | null} log
+ * @param {Reading | undefined} before latest reading, whose copies are used again if they are of the same fit
  * @returns {Reading}
  */
-export function readingOf(machine, before) {
+export function readingOf(machine, log, before) {
   const { config, fits } = machine;
-  if (before?.fits === fits) return { ...before, config };
+  if (before?.machine === machine && before.fits === fits) return { ...before, log, config };
   const { stats, legs, truth } = machine;
-  return { config, fits, stats, legs, truth, classes: classesOf(legs, config.noise), opening: openingOf(legs, config.duration > 0 ? SHORTEST : config.distance) };
+  return {
+    machine,
+    log,
+    config,
+    fits,
+    stats,
+    legs,
+    truth,
+    classes: classesOf(legs, config.noise),
+    opening: openingOf(legs, config.duration > 0 ? SHORTEST : config.distance),
+  };
 }
 
 /** Least length of a leg with a direction, m. */

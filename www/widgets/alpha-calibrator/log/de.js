@@ -18,6 +18,16 @@ const TYPES = { poses: OF_POSES, either: `${OF_POSES}, oder ${OF_COMMANDS}`, tra
 const times = (/** @type {number} */ count, /** @type {string} */ one, /** @type {string} */ more) => `${count} ${count === 1 ? one : more}`;
 const comma = (/** @type {number} */ value, /** @type {number} */ digits) => value.toFixed(digits).replace('.', ',');
 
+/** @type {Record<import('./en.js').Reason, string>} */
+const REASONS = {
+  notFinite: 'keine endliche Zahl',
+  noRotation: 'ein Quaternion, das keine Drehung ist',
+  short: 'abgebrochen',
+  duplicate: 'die Zeit der Zeile davor',
+  falling: 'eine Zeit, die zurückgeht',
+  held: 'die Pose steht, während die Odometrie weitergeht',
+};
+
 /** @type {import('./log-error.js').Words} */
 export const log = {
   place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
@@ -39,14 +49,7 @@ export const log = {
     rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
     far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
     falling: (count, rows, message) => `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, gehen in der Zeit zurück; erwartet werden wachsende Zeiten.`,
-    few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason && ` (${reason})`}; erwartet werden mindestens 2.`,
-    reasons: {
-      notFinite: 'ein Wert hier ist keine endliche Zahl',
-      noRotation: 'das Quaternion hier hat nicht die Länge 1',
-      short: 'die Zeile bricht hier ab',
-      duplicate: 'die Zeit hier ist die der Zeile davor',
-      falling: 'die Zeit hier geht zurück',
-    },
+    few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
     unit: (step, unit) =>
       `in ${unit} vergehen von Zeile zu Zeile ${Math.round(step)} s; erwartet wird eine andere Einheit im Namen der Zeit, wie in t_ns.`,
     damaged: (reason) => `die Aufzeichnung ist beschädigt (${reason}); erwartet wird eine unbeschädigte MCAP-Datei.`,
@@ -68,15 +71,8 @@ export const log = {
   },
   found: {
     rows: (kept, rows, seconds, rate) => `${kept} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz`,
-    leftOut: (reason, count, line) => `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ab Zeile ${line}` : ''}: ${reason}`,
-    reasons: {
-      notFinite: 'keine endliche Zahl',
-      noRotation: 'ein Quaternion, das keine Drehung ist',
-      short: 'abgebrochen',
-      duplicate: 'die Zeit der Zeile davor',
-      falling: 'eine Zeit, die zurückgeht',
-      held: 'die Pose steht, während die Odometrie weitergeht',
-    },
+    leftOut: (reason, count, line) =>
+      `ausgelassen ${times(count, 'Zeile', 'Zeilen')}${line ? ` ab Zeile ${line}` : ''}: ${REASONS[reason]}`,
     gaps: (count, first, longest) => `${times(count, 'Pause', 'Pausen')}, die erste bei ${comma(first, 2)} s, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${times(count, 'Sprung', 'Sprünge')}, der erste bei ${comma(first, 2)} s`,
     unit: (unit) => `Zeiten in ${unit}, nach ihrer Größe`,

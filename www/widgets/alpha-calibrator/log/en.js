@@ -15,6 +15,18 @@ const OF_POSES = 'nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped, PoseWith
 const OF_COMMANDS = 'geometry_msgs/msg/Twist or TwistStamped';
 const TYPES = { poses: OF_POSES, either: `${OF_POSES}, or ${OF_COMMANDS}`, transforms: 'tf2_msgs/msg/TFMessage, which has frames' };
 
+/** Reasons for leaving rows out. */
+const REASONS = {
+  notFinite: 'no finite number',
+  noRotation: 'a quaternion that is no rotation',
+  short: 'cut short',
+  duplicate: 'the time of the row before',
+  falling: 'a time that goes back',
+  held: 'the pose stands while the odometry moves on',
+};
+
+/** @typedef {keyof typeof REASONS} Reason for leaving a row out */
+
 export const log = {
   place: (/** @type {string} */ file, /** @type {number} */ line, /** @type {string} */ topic) =>
     `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
@@ -41,16 +53,8 @@ export const log = {
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
     falling: (/** @type {number} */ count, /** @type {number} */ rows, /** @type {number} */ message) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, go back in time; expected are times that grow.`,
-    few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {string} */ reason) =>
-      `${kept} of ${rows} rows can be used${reason && ` (${reason})`}; expected are at least 2.`,
-    /** Reasons for not using rows. */
-    reasons: /** @type {Record<string, string>} */ ({
-      notFinite: 'a value here is no finite number',
-      noRotation: 'the quaternion here has not the length 1',
-      short: 'the row is cut short here',
-      duplicate: 'the time here is that of the row before',
-      falling: 'the time here goes back',
-    }),
+    few: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {Reason | undefined} */ reason) =>
+      `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
     unit: (/** @type {number} */ step, /** @type {string} */ unit) =>
       `in ${unit}, ${Math.round(step)} s pass from row to row; expected is another unit in the name of the time, as in t_ns.`,
     /** Errors of recordings. */
@@ -79,16 +83,8 @@ export const log = {
   found: {
     rows: (/** @type {number} */ kept, /** @type {number} */ rows, /** @type {number} */ seconds, /** @type {number} */ rate) =>
       `${kept} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz`,
-    leftOut: (/** @type {string} */ reason, /** @type {number} */ count, /** @type {number} */ line) =>
-      `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${reason}`,
-    reasons: /** @type {Record<string, string>} */ ({
-      notFinite: 'no finite number',
-      noRotation: 'a quaternion that is no rotation',
-      short: 'cut short',
-      duplicate: 'the time of the row before',
-      falling: 'a time that goes back',
-      held: 'the pose stands while the odometry moves on',
-    }),
+    leftOut: (/** @type {Reason} */ reason, /** @type {number} */ count, /** @type {number} */ line) =>
+      `left out ${count} ${count === 1 ? 'row' : 'rows'}${line ? `, from line ${line} on` : ''}: ${REASONS[reason]}`,
     gaps: (/** @type {number} */ count, /** @type {number} */ first, /** @type {number} */ longest) =>
       `${count} ${count === 1 ? 'pause' : 'pauses'}, the first at ${first.toFixed(2)} s, the longest of ${longest.toFixed(2)} s`,
     jumps: (/** @type {number} */ count, /** @type {number} */ first) => `${count} ${count === 1 ? 'jump' : 'jumps'}, the first at ${first.toFixed(2)} s`,

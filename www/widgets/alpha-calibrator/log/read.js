@@ -2,12 +2,12 @@
 
 import { withoutFrozenPoses } from './frozen-pose.js';
 import { LogError, bytesOf, listed } from './log-error.js';
-import { LOG_TIME } from './rows.js';
+import { LOG_TIME, reasonsOf } from './rows.js';
 import { readTable } from './table.js';
 
 /**
  * @import { Source, Watching, Words } from './log-error.js'
- * @import { Log, Reason } from './rows.js'
+ * @import { Log } from './rows.js'
  *
  * @typedef {object} Topic of a recording
  * @property {string} name
@@ -186,13 +186,12 @@ function span({ start, data: { t } }) {
  */
 export function summarize({ data: { t }, how, found }, say) {
   const { rows, leftOut, gaps, jumps, step } = found;
-  const out = /** @type {[Reason, import('./rows.js').Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
   return [
     say.rows(t.length, rows, t[t.length - 1] - t[0], 1 / step),
     ...(how.unitBy === 'size' && how.unit !== 's' ? [say.unit(how.unit)] : []),
     ...(how.columns.clock === LOG_TIME ? [say.logTimes] : []),
     ...(how.heading === 'degrees' ? [say.degrees] : []),
-    ...out.map(([reason, { count, line }]) => say.leftOut(say.reasons[reason], count, how.format === 'mcap' ? 0 : line)),
+    ...reasonsOf(leftOut).map(([reason, { count, line }]) => say.leftOut(reason, count, how.format === 'mcap' ? 0 : line)),
     ...(gaps.count ? [say.gaps(gaps.count, gaps.time, gaps.longest)] : []),
     ...(jumps.count ? [say.jumps(jumps.count, jumps.time)] : []),
     ...(how.cutShort ? [say.cutShort] : []),

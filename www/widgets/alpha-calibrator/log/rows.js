@@ -3,6 +3,7 @@
 import { LogError } from './log-error.js';
 
 /**
+ * @import { Reason } from './en.js'
  * @import { Place } from './log-error.js'
  *
  * @typedef {object} Trouble number of occurrences, and the first of them
@@ -12,8 +13,6 @@ import { LogError } from './log-error.js';
  * @typedef {object} Event number of occurrences, and the time of the first in seconds
  * @property {number} count
  * @property {number} time
- *
- * @typedef {'notFinite' | 'noRotation' | 'short' | 'duplicate' | 'falling' | 'held'} Reason for leaving a row out
  *
  * @typedef {object} How interpretation of the source
  * @property {'csv' | 'tum' | 'mcap'} format
@@ -79,6 +78,9 @@ const SLOWEST = 1000;
 
 /** @returns {Trouble} */
 const none = () => ({ count: 0, line: 0 });
+
+/** Reasons that occurred. @param {Found['leftOut']} leftOut */
+export const reasonsOf = (leftOut) => /** @type {[Reason, Trouble][]} */ (Object.entries(leftOut)).filter(([, { count }]) => count > 0);
 
 export class Rows {
   #place;
@@ -177,8 +179,8 @@ export class Rows {
       throw new LogError(this.#at(falling.line), (say) => say.falling(falling.count, count, this.#message(falling.line)));
     }
     if (t.length < 2) {
-      const [reason, first] = Object.entries(this.#leftOut).find(([, { count }]) => count > 0) ?? ['few', none()];
-      throw new LogError(this.#at(first.line), (say) => say.few(t.length, count, say.reasons[reason] ?? ''));
+      const [reason, { line }] = reasonsOf(this.#leftOut)[0] ?? [undefined, none()];
+      throw new LogError(this.#at(line), (say) => say.few(t.length, count, reason));
     }
     const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     // A log with one row in a quarter of an hour has times in another unit.

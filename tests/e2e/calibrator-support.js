@@ -7,8 +7,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
-import { ready, show } from './element-support.js';
-import { frames } from './support.js';
+import { frames, ready, show } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page

@@ -1,15 +1,14 @@
 import { expect } from '@playwright/test';
-import { ALL, ready, show } from './element-support.js';
-import { FRESH, STILL, boxOf, frames, test } from './support.js';
+import { FRESH, STILL, boxOf, frames, ready, show, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
 test.use(STILL);
 
-/** What a figure would like, CSS pixels: see `likedWidth`. */
+/** Preferred width of a figure in CSS pixels: see `likedWidth`. */
 const LIKED = 44 * 16;
 
-/** Boxes that are as wide as what is in them, around an X; those that give all there is have none of it. @type {Record<string, string>} */
+/** Boxes whose width depends on their content, an X. @type {Record<string, string>} */
 const BOXES = {
   block: 'X',
   'flex with auto margins': '<div style="display: flex"><X style="margin: auto"></X></div>',
@@ -28,32 +27,29 @@ const BOXES = {
   'positioned absolutely': '<div style="position: relative; height: 9000px"><X style="position: absolute"></X></div>',
 };
 
-for (const name of ALL) {
-  test(`${name} is as wide as it likes, or as there is room, in every kind of box, and so it was before its script came`, FRESH, async ({ page }) => {
-    test.slow();
-    const cases = Object.entries(BOXES).map(([box, html]) => {
-      const whole = html === 'X' ? '<X></X>' : html;
-      return `<section data-box="${box}" style="display: flow-root">${whole.replace('<X', `<${name}`).replace('</X>', `</${name}>`)}</section>`;
-    });
-    const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
-    /** @param {number} width */
-    const wrong = async (width) => {
-      await page.setViewportSize({ width, height: 900 });
-      await frames(page);
-      const widths = await page.locator(name).evaluateAll((all) => all.map((each) => [/** @type {HTMLElement} */ (each.closest('section')).dataset.box ?? '', each.getBoundingClientRect().width]));
-      expect(widths).toHaveLength(cases.length);
-      return widths.filter(([, each]) => Number(each) > width + 0.5 || Number(each) < Math.min(LIKED, width) - 0.5);
-    };
-    for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-      await show(page, cases.join(''), { head, script });
-      if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, name);
-      for (const width of [320, 375, 600, 900, 1280]) expect(await wrong(width), `${script ? 'defined' : 'not defined'}, ${width} px`).toEqual([]);
-    }
+test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', FRESH, async ({ page, figure }) => {
+  const cases = Object.entries(BOXES).map(([box, html]) => {
+    const whole = html === 'X' ? '<X></X>' : html;
+    return `<section data-box="${box}" style="display: flow-root">${whole.replace('<X', `<${figure}`).replace('</X>', `</${figure}>`)}</section>`;
   });
-}
+  const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
+  const wrong = async (/** @type {number} */ width) => {
+    await page.setViewportSize({ width, height: 900 });
+    await frames(page);
+    const widths = await page.locator(figure).evaluateAll((all) =>
+      all.map((each) => [/** @type {HTMLElement} */ (each.closest('section')).dataset.box ?? '', each.getBoundingClientRect().width]));
+    expect(widths).toHaveLength(cases.length);
+    return widths.filter(([, each]) => Number(each) > width + 0.5 || Number(each) < Math.min(LIKED, width) - 0.5);
+  };
+  for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
+    await show(page, cases.join(''), { head, script });
+    if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figure);
+    for (const width of [320, 600, 1280]) expect.soft(await wrong(width), `${script ? 'defined' : 'not defined'}, ${width} px`).toEqual([]);
+  }
+});
 
 /**
- * Where everything of a figure stands, in its own em.
+ * Returns the boxes of all parts of a figure, in em.
  *
  * @param {Page} page
  * @param {string} name
@@ -72,28 +68,26 @@ const boxesOf = (page, name, em) =>
     em,
   );
 
-for (const name of ALL) {
-  test(`${name} is in proportion to the letters around it, whatever the page's root has`, async ({ page }) => {
-    const looks = [];
-    for (const [root, em] of [['100%', 16], ['62.5%', 16], ['100%', 20], ['62.5%', 24]]) {
-      await page.setViewportSize({ width: 1400, height: 2400 });
-      await show(page, `<div style="width: 43.75em"><${name}></${name}></div>`, {
-        head: `<style>html { font-size: ${root} } body { margin: 0; font: ${em}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
-      });
-      await ready(page.locator(name));
-      await expect(page.locator(name).locator('.folds')).toBeVisible();
-      await frames(page);
-      looks.push({ root, em, boxes: await boxesOf(page, name, Number(em)) });
-    }
-    const [first, ...others] = looks;
-    for (const { root, em, boxes } of others) {
-      expect(boxes.map(({ part }) => part)).toEqual(first.boxes.map(({ part }) => part));
-      // Browsers round letters to pixels.
-      const off = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
-      expect(off, `${em} px, root ${root}`).toEqual([]);
-    }
-  });
-}
+test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figure }) => {
+  const looks = [];
+  for (const [root, em] of [['100%', 16], ['62.5%', 24]]) {
+    await page.setViewportSize({ width: 1400, height: 2400 });
+    await show(page, `<div style="width: 43.75em"><${figure}></${figure}></div>`, {
+      head: `<style>html { font-size: ${root} } body { margin: 0; font: ${em}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
+    });
+    await ready(page.locator(figure));
+    await expect(page.locator(figure).locator('.folds')).toBeVisible();
+    await frames(page);
+    looks.push({ root, em, boxes: await boxesOf(page, figure, Number(em)) });
+  }
+  const [first, ...others] = looks;
+  for (const { root, em, boxes } of others) {
+    expect(boxes.map(({ part }) => part)).toEqual(first.boxes.map(({ part }) => part));
+    // Browsers round letters to pixels.
+    const off = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
+    expect(off, `${em} px, root ${root}`).toEqual([]);
+  }
+});
 
 test('a handle is held where it is shown, also with large letters', async ({ page }) => {
   await show(page, '<banana-machine style="font-size: 24px"></banana-machine>');
@@ -110,32 +104,17 @@ test('a handle is held where it is shown, also with large letters', async ({ pag
   await page.mouse.up();
 });
 
-test('no length of the elements is one of the page: nothing is in rem', async ({ page }) => {
-  await show(page, ALL.map((name) => `<${name}></${name}>`).join(''), { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  for (const name of ALL) {
-    await page.locator(name).scrollIntoViewIfNeeded();
-    await ready(page.locator(name));
-    const styles = await page.locator(name).evaluate((element) => (element.shadowRoot?.adoptedStyleSheets ?? []).flatMap((sheet) => [...sheet.cssRules].map(({ cssText }) => cssText)).join('\n'));
-    expect(styles).toContain('em');
-    expect(styles.match(/.*\drem\b.*/g)).toBe(null);
-  }
-  const stylesheet = await page.request.get('/motion-widgets.css');
-  expect((await stylesheet.text()).match(/.*\drem\b.*/g)).toBe(null);
-});
-
-for (const name of ALL) {
-  test(`on a phone the picture of ${name} stays in sight below the site's header, and so does what has the focus`, async ({ page }) => {
-    await page.setViewportSize({ width: 375, height: 812 });
-    await show(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${name}></${name}><div style="height: 2000px"></div>`, {
-      head: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
-    });
-    const widget = page.locator(name);
-    await ready(widget);
-    const picture = widget.locator('[part=picture]').first();
-    await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
-    await frames(page);
-    const { y, height } = await boxOf(picture);
-    expect(y).toBeCloseTo(56, 0);
-    expect((await boxOf(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
+test('the picture of a figure stays in sight on a phone, below the header of the site', async ({ page, figure }) => {
+  await page.setViewportSize({ width: 375, height: 812 });
+  await show(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${figure}></${figure}><div style="height: 2000px"></div>`, {
+    head: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
   });
-}
+  const widget = page.locator(figure);
+  await ready(widget);
+  const picture = widget.locator('[part=picture]').first();
+  await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
+  await frames(page);
+  const { y, height } = await boxOf(picture);
+  expect(y).toBeCloseTo(56, 0);
+  expect((await boxOf(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
+});

@@ -1,32 +1,29 @@
 import { expect } from '@playwright/test';
-import { ALL, assign, heard, property, ready, show } from './element-support.js';
-import { STILL, boxOf, test } from './support.js';
+import { STILL, assign, boxOf, heard, property, ready, show, test } from './support.js';
 
 test.use(STILL);
 
-for (const name of ALL) {
-  test(`${name} has the title above and the caption below that the page gives it`, async ({ page }) => {
-    await show(page, `<${name} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${name}>`);
-    const widget = page.locator(name);
-    await ready(widget);
-    await expect(widget.getByRole('heading', { name: 'Figure 9.3 One command', level: 3 })).toBeVisible();
-    await expect(widget.getByRole('region', { name: 'Figure 9.3 One command' })).toBeVisible();
-    const [title, picture, caption] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured', { exact: true })].map(boxOf));
-    expect(title.y + title.height).toBeLessThanOrEqual(picture.y);
-    expect(caption.y).toBeGreaterThan(picture.y + picture.height);
-    await page.emulateMedia({ media: 'print' });
-    await expect(widget.getByText('Figure 9.3')).toBeVisible();
-    await expect(widget.getByText('measured', { exact: true })).toBeVisible();
-    await page.emulateMedia({ media: 'screen' });
-    await widget.evaluate((element) => element.removeAttribute('heading-level'));
-    await expect(widget.getByRole('heading')).toHaveCount(0);
-    await widget.evaluate((element) => element.replaceChildren());
-    await expect(widget.getByRole('region', { name: /^(The Banana Machine|Map Squeeze|Arc Anatomy|The Odometry Decomposer|Dead Reckoning|The Alpha Calibrator)$/ })).toBeVisible();
-    // A heading without words is none.
-    await widget.evaluate((element) => element.setAttribute('heading-level', '3'));
-    await expect(widget.getByRole('heading')).toHaveCount(0);
-  });
-}
+test('a figure has the title above and the caption below that the page gives it', async ({ page, figure }) => {
+  await show(page, `<${figure} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figure}>`);
+  const widget = page.locator(figure);
+  await ready(widget);
+  await expect(widget.getByRole('heading', { name: 'Figure 9.3 One command', level: 3 })).toBeVisible();
+  await expect(widget.getByRole('region', { name: 'Figure 9.3 One command' })).toBeVisible();
+  const [title, picture, caption] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured', { exact: true })].map(boxOf));
+  expect(title.y + title.height).toBeLessThanOrEqual(picture.y);
+  expect(caption.y).toBeGreaterThan(picture.y + picture.height);
+  await page.emulateMedia({ media: 'print' });
+  await expect(widget.getByText('Figure 9.3')).toBeVisible();
+  await expect(widget.getByText('measured', { exact: true })).toBeVisible();
+  await page.emulateMedia({ media: 'screen' });
+  await widget.evaluate((element) => element.removeAttribute('heading-level'));
+  await expect(widget.getByRole('heading')).toHaveCount(0);
+  await widget.evaluate((element) => element.replaceChildren());
+  await expect(widget.getByRole('region', { name: /^(The Banana Machine|Map Squeeze|Arc Anatomy|The Odometry Decomposer|Dead Reckoning|The Alpha Calibrator)$/ })).toBeVisible();
+  // A heading without words is none.
+  await widget.evaluate((element) => element.setAttribute('heading-level', '3'));
+  await expect(widget.getByRole('heading')).toHaveCount(0);
+});
 
 test('a heading has one of six levels', async ({ page }) => {
   await show(page, '<map-squeeze heading-level="9"></map-squeeze>');

@@ -1,88 +1,243 @@
 import { expect } from '@playwright/test';
-import { ALL, ready, show } from './element-support.js';
-import { STILL, frames, pixelsOf, test } from './support.js';
+import { STILL, frames, pixelsOf, ready, show, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
 test.use(STILL);
 
-/** @param {Locator} widget @returns {Promise<number[]>} red, green, blue, 0 to 255 */
-async function paperOf(widget) {
+/** Ground and text colours of themes of books and documentation sites, as a browser computes them. */
+const THEMES = {
+  'mdBook, light': ['#ffffff', '#000000'],
+  'mdBook, rust': ['#e1e1db', '#262625'],
+  'mdBook, coal': ['#131516', '#98a3ad'],
+  'mdBook, navy': ['#161923', '#bcbdd0'],
+  'mdBook, ayu': ['#0f1419', '#c5c5c5'],
+  'Furo, light': ['#ffffff', '#000000'],
+  'Furo, dark': ['#131416', '#cfd0d0'],
+  'pydata, light': ['#ffffff', '#222832'],
+  'pydata, dark': ['#14181e', '#ced6dd'],
+  'VitePress, light': ['#ffffff', '#3c3c43'],
+  'VitePress, dark': ['#1b1b1f', '#dfdfd6'],
+  'Docusaurus, light': ['#ffffff', '#1c1e21'],
+  'Docusaurus, dark': ['#1b1b1d', '#e3e3e3'],
+  'Starlight, light': ['#ffffff', '#353841'],
+  'Starlight, dark': ['#17181c', '#c0c2c7'],
+  'Vite, light': ['#ffffff', '#6b6375'],
+  'Vite, dark': ['#16171d', '#9ca3af'],
+  sepia: ['#f4ecd8', '#5b4636'],
+};
+
+/** Least contrast with the ground, of text, lines and dots. */
+const CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
+
+/**
+ * Returns the colours of a figure's roles on its surface.
+ *
+ * @param {Locator} widget
+ * @param {string[]} roles
+ * @returns {Promise<number[][]>} red, green, blue, 0 to 255
+ */
+async function coloursOf(widget, roles) {
   await frames(widget.page());
-  return widget.evaluate((element) => {
-    const swatch = document.createElement('span');
-    swatch.style.color = 'var(--paper)';
-    element.shadowRoot?.querySelector('.surface')?.append(swatch);
-    const paper = (getComputedStyle(swatch).color.match(/[\d.]+/g) ?? []).map(Number);
-    swatch.remove();
-    return paper;
+  return widget.evaluate((element, names) => {
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
+    return names.map((name) => {
+      const swatch = document.createElement('span');
+      swatch.style.color = `var(--${name})`;
+      element.shadowRoot?.querySelector('.surface')?.append(swatch);
+      context.fillStyle = getComputedStyle(swatch).color;
+      swatch.remove();
+      context.fillRect(0, 0, 1, 1);
+      return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+    });
+  }, roles);
+}
+
+/** @param {Locator} widget @returns {Promise<string>} */
+const paperOf = async (widget) => hex((await coloursOf(widget, ['paper']))[0]);
+
+/** @param {number[]} channels */
+const hex = (channels) => `#${channels.map((each) => each.toString(16).padStart(2, '0')).join('')}`;
+
+/** Returns the contrast of two colours by WCAG. @param {number[]} one @param {number[]} other */
+function contrast(one, other) {
+  const linear = (/** @type {number} */ c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
+  const luminance = ([r, g, b] = one) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+  const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
+  return (high + 0.05) / (low + 0.05);
+}
+
+/** @param {Locator} widget */
+const surfaceOf = (widget) =>
+  widget.locator('.surface').evaluate((element) => {
+    const { backgroundColor, color, fontFamily, fontSize, colorScheme } = getComputedStyle(element);
+    return { backgroundColor, color, fontFamily, fontSize, colorScheme };
   });
-}
 
 /** @param {Locator} widget */
-const lookOf = async (widget) => ((await paperOf(widget))[0] > 128 ? 'light' : 'dark');
-
-/** @param {Locator} widget */
-async function expectDrawn(widget) {
-  // Paths and frames in the colours of the present look, not of the one before.
-  await expect.poll(() => pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
-}
+const lookOf = async (widget) => ((await coloursOf(widget, ['paper']))[0][0] > 128 ? 'light' : 'dark');
 
 const SETTINGS = /** @type {[string, string, (scheme: 'light' | 'dark') => string][]} */ ([
   ['the inherited color-scheme', '<style>body { color: #333 }</style>', (scheme) => `document.body.style.colorScheme = '${scheme}'`],
   [
-    'a switch of the page that changes colours alone',
+    'colours that a page switches',
     '<style>body { background: white; color: #222 } .night body { background: #111; color: oklch(0.9 0 0) }</style>',
     (scheme) => `document.documentElement.classList.toggle('night', ${scheme === 'dark'})`,
   ],
-  ['the attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
+  ['its theme attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
 ]);
 
-for (const name of ALL) for (const [what, head, to] of SETTINGS) {
-  test(`${name} follows ${what}`, async ({ page }) => {
-    await show(page, `<${name} id="it"></${name}>`, { head });
-    const widget = page.locator(name);
+for (const [what, head, to] of SETTINGS) {
+  test(`a figure follows ${what}`, async ({ page, figure }) => {
+    await show(page, `<${figure} id="it"></${figure}>`, { head });
+    const widget = page.locator(figure);
     await ready(widget);
     expect(await lookOf(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light', 'dark'])) {
       await page.evaluate(to(scheme));
       await expect.poll(() => lookOf(widget)).toBe(scheme);
-      await expectDrawn(widget);
+      // The canvas has the colours of the present look.
+      await expect.poll(() => pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
     }
   });
 }
 
-test('follows the system where the page does', async ({ page }) => {
+test('a figure follows the system where the page does', async ({ page, figure }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  await show(page, '<banana-machine></banana-machine>', { head: '<style>:root { color-scheme: light dark }</style>' });
-  const widget = page.locator('banana-machine');
+  await show(page, `<${figure}></${figure}>`, { head: '<style>:root { color-scheme: light dark }</style>' });
+  const widget = page.locator(figure);
   await ready(widget);
   expect(await lookOf(widget)).toBe('dark');
   await page.emulateMedia({ colorScheme: 'light' });
   await expect.poll(() => lookOf(widget)).toBe('light');
-  await expectDrawn(widget);
 });
 
-for (const name of ALL) {
-  test(`the theme of ${name} itself stands against everything around it`, async ({ page }) => {
-    await show(page, `<${name} theme="light"></${name}>`, { head: '<style>:root { color-scheme: dark; color: white }</style>' });
-    const widget = page.locator(name);
-    await ready(widget);
-    expect(await lookOf(widget)).toBe('light');
-    await widget.evaluate((element) => element.removeAttribute('theme'));
-    await expect.poll(() => lookOf(widget)).toBe('dark');
-  });
-}
+test('the theme of a figure overrides its surroundings', async ({ page, figure }) => {
+  await show(page, `<${figure} theme="light"></${figure}>`, { head: '<style>:root { color-scheme: dark; color: white }</style>' });
+  const widget = page.locator(figure);
+  await ready(widget);
+  expect(await lookOf(widget)).toBe('light');
+  await widget.evaluate((element) => element.removeAttribute('theme'));
+  await expect.poll(() => lookOf(widget)).toBe('dark');
+});
 
-for (const [scheme, look] of /** @type {const} */ ([['normal', 'dark'], ['light', 'light'], ['dark', 'dark']])) {
-  test(`takes the ground for ${look} where the page's is an image, its text light and its color-scheme ${scheme}`, async ({ page }) => {
-    await show(page, '<banana-machine></banana-machine>', {
-      head: `<style>:root { color-scheme: ${scheme} } body { background: linear-gradient(#222, #333); color: #eee }</style>`,
-    });
-    const widget = page.locator('banana-machine');
-    await ready(widget);
-    expect(await lookOf(widget)).toBe(look);
-    // Where the page has not said which dark it is, one on which a halo is not blacker than the image.
-    if (scheme === 'normal') expect(await paperOf(widget)).toEqual([18, 18, 18]);
+test('a figure on the ground of any theme has its ink and letters, and enough contrast', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const { backgroundColor, fontFamily, fontSize } = await surfaceOf(widget);
+  expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
+  for (const [theme, [ground, text]] of Object.entries(THEMES)) {
+    await page.evaluate(([background, color]) => Object.assign(document.body.style, { background, color }), [ground, text]);
+    await expect.poll(async () => (await coloursOf(widget, ['paper', 'ink'])).map(hex), theme).toEqual([ground, text]);
+    const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(CONTRAST)]);
+    for (const [i, [role, least]] of Object.entries(CONTRAST).entries()) {
+      expect.soft(contrast(colours[i], paper), `${role} on ${theme}`).toBeGreaterThanOrEqual(least);
+    }
+  }
+  expect(await pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+  // An export has the ground of the page.
+  const svg = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
+  expect(svg).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
+});
+
+test('the ground is the nearest, through shadow roots and what is half transparent', async ({ page }) => {
+  await show(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
+    head: '<style>body { background: rgb(200 100 50); color: white }</style>',
   });
-}
+  await page.locator('#card').evaluate((card) => {
+    card.attachShadow({ mode: 'open' }).innerHTML = '<section><slot></slot></section>';
+    card.innerHTML = '<banana-machine></banana-machine>';
+  });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  expect(await paperOf(widget)).toBe('#643219');
+  await page.locator('#card').evaluate((card) => {
+    card.shadowRoot?.querySelector('section')?.setAttribute('style', 'background: #eee; color: #111');
+  });
+  await expect.poll(() => paperOf(widget)).toBe('#eeeeee');
+});
+
+test('a ground that fades arrives where the page does, also where the text has come before', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>', {
+    head: '<style>body { background: white; color: #222; transition: background-color 0.4s } .night body { background: #101418; color: #ddd }</style>',
+  });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  for (const [night, ground] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
+    await page.evaluate((on) => document.documentElement.classList.toggle('night', on), night);
+    await expect.poll(() => paperOf(widget)).toBe(ground);
+  }
+});
+
+test('a light text on an image of the page asks for dark paper', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  expect((await coloursOf(widget, ['paper']))[0]).toEqual([18, 18, 18]);
+});
+
+test('a theme other than that of the page gives a figure its own paper and ink', async ({ page }) => {
+  const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
+  await show(page, '<banana-machine theme="dark"></banana-machine>', { head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
+  // Neither do the page's other colours fit that paper.
+  const ofPage = ['#112233', '#445566'];
+  for (const colour of (await coloursOf(widget, ['muted', 'rule'])).map(hex)) expect(ofPage).not.toContain(colour);
+  await widget.evaluate((element) => element.setAttribute('theme', 'light'));
+  await expect.poll(() => surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
+  expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(ofPage);
+});
+
+/** Names that themes have for muted text, hairlines and the height of the header, which the stylesheet adopts. */
+const NAMES_OF_THEMES = {
+  Docusaurus: ['--ifm-color-emphasis-700', '--ifm-color-emphasis-300', '--ifm-navbar-height'],
+  VitePress: ['--vp-c-text-2', '--vp-c-border', '--vp-nav-height'],
+  Starlight: ['--sl-color-gray-3', '--sl-color-hairline-light', '--sl-nav-height'],
+  pydata: ['--pst-color-text-muted', '--pst-color-border', '--pst-header-height'],
+  Furo: ['--color-foreground-muted', '--color-background-border', '--header-height'],
+};
+
+test('the stylesheet adopts muted text, hairlines and header height of a theme, and --motion- properties override them', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const look = async () => [
+    ...(await coloursOf(widget, ['muted', 'rule'])).map(hex),
+    await widget.locator('.surface').evaluate((element) => {
+      const probe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
+      element.append(probe);
+      const { height } = probe.getBoundingClientRect();
+      probe.remove();
+      return height;
+    }),
+  ];
+  const say = (/** @type {string} */ style) => page.evaluate((text) => void (document.documentElement.style.cssText = text), style);
+  for (const [theme, [muted, rule, height]] of Object.entries(NAMES_OF_THEMES)) {
+    await say(`${muted}: #112233; ${rule}: #445566; ${height}: 60px`);
+    expect.soft(await look(), theme).toEqual(['#112233', '#445566', 60]);
+  }
+  await say('--ifm-navbar-height: 60px; --motion-muted: #010203; --motion-rule: #040506; --motion-sticky-top: 7px');
+  expect(await look()).toEqual(['#010203', '#040506', 7]);
+});
+
+test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figure }) => {
+  await show(page, `<${figure} style="--motion-paper: #102030; --motion-ink: #f0f0f0"></${figure}>`, { head: '<style>body { background: #fff; color: #000 }</style>' });
+  const widget = page.locator(figure);
+  await ready(widget);
+  // Light letters on dark paper: hues of the dark.
+  expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
+  expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
+});
+
+test('custom properties colour controls and canvases, also when they change', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const canvas = widget.locator('canvas.plane');
+  await page.addStyleTag({ content: 'banana-machine { --motion-posterior: rgb(200, 20, 90); --motion-font: monospace }' });
+  await expect.poll(() => pixelsOf(canvas, 'posterior')).toBeGreaterThan(100);
+  expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
+});

@@ -5,13 +5,13 @@
 
 import { expect } from '@playwright/test';
 import { generator } from '../random.js';
-import { NAMES, ready } from './element-support.js';
 import { file, pgm, yaml } from './squeeze-support.js';
-import { FRESH, frames, test } from './support.js';
+import { FRESH, frames, ready, test } from './support.js';
+import { NAMES } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
- * @typedef {import('./element-support.js').AnyElement} AnyElement
+ * @typedef {import('./support.js').AnyElement} AnyElement
  * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Luck
  * @typedef {(page: Page, luck: Luck) => Promise<string>} Deed one that says what it did
  */
@@ -252,7 +252,7 @@ function complaintsAbout(page, name) {
 
 test.use({ hasTouch: true });
 
-test('a monkey leaves every figure as sound as it was', FRESH, async ({ page }) => {
+test('random actions leave every figure sound @nightly', FRESH, async ({ page }) => {
   test.setTimeout(60_000 + EVENTS * 400);
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {

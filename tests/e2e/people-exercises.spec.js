@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { squeezed } from './squeeze-support.js';
-import { STILL, frames, open, state, test } from './support.js';
+import { STILL, frames, open, ready, state, test } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -93,7 +93,9 @@ test('exercise 4: what α₄ alone and α₆ alone do, on a straight and in a tu
 
 test('exercise 5: the share through a wall is pushed above 40 % by ω, and a repair brings it to 0', async ({ page }) => {
   // Tab comes to the figure that has not started, and it starts.
-  const banana = await open(page);
+  await page.goto('/');
+  const banana = page.locator('banana-machine').first();
+  await ready(banana);
   const widget = page.locator('map-squeeze').first();
   expect(await widget.evaluate((element) => Reflect.get(element, 'machine') === undefined)).toBe(true);
   await banana.getByText('Share the figure').focus();

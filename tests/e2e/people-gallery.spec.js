@@ -1,11 +1,23 @@
-import { expect } from '@playwright/test';
-import { STILL, frames, open, test, unfold } from './support.js';
-import { openSqueeze } from './squeeze-support.js';
+import { expect, test as plain } from '@playwright/test';
+import { NAMES } from './figures.js';
+import { STILL, frames, property, ready, test, unfold } from './support.js';
 
 test.use(STILL);
 
+/** Opens the gallery, with its two figures running. @param {import('@playwright/test').Page} page */
+async function openGallery(page) {
+  await page.goto('/');
+  const figures = NAMES.map((name) => page.locator(name).first());
+  for (const figure of figures) {
+    await figure.scrollIntoViewIfNeeded();
+    await ready(figure);
+    await expect(figure.locator('.folds')).toBeVisible();
+  }
+  return figures;
+}
+
 /**
- * The names that the page documents.
+ * Returns the names that the gallery documents.
  *
  * @param {import('@playwright/test').Page} page
  * @param {string} kind
@@ -16,10 +28,9 @@ async function documented(page, kind, of = 'both') {
   return names.map((name) => name.replace(/\(.*/, '')).sort();
 }
 
-test('the page documents every attribute, method, part and custom property, and no other', async ({ page }) => {
-  const squeeze = await openSqueeze(page);
-  await unfold(page.locator('banana-machine').first());
-  await unfold(squeeze);
+test('the gallery documents every attribute, method, part and custom property, and no other', async ({ page }) => {
+  for (const figure of await openGallery(page)) await unfold(figure);
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('The Banana Machine');
   for (const name of ['banana-machine', 'map-squeeze']) {
     const observed = await page.evaluate((tag) => Reflect.get(customElements.get(tag) ?? {}, 'observedAttributes'), name);
     // HTML has them in lower case.
@@ -41,8 +52,8 @@ test('the page documents every attribute, method, part and custom property, and 
   expect(await documented(page, 'property')).toEqual(properties);
 });
 
-test('its examples start when they are opened, and are what their code says', async ({ page }) => {
-  await open(page);
+test('examples of the gallery start when they are opened, and are what their code says', async ({ page }) => {
+  await openGallery(page);
   const examples = page.locator('.example');
   await expect(examples).toHaveCount(5);
   for (const example of await examples.all()) {
@@ -66,14 +77,28 @@ test('its examples start when they are opened, and are what their code says', as
   }
 });
 
-test('in a window as wide as the column of a book, both figures of the page are at most 720 px high', async ({ page }) => {
+test('both figures of the gallery are at most 720 px high in the column of a book', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 720 });
-  await page.goto('/');
-  for (const name of ['banana-machine', 'map-squeeze']) {
-    const widget = page.locator(name).first();
-    await widget.scrollIntoViewIfNeeded();
-    await expect(widget.locator('.folds')).toBeVisible();
-    const { height } = await widget.evaluate((element) => element.getBoundingClientRect());
-    expect(height, name).toBeLessThanOrEqual(720);
+  for (const figure of await openGallery(page)) {
+    const { height } = await figure.evaluate((element) => element.getBoundingClientRect());
+    expect(height).toBeLessThanOrEqual(720);
   }
+});
+
+test('two figures of a kind on a page share nothing', async ({ page }) => {
+  const [first] = await openGallery(page);
+  await page.evaluate(() => document.querySelector('main')?.append(document.createElement('banana-machine')));
+  const second = page.locator('banana-machine').last();
+  await second.scrollIntoViewIfNeeded();
+  await second.getByRole('button', { name: 'Pivot' }).click();
+  await frames(page);
+  expect([await property(second, 'omega'), await property(first, 'omega')]).toEqual([1.5, 0.5]);
+});
+
+plain('the gallery says what is missing without JavaScript', async ({ browser, baseURL }) => {
+  const context = await browser.newContext({ javaScriptEnabled: false, baseURL });
+  const page = await context.newPage();
+  await page.goto('/');
+  await expect(page.getByText('needs a browser with JavaScript and WebAssembly')).toBeVisible();
+  await context.close();
 });

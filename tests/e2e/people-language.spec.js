@@ -1,25 +1,25 @@
 import { expect } from '@playwright/test';
-import { de as sharedGerman } from '../../www/messages/de.js';
-import { en as sharedEnglish } from '../../www/messages/en.js';
-import { de as bananaGerman } from '../../www/widgets/banana-machine/de.js';
-import { en as bananaEnglish } from '../../www/widgets/banana-machine/en.js';
-import { de as squeezeGerman } from '../../www/widgets/map-squeeze/de.js';
-import { en as squeezeEnglish } from '../../www/widgets/map-squeeze/en.js';
-import { openSqueeze } from './squeeze-support.js';
-import { STILL, frames, numberIn, open, readout, state, test, unfold } from './support.js';
-
-const de = { ...sharedGerman, banana: bananaGerman, squeeze: squeezeGerman };
-const en = { ...sharedEnglish, banana: bananaEnglish, squeeze: squeezeEnglish };
+import { ALL } from './figures.js';
+import { STILL, frames, numberIn, open, pictureOf, readout, ready, show, state, test, unfold } from './support.js';
 
 test.use(STILL);
 
-/** Words that are the same in both languages, or a name. */
-const SAME = ['PNG', 'SVG', 'CSV', 'Map Squeeze'];
+/** Folders of the widgets by their keys in a catalogue. */
+const FOLDERS = {
+  banana: 'banana-machine', squeeze: 'map-squeeze', anatomy: 'arc-anatomy',
+  decomposer: 'odometry-decomposer', reckoning: 'dead-reckoning', calibrator: 'alpha-calibrator',
+};
+
+/** @param {string} lang @returns {Promise<any>} messages of a language */
+async function catalogueOf(lang) {
+  const own = Object.entries(FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
+  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(own)) };
+}
 
 /**
  * @param {any} catalogue
  * @param {string} [path]
- * @returns {[string, string | Function][]} the path of each message, and the message
+ * @returns {[string, string | Function][]} path and message of each
  */
 function messagesOf(catalogue, path = '') {
   return Object.entries(catalogue).flatMap(([key, message]) =>
@@ -28,7 +28,7 @@ function messagesOf(catalogue, path = '') {
 }
 
 /**
- * Everything of a widget that a reader sees or hears.
+ * Returns all texts of a figure that a reader sees or hears.
  *
  * @param {import('@playwright/test').Locator} widget
  */
@@ -47,95 +47,58 @@ function said(widget) {
         texts.push(node.textContent ?? '');
       }
     }
-    // Italics and subscripts break a sentence into several texts, which are one here.
+    // Italics and subscripts split a sentence into several nodes.
     const whole = [...root.querySelectorAll('p, li, dt, dd, th, td, caption, figcaption, legend, label')];
     texts.push(...whole.map((node) => node.textContent ?? ''));
     return texts.map((text) => text.replace(/\s+/g, ' ').trim()).filter(Boolean);
   });
 }
 
-/** @param {import('@playwright/test').Page} page */
-async function german(page) {
-  await page.addScriptTag({ type: 'module', url: '/de.js' });
-  await page.evaluate(() => (document.documentElement.lang = 'de-AT'));
-  await frames(page);
-}
-
-test('both catalogues have the same messages, with the same values in them', () => {
-  const [english, german] = [messagesOf(en), messagesOf(de)];
+test('both catalogues have the same messages, with the same values in them', async () => {
+  const [english, german] = (await Promise.all(['en', 'de'].map(catalogueOf))).map((catalogue) => messagesOf(catalogue));
   const shape = (/** @type {[string, string | Function][]} */ messages) =>
     messages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
   expect(shape(german)).toEqual(shape(english));
   expect(english.length).toBeGreaterThan(200);
-  for (const [path, message] of german) {
-    expect(String(typeof message === 'function' ? message('1', '2', '3', '4', '5') : message), path).not.toBe('');
+});
+
+test('no English is left in a German figure', async ({ page }) => {
+  const [en, de] = await Promise.all(['en', 'de'].map(catalogueOf));
+  const own = new Set(messagesOf(de).map(([, message]) => message));
+  const english = messagesOf(en)
+    .map(([, message]) => (typeof message === 'string' ? message : String(message(...'\ue001\ue002\ue003\ue004\ue005'))))
+    // Text around the values of a message is English too.
+    .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
+    .map((part) => part.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
+    .filter((part) => /\p{L}{4}/u.test(part) && part !== 'Map Squeeze' && !own.has(part));
+  expect(english.length).toBeGreaterThan(400);
+  await show(page, ALL.map((name) => `<${name} lang="de-AT"></${name}>`).join(''), {
+    script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
+  });
+  for (const name of ALL) {
+    const widget = page.locator(name);
+    await widget.scrollIntoViewIfNeeded();
+    await ready(widget);
+    await unfold(widget);
+    const texts = await said(widget);
+    expect(texts.length).toBeGreaterThan(60);
+    const left = english.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))));
+    expect.soft(left, name).toEqual([]);
   }
 });
 
-test('no English is left in a German widget, in any of its states', async ({ page }) => {
-  const banana = await open(page);
-  const squeeze = await openSqueeze(page);
-  await unfold(banana);
-  await unfold(squeeze);
-  await german(page);
-  const own = new Set(messagesOf(de).map(([, message]) => message));
-  const english = messagesOf(en)
-    .map(([, message]) => (typeof message === 'string' ? message : message(...'\ue001\ue002\ue003\ue004\ue005')))
-    // What is around the values of a message is English too.
-    .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
-    .map((part) => part.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
-    .filter((part) => /\p{L}{4}/u.test(part) && !SAME.includes(part) && !own.has(part));
-  expect(english.length).toBeGreaterThan(150);
-  const check = async (/** @type {string} */ when) => {
-    await frames(page);
-    for (const widget of [banana, squeeze]) {
-      const texts = await said(widget);
-      expect(texts.length).toBeGreaterThan(60);
-      const left = english.filter((part) =>
-        texts.some((text) => text === part || (part.includes(' ') && text.includes(part))),
-      );
-      expect(left, when).toEqual([]);
-    }
-  };
-  await check('as it opens');
-  await banana.getByLabel(de.banana.isolate).check();
-  await squeeze.getByLabel(de.squeeze.samplers['sub-stepped']).check();
-  await banana.getByRole('spinbutton', { name: de.banana.robot }).fill('3');
-  await squeeze.getByRole('spinbutton', { name: de.squeeze.sample }).fill('3');
-  await check('with one α alone and the command in parts');
-  await banana.getByRole('button', { name: de.banana.presets.straight }).click();
-  await squeeze.getByLabel(de.squeeze.condition).uncheck();
-  await squeeze.getByRole('button', { name: de.squeeze.own.use }).click();
-  await expect(squeeze.locator('.present')).toContainText('Eingegebener Plan: 6,0 m × 4,0 m, 6 Wände');
-  await check('with a robot that has no noise, without the condition, in a plan of the reader’s');
-  await banana.getByLabel(de.banana.models.odometry).check();
-  await squeeze.getByLabel(de.squeeze.own.files).setInputFiles({ name: 'room.txt', mimeType: 'text/plain', buffer: Buffer.from('') });
-  await expect(squeeze.locator('.own-map .note')).toContainText('room.txt: Dateien dieser Art');
-  await check('with odometry, and a file refused');
-});
-
-test('numbers are the language’s: a decimal comma, a true minus, as much as before', async ({ page }) => {
-  const widget = await open(page);
-  const skew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
-  await german(page);
-  const schiefe = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
-  expect(schiefe).toBe(skew.replaceAll('.', ','));
-  expect(schiefe).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
-  const { stats, config } = await state(widget);
-  expect(numberIn(schiefe.split(' ± ')[0].replace(',', '.'))).toBeCloseTo(stats.crossTrackSkew, 3);
-  await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
-  expect(config.command.v).toBe(1);
-});
-
-test('the nearest lang decides, whenever it changes; a language without words is English', async ({ page }) => {
+test('the nearest lang decides, also on the form of numbers; a language without words is English', async ({ page }) => {
   const widget = await open(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   const play = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
+  const skew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
   await play('Abspielen');
-  const other = page.locator('map-squeeze').first();
-  await other.scrollIntoViewIfNeeded();
-  await expect(other.getByRole('button', { name: 'Play' })).toBeVisible();
+  const schiefe = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
+  expect(schiefe).toBe(skew.replaceAll('.', ','));
+  expect(schiefe).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
+  expect(numberIn(schiefe.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await state(widget)).stats.crossTrackSkew, 3);
+  await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await play('Play');
   await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
@@ -144,124 +107,55 @@ test('the nearest lang decides, whenever it changes; a language without words is
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';
   });
   await play('Abspielen');
-  // What is said of a reading too.
-  await unfold(widget);
-  await widget.getByLabel(de.banana.isolate).check();
-  await widget.getByRole('button', { name: de.banana.presets.straight }).click();
-  const german = await widget.locator('.note').innerText();
-  await widget.evaluate((element) => element.setAttribute('lang', 'en'));
-  await expect(widget.locator('.note')).toContainText(' multiplies ');
-  await widget.evaluate((element) => element.removeAttribute('lang'));
-  await expect(widget.locator('.note')).toHaveText(german);
 });
 
-test('a catalogue of another shape is refused by name, and what is shorter does', async ({ page }) => {
-  const widget = await open(page);
-  const complaints = await page.evaluate(async () => {
-    const url = new URL('/motion-widgets.js', location.href).href;
-    const { setMessages } = await import(url);
-    const rows = [['v² dans v̂', 'étale le nuage'], ['ω² dans v̂', 'aussi']];
-    const given = [
-      { alphaIsSilent: 'silence' },
-      { alphaIsSilent: (/** @type {any} */ a, /** @type {any} */ b, /** @type {any} */ c, /** @type {any} */ d, /** @type {any} */ e) => `${a}${b}${c}${d}${e}` },
-      { settings: { alphas: { effects: { velocity: rows } } } },
-      { settings: { alphas: { effects: { velocity: [...rows, ...rows, ...rows] } } } },
-      { settings: { alphas: { effects: 'x' } } },
-      { settings: null },
-      { readouts: { nominal: () => 'x' } },
-      { readouts: { ellipse: 'x' } },
-    ];
-    return given.map((banana) => {
-      try {
-        setMessages('fr', { banana });
-      } catch (error) {
-        return String(error).replace('TypeError: messages: fr.banana.', '').replace(/one of .*/, 'one of');
-      }
-    });
-  });
-  expect(complaints).toEqual([
-    'alphaIsSilent is a string; allowed is a function of 4 values.',
-    'alphaIsSilent is a function of 5 values; allowed is a function of 4 values.',
-    'settings.alphas.effects.velocity is a list of 2; allowed is a list of 6.',
-    'settings.alphas.effects.velocity.0 is a list of 2; allowed is a list of 3.',
-    'settings.alphas.effects is a string; allowed is a group.',
-    'settings is null; allowed is a group.',
-    'readouts.nominal is a function of 0 values; allowed is a string.',
-    'readouts.ellipse is a string; allowed is one of',
-  ]);
-  // Of fewer values than there are: what is left out is not said.
-  await page.evaluate(async () => {
-    const url = new URL('/motion-widgets.js', location.href).href;
-    const { setMessages } = await import(url);
-    setMessages('fr', { banana: { alphaIsSilent: (/** @type {string} */ alpha) => `${alpha} se tait.`, bend: { right: () => 'À droite.' } } });
-  });
-  await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
-  await expect(widget.locator('.caption > span')).toHaveText('À droite.');
-  await widget.getByRole('button', { name: 'Straight' }).click();
-  await unfold(widget);
-  await widget.getByLabel('Isolate one').check();
-  await expect(widget.locator('.note')).toHaveText('α₄ se tait.');
-  expect((await said(widget)).filter((text) => text.includes('undefined') && !text.endsWith('exact skew undefined'))).toEqual([]);
-});
-
-test('a page may replace words and add languages, and is told of a message that is none', async ({ page }) => {
+test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
   const widget = await open(page);
   await unfold(widget);
-  const complaint = await page.evaluate(async () => {
-    const url = new URL('/motion-widgets.js', location.href).href;
-    const { setMessages } = await import(url);
-    setMessages('fr', { play: 'Jouer', banana: { robot: 'Automate' } });
-    setMessages('en', { pause: 'Hold' });
-    try {
-      setMessages('fr', { banana: { robots: 'x' } });
-    } catch (error) {
-      return String(error);
-    }
-  });
-  expect(complaint).toMatch(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /);
-  await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
-  await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
-  await expect(widget.getByRole('button', { name: 'Jouer' })).toBeVisible();
-  await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();
-  await expect(widget.getByRole('button', { name: 'Step' })).toBeVisible();
-});
-
-test('words for what is no language are refused', async ({ page }) => {
-  await open(page);
   const complaints = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
-    return ['de_AT', 'constructor', '__proto__', '', 'no tag', undefined, 3].map((lang) => {
+    setMessages('fr', { play: 'Jouer', banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
+    setMessages('en', { pause: 'Hold' });
+    const given = /** @type {[string, object][]} */ ([
+      ['fr', { banana: { robots: 'x' } }],
+      ['fr', { banana: { alphaIsSilent: 'silence' } }],
+      ['fr', { banana: { settings: { alphas: { effects: 'x' } } } }],
+      ['de_AT', { play: 'Los' }],
+    ]);
+    return given.map(([lang, messages]) => {
       try {
-        setMessages(lang, { play: 'Los' });
+        setMessages(lang, messages);
       } catch (error) {
         return String(error);
       }
     });
   });
-  const refused = (/** @type {string | undefined} */ lang) => `RangeError: messages: lang is ${lang}; allowed is a BCP 47 tag, as "de" or "pt-BR".`;
-  expect(complaints).toEqual(['"de_AT"', '"constructor"', '"__proto__"', '""', '"no tag"', 'undefined', '3'].map(refused));
-  // What every object has is no message.
-  const inherited = await page.evaluate(async () => {
-    const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
-    return ['constructor', '__proto__'].map((key) => {
-      try {
-        setMessages('de', JSON.parse(`{ "exports": { "${key}": {} } }`));
-      } catch (error) {
-        return String(error).replace(/one of .*/, 'one of');
-      }
-    });
-  });
-  expect(inherited).toEqual(['constructor', '__proto__'].map((key) => `TypeError: messages: de.exports.${key} is a group; allowed is one of`));
+  expect(complaints).toEqual([
+    expect.stringMatching(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /),
+    'TypeError: messages: fr.banana.alphaIsSilent is a string; allowed is a function of 4 values.',
+    'TypeError: messages: fr.banana.settings.alphas.effects is a string; allowed is a group.',
+    'RangeError: messages: lang is "de_AT"; allowed is a BCP 47 tag, as "de" or "pt-BR".',
+  ]);
+  await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
+  await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
+  await expect(widget.getByRole('button', { name: 'Jouer' })).toBeVisible();
+  await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();
+  await expect(widget.getByRole('button', { name: 'Step' })).toBeVisible();
+  await expect(widget.locator('.caption > span')).toHaveText('À droite.');
 });
 
-test('what is no language kills no widget', async ({ page }) => {
-  const widget = await open(page);
-  for (const lang of ['constructor', 'CONSTRUCTOR', '__proto__', 'constructor-x', 'tostring', 'de_AT', '-', '']) {
-    await widget.evaluate((element, given) => element.setAttribute('lang', given), lang);
-    await widget.locator('#v').fill('0.4');
-    await widget.getByRole('button', { name: 'Straight' }).click();
-    await expect(widget.locator('.caption > span')).toContainText('The cloud');
-    await expect(readout(widget, 'cross-track skew')).toHaveText(/^−?0[.]\d/);
-    await expect(widget.getByRole('alert')).toHaveCount(0);
-  }
+test('a page from right to left has the same picture, and nothing beside its figure', async ({ page, figure }) => {
+  await show(page, `<${figure}></${figure}>`);
+  const widget = page.locator(figure);
+  await ready(widget);
+  const canvas = widget.locator('canvas.plane');
+  const before = await pictureOf(canvas);
+  await page.evaluate(() => void (document.documentElement.dir = 'rtl'));
+  await frames(page);
+  expect(await pictureOf(canvas)).toBe(before);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
+  const slider = widget.locator('.slider input[type=range]').first();
+  const value = Number(await slider.inputValue());
+  await slider.press('ArrowUp');
+  expect(Number(await slider.inputValue())).toBeGreaterThan(value);
 });

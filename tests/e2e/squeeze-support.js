@@ -1,12 +1,12 @@
 /**
- * What the tests of Map Squeeze share: the widget on its page, what its machine says, and map files.
+ * Helpers for tests of Map Squeeze: a page with the figure, readings of its machine, and map files.
  *
  * @module
  */
 
 import { expect } from '@playwright/test';
 import { pngOf } from '../png.js';
-import { frames, unfolded } from './support.js';
+import { frames, show, unfolded } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -19,17 +19,15 @@ import { frames, unfolded } from './support.js';
  */
 
 /**
- * The page, with the widget running.
+ * Opens a page with a Map Squeeze.
  *
  * @param {Page} page
- * @returns {Promise<Locator>}
+ * @param {string} [attributes]
  */
-export async function openSqueeze(page) {
-  await page.goto('/');
-  const widget = page.locator('map-squeeze').first();
-  await widget.scrollIntoViewIfNeeded();
-  await expect(widget.getByRole('button', { name: 'Facing a doorway' })).toBeVisible();
-  await widget.locator('canvas.plane').scrollIntoViewIfNeeded();
+export async function openSqueeze(page, attributes = '') {
+  await show(page, `<main><h1>Bare</h1><map-squeeze heading-level="2" ${attributes}></map-squeeze></main>`);
+  const widget = page.locator('map-squeeze');
+  await expect(widget.locator('.folds')).toBeVisible();
   await frames(page);
   return widget;
 }

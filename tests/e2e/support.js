@@ -1,22 +1,40 @@
 /**
- * What the browser tests share: the widget on its page, what its machine says, and a hand on its
- * controls.
+ * Helpers of the browser tests: the test function, the gallery page, readings of a machine, and actions on controls.
  *
  * @module
  */
 
 import { expect, test as base } from '@playwright/test';
+import { CLOUDS, HANDLED, figureFor } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
  * @typedef {import('@playwright/test').Locator} Locator
  * @typedef {import('../../www/types.d.ts').BananaMachine} BananaMachine
  * @typedef {import('../../www/types.d.ts').Motion} Motion
+ * @typedef {import('./figures.js').Name} Name
+ * @typedef {import('../../www/types.d.ts').WidgetElement<any, any> & { machine: any, motion: any }} AnyElement
+ * @typedef {{ name: string, target: string, message: string, path: number, value: unknown }} Heard
  * @typedef {HTMLElement & { machine: BananaMachine, motion: Motion }} BananaMachineElement
  */
 
-/** A test that fails on anything the page complains of. */
+/**
+ * Names of elements that a test's title chooses, for claims about all figures, all clouds and all handles.
+ *
+ * @typedef {{ figure: Name, cloud: Name, handled: Name }} Chosen
+ */
+
+/**
+ * Test that fails on any warning or error in the console.
+ *
+ * @type {import('@playwright/test').TestType<import('@playwright/test').PlaywrightTestArgs & import('@playwright/test').PlaywrightTestOptions & Chosen, import('@playwright/test').PlaywrightWorkerArgs & import('@playwright/test').PlaywrightWorkerOptions>}
+ */
 export const test = base.extend({
+  /* eslint-disable no-empty-pattern */
+  figure: async ({}, use, { title }) => use(figureFor(title)),
+  cloud: async ({}, use, { title }) => use(figureFor(title, CLOUDS)),
+  handled: async ({}, use, { title }) => use(figureFor(title, HANDLED)),
+  /* eslint-enable no-empty-pattern */
   page: async ({ page }, use) => {
     /** @type {string[]} */
     const complaints = [];
@@ -36,14 +54,138 @@ export const FRESH = { tag: '@fresh' };
 export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
 
 /**
- * The page, with its widget running.
+ * Opens a page with a body of its own, which keeps the events of its elements.
  *
  * @param {Page} page
- * @returns {Promise<Locator>} the widget
+ * @param {string} body
+ * @param {{ head?: string, fragment?: string, script?: string }} [options]
  */
-export async function open(page) {
-  await page.goto('/');
-  const widget = page.locator('banana-machine').first();
+export async function show(page, body, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
+  await page.addInitScript(() => {
+    const heard = /** @type {Heard[]} */ ([]);
+    Object.assign(window, { heard });
+    for (const name of ['load', 'input', 'change', 'stats', 'error']) {
+      document.addEventListener(name, (event) => {
+        const target = /** @type {Element} */ (event.target);
+        if (!(target instanceof Element) || !target.localName.includes('-')) return;
+        const { message = '' } = /** @type {ErrorEvent} */ (event);
+        // Keeps the figure from a warning in the console.
+        event.preventDefault();
+        const value = /** @type {AnyElement} */ (target).v;
+        heard.push({ name, target: target.localName, message, path: event.composedPath().length, value });
+        // Errors do not bubble.
+      }, { capture: name === 'error' });
+    }
+  });
+  await page.route('**/bare.html', (route) =>
+    route.fulfill({
+      contentType: 'text/html',
+      body: `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Bare</title><link rel="icon" href="data:,">${head}${script}</head><body>${body}</body></html>`,
+    }),
+  );
+  await page.goto(`/bare.html${fragment}`);
+}
+
+/**
+ * Waits until an element has its machine, and a picture where it is in sight.
+ *
+ * @param {Locator} widget
+ */
+export async function ready(widget) {
+  await expect.poll(() => widget.evaluate((element) => Reflect.get(element, 'machine') !== undefined)).toBe(true);
+  await frames(widget.page());
+}
+
+/**
+ * Takes the events of the elements since the last call.
+ *
+ * @param {Page} page
+ * @param {string[]} [names]
+ * @returns {Promise<Heard[]>}
+ */
+export async function heard(page, names = ['load', 'input', 'change', 'error']) {
+  await frames(page);
+  const all = /** @type {Heard[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
+  return all.filter(({ name }) => names.includes(name));
+}
+
+/**
+ * @param {Locator} widget
+ * @param {string} name
+ */
+export function property(widget, name) {
+  return widget.evaluate((element, key) => Reflect.get(element, key), name);
+}
+
+/**
+ * @param {Locator} widget
+ * @param {string} name
+ * @param {unknown} value
+ * @returns {Promise<string>} error of the error event; empty if there is none
+ */
+export function assign(widget, name, value) {
+  return widget.evaluate(
+    (element, [key, to]) => {
+      let refused = '';
+      const listen = (/** @type {Event} */ event) => void (refused = String(/** @type {ErrorEvent} */ (event).error));
+      element.addEventListener('error', listen);
+      Reflect.set(element, /** @type {string} */ (key), to);
+      element.removeEventListener('error', listen);
+      return refused;
+    },
+    [name, value],
+  );
+}
+
+/**
+ * Plays a slider by its button, inside of the page, where no step is missed.
+ *
+ * @param {Locator} widget
+ * @param {string} key of the setting in a state, and class of its group
+ * @param {number} [most] steps until it is paused
+ * @returns {Promise<{ values: number[], label: string }>} value at each step, and the label of the button at the first
+ */
+export function played(widget, key, most = Infinity) {
+  return widget.evaluate(
+    (element, [key, most]) =>
+      new Promise((resolve) => {
+        const figure = /** @type {AnyElement} */ (element);
+        const button = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
+        const values = /** @type {number[]} */ ([]);
+        let label = '';
+        const listen = async () => {
+          values.push(/** @type {any} */ (figure.getState())[key]);
+          if (values.length === 1) {
+            await /** @type {any} */ (figure).updateComplete;
+            label = button.innerText;
+          }
+          if (values.length === most) button.click();
+        };
+        figure.addEventListener('input', listen);
+        figure.addEventListener('change', () => {
+          figure.removeEventListener('input', listen);
+          resolve({ values, label });
+        }, { once: true });
+        button.click();
+      }),
+    /** @type {const} */ ([key, most]),
+  );
+}
+
+/** @param {Locator} widget */
+export function stateOf(widget) {
+  return widget.evaluate((element) => /** @type {AnyElement} */ (element).getState());
+}
+
+/**
+ * Opens a page with a Banana Machine.
+ *
+ * @param {Page} page
+ * @param {string} [attributes]
+ */
+export async function open(page, attributes = '') {
+  await show(page, `<main><h1>Bare</h1><banana-machine heading-level="2" ${attributes}></banana-machine></main>`);
+  const widget = page.locator('banana-machine');
   await expect(widget.getByRole('button', { name: 'Straight' })).toBeVisible();
   await frames(page);
   return widget;

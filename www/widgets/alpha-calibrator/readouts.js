@@ -45,7 +45,7 @@ export function alphaTable(reading) {
       <tr aria-hidden="true">
         <td></td>
         <td class="chart">
-          <div class="scale">${place.decades.map((decade) => html`<span style="left: ${(100 * place.at(decade)) / CHART.width}%">${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div>
+          <div class="scale">${place.decades.map((decade) => html`<span .style=${`left: ${(100 * place.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div>
         </td>
         <td colspan="2"></td>
       </tr>

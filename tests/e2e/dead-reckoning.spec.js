@@ -1,7 +1,5 @@
 import { expect } from '@playwright/test';
-import { expectAccessible } from './axe.js';
-import { show } from './element-support.js';
-import { STILL, detail, dragSlider, frames, pictureOf, pixelsOf, readout, test, unfold } from './support.js';
+import { STILL, detail, dragSlider, frames, pictureOf, pixelsOf, readout, show, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -13,7 +11,7 @@ import { STILL, detail, dragSlider, frames, pictureOf, pixelsOf, readout, test, 
 test.use(STILL);
 
 /**
- * The element on a page of its own, with all of its robots driven.
+ * Opens a page with the figure, and waits for all of its robots.
  *
  * @param {Page} page
  * @param {string} [attributes]
@@ -40,7 +38,7 @@ const config = (widget) => widget.evaluate((element) => /** @type {DeadReckoning
 const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption] > span');
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
-/** What the three readouts say of the components. @param {Locator} widget */
+/** Returns the texts of the three readouts of the components. @param {Locator} widget */
 const missed = (widget) => Promise.all(['along', 'lateral', 'heading'].map((name) => readout(widget, new RegExp(`^\\s*${name}`)).textContent()));
 
 test('opens with the lateral miss that the chapter’s 6 % hides', async ({ page }) => {
@@ -72,6 +70,7 @@ test('a slider walks along the path, from the keyboard too, and drives nobody', 
   expect(planeAtEnd).not.toBe(plane);
   expect(twistAtEnd).not.toBe(twist);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured)).toEqual(before);
+  await expect(widget.locator('.walk .effect')).toHaveText('Walks along the path: 4.00 of 4.00 s are driven.');
   await slider.press('Home');
   await frames(page);
   await expect(widget.locator('canvas.twist')).toHaveAttribute('aria-label', /measured 0.0316 m and 0.0035 m, predicted 0.0316 m and 0.0000 m/);
@@ -96,56 +95,6 @@ test('a step beyond the last is refused where it is typed', async ({ page }) => 
   await field.press('Enter');
   await frames(page);
   expect((await config(widget)).step).toBe(20);
-});
-
-/** Has the page keep what is written on a canvas, and where its left end is. @param {Page} page @param {string} name */
-function keepLettering(page, name) {
-  return page.addInitScript((ofName) => {
-    /** @type {{ text: string, left: number }[]} */
-    const told = [];
-    const { fillText } = CanvasRenderingContext2D.prototype;
-    CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
-      const { actualBoundingBoxLeft } = this.measureText(text);
-      if (/** @type {HTMLElement} */ (this.canvas).className === ofName) told.push({ text, left: x - actualBoundingBoxLeft });
-      fillText.call(this, text, x, y);
-    };
-    Object.assign(window, { told });
-  }, name);
-}
-
-/** @param {Page} page @returns {Promise<{ text: string, left: number }[]>} */
-const lettering = (page) => page.evaluate(() => /** @type {any} */ (window).told);
-
-test('ticks of a tiny step stand on the picture', async ({ page }) => {
-  await keepLettering(page, 'twist');
-  await openReckoning(page, 'preset="fine" step="1" samples="1000"');
-  const told = await lettering(page);
-  expect(told.map(({ text }) => text)).toContain('ξ lateral (10⁻⁵ m)');
-  for (const { text, left } of told) expect(left, text).toBeGreaterThanOrEqual(0);
-});
-
-for (const [lang, names] of /** @type {[string, string[]][]} */ ([
-  ['en', ['Gaussian in (x, y)', 'in ξ', 'command']],
-  ['de', ['Gauß in (x, y)', 'in ξ', 'Befehl']],
-])) {
-  test(`the key of the floor names all that is drawn in the column of a book, in ${lang}`, async ({ page }) => {
-    await page.setViewportSize({ width: 680, height: 900 });
-    await keepLettering(page, 'plane');
-    await openReckoning(page, `samples="1000" lang="${lang}"`);
-    await page.addScriptTag({ type: 'module', url: '/de.js' });
-    await expect.poll(async () => (await lettering(page)).map(({ text }) => text)).toEqual(expect.arrayContaining(names));
-  });
-}
-
-test('the slider of the step says how much of the path is driven', async ({ page }) => {
-  const widget = await openReckoning(page, 'samples="1000"');
-  const help = widget.locator('.walk .effect');
-  await expect(help).toBeHidden();
-  await widget.locator('#step').press('End');
-  await expect(help).toBeVisible();
-  await expect(help).toHaveText('Walks along the path: 4.00 of 4.00 s are driven.');
-  await widget.locator('#step').press('ArrowLeft');
-  await expect(help).toHaveText('Walks along the path: 3.80 of 4.00 s are driven.');
 });
 
 test('with J_r, and to fourth order, every component is right', async ({ page }) => {
@@ -194,10 +143,6 @@ test('more steps are shorter ones of the same path, seen from the same place', a
   expect(Math.abs(step / steps - 0.5)).toBeLessThan(0.02);
   const [atX, atY] = await end(widget);
   expect(Math.hypot(atX - x, atY - y)).toBeLessThan(1e-12);
-  // To a single step and back.
-  await widget.locator('#steps').press('Home');
-  await settled(widget);
-  expect(await config(widget)).toMatchObject({ steps: 1, step: 1 });
 });
 
 test('too few robots tell nothing, and none at all say so', async ({ page }) => {
@@ -213,12 +158,6 @@ test('too few robots tell nothing, and none at all say so', async ({ page }) => 
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.shown)).toBe(7);
 });
 
-test('a single robot on a single step is one', async ({ page }) => {
-  const widget = await openReckoning(page, 'samples="1" steps="1" step="1"');
-  await expect(caption(widget)).toHaveText(/^Too few robots/);
-  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', / 1 robot drives 1 step of /);
-});
-
 test('no noise has no ratio, and a fourth order without a covariance neither', async ({ page }) => {
   const widget = await openReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
   await expect(caption(widget)).toHaveText(/^No noise:/);
@@ -230,17 +169,6 @@ test('no noise has no ratio, and a fourth order without a covariance neither', a
   expect(wild).toBeNull();
   await settled(widget);
   await expect(caption(widget)).toHaveText(/has left no covariance/);
-});
-
-test('a heading without noise takes nothing from the other components', async ({ page }) => {
-  const widget = await openReckoning(page, 'headingNoise="0"');
-  await expect(caption(widget)).toHaveText(/lateral variance it predicts/);
-  expect(await missed(widget)).toContain('—');
-  for (const name of ['with Jᵣ', 'fourth order']) {
-    await widget.getByRole('radio', { name }).check();
-    await frames(page);
-    await expect(caption(widget)).toHaveText(/^Within 5 %/);
-  }
 });
 
 test('a robot that is pointed at shows its way', async ({ page }) => {
@@ -255,34 +183,7 @@ test('a robot that is pointed at shows its way', async ({ page }) => {
   await expect(widget.locator('.marked output')).toContainText(`x ${end[0].toFixed(3)} m`);
 });
 
-for (const [width, height] of [[1280, 720], [1920, 1080]]) {
-  test(`before an audience says what it finds, clear of the buttons, ${width} × ${height} px`, async ({ page }) => {
-    await page.setViewportSize({ width, height });
-    const widget = page.locator('dead-reckoning');
-    await show(page, '<dead-reckoning presentation></dead-reckoning>');
-    await settled(widget);
-    await expect(caption(widget)).toBeInViewport({ ratio: 0.99 });
-    await expect(widget.locator('.readouts')).toBeInViewport({ ratio: 0.99 });
-    await expect(widget.locator('#step')).toBeHidden();
-    const bottom = (/** @type {Locator} */ of) => of.evaluate((each) => each.getBoundingClientRect().bottom);
-    for (const controls of [false, true]) {
-      if (controls) await page.keyboard.press('c');
-      await frames(page);
-      const top = await plotOf(widget).evaluate((each) => each.getBoundingClientRect().top);
-      expect(top).toBeGreaterThanOrEqual(await bottom(widget.locator('.presenting button').first()));
-      expect(await widget.locator('.surface').evaluate((each) => each.scrollHeight - each.clientHeight)).toBeLessThanOrEqual(0);
-    }
-  });
-}
-
-test('a symbol that is pointed at says its name', async ({ page }) => {
-  const widget = await openReckoning(page, 'samples="1000"');
-  for (const [key, name] of [['step', 'k, step that is looked at'], ['headingNoise', 'h, heading noise'], ['steps', 'n, steps of the same path'], ['samples', 'N, robots']]) {
-    await expect(widget.locator(`label[for=${key}]`)).toHaveAttribute('title', name);
-  }
-});
-
-test('takes along a row a step', async ({ page }) => {
+test('CSV has a row a step', async ({ page }) => {
   const widget = await openReckoning(page);
   const { text, measured, predicted } = await widget.evaluate((element) => {
     const { machine } = /** @type {DeadReckoningElement} */ (element);
@@ -312,7 +213,7 @@ test('variances of a straight drive cross where the formula says', async ({ page
   await expect(plot).toHaveAttribute('aria-label', /never cross\.$/);
 });
 
-test('what takes long shows how far it is, and can be stopped', async ({ page }) => {
+test('a change that takes long shows its progress, and can be stopped', async ({ page }) => {
   const widget = await openReckoning(page);
   const before = await config(widget);
   await widget.evaluate((element) => Object.assign(element, { samples: 1_000_000 }));
@@ -321,37 +222,4 @@ test('what takes long shows how far it is, and can be stopped', async ({ page })
   await expect(widget.locator('[part=progress]')).toHaveCount(0);
   expect(await config(widget)).toEqual(before);
   expect(await missed(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
-});
-
-test('speaks German', async ({ page }) => {
-  await page.addInitScript(() => document.addEventListener('DOMContentLoaded', () => void (document.documentElement.lang = 'de')));
-  await show(page, '<dead-reckoning></dead-reckoning>', {
-    script: '<script type="module" src="/motion-widgets.js"></script><script type="module" src="/de.js"></script>',
-  });
-  const widget = page.locator('dead-reckoning');
-  await expect(caption(widget)).toContainText('0,44 in Schritt 2');
-  await expect(widget.getByRole('radio', { name: '4. Ordnung' })).toBeVisible();
-});
-
-for (const width of [320, 375, 700, 1280]) {
-  test(`is accessible and no wider than its page, ${width} px`, async ({ page }) => {
-    await page.setViewportSize({ width, height: 900 });
-    const widget = await openReckoning(page);
-    await unfold(widget);
-    await expectAccessible(page);
-    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
-  });
-}
-
-test('a noise parameter and a level of noise that are set in one frame are both taken, in turn', async ({ page }) => {
-  const widget = await openReckoning(page, 'samples="100"');
-  await unfold(widget);
-  await widget.evaluate((element) => {
-    for (const [id, value] of [['alpha1', '0.03'], ['headingNoise', '0.08'], ['alpha2', '0.04']]) {
-      const slider = /** @type {HTMLInputElement} */ (/** @type {ShadowRoot} */ (element.shadowRoot).getElementById(id));
-      slider.value = value;
-      slider.dispatchEvent(new InputEvent('input', { bubbles: true }));
-    }
-  });
-  await expect.poll(async () => (await config(widget)).alphas).toEqual([0.03, 0.04, 0.08, 0.08, 0.02, 0.02]);
 });

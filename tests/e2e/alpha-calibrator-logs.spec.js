@@ -1,0 +1,219 @@
+import { spawnSync } from 'node:child_process';
+import { expect } from '@playwright/test';
+import { recordingOf, transform } from '../mcap.js';
+import { caption, choose, example, fold, openCalibrator, recordingWith, rows, settled, stats, tablesOf } from './calibrator-support.js';
+import { STILL, heard, stateOf, test, unfold } from './support.js';
+
+/** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
+
+test.use(STILL);
+
+test('two tables of the reader’s own take the place of the simulated log, and leave it again', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const tables = await tablesOf(widget);
+  await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
+  await expect(caption(widget)).toHaveText(/^\d+ legs of odom\.csv, truth\.csv, with a reference taken to be exact\./);
+  await settled(widget);
+  expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
+  await expect(fold(widget, 'Your log').locator('.present')).toHaveText('The log at present: odom.csv, truth.csv.');
+  // Their names say which is which, whatever the reader does.
+  const hint = widget.getByText('it is called as odometry is, and truth.csv is not: are the two the other way round?');
+  await expect(hint).toHaveCount(0);
+  await widget.getByRole('button', { name: 'The other way round' }).click();
+  await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
+  await expect(hint).toBeVisible();
+  await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('results are those of the command line, to the last bit', async ({ page }) => {
+  const widget = await openCalibrator(page, 'robust="false" seed="0" bylength');
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/reference\.csv, with a reference taken to be exact\./);
+  await settled(widget);
+  const shown = await widget.evaluate((element) => {
+    const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
+    return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
+  });
+  const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
+  const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, '--json'], {
+    encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28,
+  });
+  const { date, fit, deviations, logs, start, ...printed } = JSON.parse(stdout);
+  expect([fit, deviations, logs.length, start, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 }, byLength: true }, {}, 2, 9, 'string']);
+  expect(JSON.parse(shown)).toEqual(printed);
+});
+
+test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await settled(widget);
+  const { alphas } = await stats(widget);
+  for (const topics of [['/mocap/pose'], ['/mocap/pose', '/slam/pose']]) {
+    const name = `run-${topics.length}.mcap`;
+    const buffer = await recordingWith(topics);
+    await widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
+    if (topics.length > 1) {
+      await expect(widget.getByRole('alert')).toHaveText(/^run-2\.mcap: which topic is the reference is not clear; expected is a choice of .*\/slam\/pose \(PoseStamped\)\.$/);
+      await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
+    }
+    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}[.,]`));
+    await settled(widget);
+    const read = await stats(widget);
+    // Quaternions round the headings.
+    alphas.forEach((alpha, i) => expect(Number(read.alphas[i]) / Number(alpha)).toBeCloseTo(1, 3));
+  }
+});
+
+test('of files with poses and commands the velocity model takes the commands, and the others the poses', async ({ page }) => {
+  const widget = await openCalibrator(page, 'model="velocity"');
+  const keys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
+  const model = async (/** @type {string} */ name, /** @type {string} */ key) => {
+    await widget.getByRole('radio', { name }).check();
+    await expect.poll(keys).toContain(key);
+    await settled(widget);
+  };
+  // The command of a row is driven until the next row.
+  const [header, ...lines] = example('odometry').trim().split('\n');
+  const driven = lines.map((line) => line.split(',').map(Number));
+  const commands = driven.map(([t, x, y, yaw], i) => {
+    const [next, toX, toY, to] = driven[i + 1] ?? [t + 1, x, y, yaw];
+    return `${lines[i]},${Math.hypot(toX - x, toY - y) / (next - t)},${Math.atan2(Math.sin(to - yaw), Math.cos(to - yaw)) / (next - t)}`;
+  });
+  await choose(widget, { 'odom.csv': [`${header},v,omega`, ...commands].join('\n'), 'truth.csv': example('reference') });
+  await expect.poll(keys).toContain('omega');
+  await settled(widget);
+  expect((await stats(widget)).alphas).toHaveLength(6);
+  await model('Table 5.6', 'theta');
+  await model('velocity', 'omega');
+  // A recording has the commands in a topic of their own.
+  const buffer = await recordingWith(['/mocap/pose'], undefined, true);
+  const topic = widget.getByLabel('Odometry', { exact: true });
+  await widget.locator('#log-files').setInputFiles({ name: 'run.mcap', mimeType: 'application/octet-stream', buffer });
+  await expect.poll(keys).toContain('omega');
+  await expect(topic).toHaveValue('/cmd_vel');
+  await model('Table 5.6', 'theta');
+  await expect(topic).toHaveValue('/odom');
+  await model('velocity', 'omega');
+});
+
+test('of transforms the reader says which frames are meant', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const rows = (/** @type {'odometry' | 'reference'} */ name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
+    rows(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
+  const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link')];
+  const buffer = await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  await fold(widget, 'Your log').locator('summary').click();
+  await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
+  await widget.getByLabel('Odometry', { exact: true }).selectOption('/tf');
+  await widget.getByLabel('Reference', { exact: true }).selectOption('/tf');
+  await expect(widget.getByRole('alert')).toHaveText(/no transforms lead from odom to base_link; expected are frames that are connected, of .*base_footprint/);
+  const frames = widget.getByLabel('Odometry: Frames');
+  await frames.fill('odom, base_footprint');
+  await frames.press('Enter');
+  await expect(caption(widget)).toHaveText(/of tf\.mcap[.,]/);
+});
+
+test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  const alert = widget.getByRole('alert');
+  await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
+  await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
+  await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
+  await expect(alert).toHaveText(/The log is refused: 1 file given; expected are two tables at once/);
+  await choose(widget, { 'notes.mcap': 'no recording' });
+  await expect(alert).toHaveText(/^notes\.mcap: the recording is damaged/);
+  const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});
+  await widget.locator('#log-files').setInputFiles({ name: 'words.mcap', mimeType: 'application/octet-stream', buffer });
+  await expect(alert).toHaveText(/^words\.mcap: the topics are \/rosout \(Log\); expected is one of type nav_msgs\/msg\/Odometry/);
+  expect(await stateOf(widget)).toEqual(before);
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('a log without enough legs is refused, and the present log keeps its place and its name', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await settled(widget);
+  const before = await caption(widget).innerText();
+  const { alphas } = await stats(widget);
+  const still = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
+  await choose(widget, { 'a.csv': still, 'b.csv': still });
+  await expect(widget.getByRole('alert')).toHaveText('The log is refused: Fewer than eight legs: too little motion, or no time in common.');
+  await settled(widget);
+  expect(await caption(widget).innerText()).toBe(before);
+  expect((await stats(widget)).alphas).toEqual(alphas);
+  await expect(widget.locator('.own-log .present')).toContainText('odometry.csv, reference.csv');
+});
+
+test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  await fold(widget, 'Your log').locator('summary').click();
+  // The content of a fold is made when it opens.
+  await expect(widget.locator('#log-files')).toBeVisible();
+  await widget.evaluate(async (element) => {
+    const root = /** @type {ShadowRoot} */ (element.shadowRoot);
+    const input = /** @type {HTMLInputElement} */ (root.querySelector('#log-files'));
+    const table = ['t,x,y,yaw', ...Array.from({ length: 200_000 }, (_, row) => `${row / 20},0,0,0`)].join('\n');
+    const { files, items } = new DataTransfer();
+    for (const name of ['odom.csv', 'truth.csv']) items.add(new File([table], name));
+    input.files = files;
+    input.dispatchEvent(new Event('change'));
+    const button = () => [...root.querySelectorAll('button')].find(({ textContent }) => textContent?.trim() === 'Stop');
+    while (!button()) await new Promise(requestAnimationFrame);
+    button()?.click();
+  });
+  await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
+  await expect(widget.locator('.own-log progress')).toHaveCount(0);
+  expect(await stateOf(widget)).toEqual(before);
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+});
+
+test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stateOf(widget);
+  const opened = await caption(widget).innerText();
+  const [name, count, refused] = await widget.evaluate(async (element) => {
+    const figure = /** @type {AlphaCalibratorElement} */ (element);
+    const { legs } = figure.machine;
+    const t = Array.from({ length: legs.count }, (_, leg) => leg);
+    const column = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => t.map((leg) => poses[6 * leg + at]);
+    const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0), y: column(all, 1), theta: column(all, 2) });
+    const given = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
+    figure.log = given;
+    await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
+    let refused = '';
+    figure.addEventListener('error', (event) => { refused = /** @type {ErrorEvent} */ (event).message; event.preventDefault(); }, { once: true });
+    figure.log = { ...given, odometry: { ...given.odometry, t: t.with(3, 1) } };
+    figure.addEventListener('error', (event) => { refused += `; ${/** @type {ErrorEvent} */ (event).message}`; event.preventDefault(); }, { once: true });
+    Object.assign(figure, { log: 5 });
+    return [figure.log?.name, figure.machine.count, refused];
+  });
+  expect(name).toBe('of the page');
+  expect(Number(count)).toBeGreaterThan(100);
+  expect(refused).toMatch(/^odometry: sample 3 is not later than the one before.*; log is 5; allowed is an object with keys from name, odometry, reference$/);
+  expect(await stateOf(widget)).toEqual(before);
+  await widget.evaluate((element) => void Object.assign(element, { log: null }));
+  await expect(caption(widget)).toHaveText(opened);
+});
+
+test('a log without legs says so', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.evaluate((element) => {
+    const still = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
+    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: still, reference: still };
+  });
+  await settled(widget);
+  await unfold(widget);
+  await expect(caption(widget)).toHaveText(/^Fewer than eight legs:/);
+  await expect(rows(widget).first()).toHaveText(/—/);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /none is looked at\.$/);
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'There is no leg to look at.');
+  await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
+  await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
+  expect(await heard(page, ['error'])).toEqual([]);
+});

@@ -1,0 +1,261 @@
+import { readFileSync } from 'node:fs';
+import { expect } from '@playwright/test';
+import { between } from '../../www/widgets/alpha-calibrator/lines.js';
+import { caption, fold, openCalibrator, rows, settled, stats } from './calibrator-support.js';
+import { STILL, frames, pixelsOf, stateOf, test, unfold } from './support.js';
+
+/** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
+
+test.use(STILL);
+
+test('opens with the simulated log, said to be one, whose true α’s are inside of the intervals', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await expect(caption(widget)).toHaveText(/^\d+ legs of the simulated log\. The model fits: of unseen residuals, 9\d\.\d.% are inside its 95 %\.$/);
+  const { alphas, intervals } = await stats(widget);
+  const truth = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth);
+  expect(alphas.length).toBe(4);
+  truth?.alphas.forEach((alpha, i) => {
+    const [low, high] = intervals[i] ?? [NaN, NaN];
+    expect(low <= alpha && alpha <= high, `α${i + 1}`).toBe(true);
+  });
+  await expect(rows(widget)).toHaveCount(4);
+  await expect(widget.locator('table.alphas .true')).toHaveCount(5);
+  for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
+    expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(20);
+  }
+  expect(await pixelsOf(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
+});
+
+test('the true α’s are shown where the fit is of their rule and legs, and nowhere else', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
+  await settled(widget);
+  await expect(widget.locator('table.alphas .true')).toHaveCount(0);
+  await widget.getByRole('radio', { name: 'velocity' }).check();
+  await settled(widget);
+  await expect(rows(widget)).toHaveCount(6);
+  expect(await stateOf(widget)).toMatchObject({ model: 'velocity', rule: 'table' });
+  await widget.getByRole('radio', { name: 'omnidirectional' }).check();
+  await settled(widget);
+  await expect(rows(widget)).toHaveCount(5);
+  expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
+});
+
+test('the meaning of each α stands beside it in one line, also on a phone and in German', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 900 });
+  const widget = await openCalibrator(page, 'lang="de"');
+  await expect(rows(widget).locator('.of')).toHaveText(['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung']);
+  const told = await rows(widget).evaluateAll((all) => all.map((row) => {
+    const of = /** @type {Element} */ (row.querySelector('.of'));
+    const [, value] = row.querySelectorAll('td');
+    const text = new Range();
+    text.selectNodeContents(of);
+    const table = /** @type {Element} */ (row.closest('table'));
+    const [end, left] = [text.getBoundingClientRect().right, value.getBoundingClientRect().left];
+    return { lines: text.getClientRects().length, end, value: left, over: table.scrollWidth - table.clientWidth };
+  }));
+  for (const { lines, end, value, over } of told) {
+    expect([lines, over]).toEqual([1, 0]);
+    expect(end).toBeLessThanOrEqual(value);
+  }
+});
+
+test('a few bad legs decide where none may be bad', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stats(widget);
+  await widget.getByRole('checkbox', { name: 'Some legs may be bad' }).uncheck();
+  await settled(widget);
+  const after = await stats(widget);
+  expect(after.outliers).toBeNull();
+  expect(Number(after.alphas[2])).toBeGreaterThan(5 * Number(before.alphas[2]));
+  await expect(caption(widget)).toHaveText(/Heavy tails/);
+});
+
+test('a systematic error that is left makes the α’s larger, and is told all the same', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const before = await stats(widget);
+  await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
+  await settled(widget);
+  const after = await stats(widget);
+  expect(after.systematic.mountYaw.removed).toBe(false);
+  expect(after.systematic.mountYaw.value).toBeCloseTo(0.07, 2);
+  // As the page says.
+  const [from, to] = [before, after].map(({ alphas: [, second] }) => Number(second).toFixed(3));
+  expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`<sub>2</sub> goes from ${from} to ${to}.`);
+  await expect(caption(widget)).toHaveText(/Something is left/);
+});
+
+test('a leg is chosen in the picture, by its slider, and from worst to worst', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const { worst } = (await stats(widget)).doubts;
+  const button = widget.getByRole('button', { name: 'Next worst leg' });
+  await button.click();
+  expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
+  await button.click();
+  expect(await stateOf(widget)).toMatchObject({ leg: worst[1] });
+  // Its thumb is where the button has put it with the next picture.
+  await frames(page);
+  await widget.locator('#leg').press('ArrowRight');
+  expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
+  const canvas = widget.locator('canvas.plane');
+  const at = await widget.evaluate((element) => {
+    const { pictures: [{ view }], machine } = /** @type {any} */ (element);
+    const { reference } = machine.legs;
+    const middle = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
+    return { x: view.toPixelX(middle[0]), y: view.toPixelY(middle[1]), leg: machine.nearest(middle[0], middle[1], 1) };
+  });
+  await canvas.click({ position: { x: at.x, y: at.y } });
+  expect(await stateOf(widget)).toMatchObject({ leg: at.leg });
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${at.leg + 1} `));
+});
+
+test('inflation multiplies the predictions and the exported α’s', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await unfold(widget);
+  const { alphas } = await stats(widget);
+  const slider = widget.locator('#inflation');
+  await slider.fill('2');
+  await settled(widget);
+  await expect(widget.locator('textarea.yaml')).toHaveValue(new RegExp(`alpha3: ${(2 * Number(alphas[2])).toFixed(4)}  #`));
+  await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too large: lazy/);
+  await slider.fill('0.3');
+  await settled(widget);
+  await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too small: overconfident/);
+});
+
+test('an export as a picture has the key, the α’s with their intervals, the panels, and the verdict', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
+  await settled(widget);
+  const texts = await rows(widget).evaluateAll((all) => all.map((row) => {
+    const [of, value, between] = ['.of', 'td:nth-of-type(2)', '.between'].map((part) => row.querySelector(part)?.textContent?.trim());
+    return `${of}: ${value}, ${between}`;
+  }));
+  const said = await caption(widget).textContent();
+  const drawn = await widget.evaluate(async (element) => {
+    const figure = /** @type {any} */ (element);
+    const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
+    const all = (/** @type {string} */ selector) => [...root.querySelectorAll(selector)];
+    const image = await createImageBitmap(await figure.toPNG());
+    return {
+      texts: all('text').map((text) => text.textContent),
+      size: [root.getAttribute('width'), root.getAttribute('height')].map(Number),
+      png: [image.width, image.height],
+      described: root.querySelector('desc')?.textContent ?? '',
+    };
+  });
+  texts.forEach((text, i) => {
+    expect(drawn.texts).toContain(`α${'₁₂₃₄'[i]} ${text}`);
+    expect(drawn.described).toContain(text);
+  });
+  expect(drawn.texts).toContain(said);
+  for (const name of ['half of the legs', '19 in 20', '1 in 20', '1 in 1000', 'odometry']) expect(drawn.texts).toContain(name);
+  expect(drawn.texts.join(' ')).toMatch(/Systematic, and left to the α’s: mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
+  expect(drawn.texts.filter((text) => text?.includes(', r²')).map((text) => text?.split(',')[0])).toEqual(['first rotation', 'drive', 'second rotation']);
+  expect(drawn.size[0] / drawn.size[1]).toBeCloseTo(720 / 712, 1);
+  drawn.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * drawn.size[i])).toBeLessThanOrEqual(1));
+});
+
+test('in plots the key names every line, and no label lies on a curve', async ({ page }) => {
+  const widget = await openCalibrator(page, 'inflation="1.5"');
+  await unfold(widget);
+  const inflate = fold(widget, 'Inflate');
+  expect((await inflate.locator('.plot text').allTextContents()).filter((text) => text.includes('='))).toEqual([]);
+  for (const i of [0, 1]) {
+    const plot = inflate.locator('figure').nth(i);
+    await expect(plot.locator('.plot-key li').last()).toHaveText('f = 1.50');
+    await expect(plot.locator('.plot path.curve[stroke-dasharray="2 3"]')).toHaveCount(1);
+  }
+});
+
+test('the lines for Nav2 say what they are of', async ({ page }) => {
+  const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
+  await fold(widget, 'For Nav2').locator('summary').click();
+  const { alphas, intervals, bootstrap } = await stats(widget);
+  const yaml = await widget.locator('textarea.yaml').inputValue();
+  expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals by bootstrap\n/);
+  expect(yaml).toContain('    robot_model_type: "nav2_amcl::DifferentialMotionModel"\n');
+  alphas.forEach((alpha, i) => expect(yaml).toMatch(new RegExp(`^ {4}alpha${i + 1}: ${Number(alpha).toFixed(3).slice(0, -1)}\\d*  # [\\d.]+ to [\\d.]+$`, 'm')));
+  for (const pair of bootstrap) expect(yaml).toContain(`  # ${between(pair)}\n`);
+  expect(bootstrap.map(between)).not.toEqual(intervals.map(between));
+  expect(yaml).toContain('    update_min_d: 0.3\n    update_min_a: 0.2\n');
+  await widget.getByRole('radio', { name: 'omnidirectional' }).check();
+  await settled(widget);
+  await expect(widget.locator('textarea.yaml')).toHaveValue(/OmniMotionModel"[^]*alpha5: /);
+  await widget.getByRole('radio', { name: 'velocity' }).check();
+  await settled(widget);
+  await expect(widget.locator('textarea.yaml')).toHaveCount(0);
+});
+
+test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {
+  const widget = await openCalibrator(page, 'rule="nav2"');
+  const before = await stats(widget);
+  const time = widget.locator('.slider:has(#duration)');
+  await expect(time.locator('.typed')).toHaveValue('—');
+  await time.locator('.typed').fill('0.8');
+  await time.locator('.typed').press('Enter');
+  await settled(widget);
+  expect(await stateOf(widget)).toMatchObject({ duration: 0.8, distance: 0.25, angle: 0.2 });
+  await expect(widget.locator('.slider.off:is(:has(#distance), :has(#angle))')).toHaveCount(2);
+  await fold(widget, 'For Nav2').locator('summary').click();
+  await expect(widget.locator('textarea.yaml')).toHaveValue(/# \d+ legs of 0\.8 s of the simulated log/);
+  await expect(widget.locator('textarea.yaml')).not.toHaveValue(/update_min/);
+  await time.locator('#duration').fill('0');
+  await settled(widget);
+  expect((await stats(widget)).alphas).toEqual(before.alphas);
+  // The reference's own error is no noise of the wheels.
+  await fold(widget, 'Your log').locator('summary').click();
+  await widget.getByRole('slider', { name: /position of the reference/ }).fill('0.004');
+  await widget.getByRole('slider', { name: /heading of the reference/ }).fill('0.003');
+  await settled(widget);
+  expect(await stateOf(widget)).toMatchObject({ positionDeviation: 0.004, headingDeviation: 0.003, duration: 0 });
+  expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(before.alphas[3]));
+});
+
+test('α’s of other lengths of legs are fitted where they are asked for, and drawn against the length', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const { alphas, byLength } = await stats(widget);
+  expect(byLength).toEqual([]);
+  const lengths = fold(widget, 'Other lengths');
+  await lengths.locator('summary').click();
+  await lengths.getByRole('checkbox').check();
+  await settled(widget);
+  const told = await stats(widget);
+  expect(told.alphas).toEqual(alphas);
+  expect(told.byLength.map(({ factor }) => factor)).toEqual([0.25, 0.5, 1, 2, 4]);
+  const plots = lengths.locator('svg.plot');
+  await expect(plots).toHaveCount(4);
+  // The α's of the table, at the legs that are asked for.
+  for (const [i, length] of [['0', '0.200'], ['2', '0.250']]) {
+    const shown = await rows(widget).nth(Number(i)).locator('td').nth(1).textContent();
+    await expect(plots.nth(Number(i))).toHaveAttribute('aria-label', new RegExp(`${shown?.trim()} at ${length}`));
+  }
+  await expect(widget).toHaveAttribute('bylength');
+});
+
+test('an α that a log does not tell from 0 is no result of 0', async ({ page }) => {
+  // Few legs: what turning adds is not seen beside what driving does.
+  const widget = await openCalibrator(page, 'model="velocity" distance="1" angle="1.5" bylength');
+  const { alphas, intervals } = await stats(widget);
+  const zeros = alphas.flatMap((alpha, i) => (alpha !== null && alpha < 0.01 * (intervals[i]?.[1] ?? 0) ? [i] : []));
+  expect(zeros.length).toBeGreaterThan(0);
+  expect(zeros.length).toBeLessThan(6);
+  for (let i = 0; i < 6; i++) {
+    if (zeros.includes(i)) await expect(rows(widget).nth(i)).toContainText(/≤ (0\.0*[1-9]\d|[1-9]\.\d·10⁻.)\s/);
+    else await expect(rows(widget).nth(i)).not.toContainText('≤');
+  }
+});
+
+test('of an α that a log does not determine it says why, and what to drive', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  await widget.evaluate((element) => {
+    const count = 2000;
+    const t = Float64Array.from({ length: count }, (_, i) => i / 20);
+    const none = new Float64Array(count);
+    const straight = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: straight(0), y: none, theta: none }, reference: { t, x: straight(0.002), y: none, theta: none } } });
+  });
+  await settled(widget);
+  await expect(rows(widget).nth(0)).toHaveText(/not determined: this log turns too little; turn on the spot, some fifty times/);
+  await expect(rows(widget).nth(2)).not.toHaveText(/not determined/);
+});

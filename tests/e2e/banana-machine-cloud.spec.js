@@ -1,0 +1,309 @@
+import { expect } from '@playwright/test';
+import { STILL, boxOf, centreOf, detail, frames, numberIn, open, openWhole, pauseEarly, pictureOf, pixelsOf, readout, state, test } from './support.js';
+
+/** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
+/** @typedef {import('@playwright/test').Locator} Locator */
+
+test.use(STILL);
+
+const OPENING_ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+
+/** Steps in which a cloud grows. */
+const BATCHES = 150;
+
+/** @param {Locator} widget */
+const sentence = (widget) => widget.locator('.caption > span');
+
+/** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
+async function set(widget, values) {
+  for (const [id, value] of Object.entries(values)) await widget.locator(`#${id}`).fill(String(value));
+  await frames(widget.page());
+}
+
+test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  await pauseEarly(page, 'banana-machine');
+  const widget = await open(page);
+  await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
+  const paused = await state(widget);
+  expect(paused.shown).toBeGreaterThan(0);
+  expect(paused.shown).toBeLessThan(paused.config.samples);
+  await frames(page);
+  expect((await state(widget)).shown).toBe(paused.shown);
+
+  await widget.getByRole('button', { name: 'Play' }).click();
+  await expect.poll(async () => (await state(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
+  await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
+  // The robots of the paused cloud are the first of the complete one.
+  const { poses } = await state(widget);
+  expect(poses.slice(0, paused.poses.length)).toEqual(paused.poses);
+});
+
+test('opens with the whole cloud of the opening command, and shows the numbers of the machine', async ({ page }) => {
+  const widget = await openWhole(page);
+  const { config, shown: robots, stats, table } = await state(widget);
+  expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0.5, dt: 1 }, alphas: OPENING_ALPHAS, isolate: null });
+  expect(robots).toBe(config.samples);
+  // Printed to five decimals.
+  expect(Math.abs(table.exact.crossTrackSkew + 0.43093)).toBeLessThan(5e-6);
+  const shown = async (/** @type {string | RegExp} */ name) => (await readout(widget, name).textContent()) ?? '';
+  const [skew, error] = (await shown('cross-track skew')).split(' ± ').map(numberIn);
+  expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
+  expect(error).toBeCloseTo(stats.crossTrackSkewError, 3);
+  await expect(detail(widget, 'cross-track skew')).toHaveText('exactly −0.431');
+  expect(numberIn(await shown('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
+  expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
+  expect((await shown('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
+  const [gain, gainError] = (await shown('gain of a Gaussian')).split(' ± ').map(numberIn);
+  expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
+  expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
+  expect(numberIn(await shown('area of ellipse'))).toBeCloseTo(stats.areaRatio, 2);
+  const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
+  await expect(detail(widget, 'area of ellipse')).toHaveText(`inside: ${shares.join(' and ')}`);
+  expect(numberIn(await shown('exact gain'))).toBeCloseTo(table.exact.likelihoodGain.pose, 4);
+  const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
+  const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
+  for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) expect(cells[i] / column.cov[0][0]).toBeCloseTo(1, 2);
+  // The picture has a text equivalent.
+  const plane = widget.locator('canvas.plane');
+  await expect(plane).toHaveAttribute('aria-label', new RegExp(`end around x ${stats.cartesian.mean[0].toFixed(2)} m`));
+  await expect(plane).toHaveAttribute('aria-label', /Drawn over it: commanded arc, 2σ Gaussian in \(x, y\), 2σ/);
+});
+
+test('Reset empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
+  const widget = await openWhole(page);
+  const whole = await state(widget);
+  await widget.getByRole('button', { name: 'Reset' }).click();
+  expect((await state(widget)).shown).toBe(0);
+  await expect(readout(widget, 'cross-track skew')).toHaveText('—');
+  await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
+
+  const batch = Math.ceil(whole.config.samples / BATCHES);
+  for (const shown of [batch, 2 * batch]) {
+    await widget.getByRole('button', { name: 'Step' }).click();
+    const { shown: now, poses } = await state(widget);
+    expect(now).toBe(shown);
+    expect(poses).toEqual(whole.poses.slice(0, 3 * shown));
+  }
+});
+
+test('New seed sends other robots, and no other control does', async ({ page }) => {
+  const widget = await openWhole(page);
+  const before = await state(widget);
+  await widget.getByRole('button', { name: 'New seed' }).click();
+  const after = await state(widget);
+  expect(after.config).toEqual({ ...before.config, seed: after.config.seed });
+  expect(after.config.seed).not.toBe(before.config.seed);
+  expect(after.shown).toBe(before.shown);
+  expect(after.poses).not.toEqual(before.poses);
+  await expect(widget.getByText(`seed ${after.config.seed}`)).toBeVisible();
+});
+
+test('each overlay has a toggle', async ({ page }) => {
+  const widget = await openWhole(page);
+  const plane = widget.locator('canvas.plane');
+  const twist = widget.locator('canvas.twist');
+  const first = await pictureOf(plane);
+  for (const [label, role] of [
+    ['commanded arc', 'prior'],
+    ['2σ Gaussian in (x, y)', 'prediction'],
+    ['linearized (EKF) ellipse', 'prediction'],
+    ['noise added to the pose', 'prediction'],
+    ['2σ Gaussian in exponential coordinates', 'posterior'],
+  ]) {
+    const box = widget.getByRole('checkbox', { name: label });
+    const shown = await box.isChecked();
+    const before = await pixelsOf(plane, role);
+    await box.setChecked(!shown);
+    const change = (await pixelsOf(plane, role)) - before;
+    expect(shown ? -change : change, label).toBeGreaterThan(60);
+    await box.setChecked(shown);
+    expect(await pictureOf(plane)).toBe(first);
+  }
+  await widget.getByRole('checkbox', { name: 'exponential coordinates' }).uncheck();
+  expect(await pixelsOf(twist, 'posterior')).toBe(0);
+});
+
+test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
+  const widget = await openWhole(page);
+  const plane = widget.locator('canvas.plane');
+  const twist = widget.locator('canvas.twist');
+  const field = widget.getByRole('spinbutton', { name: 'Robot' });
+  const marks = async () => [await pixelsOf(plane, 'accent'), await pixelsOf(twist, 'accent')];
+  expect(await marks()).toEqual([0, 0]);
+
+  const executed = async () => {
+    const index = Number(await field.inputValue()) - 1;
+    const { vHat, omegaHat, gammaHat } = await widget.evaluate(
+      (element, i) => /** @type {BananaMachineElement} */ (element).machine.inspect(i),
+      index,
+    );
+    const text = (await widget.locator('.marked output').textContent()) ?? '';
+    const printed = [...text.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
+    expect(printed).toHaveLength(3);
+    for (const [i, value] of [vHat, omegaHat, gammaHat].entries()) expect(printed[i]).toBeCloseTo(value, 3);
+    return index;
+  };
+
+  const handle = await centreOf(widget.locator('.handle'));
+  await page.mouse.move(handle.x + 30, handle.y + 20);
+  for (const count of await marks()) expect(count).toBeGreaterThan(20);
+  const inPlane = await executed();
+
+  await twist.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await boxOf(twist);
+  await page.mouse.move(x + width * 0.45, y + height * 0.45);
+  for (const count of await marks()) expect(count).toBeGreaterThan(20);
+  expect(await executed()).not.toBe(inPlane);
+
+  await field.fill('');
+  expect(await marks()).toEqual([0, 0]);
+});
+
+test('the sentence says what the model decides and the robots show', async ({ page }) => {
+  const widget = await openWhole(page);
+  const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
+  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.431\s±\s0\.013, where any Gaussian in \(x, y\) has 0\.$/);
+  await widget.locator('#omega').fill('-0.5');
+  await expect(sentence(widget)).toHaveText(/tail to the left/);
+
+  // Symmetric: exactly no skew, however many robots there are, and the ellipse covers twice the floor.
+  await press('Banana');
+  await frames(page);
+  const { table } = await state(widget);
+  expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
+  expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
+  // The sentence has the number of the readout.
+  const ratio = await readout(widget, 'area of ellipse').textContent();
+  await expect(sentence(widget)).toHaveText(
+    new RegExp(`^The cloud leans to neither side: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\. Yet it is bent: its ellipse covers ${ratio} times the floor of the ξ outline\\.$`),
+  );
+  // Nearly symmetric, and as bent.
+  await widget.locator('#omega').fill('0.02');
+  await expect(sentence(widget)).toHaveText(/^The cloud hardly leans to either side: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\. Yet it is bent: its ellipse covers/);
+  await widget.locator('#omega').fill('0');
+  // Hardly any noise in the turn: nothing is bent.
+  for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
+  await expect(sentence(widget)).toHaveText(/^The cloud leans to neither side: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
+});
+
+test('few robots do not show the lean; the Pivot’s bow-tie has its reason', async ({ page }) => {
+  const widget = await openWhole(page);
+  await widget.getByRole('button', { name: 'Pivot' }).click();
+  const { table, config } = await state(widget);
+  const [, a2] = config.alphas;
+  const deviation = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
+  await expect(sentence(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
+  await expect(sentence(widget)).toContainText('ahead of the start and behind it');
+  expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
+  const behind = (await state(widget)).poses.filter((x, i) => i % 3 === 0 && x < 0).length;
+  expect(behind / config.samples).toBeGreaterThan(0.3);
+
+  await widget.getByRole('button', { name: 'Gentle arc' }).click();
+  await widget.locator('#samples').fill('3');
+  const { stats, table: few } = await state(widget);
+  expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
+  await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
+});
+
+test('a cloud that turns a full circle has no exponential coordinates, and says so', async ({ page }) => {
+  const widget = await openWhole(page);
+  await set(widget, { omega: 2, dt: 3 });
+  await expect(widget.locator('.note')).toContainText('Exponential coordinates end there');
+  await expect(readout(widget, 'predicts')).toHaveText('—');
+  await expect(detail(widget, 'area of ellipse')).toHaveText(/^inside: [\d.]+\u202f% and —$/);
+  for (const name of ['area of ellipse', 'gain of a Gaussian', 'exact gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
+  await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
+  const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
+  await expect(measured).toHaveText('—');
+  await set(widget, { omega: 0.5, dt: 1 });
+  await expect(widget.locator('.note')).toHaveCount(0);
+  await expect(measured).not.toHaveText('—');
+});
+
+test('two robots have no skew', async ({ page }) => {
+  const widget = await openWhole(page);
+  await set(widget, { samples: 0 });
+  await widget.getByRole('button', { name: 'Reset' }).click();
+  for (let i = 0; i < 2; i++) await widget.getByRole('button', { name: 'Step' }).click();
+  expect((await state(widget)).shown).toBe(2);
+  await expect(readout(widget, 'cross-track skew')).toHaveText('—');
+  await expect(widget.locator('.caption')).toHaveText('Too few robots for a skew.');
+  await widget.getByRole('button', { name: 'Step' }).click();
+  await expect(readout(widget, 'cross-track skew')).toHaveText(/^−?\d\.\d{3} ± \d\.\d{3}$/);
+});
+
+test('figures without meaning are a dash: α₅ alone leaves all robots in one place', async ({ page }) => {
+  const widget = await openWhole(page);
+  await widget.getByLabel('Isolate one').check();
+  await widget.getByRole('radio', { name: 'Only α₅' }).check();
+  await frames(page);
+  for (const name of ['cross-track skew', 'gain of a Gaussian', 'area of ellipse', 'predicts', 'exact gain', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
+  await expect(detail(widget, 'gain of a Gaussian')).toHaveText('—');
+  await expect(detail(widget, 'cross-track skew')).toHaveText('—');
+  await expect(detail(widget, 'area of ellipse')).toHaveText('—');
+});
+
+test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {
+  const widget = await openWhole(page);
+  await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);
+  await widget.getByLabel('odometry').check();
+  await widget.getByRole('spinbutton', { name: 'Robot' }).fill('5');
+  await frames(page);
+  const noises = await widget.evaluate((element) => {
+    const { machine } = /** @type {import('./support.js').BananaMachineElement} */ (element);
+    const { legs } = machine.inspect(4);
+    if (!legs) throw new Error('Odometry drives legs.');
+    const { rot1, trans, rot2 } = machine.reading;
+    return [rot1 - legs.rot1, trans - legs.trans, rot2 - legs.rot2];
+  });
+  const text = (await widget.locator('.marked output').textContent()) ?? '';
+  const printed = [...text.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
+  expect(printed).toHaveLength(3);
+  noises.forEach((noise, i) => expect(printed[i]).toBeCloseTo(noise, 3));
+
+  await widget.locator('#v').fill('-1');
+  await expect(sentence(widget)).toContainText('two half turns');
+  const before = (await state(widget)).table.exact.cov[2][2];
+  await widget.getByLabel('Reverse without half-turn noise').check();
+  await expect(sentence(widget)).not.toContainText('two half turns');
+  expect((await state(widget)).table.exact.cov[2][2]).toBeLessThan(before / 5);
+});
+
+test('what is said depends on the model and its noise', async ({ page }) => {
+  const widget = await openWhole(page);
+  const caption = widget.locator('.figures figure p');
+  await expect(caption).toContainText('nearly a Gaussian');
+  await set(widget, { alpha5: 0, alpha6: 0 });
+  await expect(caption).toContainText('exactly a Gaussian');
+  await widget.getByLabel('triangular').check();
+  await expect(caption).toContainText('triangular noise is not Gaussian');
+  await widget.getByLabel('odometry').check();
+  await expect(caption).toContainText('only roughly');
+  await set(widget, { v: -1 });
+  await expect(widget.locator('.note')).toContainText('Odometry reads backing up as two half turns');
+  await widget.getByLabel('velocity').check();
+  await expect(widget.locator('.note')).toHaveCount(0);
+});
+
+test('the marked robot and Step follow the size of the cloud', async ({ page }) => {
+  const widget = await openWhole(page);
+  const field = widget.getByRole('spinbutton', { name: 'Robot' });
+  const step = widget.getByRole('button', { name: 'Step' });
+  await expect(step).toBeDisabled();
+  await expect(field).toHaveAttribute('placeholder', '1–50\u202f000');
+  await field.fill('1500');
+  await frames(page);
+  await expect(widget.locator('.marked output')).toContainText('m/s');
+  await set(widget, { samples: 3 });
+  await expect(field).toHaveValue('');
+  await expect(widget.locator('.marked output')).toContainText('Point at one');
+  await field.fill('500');
+  await expect(widget.getByRole('alert')).toHaveText('Robot is 500; allowed is a whole number from 1 to 100.');
+  await field.fill('100');
+  await expect(widget.getByRole('alert')).toHaveCount(0);
+  await expect(widget.locator('.marked output')).toContainText('m/s');
+  await widget.getByRole('button', { name: 'Reset' }).click();
+  await expect(field).toBeDisabled();
+  await expect(step).toBeEnabled();
+});

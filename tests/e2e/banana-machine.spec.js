@@ -1,0 +1,251 @@
+import { expect } from '@playwright/test';
+import { STILL, centreOf, dragSlider, frames, inspectFirst, open, openWhole, pictureOf, readout, state, test } from './support.js';
+
+/** @typedef {import('@playwright/test').Locator} Locator */
+
+test.use(STILL);
+
+/** Commands of presets that keep the noise. */
+const PRESETS = {
+  Straight: { v: 1, omega: 0, dt: 2 },
+  'Gentle arc': { v: 1, omega: 0.5, dt: 1 },
+  'Hard arc': { v: 1, omega: 1.2, dt: 1.4 },
+  Pivot: { v: 0.06, omega: 1.5, dt: 1 },
+};
+
+/** Presets with noise parameters of their own. */
+const WITH_ALPHAS = {
+  Banana: { command: { v: 1, omega: 0, dt: 2 }, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002] },
+  'Worked example': { command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] },
+};
+const OPENING_ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+
+/** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
+async function set(widget, values) {
+  for (const [id, value] of Object.entries(values)) await widget.locator(`#${id}`).fill(String(value));
+  await frames(widget.page());
+}
+
+test('presets set the whole command', async ({ page }) => {
+  const widget = await open(page);
+  for (const [name, command] of Object.entries(PRESETS)) {
+    const button = widget.getByRole('button', { name });
+    await button.click();
+    expect((await state(widget)).config.command).toEqual(command);
+    await expect(button).toHaveAttribute('aria-pressed', 'true');
+  }
+});
+
+test('presets with noise set it, and others restore the default noise unless it was set by hand', async ({ page }) => {
+  const widget = await openWhole(page);
+  const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
+  const preset = () => widget.evaluate((element) => Reflect.get(element, 'preset'));
+  for (const [name, { command, alphas }] of Object.entries(WITH_ALPHAS)) {
+    await press(name);
+    expect((await state(widget)).config).toMatchObject({ command, alphas });
+    expect(await preset()).toBe({ Banana: 'banana', 'Worked example': 'worked' }[name]);
+    await expect(widget.locator('.presets [aria-pressed=true]')).toHaveText([name]);
+    await press('Gentle arc');
+    expect((await state(widget)).config).toMatchObject({ command: PRESETS['Gentle arc'], alphas: OPENING_ALPHAS });
+    expect(await preset()).toBe('gentle');
+  }
+  // Noise that was set by hand stays.
+  await press('Banana');
+  await widget.locator('#alpha1').fill('0.01');
+  await frames(page);
+  expect(await preset()).toBe('straight');
+  await press('Hard arc');
+  expect((await state(widget)).config.alphas).toEqual([0.01, 0.002, 0.1, 0.1, 0.002, 0.002]);
+  // Their noise is that of the velocity model, all of it.
+  await widget.getByLabel('Isolate one').check();
+  await widget.getByLabel('odometry').check();
+  await press('Banana');
+  expect((await state(widget)).config).toMatchObject({ model: 'velocity', isolate: null, alphas: WITH_ALPHAS.Banana.alphas });
+});
+
+test('sliders dragged with the mouse set v, ω and Δt', async ({ page }) => {
+  const widget = await open(page);
+  const before = await pictureOf(widget.locator('canvas.plane'));
+  for (const [name, key] of [['v,', 'v'], ['ω,', 'omega'], ['Δt,', 'dt']]) {
+    const slider = widget.locator('.controls').getByRole('slider', { name });
+    await dragSlider(slider, 0.7);
+    const value = Number(await slider.inputValue());
+    expect(value).toBeGreaterThan(0);
+    const { config } = await state(widget);
+    expect(config.command).toMatchObject({ [key]: value });
+  }
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
+});
+
+test('the end of the arc can be dragged', async ({ page }) => {
+  const widget = await open(page);
+  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const from = await centreOf(handle);
+  const start = await state(widget);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 60, from.y - 45, { steps: 6 });
+  const held = await state(widget);
+  const at = await centreOf(handle);
+  expect(Math.abs(at.x - from.x - 60)).toBeLessThan(1);
+  expect(Math.abs(at.y - from.y + 45)).toBeLessThan(1);
+  const [perX, perY] = [(held.end[0] - start.end[0]) / 60, (held.end[1] - start.end[1]) / 45];
+  expect(perX).toBeGreaterThan(0);
+  // A pixel is a pixel: the pointer's place is exact to half of one.
+  expect(Math.abs(perX / perY - 1)).toBeLessThan(1 / 45);
+  await page.mouse.up();
+  const { v, dt } = held.config.command;
+  expect(dt).toBe(1);
+  expect((await state(widget)).config.command).toEqual(held.config.command);
+  await expect(widget.locator('p[role=status]')).toContainText(`v = ${v.toFixed(2)} m/s`);
+});
+
+test('the end of the arc can be moved from the keyboard', async ({ page }) => {
+  const widget = await open(page);
+  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  await handle.focus();
+  const ways = /** @type {const} */ ([
+    ['ArrowUp', 0, 0.02],
+    ['ArrowRight', 0.02, 0],
+    ['Shift+ArrowDown', 0, -0.1],
+    ['Shift+ArrowLeft', -0.1, 0],
+  ]);
+  let { end } = await state(widget);
+  for (const [key, dx, dy] of ways) {
+    await handle.press(key);
+    const next = await state(widget);
+    expect(next.end[0] - end[0]).toBeCloseTo(dx, 9);
+    expect(next.end[1] - end[1]).toBeCloseTo(dy, 9);
+    ({ end } = next);
+  }
+  const { v, omega } = (await state(widget)).config.command;
+  await expect(handle).toHaveAttribute('aria-valuetext', `v = ${v.toFixed(2)} m/s, ω = ${omega.toFixed(2)} rad/s`);
+});
+
+test('the handle does not leap to another arc with the same end', async ({ page }) => {
+  const widget = await open(page);
+  const handle = widget.locator('.handle');
+  // Turns beyond half a circle, and in reverse: the shortest way there would be another.
+  for (const command of [{ v: 1, omega: 1.8, dt: 2.5 }, { v: -1, omega: 0.4, dt: 1 }]) {
+    await set(widget, command);
+    const before = await state(widget);
+    await handle.press('ArrowUp');
+    const after = await state(widget);
+    expect(after.end[0]).toBeCloseTo(before.end[0], 9);
+    expect(after.end[1]).toBeCloseTo(before.end[1] + 0.02, 9);
+    expect(Math.abs(after.config.command.v - command.v)).toBeLessThan(0.2);
+    expect(Math.abs(after.config.command.omega - command.omega)).toBeLessThan(0.2);
+  }
+});
+
+test('the ring says where the sliders end, to the eye and to the ear', async ({ page }) => {
+  const widget = await open(page);
+  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const hint = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
+  await widget.evaluate((element) => void Object.assign(element, { v: 1.49, omega: 0 }));
+  await handle.press('ArrowLeft');
+  await expect(handle).toHaveAttribute('aria-valuetext', /m\/s, ω = −?0\.00 rad\/s$/);
+  expect(await hint()).toBe('none');
+  for (let i = 0; i < 3; i++) await handle.press('ArrowRight');
+  await expect(handle).toHaveAttribute('aria-valuetext', /^v = 1\.50 m\/s, .* rad\/s\. The sliders end here$/);
+  expect(await hint()).toBe('"The sliders end here"');
+  await handle.blur();
+  expect(await hint()).toBe('none');
+});
+
+test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
+  const widget = await openWhole(page);
+  const marker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
+  await marker.focus();
+  await marker.press('ArrowRight');
+  expect((await state(widget)).config.command.omega).toBeCloseTo(0.51, 12);
+  const chart = widget.locator('svg.plot');
+  await chart.scrollIntoViewIfNeeded();
+  const { x, y } = await centreOf(chart);
+  await page.mouse.click(x + 80, y);
+  const { config, table } = await state(widget);
+  expect(config.command.omega).toBeGreaterThan(0.51);
+  await expect(marker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
+});
+
+test('a dragged α moves the same robots, once a frame', async ({ page }) => {
+  const widget = await open(page);
+  const before = await state(widget);
+  const picture = await pictureOf(widget.locator('canvas.plane'));
+  const skew = await readout(widget, 'cross-track skew').textContent();
+  await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
+  const after = await state(widget);
+  const alpha = after.config.alphas[3];
+  expect(alpha).toBeGreaterThan(0.16);
+  expect(after.config).toEqual({ ...before.config, alphas: before.config.alphas.with(3, alpha) });
+  expect(after.shown).toBe(before.shown);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(picture);
+  expect(await readout(widget, 'cross-track skew').textContent()).not.toBe(skew);
+  // Several inputs between two frames are one change of the statistics.
+  const told = await widget.evaluate(async (element) => {
+    let count = 0;
+    element.addEventListener('stats', () => count++);
+    const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha1'));
+    for (const value of ['0.06', '0.07', '0.08', '0.09']) {
+      slider.value = value;
+      slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+    }
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+    return count;
+  });
+  expect(told).toBe(1);
+  expect((await state(widget)).config.alphas[0]).toBe(0.09);
+});
+
+test('each model keeps its own α’s', async ({ page }) => {
+  const widget = await openWhole(page);
+  await widget.getByRole('slider', { name: 'α1' }).fill('0.123');
+  await widget.getByLabel('odometry').check();
+  let { config } = await state(widget);
+  expect(config.model).toBe('odometry');
+  expect(config.alphas).toHaveLength(4);
+  await expect(widget.locator('.alphas input[type=range]')).toHaveCount(4);
+  await widget.getByLabel('velocity').check();
+  ({ config } = await state(widget));
+  expect(config.alphas).toEqual([0.123, 0.05, 0.05, 0.09, 0.01, 0.01]);
+});
+
+test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
+  const widget = await openWhole(page);
+  const before = await state(widget);
+  await widget.getByLabel('Isolate one').check();
+  expect((await state(widget)).config).toEqual({ ...before.config, isolate: 4 });
+  await expect(widget.locator('.alphas .value', { hasText: 'off' })).toHaveCount(5);
+  await widget.getByRole('radio', { name: 'Only α₁' }).check();
+  expect((await state(widget)).config.isolate).toBe(1);
+  // Only v̂ is noisy now.
+  for (const { omegaHat, gammaHat } of await inspectFirst(widget, 50)) {
+    expect(omegaHat).toBeCloseTo(0.5, 9);
+    expect(gammaHat).toBeCloseTo(0, 9);
+  }
+  // Taking hold of another α selects it.
+  await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
+  const { config } = await state(widget);
+  expect(config).toMatchObject({ isolate: 3, alphas: before.config.alphas.with(2, 0.06) });
+  await widget.getByLabel('Isolate one').uncheck();
+  expect((await state(widget)).config.isolate).toBeNull();
+  await expect(widget.locator('.alphas .value', { hasText: 'off' })).toHaveCount(0);
+});
+
+test('no slider moves under the finger when there is something to note', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 812 });
+  const widget = await openWhole(page);
+  const slider = widget.locator('#omega');
+  const note = widget.locator('.note');
+  const place = async () => {
+    await frames(page);
+    return slider.evaluate((element) => element.getBoundingClientRect().top + scrollY);
+  };
+  const before = await place();
+  await widget.getByLabel('Isolate one').check();
+  await expect(note).toContainText('the robots lie on a line');
+  expect(Math.abs((await place()) - before)).toBeLessThan(0.5);
+  await slider.fill('0');
+  await expect(note).toContainText('no noise at all');
+  expect(Math.abs((await place()) - before)).toBeLessThan(0.5);
+});

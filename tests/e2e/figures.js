@@ -1,0 +1,79 @@
+/**
+ * Catalogue of the elements for the tests, and the choice of one figure for a test about all.
+ *
+ * @module
+ */
+
+/**
+ * Facts about an element that tests use.
+ *
+ * @typedef {object} Known
+ * @property {boolean} [cloud] true if the figure has a cloud that grows, by Play, Step and Reset
+ * @property {string[]} [handles] selectors of the handles in its pictures
+ * @property {string} slider id of a slider that is visible when the figure opens
+ * @property {string[]} at path of the slider's setting in a state
+ * @property {[number, number]} values two values of the slider that are not the default
+ * @property {[string, number]} other setting that the first picture shows, and a value that is not the default
+ * @property {string} button label of a visible button that changes the state
+ * @property {{ at: number, field: string, value: string }} fold index of a fold with a field, and a value to type there
+ * @property {{ at: number, part: string }} paper index of a fold with a part that is printed, and its selector
+ */
+
+/** @satisfies {Partial<Known>} */
+const COMMAND = { slider: 'v', at: ['command', 'v'], values: /** @type {[number, number]} */ ([0.7, 0.4]), other: /** @type {[string, number]} */ (['omega', 1.25]) };
+const MARKED = { at: 0, field: 'input[type=number]', value: '7' };
+
+/** @typedef {'banana-machine' | 'map-squeeze' | 'arc-anatomy' | 'odometry-decomposer' | 'dead-reckoning' | 'alpha-calibrator'} Name */
+
+/** @type {Record<Name, Known>} */
+export const KNOWN = {
+  'banana-machine': {
+    ...COMMAND, cloud: true, handles: ['.handle'], button: 'New seed',
+    fold: MARKED, paper: { at: 1, part: 'table' },
+  },
+  'map-squeeze': {
+    ...COMMAND, cloud: true, handles: ['.handle.body', '.handle.turn'], button: 'New seed',
+    fold: MARKED, paper: { at: 1, part: 'table' },
+  },
+  'arc-anatomy': {
+    ...COMMAND, handles: ['.handle.body.start', '.handle.turn.start', '.handle.body.next', '.handle.turn.next'], button: 'The next line',
+    fold: { at: 1, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 2, part: '.lines' },
+  },
+  'odometry-decomposer': {
+    cloud: true, handles: ['.handle.body.from', '.handle.turn.from', '.handle.body.to', '.handle.turn.to'],
+    slider: 'drift', at: ['drift'], values: [70, 20], other: ['toY', -0.75], button: 'Drive, turn',
+    fold: { at: 0, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 1, part: '.readouts' },
+  },
+  'dead-reckoning': {
+    cloud: true, slider: 'step', at: ['step'], values: [7, 4], other: ['omega', 1.25], button: 'New seed',
+    fold: MARKED, paper: { at: 0, part: 'table' },
+  },
+  'alpha-calibrator': {
+    slider: 'distance', at: ['distance'], values: [0.4, 0.3], other: ['angle', 0.35], button: 'Next worst leg',
+    fold: { at: 2, field: '.slider:has(#inflation) .typed', value: '2.50' }, paper: { at: 1, part: 'table' },
+  },
+};
+
+/** Names of all elements. */
+export const ALL = /** @type {Name[]} */ (Object.keys(KNOWN));
+
+/** Two elements, for tests of several figures on one page. */
+export const NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
+
+/** Names of the elements with a cloud. */
+export const CLOUDS = ALL.filter((name) => KNOWN[name].cloud);
+
+/** Names of the elements with a handle. */
+export const HANDLED = ALL.filter((name) => KNOWN[name].handles);
+
+/**
+ * Returns the figure on which a claim about all of them is tested: always the same for one title, and each in its turn.
+ *
+ * @param {string} title of the test
+ * @param {Name[]} [among]
+ */
+export function figureFor(title, among = ALL) {
+  let hash = 0;
+  for (const letter of title) hash = (53 * hash + letter.charCodeAt(0)) % 65_521;
+  return among[hash % among.length];
+}

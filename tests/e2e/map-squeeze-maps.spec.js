@@ -1,0 +1,293 @@
+import { expect } from '@playwright/test';
+import { expectAccessible } from './axe.js';
+import { file, openSqueeze, pgm, png, squeezed, unfold, yaml } from './squeeze-support.js';
+import { STILL, frames, pictureOf, pixelsOf, test } from './support.js';
+
+/**
+ * @typedef {import('./squeeze-support.js').MapFile} MapFile
+ * @typedef {import('@playwright/test').Locator} Locator
+ */
+
+test.use(STILL);
+
+const ROOM = {
+  bounds: [0, 0, 6, 4],
+  walls: [[0, 0, 6, 0], [6, 0, 6, 4], [6, 4, 0, 4], [0, 4, 0, 0], [3, 0, 3, 1.5]],
+};
+
+/** Room of 60 × 40 cells whose border is occupied. */
+const COLUMNS = 60;
+const ROWS = 40;
+const border = (/** @type {number} */ column, /** @type {number} */ row) =>
+  column === 0 || row === 0 || column === COLUMNS - 1 || row === ROWS - 1;
+
+const FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
+
+const complaint = (/** @type {Locator} */ widget) => widget.locator('.own-map .note');
+const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
+
+/** Chooses files, as a reader does. @param {Locator} widget @param {MapFile[]} files */
+async function choose(widget, files) {
+  await unfold(widget, 'A map of your own');
+  await widget.getByLabel('Map files').setInputFiles(files);
+}
+
+/** Drops files on a part of the widget. @param {Locator} part @param {MapFile[]} files */
+function drop(part, files) {
+  return part.evaluate(
+    (target, given) => {
+      const dataTransfer = new DataTransfer();
+      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
+      const [over, drop] = [event('dragover'), event('drop')];
+      target.dispatchEvent(over);
+      if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
+      target.dispatchEvent(drop);
+      if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
+      if (target.closest('.dropping')) throw new Error('It is still marked.');
+    },
+    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+  );
+}
+
+test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await pictureOf(widget.locator('canvas.plane'));
+  await widget.getByRole('button', { name: 'Open corridor' }).click();
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
+  const { bounds, walls, startFree, openPlace, config, shown } = await squeezed(widget);
+  expect(bounds).toEqual(ROOM.bounds);
+  expect(walls).toEqual(ROOM.walls.flat());
+  // (1.4, 4.4) is outside of it.
+  expect(startFree).toBe(true);
+  expect(config.start).toEqual(openPlace);
+  expect(shown).toBe(config.samples);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /room\.json/);
+
+  await widget.getByRole('button', { name: 'Back to the apartment' }).click();
+  expect((await squeezed(widget)).bounds).toEqual([0, 0, 12, 9]);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(before);
+});
+
+test('presets keep the map of the reader, and buttons lead to the apartment and back', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toContainText('room.json');
+  // The places of the apartment are the apartment's.
+  for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
+    await expect(widget.getByRole('button', { name })).toHaveCount(0);
+  }
+  const open = widget.getByRole('button', { name: 'In the open' });
+  await open.click();
+  await expect(open).toHaveAttribute('aria-pressed', 'true');
+  const { config, openPlace, bounds } = await squeezed(widget);
+  expect(config.start).toEqual(openPlace);
+  expect(bounds).toEqual(ROOM.bounds);
+  await widget.getByRole('slider', { name: 'Robot', exact: true }).press('ArrowRight');
+  await expect(open).toHaveAttribute('aria-pressed', 'false');
+  const moved = await squeezed(widget);
+
+  await widget.getByRole('button', { name: 'Back to the apartment' }).click();
+  await widget.getByRole('button', { name: 'Facing a wall' }).click();
+  expect((await squeezed(widget)).bounds).toEqual([0, 0, 12, 9]);
+  await widget.getByRole('button', { name: 'Back to room.json' }).click();
+  expect(await squeezed(widget)).toEqual(moved);
+  await expect(present(widget)).toContainText('room.json');
+  await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
+});
+
+test('unknown cells are hatched, and free or blocked as the reader chooses', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
+  // A corridor of 4 m × 1 m, of which the right half is unknown.
+  const image = png('map.png', 80, 20, () => false, (column) => column >= 40);
+  await choose(widget, [yaml('map.yaml', { ...FIELDS, image: 'map.png', mode: 'scale' }), image]);
+  await expect(present(widget)).toContainText('map.yaml');
+  // In the left half, of which something is known.
+  expect((await squeezed(widget)).config.start.x).toBeLessThan(2);
+  await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
+  const canvas = widget.locator('canvas.plane');
+  const choice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
+  await expect(choice.getByLabel('free')).toBeChecked();
+  const along = await squeezed(widget);
+  const free = await pictureOf(canvas);
+  await choice.getByLabel('blocked').check();
+  const blocked = await squeezed(widget);
+  expect(blocked.config.unknown).toBe('blocked');
+  expect(blocked.poses).toEqual(along.poses);
+  expect(blocked.stats.accepted).toBeLessThan(along.stats.accepted);
+  expect(blocked.walls.length).toBeGreaterThan(along.walls.length);
+  expect(await pictureOf(canvas)).not.toBe(free);
+  await unfold(widget, 'What is drawn');
+  await expect(widget.locator('.key')).toContainText('unknown: the map says nothing');
+
+  // A state has both, and brings both back.
+  const state = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
+  await widget.getByRole('button', { name: 'Back to the apartment' }).click();
+  await expect(choice).toHaveCount(0);
+  await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), state);
+  await expect(choice.getByLabel('blocked')).toBeChecked();
+  expect(await squeezed(widget)).toEqual(blocked);
+});
+
+test('a floor plan can be written on the page', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await unfold(widget, 'A map of your own');
+  const field = widget.getByLabel('Or a floor plan here');
+  const use = widget.getByRole('button', { name: 'Use this plan' });
+  // The example in the field is one.
+  await use.click();
+  await expect(present(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
+  await field.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
+  await use.click();
+  await expect(complaint(widget)).toHaveText(/^Pasted plan, line 2: this is not JSON \(.+\); expected is \{"bounds": .+ in metres\.$/);
+  expect((await squeezed(widget)).bounds).toEqual([0, 0, 6, 4]);
+  await field.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
+  await use.click();
+  await expect(complaint(widget)).toBeHidden();
+  expect((await squeezed(widget)).walls).toEqual([0, 0, 3, 3]);
+});
+
+test('a map_server pair can be dropped on the widget', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await expect(present(widget)).toHaveCount(0);
+  await drop(widget.locator('.stage'), [yaml('room.yaml', FIELDS), pgm('room.pgm', COLUMNS, ROWS, border)]);
+  await expect(present(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
+  await expect(present(widget)).toBeVisible();
+  const { bounds, walls, startFree, config, openPlace } = await squeezed(widget);
+  expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
+  // The outside of the border and its inside.
+  expect(walls).toHaveLength(8 * 4);
+  expect(startFree).toBe(true);
+  expect(config.start).toEqual(openPlace);
+  expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
+});
+
+test('why a dropped map is refused is seen at once, however far below it is said', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 812 });
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
+  await drop(widget.locator('.stage'), [file('room.txt', 'a room')]);
+  await expect(complaint(widget)).toHaveText(/^room\.txt: this kind of file is not read/);
+  // Edges within a pixel of the screen's count for less than all of it.
+  await expect(complaint(widget)).toBeInViewport({ ratio: 0.99 });
+  await expect(present(widget)).toContainText('The apartment');
+  await expect(present(widget)).toBeInViewport({ ratio: 0.99 });
+  expect(await squeezed(widget)).toEqual(before);
+});
+
+test('an occupancy grid has its yaw and its mode, and its image may be a PNG in a directory', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const grids = /** @type {[MapFile[], number[], number][]} */ ([
+    [
+      [yaml('turned.yaml', { ...FIELDS, resolution: 0.03, origin: `[1.0, 2.0, ${Math.PI / 2}]` }), pgm('room.pgm', COLUMNS, ROWS, border)],
+      [1 - 0.03 * ROWS, 2, 1, 2 + 0.03 * COLUMNS], 8,
+    ],
+    [
+      // The border is a bracket that is open to the left, where nothing is known.
+      [yaml('scale.yml', { ...FIELDS, image: 'maps/room.png', mode: 'scale' }), png('room.png', COLUMNS, ROWS, border, (column) => column < 30)],
+      [0, 0, 3, 2], 8,
+    ],
+  ]);
+  for (const [files, bounds, walls] of grids) {
+    await choose(widget, files);
+    await expect(present(widget)).toContainText(files[0].name);
+    await expect(complaint(widget)).toBeHidden();
+    const now = await squeezed(widget);
+    now.bounds.forEach((bound, i) => expect(bound).toBeCloseTo(bounds[i], 9));
+    expect(now.walls).toHaveLength(4 * walls);
+    expect(now.startFree).toBe(true);
+    expect(now.stats.drawn).toBe(now.config.samples);
+  }
+});
+
+test('a map that is refused is reported in a sentence, and the present map stays', async ({ page }) => {
+  const image = pgm('room.pgm', COLUMNS, ROWS, border);
+  const good = yaml('room.yaml', FIELDS);
+  const whole = png('room.png', COLUMNS, ROWS, border).buffer;
+  const cases = /** @type {[MapFile[], RegExp][]} */ ([
+    [[file('plan.json', '{\n"bounds": [0, 0, 1, 1]\n"walls": []}')], /^plan\.json, line 3: this is not JSON .*; expected is \{"bounds"/],
+    [[file('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [[0, 0, 2, 1]]}')], /^plan\.json: walls\[0\] ends at .*; allowed is a point inside the bounds/],
+    [[file('room.yaml', 'image: room.pgm\nresolution: 0.05\norigin: [0, 0\nnegate: 0\n'), image], /^room\.yaml, line 4: this is not YAML .*; expected is one field a line/],
+    [[good], /^room\.yaml: image names room\.pgm, which is not there; expected are both files/],
+    [[good, file('room.pgm', 'P5\n60 40\n255\nabc')], /^room\.pgm.*(2400|60 × 40)/],
+    [[yaml('room.yaml', { ...FIELDS, image: 'room.png' }), file('room.png', whole.subarray(0, whole.length / 2))], /^room\.png: .*\.$/],
+    [[file('room.txt', 'a room')], /^room\.txt: this kind of file is not read; expected is a \.json floor plan/],
+    [[good, image, file('plan.json', JSON.stringify(ROOM))], /^plan\.json, room\.yaml: these are 2 maps; expected is one at a time/],
+  ]);
+  const widget = await openSqueeze(page);
+  await unfold(widget, 'A map of your own');
+  const before = await squeezed(widget);
+  for (const [files, sentence] of cases) {
+    await choose(widget, files);
+    await expect.soft(complaint(widget)).toHaveText(sentence);
+    expect(await squeezed(widget)).toEqual(before);
+  }
+  await expect(present(widget)).toContainText('The apartment');
+  await expectAccessible(page);
+  await choose(widget, [good, image]);
+  await expect(present(widget)).toContainText('room.yaml');
+  await expect(complaint(widget)).toBeHidden();
+});
+
+test('a map that a page gives is taken; the same again changes nothing, and one with less is refused', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const told = await widget.evaluate(async (element, room) => {
+    const figure = /** @type {any} */ (element);
+    /** Sets a map, and returns its keys or the error. @param {any} map @returns {Promise<string>} */
+    const given = (map) => new Promise((resolve) => {
+      figure.addEventListener('stats', () => resolve(Object.keys(figure.map).join()), { once: true });
+      figure.addEventListener('error', (/** @type {ErrorEvent} */ event) => {
+        event.preventDefault();
+        resolve(event.message);
+      }, { once: true });
+      figure.map = map;
+    });
+    const grid = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0], occupied: 'gA==' };
+    const all = [];
+    for (const map of [room, { bounds: room.bounds }, grid]) all.push(await given(map));
+    let told = 0;
+    figure.addEventListener('stats', () => told++);
+    figure.map = { ...grid };
+    for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+    return [...all, told];
+  }, ROOM);
+  expect(told).toEqual([
+    'name,bounds,walls', expect.stringMatching(/^map\.walls is undefined; /), 'name,columns,rows,resolution,origin,occupied', 0,
+  ]);
+});
+
+test('the map survives the element’s removal', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toContainText('room.json');
+  const before = await squeezed(widget);
+  await widget.evaluate(async (element) => {
+    Object.assign(window, { kept: element });
+    element.remove();
+    await new Promise(requestAnimationFrame);
+  });
+  await page.evaluate(() => document.querySelector('main')?.append(Reflect.get(window, 'kept')));
+  await widget.scrollIntoViewIfNeeded();
+  await unfold(widget, 'A map of your own');
+  await expect(present(widget)).toContainText('room.json');
+  expect(await squeezed(widget)).toEqual(before);
+});
+
+test('a large map is opened with a message, and another map takes its place @nightly', async ({ page }) => {
+  test.setTimeout(120_000);
+  const widget = await openSqueeze(page);
+  const side = 4000;
+  const posts = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === side - 1 || r === side - 1 || (c % 100 === 50 && r % 100 === 50);
+  await choose(widget, [yaml('hall.yaml', { ...FIELDS, image: 'hall.pgm' }), pgm('hall.pgm', side, side, posts)]);
+  await expect(present(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
+  const { stats, config } = await squeezed(widget);
+  expect(stats.attempts).toBe(config.samples);
+  await choose(widget, [file('room.json', JSON.stringify(ROOM))]);
+  await expect(present(widget)).toContainText('room.json');
+  await frames(page);
+  expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);
+});

@@ -1,0 +1,424 @@
+import { expect } from '@playwright/test';
+import { openSqueeze, squeezed, unfold } from './squeeze-support.js';
+import { STILL, centreOf, dragSlider, frames, numberIn, pictureOf, readout, test } from './support.js';
+
+/**
+ * @typedef {import('./squeeze-support.js').MapSqueezeElement} MapSqueezeElement
+ * @typedef {import('../../www/types.d.ts').SqueezeSettings} Settings
+ * @typedef {import('@playwright/test').Locator} Locator
+ */
+
+test.use(STILL);
+
+/** Poses of the presets in the apartment. */
+const PRESETS = {
+  'Facing a doorway': { x: 2.05, y: 2.6, theta: Math.PI / 2 },
+  'Facing a wall': { x: 3.3, y: 2.6, theta: Math.PI / 2 },
+  'Open corridor': { x: 1.4, y: 4.4, theta: 0 },
+};
+
+const body = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
+const turn = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
+
+/**
+ * Returns the pixels of a metre, from how far ten presses of a key move the robot.
+ *
+ * @param {Locator} widget
+ */
+async function pixelsPerMetre(widget) {
+  const from = await centreOf(body(widget));
+  for (let i = 0; i < 10; i++) await body(widget).press('ArrowRight');
+  await frames(widget.page());
+  const to = await centreOf(body(widget));
+  for (let i = 0; i < 10; i++) await body(widget).press('ArrowLeft');
+  await frames(widget.page());
+  return (to.x - from.x) / 0.5;
+}
+
+test('opens facing the doorway, and presets set the place alone', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { config, shown } = await squeezed(widget);
+  expect(config).toMatchObject({
+    start: PRESETS['Facing a doorway'],
+    command: { v: 1, omega: 0, dt: 2 },
+    alphas: [0.12, 0.12, 0.12, 0.12, 0.03, 0.03],
+    clearance: 0.13,
+    conditioned: true,
+    sampler: 'endpoint',
+  });
+  expect(shown).toBe(config.samples);
+  for (const [name, start] of Object.entries(PRESETS)) {
+    const button = widget.getByRole('button', { name });
+    await button.click();
+    expect((await squeezed(widget)).config).toEqual({ ...config, start });
+    await expect(button).toHaveAttribute('aria-pressed', 'true');
+  }
+});
+
+test('the robot is dragged by its body and stays under the pointer', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const from = await centreOf(body(widget));
+  const before = await squeezed(widget);
+  const pixels = await pictureOf(widget.locator('canvas.plane'));
+  // Held beside its centre: it does not jump there.
+  await page.mouse.move(from.x + 5, from.y + 3);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 65, from.y - 37, { steps: 5 });
+  const held = await squeezed(widget);
+  const at = await centreOf(body(widget));
+  expect(Math.abs(at.x - from.x - 60)).toBeLessThan(1);
+  expect(Math.abs(at.y - from.y + 40)).toBeLessThan(1);
+  const [perX, perY] = [(held.config.start.x - 2.05) / 60, (held.config.start.y - 2.6) / 40];
+  expect(perX).toBeGreaterThan(0);
+  expect(Math.abs(perX / perY - 1)).toBeLessThan(1 / 40);
+  expect(held.config.start.theta).toBe(before.config.start.theta);
+  await page.mouse.up();
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pixels);
+  await expect(widget.locator('p[role=status]')).toContainText(`${held.stats.accepted} of 600 motions`);
+});
+
+test('the robot is turned by the handle ahead of it', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const [centre, from] = [await centreOf(body(widget)), await centreOf(turn(widget))];
+  expect(Math.abs(from.x - centre.x)).toBeLessThan(1);
+  expect(centre.y - from.y).toBeGreaterThan(20);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(centre.x + 80, centre.y, { steps: 5 });
+  await page.mouse.up();
+  const { config } = await squeezed(widget);
+  // The pointer's place is exact to half a pixel of eighty.
+  expect(Math.abs(config.start.theta)).toBeLessThan(1 / 80);
+  expect(config.start).toMatchObject({ x: 2.05, y: 2.6 });
+  // The close-up has followed the command.
+  const [now, to] = [await centreOf(body(widget)), await centreOf(turn(widget))];
+  expect(to.x - now.x).toBeGreaterThan(20);
+  expect(Math.abs(to.y - now.y)).toBeLessThan(1);
+});
+
+test('the robot moves and turns by keyboard', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  let { start } = (await squeezed(widget)).config;
+  const degrees5 = Math.PI / 36;
+  const keys = /** @type {const} */ ([
+    [body, 'ArrowRight', 0.05, 0, 0],
+    [body, 'ArrowLeft', -0.05, 0, 0],
+    [body, 'ArrowUp', 0, 0.05, 0],
+    [body, 'ArrowDown', 0, -0.05, 0],
+    [body, '[', 0, 0, degrees5],
+    [body, ']', 0, 0, -degrees5],
+    [body, 'Shift+ArrowLeft', 0, 0, degrees5],
+    [body, 'Shift+ArrowRight', 0, 0, -degrees5],
+    [turn, 'ArrowUp', 0, 0, degrees5],
+    [turn, 'ArrowRight', 0, 0, -degrees5],
+  ]);
+  for (const [part, key, dx, dy, dTheta] of keys) {
+    await part(widget).press(key);
+    const next = (await squeezed(widget)).config.start;
+    expect(next.x - start.x, key).toBeCloseTo(dx, 9);
+    expect(next.y - start.y, key).toBeCloseTo(dy, 9);
+    expect(next.theta - start.theta, key).toBeCloseTo(dTheta, 9);
+    start = next;
+  }
+  await expect(body(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
+  await expect(turn(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
+});
+
+test('the robot stays inside the map, and says so to the eye and to the ear', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { x, y } = await centreOf(body(widget));
+  const stop = async () => {
+    await frames(page);
+    return body(widget).evaluate((element) => getComputedStyle(element, '::before').content);
+  };
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 20, y, { steps: 3 });
+  expect(await stop()).toBe('none');
+  await page.mouse.move(1, y, { steps: 3 });
+  expect(await stop()).toBe('"The map ends here"');
+  await page.mouse.move(x - 20, y, { steps: 3 });
+  expect(await stop()).toBe('none');
+  await page.mouse.move(1, y, { steps: 3 });
+  await page.mouse.up();
+  expect(await stop()).toBe('none');
+  expect((await squeezed(widget)).config.start.x).toBe(0);
+
+  // From the keyboard: it is told where it stands, and why no further.
+  const told = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
+  await expect(body(widget)).toHaveAttribute('aria-valuetext', told);
+  await body(widget).press('ArrowRight');
+  await expect(body(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
+  expect(await stop()).toBe('none');
+  for (let i = 0; i < 2; i++) {
+    await body(widget).press('ArrowLeft');
+    await expect(body(widget)).toHaveAttribute('aria-valuetext', told);
+    expect(await stop()).toBe('"The map ends here"');
+  }
+  expect((await squeezed(widget)).config.start.x).toBe(0);
+});
+
+test('a robot that a key led into a wall is reported', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
+  expect((await squeezed(widget)).startFree).toBe(true);
+  for (let i = 0; i < 2; i++) await body(widget).press('ArrowLeft');
+  expect((await squeezed(widget)).startFree).toBe(false);
+  await expect(widget.getByRole('status').filter({ hasText: 'The robot does not fit where it stands' })).toHaveCount(1);
+  await expect(widget.locator('.verdict')).toContainText('The robot does not fit where it stands');
+  for (let i = 0; i < 2; i++) await body(widget).press('ArrowRight');
+  await expect(widget.locator('.verdict')).not.toContainText('does not fit where it stands');
+});
+
+test('conditioning changes verdicts and not draws', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const on = await squeezed(widget);
+  await widget.getByLabel('Condition on the map').uncheck();
+  const off = await squeezed(widget);
+  expect(off.poses).toEqual(on.poses);
+  expect(off.verdicts).not.toEqual(on.verdicts);
+  expect(off.stats.accepted).toBe(off.config.samples);
+  await widget.getByLabel('Condition on the map').check();
+  expect(await squeezed(widget)).toEqual(on);
+});
+
+test('each sampler judges as it says, and the figures are those of the machine', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const names = { endpoint: 'endpoint', 'whole arc': 'whole-arc', 'sub-stepped': 'sub-stepped' };
+  await unfold(widget, 'Counts and costs');
+  await widget.getByRole('button', { name: 'Facing a wall' }).click();
+    for (const [label, sampler] of Object.entries(names)) {
+      await widget.getByLabel(label, { exact: true }).check();
+      const { config, stats, verdicts } = await squeezed(widget);
+      expect(config.sampler).toBe(sampler);
+      const through = verdicts.filter((verdict) => (verdict & 4) !== 0 && (verdict & 2) === 0).length;
+      expect(through).toBe(stats.throughWall);
+      if (sampler === 'whole-arc') expect(through).toBe(0);
+      else expect(through).toBeGreaterThan(50);
+
+      const shown = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
+      expect(await shown(/^\s*drawn\s*\d/)).toBe(stats.drawn);
+      expect(await shown(/^\s*accepted\s*[\d\u202f]+\s*$/)).toBe(stats.accepted);
+      expect(await shown('accepted through a wall')).toBe(stats.throughWall);
+      const rate = sampler === 'sub-stepped' ? 'accepted, of all parts drawn' : /^\s*accepted\s*[\d.]+\u202f%/;
+      expect(await shown(rate)).toBeCloseTo(100 * stats.acceptanceRate, 1);
+      expect(await shown('draws needed for one accepted')).toBeCloseTo(stats.drawsPerAccepted, 2);
+      expect(await shown('wall distances computed for one accepted')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
+      const share = (await readout(widget, 'of these, through a wall').textContent()) ?? '';
+      if (sampler === 'whole-arc') {
+        expect(share).toBe('0, by construction');
+        continue;
+      }
+      const [through95, low, high] = [...share.matchAll(/[\d.]+/g)].map(Number);
+      expect(through95).toBeCloseTo(100 * stats.throughWallRate, 1);
+      expect(low).toBeCloseTo(100 * stats.throughWallInterval[0], 1);
+      expect(high).toBeCloseTo(100 * stats.throughWallInterval[1], 1);
+    }
+});
+
+test('sliders set the command, the noise, the clearance, k and the count', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await widget.getByLabel('sub-stepped').check();
+  const keys = /** @type {const} */ ([
+    ['v,', (/** @type {Settings} */ config) => config.command.v],
+    ['ω,', (/** @type {Settings} */ config) => config.command.omega],
+    ['Δt,', (/** @type {Settings} */ config) => config.command.dt],
+    ['n, noise', (/** @type {Settings} */ config) => config.alphas[3]],
+    ['r, clearance', (/** @type {Settings} */ config) => config.clearance],
+    ['k, parts', (/** @type {Settings} */ config) => config.steps],
+  ]);
+  for (const [name, of] of keys) {
+    const slider = widget.getByRole('slider', { name });
+    if (name === 'v,') await dragSlider(slider, 0.6);
+    else await slider.press('PageUp');
+    const value = Number(await slider.inputValue());
+    expect(value).toBeGreaterThan(0);
+    expect(of((await squeezed(widget)).config), name).toBeCloseTo(value, 12);
+  }
+  const { alphas } = (await squeezed(widget)).config;
+  expect(alphas[5]).toBeCloseTo(alphas[0] / 4, 12);
+  await widget.getByRole('slider', { name: 'N, samples' }).press('ArrowRight');
+  const { config, shown } = await squeezed(widget);
+  expect(config.samples).toBe(1000);
+  expect(shown).toBe(1000);
+});
+
+test('every cost is that of the sampler, and a core’s share follows from it', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await widget.getByRole('button', { name: 'Facing a wall' }).click();
+  await unfold(widget, 'Counts and costs');
+  // From then on the figures before are out of date.
+  await frames(page);
+  const table = widget.locator('.table');
+  await expect(table).toHaveAttribute('aria-busy', 'false');
+  const rows = await table.locator('tbody tr').evaluateAll((all) =>
+    all.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
+  );
+  expect(rows).toHaveLength(3);
+  const [endpoint, wholeArc, subStepped] = rows.map((row) => row.map(numberIn));
+  // Accepted are 83 % of the draws at the end, and 11 % on the way; four parts take four draws and more.
+  expect(endpoint[0]).toBeCloseTo(1.2, 1);
+  expect(wholeArc[0]).toBeGreaterThan(7);
+  expect(subStepped[0]).toBeGreaterThan(4);
+  for (const [, , micros, share] of [endpoint, wholeArc, subStepped]) {
+    expect(micros).toBeGreaterThan(0);
+    // 2000 at 20 Hz: 4 % of a core a microsecond; both are rounded to two digits, by up to 5 %.
+    expect(Math.abs(share / (4 * micros) - 1)).toBeLessThan(0.11);
+  }
+});
+
+test('a wedged robot is said to be one, with the draws that were tried', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const note = widget.locator('.verdict.note');
+  await expect(note).toHaveCount(0);
+  await unfold(widget, 'Counts and costs');
+  await widget.getByRole('button', { name: 'Facing a wall' }).click();
+  await widget.getByLabel('sub-stepped').check();
+  const steps = widget.getByRole('slider', { name: 'k, parts' });
+  for (const parts of [32]) {
+    await steps.fill(String(parts));
+    const { stats, config } = await squeezed(widget);
+    expect(config.steps).toBe(parts);
+    expect(stats.gaveUp).toBe(true);
+    await expect(note).toContainText('The robot is wedged');
+    const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
+    // No other sentence counts the same motions in another way.
+    const through = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
+    const ended = `only ${stats.accepted} of ${config.samples} motions came to their end; ${through} went through a wall`;
+    expect(tried.trim()).toBe(`The robot is wedged: in ${stats.drawn} draws of parts ${stats.accepted === 0 ? 'no motion came to its end' : ended}.`);
+    const described = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
+    expect(described).toContain(`${stats.drawn} parts drawn; ${stats.accepted} motions accepted`);
+    expect(described.includes('crosses')).toBe(stats.accepted < stats.attempts);
+  }
+
+  // Into the wall: no way from there is free.
+  await widget.getByLabel('whole arc').check();
+  const { x, y } = await centreOf(body(widget));
+  const up = 1.2 * (await pixelsPerMetre(widget));
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y - up, { steps: 4 });
+  await page.mouse.up();
+  const blocked = await squeezed(widget);
+  expect(blocked.startFree).toBe(false);
+  expect(blocked.stats.accepted).toBe(0);
+  await expect(note).toHaveText('Nothing was accepted: of the 600 draws that were tried, none touches no wall on its way.');
+  await expect(widget.locator('p[role=status]')).toContainText('Nothing was accepted');
+  await expect(readout(widget, 'of these, through a wall')).toHaveText('—');
+});
+
+test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { verdicts, poses } = await squeezed(widget);
+  const through = verdicts.indexOf(5);
+  const rejected = verdicts.findIndex((verdict) => (verdict & 4) === 0);
+  const field = widget.getByRole('spinbutton', { name: 'Sample' });
+  const output = widget.locator('.marked output');
+  const canvas = widget.locator('canvas.plane');
+  await unfold(widget, 'What is drawn');
+  const plain = await pictureOf(canvas);
+
+  await field.fill(String(through + 1));
+  await expect(output).toHaveText('accepted through a wall: free at the end, but its way touches a wall or leaves the map');
+  expect(await pictureOf(canvas)).not.toBe(plain);
+  await field.fill(String(rejected + 1));
+  await expect(output).toHaveText('rejected: the robot does not fit where it ends');
+  await field.fill(String(verdicts.indexOf(7) + 1));
+  await expect(output).toHaveText('accepted: free at the end and all along the way');
+  await field.fill(String(through + 1));
+  await widget.getByLabel('Condition on the map').uncheck();
+  await expect(output).toHaveText('kept, way not free: free at the end, but its way touches a wall or leaves the map');
+  await widget.getByLabel('Condition on the map').check();
+  await field.fill('');
+  expect(await pictureOf(canvas)).toBe(plain);
+
+  // The sample furthest to the right, where no other is nearer.
+  let last = 0;
+  for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * last]) last = i;
+  const { x, y } = await centreOf(body(widget));
+  const metre = await pixelsPerMetre(widget);
+  await page.mouse.move(x + (poses[3 * last] - 2.05) * metre, y - (poses[3 * last + 1] - 2.6) * metre);
+  await expect(field).toHaveValue(String(last + 1));
+});
+
+test('the picture and the announcements have words', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { stats } = await squeezed(widget);
+  const canvas = widget.locator('canvas.plane');
+  await expect(canvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
+  await expect(canvas).toHaveAttribute('aria-label', new RegExp(`${stats.throughWall} of those through a wall`));
+  await widget.getByLabel('whole arc').check();
+  const after = (await squeezed(widget)).stats;
+  const status = widget.locator('p[role=status]');
+  const said = `${after.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
+  await expect(status).toHaveText(said);
+  await expect(widget.locator('.verdict span')).toHaveText(said);
+  // Without the condition nothing is judged.
+  await widget.getByLabel('Condition on the map').uncheck();
+  const { throughWall } = (await squeezed(widget)).stats;
+  await expect(status).toContainText(`Without the map all 600 motions are kept; ${throughWall} of them, `);
+  // Changes by the page are not announced, and end the last announcement.
+  await widget.evaluate((element) => Object.assign(element, { conditioned: true }));
+  await expect(status).toBeEmpty();
+  await widget.evaluate((element) => Object.assign(element, { conditioned: false }));
+  await expect(status).toBeEmpty();
+  await expect(canvas).toHaveAttribute('aria-label', new RegExp(`600 kept, as dots; ${throughWall} of those with a way that is not free, ringed\\.$`));
+});
+
+test('opens close up, and shows the whole map on demand', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await unfold(widget, 'What is drawn');
+  const canvas = widget.locator('canvas.plane');
+  await expect(widget.getByLabel('close-up')).toBeChecked();
+  const close = await pictureOf(canvas);
+  await widget.getByLabel('whole map').check();
+  const seen = await pictureOf(canvas);
+  expect(seen === close, 'another picture').toBe(false);
+  await widget.getByLabel('close-up').check();
+  const again = await pictureOf(canvas);
+  expect(again === close, 'the same as before').toBe(true);
+});
+
+test('the close-up has the whole map in a corner, in exports too', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const drawn = await widget.evaluate((element) => {
+    const squeeze = /** @type {import('../../www/types.d.ts').MapSqueezeElement} */ (element);
+    // The inside of the axes is one, that of the overview another; of 18 walls each view draws all.
+    const count = () => (squeeze.toSVG().match(/<clipPath/g) ?? []).length;
+    const close = count();
+    squeeze.view = 'whole';
+    return [close, count()];
+  });
+  expect(drawn).toEqual([2, 1]);
+});
+
+test('many samples are a density, those through a wall in a colour of their own', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  await unfold(widget, 'What is drawn');
+  const about = widget.locator('.about');
+  await expect(about).not.toContainText('density');
+  await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
+  await expect(about).toContainText('density');
+  expect((await squeezed(widget)).stats.throughWall).toBeGreaterThan(4000);
+  // Behind the wall at y = 5 all came through one; between the posts of the doorway, hardly one did.
+  const [behind, between] = await widget.evaluate((element) => {
+    const { picture: { view }, renderRoot } = /** @type {any} */ (element);
+    const canvas = renderRoot.querySelector('canvas.plane');
+    const ratio = canvas.width / canvas.clientWidth;
+    const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+    context.drawImage(canvas, 0, 0);
+    return [[1.75, 5.4], [2.35, 4.2]].map(([x, y]) => {
+      const [left, top] = [ratio * view.toPixelX(x) - 8, ratio * view.toPixelY(y) - 8];
+      const { data } = context.getImageData(left, top, 16, 16);
+      let sum = 0;
+      for (let i = 0; i < data.length; i += 4) sum += data[i + 3] * (data[i + 1] - data[i + 2]);
+      return sum;
+    });
+  });
+  // Purple has more blue than green, orange more green than blue.
+  expect(behind).toBeLessThan(0);
+  expect(between).toBeGreaterThan(0);
+  await widget.evaluate((element) => Object.assign(element, { samples: 600 }));
+  await expect(about).not.toContainText('density');
+});

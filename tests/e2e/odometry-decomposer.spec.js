@@ -1,0 +1,176 @@
+import { expect } from '@playwright/test';
+import { STILL, centreOf, frames, pictureOf, played, ready, show, test } from './support.js';
+
+/**
+ * @typedef {import('@playwright/test').Page} Page
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {HTMLElement & { machine: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement
+ */
+
+test.use(STILL);
+
+/**
+ * Opens a page with the figure.
+ *
+ * @param {Page} page
+ * @param {string} [attributes]
+ */
+async function open(page, attributes = '') {
+  await show(page, `<odometry-decomposer ${attributes}></odometry-decomposer>`);
+  const widget = page.locator('odometry-decomposer');
+  await ready(widget);
+  await expect(widget.locator('.folds')).toBeVisible();
+  return widget;
+}
+
+/** @param {Locator} widget */
+async function told(widget) {
+  await frames(widget.page());
+  return widget.evaluate((element) => {
+    const { config, stats, shown, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).machine;
+    return { config, stats, shown, poses: [...poses], robot, drifted: [...drifted.poses] };
+  });
+}
+
+const slider = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
+
+test('opens with three legs, and presets set the reading alone', async ({ page }) => {
+  const widget = await open(page);
+  const { config, shown } = await told(widget);
+  expect(shown).toBe(config.samples);
+  await expect(widget).toHaveJSProperty('preset', 'all');
+  await widget.getByRole('button', { name: 'Reverse' }).click();
+  const reverse = await told(widget);
+  expect(reverse.config).toEqual({ ...config, to: { x: -1.2, y: -0.3, theta: 0.1 } });
+  await expect(widget).toHaveJSProperty('preset', 'reverse');
+  await expect(widget).toHaveAttribute('tox', '-1.2');
+  await expect(widget.locator('[part=caption].said')).toContainText('two half turns');
+});
+
+test('the later pose is dragged by its body and turned by its heading', async ({ page }) => {
+  const widget = await open(page);
+  const body = slider(widget, 'Odometry after');
+  const [before, from] = [await told(widget), await centreOf(body)];
+  const pixels = await pictureOf(widget.locator('canvas.plane'));
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 30, from.y - 20, { steps: 4 });
+  const held = await centreOf(body);
+  expect(Math.abs(held.x - from.x - 30)).toBeLessThan(1);
+  expect(Math.abs(held.y - from.y + 20)).toBeLessThan(1);
+  await page.mouse.up();
+  const dragged = await told(widget);
+  expect(dragged.config.to.x).toBeGreaterThan(before.config.to.x);
+  expect(dragged.config.to.y).toBeGreaterThan(before.config.to.y);
+  expect(dragged.config.from).toEqual(before.config.from);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pixels);
+  await expect(widget).toHaveJSProperty('preset', null);
+  await slider(widget, 'Heading after').press('ArrowLeft');
+  const turned = await told(widget);
+  expect(turned.config.to.theta - dragged.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
+  expect({ ...turned.config.to, theta: 0 }).toEqual({ ...dragged.config.to, theta: 0 });
+});
+
+test('both poses follow the keyboard, and stop where the floor ends', async ({ page }) => {
+  const widget = await open(page, 'fromx="-3.98"');
+  const body = slider(widget, 'Odometry before');
+  await body.press('ArrowLeft');
+  expect((await told(widget)).config.from).toEqual({ x: -4, y: 0, theta: 0 });
+  await expect(body).toHaveAttribute('aria-valuetext', /The floor ends here/);
+  await body.press(']');
+  expect((await told(widget)).config.from.theta).toBeCloseTo(-Math.PI / 36, 12);
+});
+
+test('a rule is chosen in the table, which has the deviations of each rule', async ({ page }) => {
+  const widget = await open(page, 'preset="reverse"');
+  const row = (/** @type {string} */ name) => widget.locator('tbody tr').filter({ has: page.getByText(name, { exact: true }) });
+  await expect(row('Table 5.6').locator('td')).toHaveText(['0.517', '0.602', '0.534', '0.000', '0.626', '0.743']);
+  await expect(row('AMCL of Nav2').locator('td')).toHaveText(['0.131', '0.130', '0.126', '0.000', '0.161', '0.182']);
+  await expect(row('AMCL, omnidirectional').locator('td')).toHaveText(['0.000', '0.124', '0.125', '0.124', '0.124', '0.125']);
+  const before = await told(widget);
+  await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
+  const after = await told(widget);
+  expect(after.config).toEqual({ ...before.config, rule: 'nav2' });
+  expect(after.stats.exactCrossTrack).toBeLessThan(before.stats.exactCrossTrack / 3);
+  await expect(widget.locator('p[role=status]')).toContainText('The first hinge has the lever');
+});
+
+test('on paper every rule has its name, and the chosen one stands out', async ({ page }) => {
+  const widget = await open(page);
+  const name = (/** @type {string} */ rule) => widget.locator('.rules th').getByText(rule, { exact: true });
+  await page.emulateMedia({ media: 'print' });
+  for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(name(rule)).toBeVisible();
+  await expect(widget.locator('.rules input').first()).toBeHidden();
+  await expect(name('Table 5.6')).toHaveCSS('font-weight', '700');
+  await expect(name('Beluga 2')).not.toHaveCSS('font-weight', '700');
+  // Elsewhere what is not chosen stays off it.
+  await page.emulateMedia({ media: 'screen' });
+  await widget.locator('summary', { hasText: 'Noise and outcomes' }).click();
+  await page.emulateMedia({ media: 'print' });
+  await expect(widget.getByText('normal', { exact: true })).toBeVisible();
+  await expect(widget.getByText('triangular', { exact: true })).toBeHidden();
+});
+
+test('the frame drifts, and no outcome moves', async ({ page }) => {
+  const widget = await open(page);
+  const before = await told(widget);
+  const legs = await pictureOf(widget.locator('canvas.plane'));
+  const world = await pictureOf(widget.locator('canvas.world'));
+  await slider(widget, 't, time of drifting').press('End');
+  const after = await told(widget);
+  expect(after.config.drift).toBe(120);
+  expect(after.drifted).not.toEqual(before.drifted);
+  expect(after.poses).toEqual(before.poses);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(legs);
+  expect(await pictureOf(widget.locator('canvas.world'))).not.toBe(world);
+});
+
+test('hinges that go together move no outcome', async ({ page }) => {
+  const widget = await open(page);
+  await widget.locator('summary', { hasText: 'Noise and outcomes' }).click();
+  const before = await told(widget);
+  await slider(widget, 'ρ, correlation of the two rotations').press('End');
+  const after = await told(widget);
+  const places = (/** @type {number[]} */ poses) => poses.filter((_, i) => i % 3 < 2);
+  expect(places(after.poses)).toEqual(places(before.poses));
+  expect(after.poses).not.toEqual(before.poses);
+  expect(after.stats.exactHeading).toBeGreaterThan(after.stats.independentHeading);
+});
+
+test('the spread against the drive has the outcomes beside the curve', async ({ page }) => {
+  const widget = await open(page);
+  await widget.locator('summary', { hasText: 'Spread against the drive' }).click();
+  const plot = widget.locator('svg.plot');
+  await expect(plot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
+  await expect(plot.locator('circle')).toHaveCount(1);
+  await expect(widget.locator('.readouts').last()).toContainText('exactly 0.305 m');
+  // Without an outcome there is no point.
+  await widget.locator('summary', { hasText: 'Noise and outcomes' }).click();
+  await widget.getByRole('button', { name: 'Reset' }).click();
+  await expect(plot.locator('circle')).toHaveCount(0);
+});
+
+test('the path is scrubbed, and is played to its end and again from its beginning', async ({ page }) => {
+  const widget = await open(page, 'phase="2.8"');
+  // Readers who prefer reduced motion have no button.
+  await expect(widget.locator('.playable button')).toHaveCount(0);
+  await slider(widget, 's, phase of the way').press('Home');
+  const { robot, config } = await told(widget);
+  expect(robot).toEqual(config.from);
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  const other = await open(page, 'phase="2.8"');
+  const play = other.locator('.playable.phase button');
+  const { values: rest, label } = await played(other, 'phase');
+  expect(label).toBe('Pause');
+  expect(rest[0]).toBeGreaterThan(2.8);
+  expect(rest.at(-1)).toBe(3);
+  await expect(play).toHaveText('Play');
+  const { values: beginning } = await played(other, 'phase', 3);
+  expect(beginning[0]).toBe(0);
+  expect(beginning[2]).toBeGreaterThan(beginning[1]);
+  await expect(play).toHaveText('Play');
+  const { config: { phase } } = await told(other);
+  expect(phase).toBe(beginning[2]);
+  await frames(page);
+  expect((await told(other)).config.phase).toBe(phase);
+});

@@ -193,7 +193,7 @@ export const openingAlphas = { velocity: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], o
  * What the core takes at most: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
  * `trial`, and the number of colours that a `ramp` has.
  */
-export const limits = { cells: 16777216, bytes: 100667392, trial: 100000, ramp: 256 };
+export const limits = { cells: 33554432, bytes: 201330688, trial: 100000, ramp: 256 };
 
 /** Bits of a verdict of Map Squeeze. */
 export const verdict = { endFree: 1, pathFree: 2, accepted: 4 };

@@ -1,7 +1,7 @@
 //! Files of maps.
 
 use motion::geom::se2::SE2;
-use motion::map::{Image, Interpretation, MAX_PIXELS, MapReading, OccupancyGrid, Pixel, Unknown, read_pgm};
+use motion::map::{FloorPlan, Image, Interpretation, MAX_PIXELS, OccupancyGrid, Pixel, read_grid, read_pgm};
 use std::fmt::Write;
 
 pub fn run(bytes: &[u8]) {
@@ -14,23 +14,17 @@ pub fn run(bytes: &[u8]) {
             if pixels.len() <= 64 {
                 written_again(&image);
                 let grid = OccupancyGrid::new(&image, &Interpretation::default(), 1.0, SE2::identity());
-                assert_eq!(in_slices(bytes), Ok(grid));
+                assert_eq!(
+                    read_grid(bytes, &Interpretation::default(), 1.0, SE2::identity()).as_ref(),
+                    Ok(&grid)
+                );
+                assert!(FloorPlan::from_grid(grid).is_ok());
             }
         }
         Err(message) => {
             assert!(message.contains("; allowed is ") && message.len() < 300, "{message}");
-            assert_eq!(in_slices(bytes), Err(message));
         }
     }
-}
-
-/// The grid of an image that is read in the smallest slices.
-fn in_slices(bytes: &[u8]) -> Result<OccupancyGrid, String> {
-    let reading = MapReading::of_pgm(bytes.to_vec(), &Interpretation::default(), 1.0, SE2::identity());
-    let mut reading = reading.map_err(|error| error.to_string())?;
-    while !reading.advance(Unknown::Free, &mut 1).map_err(|error| error.to_string())? {}
-    let plan = reading.finish().map_err(|error| error.to_string())?;
-    Ok(plan.grid().expect("made of a grid").clone())
 }
 
 /// The whole image, or the refusal.

@@ -32,10 +32,6 @@ const CELLS_A_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
-/// Beyond 2¹⁵ walls there are fewer cells the more walls there are, for each cell has more of them near: 100 000 walls are
-/// made ready in half the time so, and judged as soon.
-const CELLS_TIMES_WALLS: f64 = 32_768.0 * MAX_CELLS;
-
 /// Walls, or nodes of them, that may be measured for a block, and for each of its cells besides. Where more are near, as in
 /// the middle of a star, the field would take seconds to fill; nothing is known there instead, and the tree is asked.
 const WALLS_A_BLOCK: usize = 32;
@@ -52,6 +48,16 @@ const UNKNOWN: f32 = f32::MIN;
 const FAR: f64 = 8.0;
 
 impl DistanceField {
+    /// Fills the field of the walls of a tree within `bounds` (least x, least y, greatest x, greatest y; m). `solid` are the
+    /// cells that the walls outline.
+    pub fn new(tree: &WallTree, bounds: [f64; 4], solid: Option<&OccupancyGrid>) -> Self {
+        let mut filling = Filling::new(tree, bounds);
+        while let Some(block) = filling.blocks.pop() {
+            filling.fill_block(tree, solid, block);
+        }
+        filling.field
+    }
+
     /// Half the diagonal of a cell, m: how well the field knows where the walls are.
     pub fn radius(&self) -> f64 {
         self.radius
@@ -91,8 +97,7 @@ impl DistanceField {
 }
 
 /// A field that is being filled.
-#[derive(Clone, Debug)]
-pub(super) struct Filling {
+struct Filling {
     field: DistanceField,
     rows: usize,
     side: f64,
@@ -104,7 +109,6 @@ pub(super) struct Filling {
     /// Of the present block: what is to be measured, and what was.
     open: Vec<Near>,
     measured: Vec<(f64, Near)>,
-    filled: usize,
 }
 
 /// `size` · `size` cells.
@@ -124,12 +128,10 @@ enum Near {
 }
 
 impl Filling {
-    /// The empty field of the walls of a tree within `bounds` (least x, least y, greatest x, greatest y; m).
-    pub fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
+    fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
-        let walls = tree.count() as f64;
-        let cells = (CELLS_A_WALL * walls).min(CELLS_TIMES_WALLS / walls).clamp(MIN_CELLS, MAX_CELLS);
+        let cells = (CELLS_A_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map must not have more cells than that in a single row.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells);
         let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
@@ -158,36 +160,14 @@ impl Filling {
             blocks: vec![all],
             open: Vec::new(),
             measured: Vec::new(),
-            filled: 0,
         }
     }
 
-    /// Fills as much of it as `work` allows (about that many distances computed); whether it is complete. `solid` are the
-    /// cells that the walls outline.
-    pub fn fill(&mut self, tree: &WallTree, solid: Option<&OccupancyGrid>, work: &mut usize) -> bool {
-        while *work > 0 {
-            let Some(block) = self.blocks.pop() else { return true };
-            let spent = self.fill_block(tree, solid, block);
-            *work = work.saturating_sub(spent);
-        }
-        self.blocks.is_empty()
-    }
-
-    /// How much of it is filled, from 0 to 1.
-    pub fn filled(&self) -> f64 {
-        self.filled as f64 / self.field.least.len() as f64
-    }
-
-    /// The field, once all of it is filled.
-    pub fn finish(self) -> DistanceField {
-        self.field
-    }
-
-    /// Fills a block or divides it; what it took.
-    fn fill_block(&mut self, tree: &WallTree, solid: Option<&OccupancyGrid>, block: Block) -> usize {
+    /// Fills a block or divides it.
+    fn fill_block(&mut self, tree: &WallTree, solid: Option<&OccupancyGrid>, block: Block) {
         let Block { first: [left, bottom], size, range } = block;
         if left >= self.field.columns || bottom >= self.rows {
-            return 1;
+            return;
         }
         let [right, top] = [(left + size).min(self.field.columns), (bottom + size).min(self.rows)];
         let centre = self.centre(block.first, size);
@@ -195,11 +175,7 @@ impl Filling {
         let blur = size as f64 * self.field.blur;
         // What the blocks before had is of no use to this one.
         self.near.truncate(range[1]);
-        let mut spent = 0;
-        let Some([least, most]) = self.measure(tree, centre, block, blur, &mut spent) else {
-            self.filled += (right - left) * (top - bottom);
-            return spent;
-        };
+        let Some([least, most]) = self.measure(tree, centre, block, blur) else { return };
         if size > 1 && least <= FAR * radius + blur / BLUR {
             let reach = most + 2.0 * radius + self.slack;
             self.near
@@ -209,7 +185,7 @@ impl Filling {
             for [column, row] in [[half, half], [0, half], [half, 0], [0, 0]] {
                 self.blocks.push(Block { first: [left + column, bottom + row], size: half, range });
             }
-            return spent;
+            return;
         }
         // No wall passes through the block where this holds, so that all of it is on one side of every outline.
         let buried = least > radius && solid.is_some_and(|solid| solid.holds(centre));
@@ -223,21 +199,11 @@ impl Filling {
                 self.field.least[row * self.field.columns + column] = least as f32;
             }
         }
-        let cells = (right - left) * (top - bottom);
-        self.filled += cells;
-        spent + cells
     }
 
     /// Between which two values the distance from the middle of a block to the nearest wall lies, at most `blur` apart (m);
     /// None where too many walls are near. `measured` has what may be the nearest from there then.
-    fn measure(
-        &mut self,
-        tree: &WallTree,
-        point: [f64; 2],
-        block: Block,
-        blur: f64,
-        spent: &mut usize,
-    ) -> Option<[f64; 2]> {
+    fn measure(&mut self, tree: &WallTree, point: [f64; 2], block: Block, blur: f64) -> Option<[f64; 2]> {
         let Self { near, open, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
         // What is nearer to another point of the block than the wall nearest to its middle is no further from there.
@@ -246,9 +212,10 @@ impl Filling {
         open.clear();
         open.extend_from_slice(&near[from..to]);
         let mut most = f64::INFINITY;
+        let mut spent = 0;
         while let Some(near) = open.pop() {
-            *spent += 1;
-            if *spent > WALLS_A_BLOCK + WALLS_A_CELL * size * size {
+            spent += 1;
+            if spent > WALLS_A_BLOCK + WALLS_A_CELL * size * size {
                 return None;
             }
             let to = |wall: usize| tree.line(wall).square(point).sqrt();

@@ -1,7 +1,7 @@
 //! A floor plan, and whether a round robot fits.
 
 use super::apartment;
-use super::distance_field::{DistanceField, Filling, rounding};
+use super::distance_field::{DistanceField, rounding};
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::{Node, WallTree};
 use crate::geom::arc::{Arc, Course, Departure, Driven, Unrolled};
@@ -21,9 +21,8 @@ pub struct FloorPlan {
     bounds: [f64; 4],
     /// The cells that the walls outline, where they do: inside of one nobody is free, however far its sides.
     solid: Option<OccupancyGrid>,
-    /// Made when the first motion is judged, or before that in slices.
+    /// Made when the first motion is judged.
     survey: OnceLock<Survey>,
-    surveying: Option<Surveying>,
 }
 
 /// What verdicts are looked up in.
@@ -31,35 +30,6 @@ pub struct FloorPlan {
 struct Survey {
     tree: WallTree,
     field: DistanceField,
-}
-
-/// A survey that is being made.
-#[derive(Clone, Debug)]
-struct Surveying {
-    tree: WallTree,
-    /// Once the tree is there.
-    filling: Option<Filling>,
-}
-
-impl Surveying {
-    fn new(plan: &FloorPlan) -> Self {
-        Self { tree: WallTree::seed(&plan.walls, plan.bounds), filling: None }
-    }
-
-    fn advance(&mut self, plan: &FloorPlan, work: &mut usize) -> bool {
-        let Self { tree, filling } = self;
-        tree.grow(work)
-            && filling.get_or_insert_with(|| Filling::new(tree, plan.bounds)).fill(
-                tree,
-                plan.solid.as_ref(),
-                work,
-            )
-    }
-
-    fn finish(self) -> Option<Survey> {
-        let Self { tree, filling } = self;
-        filling.map(|filling| Survey { tree, field: filling.finish() })
-    }
 }
 
 /// Why a floor plan is refused.
@@ -134,8 +104,8 @@ const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
 const SIDE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
-    /// Walls of a plan at most: what is still interactive to draw and to index.
-    pub const MAX_WALLS: usize = 100_000;
+    /// Largest number of walls of a plan.
+    pub const MAX_WALLS: usize = 20_000;
 
     /// A plan of `walls` within `bounds` (least x, least y, greatest x, greatest y), m.
     ///
@@ -151,11 +121,6 @@ impl FloorPlan {
     /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
     pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
         let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManySides)?;
-        Self::outlined(grid, walls)
-    }
-
-    /// The plan of a grid with these outlines.
-    pub(super) fn outlined(grid: OccupancyGrid, walls: Vec<Segment>) -> Result<Self, FloorPlanError> {
         let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
         for [x, y] in grid.corners() {
             bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];
@@ -189,7 +154,7 @@ impl FloorPlan {
                 return Err(FloorPlanError::BadWall { index, end });
             }
         }
-        Ok(Self { walls, bounds, solid, survey: OnceLock::new(), surveying: None })
+        Ok(Self { walls, bounds, solid, survey: OnceLock::new() })
     }
 
     /// The apartment of the chapter's widget: 12 m × 9 m, 18 walls.
@@ -262,38 +227,14 @@ impl FloorPlan {
 
     fn survey(&self) -> &Survey {
         self.survey.get_or_init(|| {
-            let mut surveying = Surveying::new(self);
-            surveying.advance(self, &mut { usize::MAX });
-            surveying.finish().unwrap_or_else(|| unreachable!("nothing is left to do"))
+            let tree = WallTree::new(&self.walls, self.bounds);
+            let field = DistanceField::new(&tree, self.bounds, self.solid.as_ref());
+            Survey { tree, field }
         })
     }
 
     pub(super) fn field(&self) -> &DistanceField {
         &self.survey().field
-    }
-
-    /// Does before the first motion is judged what would be done then, as far as `work` allows (about that many distances
-    /// computed); whether all is done.
-    pub fn prepare(&mut self, work: &mut usize) -> bool {
-        if self.survey.get().is_some() {
-            return true;
-        }
-        let mut surveying = self.surveying.take().unwrap_or_else(|| Surveying::new(self));
-        if !surveying.advance(self, work) {
-            self.surveying = Some(surveying);
-            return false;
-        }
-        surveying.finish().is_some_and(|survey| self.survey.set(survey).is_ok())
-    }
-
-    /// How much of that is done, from 0 to 1.
-    pub fn prepared(&self) -> f64 {
-        match &self.surveying {
-            _ if self.survey.get().is_some() => 1.0,
-            Some(Surveying { filling: Some(filling), .. }) => 0.5 + 0.5 * filling.filled(),
-            Some(Surveying { tree, .. }) => 0.5 * tree.grown(),
-            None => 0.0,
-        }
     }
 
     /// Whether a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.

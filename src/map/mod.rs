@@ -6,13 +6,16 @@ mod distance_field;
 mod floor_plan;
 mod occupancy;
 mod open_place;
-mod outlining;
 mod pgm;
+#[cfg(not(widget))]
+mod png;
 mod reading;
 mod wall_tree;
 
 pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MAX_WORK, MapConditioned, Sampler, Wedged};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
-pub use occupancy::{Cell, Coded, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown};
+pub use occupancy::{Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown};
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, Shade, Shades, read_pgm};
-pub use reading::{MapError, MapReading};
+#[cfg(not(widget))]
+pub use png::{PngError, read_png};
+pub use reading::{ImageError, read_grid};

@@ -1,11 +1,9 @@
 //! Where a robot is put that comes into a map.
 
-use super::distance_field::rounding;
 use super::floor_plan::FloorPlan;
 use super::occupancy::OccupancyGrid;
 use crate::geom::se2::SE2;
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 /// Headings that are looked along: one in five degrees.
 const HEADINGS: u32 = 72;
@@ -21,10 +19,7 @@ impl FloorPlan {
         let squares = Squares::of(self);
         let open = squares.middle_of_largest().map(|middle| squares.point(middle));
         let fits = |point: &[f64; 2]| self.point_free(*point, clearance).free;
-        let [x, y] = open.filter(fits).or_else(|| match self.grid() {
-            Some(grid) => first_with_room(grid, clearance).map(|middle| squares.point(middle)).filter(fits),
-            None => squares.middles().find(fits),
-        })?;
+        let [x, y] = open.filter(fits).or_else(|| squares.middles().find(fits))?;
         Some(SE2::new(x, y, squares.longest_way([x, y], fits)))
     }
 }
@@ -74,30 +69,14 @@ impl<'a> Squares<'a> {
         })
     }
 
-    /// Whether all of a square is known to be free, by its column, in a row.
-    fn free(&self, row: usize) -> impl Fn(usize) -> bool {
-        let known = self.grid().map(|grid| grid.known_free(row));
-        move |column| match &known {
-            Some(known) => known(column),
-            None => {
-                let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
-                column < self.columns
-                    && row < self.rows
-                    && self.plan.field().least(middle) > 0.75 * self.longer_side()
-            }
+    /// Whether all of a square is known to be free.
+    fn free(&self, column: usize, row: usize) -> bool {
+        if let Some(grid) = self.grid() {
+            return grid.known_free(column, row);
         }
-    }
-
-    /// The columns of a row whose squares are not known to be free.
-    fn not_free(&self, row: usize, mut see: impl FnMut(Range<usize>)) {
-        match self.grid() {
-            Some(grid) => grid.not_free(row, see),
-            None => {
-                let free = self.free(row);
-                let short = (0..self.columns).filter(|column| !free(*column));
-                short.for_each(|column| see(column..column + 1));
-            }
-        }
+        let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
+        let is_inside = column < self.columns && row < self.rows;
+        is_inside && self.plan.field().least(middle) > 0.75 * self.longer_side()
     }
 
     /// The middle of the largest square of free ones, in squares from the lower left corner; None where none is free. Of
@@ -107,7 +86,11 @@ impl<'a> Squares<'a> {
         // For each column, the row from which on it has been free so far.
         let mut free_from = vec![0u32; self.columns];
         for row in 0..self.rows {
-            self.not_free(row, |columns| free_from[columns].fill(row as u32 + 1));
+            for (column, from) in free_from.iter_mut().enumerate() {
+                if !self.free(column, row) {
+                    *from = row as u32 + 1;
+                }
+            }
             // So many columns side by side, and one, that have been free for so many rows, and one, are a larger square than any before.
             // What is `open` are those of them that are known to have been.
             let (mut left, mut open) = (0, 0);
@@ -150,47 +133,6 @@ impl<'a> Squares<'a> {
         let [left, bottom, ..] = self.plan.bounds();
         let on_plan = [(x - left) / self.sides[0], (y - bottom) / self.sides[1]];
         let [column, row] = self.grid().map_or(on_plan, |grid| grid.cell_coordinates([x, y]));
-        column >= 0.0 && row >= 0.0 && self.free(row as usize)(column as usize)
+        column >= 0.0 && row >= 0.0 && self.free(column as usize, row as usize)
     }
-}
-
-/// The first cell in whose middle a disc of radius `clearance` (m) fits, in cells from the lower left corner: row by row from the
-/// bottom, and with nothing but rounding to spare nowhere. The distances of millions of points would take seconds; those of
-/// cells to cells are whole numbers, in two directions one after the other.
-fn first_with_room(grid: &OccupancyGrid, clearance: f64) -> Option<[f64; 2]> {
-    let [columns, rows] = grid.size();
-    let reach = (clearance + rounding(grid.corners().as_flattened())) / grid.resolution();
-    // Of a cell in the way so many rows off: how many columns off it is in the disc's way, and 1.
-    let widths: Vec<usize> = (0..=(reach + 0.5) as usize)
-        .map(|row| {
-            let off = (row as f64 - 0.5).max(0.0);
-            ((reach * reach - off * off).max(0.0).sqrt() + 0.5) as usize + 1
-        })
-        .collect();
-    // The rows from each cell to the nearest in its column that is in the way: no disc reaches as far as they count.
-    let mut off = vec![u16::MAX; columns * rows];
-    for (i, blocked) in grid.in_the_way().enumerate() {
-        let below = i.checked_sub(columns).map_or(u16::MAX, |below| off[below].saturating_add(1));
-        off[i] = if blocked { 0 } else { below };
-    }
-    for i in (columns..off.len()).rev() {
-        off[i - columns] = off[i - columns].min(off[i].saturating_add(1));
-    }
-    // How many columns to either side are in the way of what is in one.
-    let mut right = vec![0; columns];
-    for (row, off) in off.chunks(columns).enumerate() {
-        let width = |column: usize| widths.get(usize::from(off[column])).copied().unwrap_or(0);
-        let (mut after, mut before) = (0usize, 0usize);
-        for column in (0..columns).rev() {
-            after = width(column).max(after.saturating_sub(1));
-            right[column] = after;
-        }
-        for (column, after) in right.iter().enumerate() {
-            before = width(column).max(before.saturating_sub(1));
-            if before.max(*after) == 0 {
-                return Some([column, row].map(|at| at as f64 + 0.5));
-            }
-        }
-    }
-    None
 }

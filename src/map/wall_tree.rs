@@ -12,7 +12,7 @@ use std::ops::Range;
 pub(super) struct WallTree {
     /// Those of every node side by side.
     walls: Vec<Segment>,
-    /// Each of them, ready to be measured; once the tree is grown.
+    /// Each of them, ready to be measured.
     lines: Vec<Line>,
     nodes: Vec<Node>,
     /// How often the walls are halved.
@@ -36,42 +36,25 @@ const LEAF: usize = 16;
 const ONLY_LEAF: usize = 32;
 
 impl WallTree {
-    /// A tree that is still to be grown, of walls within `bounds`.
-    pub fn seed(walls: &[Segment], bounds: [f64; 4]) -> Self {
+    /// Makes the tree of walls within `bounds`.
+    pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
         let leaves =
             if walls.len() <= ONLY_LEAF { 1 } else { walls.len().div_ceil(LEAF).next_power_of_two() };
-        Self {
+        let mut tree = Self {
             walls: walls.to_vec(),
             lines: Vec::new(),
             // The root is looked at in any case, and there is nothing beside it.
             nodes: vec![Node { hull: Line::POINT, thickness: f64::INFINITY, is_one: false }; 2],
             depth: leaves.ilog2(),
             slack: 1e-9 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
+        };
+        for parent in 1..leaves {
+            tree.halve(parent);
+            let children = [2 * parent, 2 * parent + 1].map(|child| tree.node_of(child));
+            tree.nodes.extend(children);
         }
-    }
-
-    /// Grows on, as far as `work` allows (about that many distances computed); whether it is complete.
-    pub fn grow(&mut self, work: &mut usize) -> bool {
-        let complete = 2 << self.depth;
-        while *work > 0 && self.nodes.len() < complete {
-            let parent = self.nodes.len() / 2;
-            self.halve(parent);
-            self.nodes.extend([2 * parent, 2 * parent + 1].map(|child| self.node_of(child)));
-            *work = work.saturating_sub(WORK_A_WALL * self.range(parent).len());
-        }
-        if self.nodes.len() < complete {
-            return false;
-        }
-        if self.lines.is_empty() {
-            self.lines.extend(self.walls.iter().map(Line::new));
-        }
-        true
-    }
-
-    /// How much of it is there, from 0 to 1.
-    pub fn grown(&self) -> f64 {
-        // Every level is as much work as any other.
-        f64::from((self.nodes.len() / 2).ilog2()) / f64::from(self.depth.max(1))
+        tree.lines = tree.walls.iter().map(Line::new).collect();
+        tree
     }
 
     /// Puts the walls of a node in the order of its children: half of them left or right, below or above, longer or
@@ -177,9 +160,6 @@ impl WallTree {
         }
     }
 }
-
-/// What it takes to put a wall in order once, in distances that are computed meanwhile.
-const WORK_A_WALL: usize = 8;
 
 impl Node {
     /// The line that the walls are around, to be measured as a wall is.

@@ -1,17 +1,14 @@
 //! `ArcAnatomy` for JavaScript.
 
-use super::fields::{in_range, read_opening, read_settings};
-use super::held::Held;
-use super::pictures::read_grid;
-use super::values::{Plain, bytes, float64_array, object, settings_to_js};
+use super::face::configured;
+use super::fields::in_range;
+use super::pictures::read_bounds;
+use super::values::{flat, floats, object, plain};
 use crate::models::VelocityCmd;
 use crate::sim::arc_anatomy::{
-    ArcAnatomy, CHAPTERS_THRESHOLD, FormErrors, PRESETS, Paths, Preset, Settings, Stats, Surface, Table,
-    form_errors,
+    ArcAnatomy, CHAPTERS_THRESHOLD, FormErrors, PRESETS, Paths, Preset, Surface, form_errors,
 };
-use crate::sim::views::Grid;
-use js_sys::{Array, Float64Array};
-use std::ops::RangeInclusive;
+use js_sys::{Array, Float64Array, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -119,26 +116,19 @@ export interface AnatomyPaths {
 }
 "#;
 
-/// Shares of a motion.
-const SHARE: RangeInclusive<f64> = 0.0..=1.0;
-
-/// The arc between two poses, and how likely it is after a command. Metres, radians, seconds throughout. Whatever is out of
-/// range throws a TypeError or RangeError that names the field, and changes nothing.
-#[wasm_bindgen(js_name = ArcAnatomy)]
-pub struct JsArcAnatomy(Held<ArcAnatomy>);
+configured!(
+    /// The arc between two poses, and how likely it is after a command.
+    JsArcAnatomy,
+    ArcAnatomy,
+    "ArcAnatomy",
+    "ArcAnatomySettings",
+    "Partial<ArcAnatomySettings>"
+);
 
 #[wasm_bindgen(js_class = ArcAnatomy)]
 impl JsArcAnatomy {
-    /// What is left out is as the widget opens.
-    #[wasm_bindgen(constructor)]
-    pub fn new(
-        #[wasm_bindgen(unchecked_optional_param_type = "Partial<ArcAnatomySettings>")] options: &JsValue,
-    ) -> Result<Self, JsValue> {
-        Ok(Self(Held::new(ArcAnatomy::new(read_opening(options)?)?)))
-    }
-
     #[wasm_bindgen(getter, unchecked_return_type = "ArcAnatomyPreset[]")]
-    pub fn presets() -> Result<Array, JsValue> {
+    pub fn presets() -> Array {
         let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, next }: Preset| {
             object(&[
                 ("name", name.into()),
@@ -155,52 +145,37 @@ impl JsArcAnatomy {
 
     /// What the forms of the arc lose at small turn rates: exercise 1.
     #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
-    pub fn form_errors() -> Result<JsValue, JsValue> {
+    pub fn form_errors() -> JsValue {
         let FormErrors { omega, arc, straight, chord, estimated_crossover } = form_errors();
         object(&[
-            ("omega", float64_array(&omega)?.into()),
-            ("arc", float64_array(&arc)?.into()),
-            ("straight", float64_array(&straight)?.into()),
-            ("chord", float64_array(&chord)?.into()),
+            ("omega", floats(&omega)),
+            ("arc", floats(&arc)),
+            ("straight", floats(&straight)),
+            ("chord", floats(&chord)),
             ("estimatedCrossover", estimated_crossover.into()),
             ("threshold", CHAPTERS_THRESHOLD.into()),
         ])
     }
 
-    /// Changes the settings that are named.
-    pub fn configure(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Partial<ArcAnatomySettings>")] settings: &JsValue,
-    ) -> Result<(), JsValue> {
-        let settings = read_settings(&self.settings(), settings)?;
-        Ok(self.0.with(move |machine| machine.configure(settings))?)
-    }
-
-    /// A copy; changing it changes nothing.
-    #[wasm_bindgen(getter, unchecked_return_type = "ArcAnatomySettings")]
-    pub fn config(&self) -> Result<JsValue, JsValue> {
-        settings_to_js(&self.settings())
-    }
-
     #[wasm_bindgen(getter, unchecked_return_type = "AnatomyStats")]
-    pub fn stats(&self) -> Plain<Stats> {
-        Plain(Ok(self.0.with(|machine| machine.stats())))
+    pub fn stats(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.stats())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "AnatomyTable")]
-    pub fn table(&self) -> Plain<Table> {
-        Plain(Ok(self.0.with(|machine| machine.table())))
+    pub fn table(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.table())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "AnatomyPaths")]
-    pub fn paths(&self) -> Result<JsValue, JsValue> {
-        let Paths { commanded, inverted, driven, lie, ticks } = self.0.with(|machine| machine.paths());
+    pub fn paths(&self) -> JsValue {
+        let Paths { commanded, inverted, driven, lie, ticks } = self.0.paths();
         object(&[
-            ("commanded", float64_array(commanded.as_flattened())?.into()),
-            ("inverted", float64_array(inverted.as_flattened())?.into()),
-            ("driven", float64_array(driven.as_flattened())?.into()),
-            ("lie", float64_array(lie.as_flattened())?.into()),
-            ("ticks", float64_array(ticks.as_flattened())?.into()),
+            ("commanded", flat(&commanded).into()),
+            ("inverted", flat(&inverted).into()),
+            ("driven", flat(&driven).into()),
+            ("lie", flat(&lie).into()),
+            ("ticks", flat(&ticks).into()),
         ])
     }
 
@@ -208,44 +183,29 @@ impl JsArcAnatomy {
     #[wasm_bindgen(unchecked_return_type = "AnatomySurface | null")]
     pub fn surface(
         &self,
-        #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
-        #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
-        #[wasm_bindgen(js_name = xMax, unchecked_param_type = "number")] x_max: &JsValue,
-        #[wasm_bindgen(js_name = yMax, unchecked_param_type = "number")] y_max: &JsValue,
+        #[wasm_bindgen(js_name = xMin)] x_min: f64,
+        #[wasm_bindgen(js_name = yMin)] y_min: f64,
+        #[wasm_bindgen(js_name = xMax)] x_max: f64,
+        #[wasm_bindgen(js_name = yMax)] y_max: f64,
     ) -> Result<JsValue, JsValue> {
-        // Of its own number of cells.
-        let one = JsValue::from(1);
-        let Grid { min, max, .. } = read_grid([x_min, y_min, x_max, y_max], &one, &one)?;
-        let surface = self.0.with(move |machine| machine.surface(min, max));
-        let Some(Surface { columns, rows, shades, prob, density }) = surface else {
+        let [min, max] = read_bounds([x_min, y_min, x_max, y_max])?;
+        let Some(Surface { columns, rows, shades, prob, density }) = self.0.surface(min, max) else {
             return Ok(JsValue::NULL);
         };
-        let lines = |lines: Vec<Vec<[f64; 2]>>| -> Result<Array, JsValue> {
-            lines.iter().map(|line| float64_array(line.as_flattened())).collect()
-        };
-        object(&[
+        let lines = |lines: &[Vec<[f64; 2]>]| lines.iter().map(|line| flat(line)).collect::<Array>().into();
+        Ok(object(&[
             ("columns", (columns as f64).into()),
             ("rows", (rows as f64).into()),
-            ("shades", bytes("map", Some(shades))?.into()),
-            ("prob", lines(prob)?.into()),
-            ("density", lines(density)?.into()),
-        ])
+            ("shades", Uint8Array::from(&shades[..]).into()),
+            ("prob", lines(&prob)),
+            ("density", lines(&density)),
+        ]))
     }
 
     /// Where the robot is after a share of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the one that v̂ and ω̂
     /// drive, and on the way of constant twist.
-    pub fn underway(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "number")] share: &JsValue,
-    ) -> Result<Float64Array, JsValue> {
-        let share = in_range("share", share, &SHARE)?;
-        let poses = self.0.with(move |machine| machine.underway(share));
-        float64_array(poses.map(|pose| [pose.x(), pose.y(), pose.theta()]).as_flattened())
-    }
-}
-
-impl JsArcAnatomy {
-    fn settings(&self) -> Settings {
-        self.0.with(|machine| *machine.settings())
+    pub fn underway(&self, share: f64) -> Result<Float64Array, JsValue> {
+        let poses = self.0.underway(in_range("share", share, &(0.0..=1.0))?);
+        Ok(flat(&poses.map(|pose| [pose.x(), pose.y(), pose.theta()])))
     }
 }

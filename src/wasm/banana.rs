@@ -1,15 +1,14 @@
 //! `BananaMachine` for JavaScript.
 
-use super::fields::{in_range, no_memory, not_shown, number, read_opening, read_settings, whole, word, work};
-use super::held::Held;
-use super::pictures::{RADIUS, place_of, read_grid, read_ramps, view_of};
-use super::values::{Plain, doubles, float64_array, gathered, list, object, settings_to_js, whole_numbers};
+use super::face::{advancing, cloud, configured, sliced};
+use super::fields::{in_range, not_shown, whole, word};
+use super::pictures::{RADIUS, read_grid, read_ramps, view_of};
+use super::values::{flat, floats, group_to_js, list, object, plain};
 use crate::geom::arc::ArcInversion;
 use crate::geom::se2::SE2;
-use crate::models::{OdomDelta, VelocityCmd};
+use crate::models::VelocityCmd;
 use crate::sim::banana::{
     BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings,
-    Stats, Table,
 };
 use crate::sim::settings::QUANTITY;
 use js_sys::{Array, Float64Array, Uint8ClampedArray, Uint32Array};
@@ -126,81 +125,32 @@ export interface Inspection {
 }
 "#;
 
-/// One command sent to many identical robots from (0, 0), heading along x. Metres, radians, seconds throughout. Whatever
-/// is out of range throws a TypeError or RangeError that names the field, and changes nothing.
-#[wasm_bindgen(js_name = BananaMachine)]
-pub struct JsBananaMachine(Held<BananaMachine>);
+configured!(
+    /// One command from the origin, many robots that execute it with noise, and what a Gaussian makes of where they end.
+    JsBananaMachine,
+    BananaMachine,
+    "BananaMachine",
+    "BananaMachineSettings",
+    "Partial<BananaMachineSettings>"
+);
+sliced!(JsBananaMachine, BananaMachine, "BananaMachine", "Partial<BananaMachineSettings>");
+advancing!(JsBananaMachine, "BananaMachine", poses);
+cloud!(JsBananaMachine, "BananaMachine", MAX_SAMPLES);
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
-    /// What is left out is as the widget opens: the gentle arc, velocity model, normal noise.
-    #[wasm_bindgen(constructor)]
-    pub fn new(
-        #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
-    ) -> Result<Self, JsValue> {
-        Ok(Self(Held::new(BananaMachine::new(read_opening(options)?)?)))
-    }
-
-    /// A machine as the constructor makes it, of whose samples none is shown yet.
-    pub fn empty(
-        #[wasm_bindgen(unchecked_optional_param_type = "Partial<BananaMachineSettings>")] options: &JsValue,
-    ) -> Result<Self, JsValue> {
-        Ok(Self(Held::new(BananaMachine::empty(read_opening(options)?)?)))
-    }
-
-    /// Largest `samples`.
-    #[wasm_bindgen(getter, js_name = maxSamples)]
-    pub fn max_samples() -> usize {
-        MAX_SAMPLES
-    }
-
     #[wasm_bindgen(getter, unchecked_return_type = "BananaMachinePreset[]")]
-    pub fn presets() -> Result<Array, JsValue> {
+    pub fn presets() -> Array {
         let preset = |Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| {
-            let alphas = alphas.map_or(Ok(JsValue::NULL), |alphas| list(&alphas))?;
             object(&[
                 ("name", name.into()),
                 ("v", v.into()),
                 ("omega", omega.into()),
                 ("dt", dt.into()),
-                ("alphas", alphas),
+                ("alphas", alphas.map_or(JsValue::NULL, |alphas| list(&alphas))),
             ])
         };
         PRESETS.into_iter().map(preset).collect()
-    }
-
-    /// Changes the settings that are named. A complete cloud stays complete.
-    pub fn configure(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
-    ) -> Result<(), JsValue> {
-        let settings = read_settings(&self.settings(), settings)?;
-        Ok(self.0.with(move |machine| machine.configure(settings))?)
-    }
-
-    /// As `configure`, in slices: `advance` is to be called until it says true. Until then the figures are the former
-    /// ones, and the samples partly so.
-    pub fn begin(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Partial<BananaMachineSettings>")] settings: &JsValue,
-    ) -> Result<(), JsValue> {
-        let settings = read_settings(&self.settings(), settings)?;
-        Ok(self.0.with(move |machine| machine.begin(settings))?)
-    }
-
-    /// Works on what was begun, for about as many poses of twice as many as are shown; whether all is done.
-    pub fn advance(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "number")] poses: &JsValue,
-    ) -> Result<bool, JsValue> {
-        let poses = work("poses", poses)?;
-        Ok(self.0.with(move |machine| machine.advance(poses)))
-    }
-
-    /// A copy; changing it changes nothing.
-    #[wasm_bindgen(getter, unchecked_return_type = "BananaMachineSettings")]
-    pub fn config(&self) -> Result<JsValue, JsValue> {
-        settings_to_js(&self.settings())
     }
 
     /// The noise parameters that each model has, or will have when it is chosen again.
@@ -209,96 +159,64 @@ impl JsBananaMachine {
         js_name = alphasOfModels,
         unchecked_return_type = "{ velocity: number[]; odometry: number[] }"
     )]
-    pub fn alphas_of_models(&self) -> Result<JsValue, JsValue> {
-        let Settings { velocity_alphas, odometry_alphas, .. } = self.settings();
-        object(&[("velocity", list(&velocity_alphas)?), ("odometry", list(&odometry_alphas)?)])
-    }
-
-    /// How many samples there are now, 0 to `config.samples`.
-    #[wasm_bindgen(getter)]
-    pub fn shown(&self) -> usize {
-        self.0.with(|machine| machine.shown())
+    pub fn alphas_of_models(&self) -> JsValue {
+        let Settings { velocity_alphas, odometry_alphas, .. } = self.0.settings();
+        object(&[("velocity", list(velocity_alphas)), ("odometry", list(odometry_alphas))])
     }
 
     /// Whether exponential coordinates reach as far as the robots turn: to short of a full circle. Where not, figures and
     /// contours in them are undefined.
     #[wasm_bindgen(getter, js_name = chartHolds)]
     pub fn chart_holds(&self) -> bool {
-        self.0.with(|machine| machine.chart_holds())
-    }
-
-    /// Shows up to `count` samples more, 0 to 10 000 000. Returns how many are shown then.
-    pub fn grow(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
-    ) -> Result<usize, JsValue> {
-        let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
-        Ok(self.0.with(move |machine| machine.grow(count)))
-    }
-
-    /// As `grow`, in slices like `begin`.
-    #[wasm_bindgen(js_name = beginToGrow)]
-    pub fn begin_to_grow(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
-    ) -> Result<(), JsValue> {
-        let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
-        self.0.with(move |machine| machine.begin_to_grow(count));
-        Ok(())
-    }
-
-    /// Shows none; the same samples come again.
-    pub fn restart(&self) {
-        self.0.with(BananaMachine::restart);
+        self.0.chart_holds()
     }
 
     /// x, y (m), θ (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
-    pub fn poses(&self) -> Result<Float64Array, JsValue> {
-        let numbers = |pose: SE2| [pose.x(), pose.y(), pose.theta()];
-        doubles("samples", self.0.with(move |machine| gathered(machine.poses().map(numbers))))
+    pub fn poses(&self) -> Float64Array {
+        flat(&self.0.poses().map(|pose| [pose.x(), pose.y(), pose.theta()]).collect::<Vec<_>>())
     }
 
     /// ξ along, lateral (m), heading (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
-    pub fn twists(&self) -> Result<Float64Array, JsValue> {
-        doubles("samples", self.0.with(|machine| gathered(machine.twists().map(<[f64; 3]>::from))))
+    pub fn twists(&self) -> Float64Array {
+        flat(&self.0.twists().map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
     /// What each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
     /// δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter)]
-    pub fn executed(&self) -> Result<Float64Array, JsValue> {
-        doubles("samples", self.0.with(|machine| gathered(machine.executed())))
+    pub fn executed(&self) -> Float64Array {
+        flat(&self.0.executed().collect::<Vec<_>>())
     }
 
     /// The command as odometry without noise reads it.
     #[wasm_bindgen(getter, unchecked_return_type = "Legs")]
-    pub fn reading(&self) -> Result<JsValue, JsValue> {
-        legs_to_js(self.0.with(|machine| machine.reading()))
+    pub fn reading(&self) -> JsValue {
+        group_to_js(&mut self.0.reading())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
-    pub fn stats(&self) -> Plain<Stats> {
-        Plain(Ok(self.0.with(|machine| machine.stats())))
+    pub fn stats(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.stats())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Table")]
-    pub fn table(&self) -> Plain<Table> {
-        Plain(Ok(self.0.with(|machine| machine.table())))
+    pub fn table(&self) -> Result<JsValue, JsValue> {
+        plain(&self.0.table())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
-    pub fn contours(&self) -> Result<JsValue, JsValue> {
+    pub fn contours(&self) -> JsValue {
         let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } =
-            self.0.with(|machine| machine.contours());
+            self.0.contours();
         object(&[
-            ("command", float64_array(command.as_flattened())?.into()),
-            ("ellipse", float64_array(ellipse.as_flattened())?.into()),
-            ("linearized", float64_array(linearized.as_flattened())?.into()),
-            ("exponential", float64_array(exponential.as_flattened())?.into()),
-            ("twistEllipse", float64_array(twist_ellipse.as_flattened())?.into()),
-            ("additive", float64_array(additive.as_flattened())?.into()),
+            ("command", flat(&command).into()),
+            ("ellipse", flat(&ellipse).into()),
+            ("linearized", flat(&linearized).into()),
+            ("exponential", flat(&exponential).into()),
+            ("twistEllipse", flat(&twist_ellipse).into()),
+            ("additive", flat(&additive).into()),
         ])
     }
 
@@ -306,68 +224,58 @@ impl JsBananaMachine {
     #[wasm_bindgen(js_name = skewCurve)]
     pub fn skew_curve(
         &self,
-        #[wasm_bindgen(js_name = omegaMin, unchecked_param_type = "number")] omega_min: &JsValue,
-        #[wasm_bindgen(js_name = omegaMax, unchecked_param_type = "number")] omega_max: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] points: &JsValue,
+        #[wasm_bindgen(js_name = omegaMin)] omega_min: f64,
+        #[wasm_bindgen(js_name = omegaMax)] omega_max: f64,
+        points: f64,
     ) -> Result<Vec<f64>, JsValue> {
         let first = in_range("omegaMin", omega_min, &QUANTITY)?;
         let last = in_range("omegaMax", omega_max, &QUANTITY)?;
         let points = whole("points", points, 2..=MAX_CURVE_POINTS)?;
-        Ok(self.0.with(move |machine| machine.skew_curve(first, last, points as usize)))
+        Ok(self.0.skew_curve(first, last, points as usize))
     }
 
     /// A sample shown, counted from 0.
     #[wasm_bindgen(unchecked_return_type = "Inspection")]
-    pub fn inspect(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "number")] index: &JsValue,
-    ) -> Result<JsValue, JsValue> {
+    pub fn inspect(&self, index: f64) -> Result<JsValue, JsValue> {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let Sample { pose, twist, executed, path } = self
-            .0
-            .with(move |machine| machine.inspect(index))
-            .ok_or_else(|| not_shown(index, self.shown()))?;
+        let Sample { pose, twist, executed, path } =
+            self.0.inspect(index).ok_or_else(|| not_shown(index, self.0.shown()))?;
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs) = match executed {
             Executed::Arc { arc, .. } => (arc, JsValue::NULL),
-            Executed::Legs(legs) => {
+            Executed::Legs(mut legs) => {
                 let none = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-                (none, legs_to_js(legs)?)
+                (none, group_to_js(&mut legs))
             }
         };
-        object(&[
-            ("pose", float64_array(&[pose.x(), pose.y(), pose.theta()])?.into()),
-            ("twist", float64_array(twist.as_slice())?.into()),
+        Ok(object(&[
+            ("pose", floats(&[pose.x(), pose.y(), pose.theta()])),
+            ("twist", floats(twist.as_slice())),
             ("vHat", v_hat.into()),
             ("omegaHat", omega_hat.into()),
             ("gammaHat", gamma_hat.into()),
             ("legs", legs),
-            ("path", float64_array(path.as_flattened())?.into()),
-        ])
+            ("path", flat(&path).into()),
+        ]))
     }
 
     /// The heading of a sample shown, counted from 0, rad.
-    pub fn heading(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "number")] index: &JsValue,
-    ) -> Result<f64, JsValue> {
+    pub fn heading(&self, index: f64) -> Result<f64, JsValue> {
         let index = whole("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let pose = self.0.with(move |machine| machine.pose(index));
-        Ok(pose.ok_or_else(|| not_shown(index, self.shown()))?.theta())
+        self.0.pose(index).map(|pose: SE2| pose.theta()).ok_or_else(|| not_shown(index, self.0.shown()))
     }
 
     /// The nearest sample inside an ellipse of these radii around a point of the view; −1 for none.
     pub fn nearest(
         &self,
         #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
-        #[wasm_bindgen(js_name = radiusX, unchecked_param_type = "number")] radius_x: &JsValue,
-        #[wasm_bindgen(js_name = radiusY, unchecked_param_type = "number")] radius_y: &JsValue,
+        x: f64,
+        y: f64,
+        #[wasm_bindgen(js_name = radiusX)] radius_x: f64,
+        #[wasm_bindgen(js_name = radiusY)] radius_y: f64,
     ) -> Result<i32, JsValue> {
-        let view = word("view", view)?;
-        let target = [number("x", x)?, number("y", y)?];
         let radii = [in_range("radiusX", radius_x, &RADIUS)?, in_range("radiusY", radius_y, &RADIUS)?];
-        Ok(self.0.with(move |machine| machine.nearest(view, target, radii)).map_or(-1, |index| index as i32))
+        let nearest = self.0.nearest(word("view", view)?, [x, y], radii);
+        Ok(nearest.map_or(-1, |index| index as i32))
     }
 
     /// Samples a cell of a grid over a part of the view, row by row from yMax down; 2²⁴ cells, 2¹⁴ a side at most.
@@ -375,17 +283,15 @@ impl JsBananaMachine {
     pub fn density(
         &self,
         #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
-        #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
-        #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
-        #[wasm_bindgen(js_name = xMax, unchecked_param_type = "number")] x_max: &JsValue,
-        #[wasm_bindgen(js_name = yMax, unchecked_param_type = "number")] y_max: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] columns: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] rows: &JsValue,
+        #[wasm_bindgen(js_name = xMin)] x_min: f64,
+        #[wasm_bindgen(js_name = yMin)] y_min: f64,
+        #[wasm_bindgen(js_name = xMax)] x_max: f64,
+        #[wasm_bindgen(js_name = yMax)] y_max: f64,
+        columns: f64,
+        rows: f64,
     ) -> Result<Uint32Array, JsValue> {
-        let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
-        let counts = self.0.with(move |machine| machine.density(view, &grid));
-        whole_numbers(&counts.map_err(|_| no_memory("columns"))?)
+        Ok(Uint32Array::from(&self.0.density(word("view", view)?, &grid)[..]))
     }
 
     /// The same as RGBA pixels, each count c in the colour ramp[255·√(c/most)] of 256, transparent where there is nobody.
@@ -393,30 +299,18 @@ impl JsBananaMachine {
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
-        &self,
+        &mut self,
         #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
-        #[wasm_bindgen(js_name = xMin, unchecked_param_type = "number")] x_min: &JsValue,
-        #[wasm_bindgen(js_name = yMin, unchecked_param_type = "number")] y_min: &JsValue,
-        #[wasm_bindgen(js_name = xMax, unchecked_param_type = "number")] x_max: &JsValue,
-        #[wasm_bindgen(js_name = yMax, unchecked_param_type = "number")] y_max: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] columns: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] rows: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Uint8Array")] ramp: &JsValue,
+        #[wasm_bindgen(js_name = xMin)] x_min: f64,
+        #[wasm_bindgen(js_name = yMin)] y_min: f64,
+        #[wasm_bindgen(js_name = xMax)] x_max: f64,
+        #[wasm_bindgen(js_name = yMax)] y_max: f64,
+        columns: f64,
+        rows: f64,
+        ramp: &[u8],
     ) -> Result<Uint8ClampedArray, JsValue> {
-        let view = word("view", view)?;
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let [ramp] = read_ramps("ramp", ramp)?;
-        let pixels = self.0.with(move |machine| machine.paint(view, &grid, &ramp).map(place_of));
-        Ok(view_of(&pixels.map_err(|_| no_memory("columns"))?))
-    }
-}
-
-fn legs_to_js(OdomDelta { rot1, trans, rot2 }: OdomDelta) -> Result<JsValue, JsValue> {
-    object(&[("rot1", rot1.into()), ("trans", trans.into()), ("rot2", rot2.into())])
-}
-
-impl JsBananaMachine {
-    fn settings(&self) -> Settings {
-        self.0.with(|machine| *machine.settings())
+        Ok(view_of(self.0.paint(word("view", view)?, &grid, &ramp)))
     }
 }

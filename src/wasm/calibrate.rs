@@ -1,7 +1,7 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
-use super::calibration::{SYSTEMATIC, calibration_to_js, columns, columns_to_js};
-use super::fields::{Fields, boolean, in_range, type_error, whole, word};
+use super::calibration::{SYSTEMATIC, calibration_to_js, columns_to_js};
+use super::fields::{Fields, boolean, in_range, number, type_error, whole, word};
 use super::log::{read_odometry, read_reference};
 use crate::calibrate::{ERRORS, LegLength, Model, Options, ReferenceError, Robust, Which, calibrate};
 use crate::models::OdometryRule;
@@ -73,7 +73,9 @@ pub fn calibrated(
         robust: fields.optional("robust", robust)?.unwrap_or_default(),
         remove: fields.optional("systematic", removed)?.unwrap_or([true; ERRORS]),
         reference_error: ReferenceError::default(),
-        seed: fields.optional("seed", |field, value| whole(field, value, 0..=MAX_SEED))?.unwrap_or(0),
+        seed: fields
+            .optional("seed", |field, value| whole(field, number(field, value)?, 0..=MAX_SEED))?
+            .unwrap_or(0),
         by_length: fields.optional("byLength", boolean)?.unwrap_or(false),
     };
     let odometry = read_odometry("odometry", &fields.value("odometry")?)?;
@@ -82,7 +84,7 @@ pub fn calibrated(
     let calibration =
         calibrate(&odometry, &reference, &options).map_err(|error| RangeError::new(&error.to_string()))?;
     let gaps = [odometry.gaps(), reference.gaps()];
-    calibration_to_js(&calibration, options.remove, gaps, Some(columns_to_js(&columns(&calibration))?))
+    Ok(calibration_to_js(&calibration, options.remove, gaps, Some(columns_to_js(&calibration))))
 }
 
 fn model(fields: &Fields) -> Result<Model, JsValue> {
@@ -109,7 +111,7 @@ fn model(fields: &Fields) -> Result<Model, JsValue> {
 fn legs(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let fields = Fields::new(field, "legs.", value, &["distance", "angle", "duration"])?;
     let [distance, angle, duration] = ["distance", "angle", "duration"]
-        .map(|key| fields.optional(key, |path, value| in_range(path, value, &LEG)));
+        .map(|key| fields.optional(key, |path, value| in_range(path, number(path, value)?, &LEG)));
     let (distance, angle) = (distance?, angle?);
     match duration? {
         Some(_) if distance.is_some() || angle.is_some() => {
@@ -132,7 +134,7 @@ fn robust(field: &str, value: &JsValue) -> Result<Robust, JsValue> {
         return Err(type_error(field, value, "true, false or an object with the key outliers"));
     }
     let fields = Fields::new(field, "robust.", value, &["outliers"])?;
-    Ok(Robust::Stated(in_range("robust.outliers", &fields.value("outliers")?, &(1e-9..=0.5))?))
+    Ok(Robust::Stated(in_range("robust.outliers", fields.number("outliers")?, &(1e-9..=0.5))?))
 }
 
 fn removed(field: &str, value: &JsValue) -> Result<Which, JsValue> {

@@ -1,6 +1,6 @@
 //! What a log says of a robot's α's, as plain JavaScript values.
 
-use super::values::{float64_array, list, number_or_null, object};
+use super::values::{floats, list, number_or_null, object};
 use crate::calibrate::{
     AtLength, Calibration, Doubts, Error, Inflation, KindDoubts, Undetermined, Verdict, Which,
 };
@@ -137,26 +137,23 @@ pub fn calibration_to_js(
     remove: Which,
     gaps: [usize; 2],
     legs: Option<JsValue>,
-) -> Result<JsValue, JsValue> {
+) -> JsValue {
     let Calibration { estimate, undetermined, bootstrap, doubts, inflation, by_length, .. } = calibration;
     let undetermined: Array = undetermined.iter().map(|reason| undetermined_word(*reason)).collect();
-    let by_length = by_length
-        .iter()
-        .map(|at| at_length_to_js(at, estimate.alphas.len()))
-        .collect::<Result<Array, JsValue>>()?;
+    let by_length: Array = by_length.iter().map(|at| at_length_to_js(at, estimate.alphas.len())).collect();
     let [odometry_gaps, reference_gaps] = gaps.map(|gaps| JsValue::from(gaps as f64));
     let told = [
         ("alphas", alphas(&estimate.alphas)),
         ("undetermined", undetermined.into()),
-        ("intervals", intervals(&estimate.intervals)?),
-        ("bootstrap", intervals(bootstrap)?),
-        ("systematic", systematic_to_js(calibration, remove)?),
+        ("intervals", intervals(&estimate.intervals)),
+        ("bootstrap", intervals(bootstrap)),
+        ("systematic", systematic_to_js(calibration, remove)),
         ("logLikelihood", estimate.log_likelihood.into()),
         ("outliers", number_or_null(estimate.outliers)),
-        ("doubts", doubts_to_js(doubts)?),
-        ("inflation", inflation_to_js(inflation)?),
+        ("doubts", doubts_to_js(doubts)),
+        ("inflation", inflation_to_js(inflation)),
         ("byLength", by_length.into()),
-        ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])?),
+        ("gaps", object(&[("odometry", odometry_gaps), ("reference", reference_gaps)])),
     ];
     object(&told.into_iter().chain(legs.map(|legs| ("legs", legs))).collect::<Vec<_>>())
 }
@@ -182,7 +179,7 @@ fn undetermined_word(reason: Option<Undetermined>) -> JsValue {
 }
 
 /// Without an estimate none of the α's is told.
-fn at_length_to_js(at: &AtLength, count: usize) -> Result<JsValue, JsValue> {
+fn at_length_to_js(at: &AtLength, count: usize) -> JsValue {
     let (none, unknown) = (vec![f64::NAN; count], vec![None; count]);
     let (told, their, stretched) = at
         .estimate
@@ -192,20 +189,20 @@ fn at_length_to_js(at: &AtLength, count: usize) -> Result<JsValue, JsValue> {
         ("factor", at.factor.into()),
         ("legs", (at.legs as f64).into()),
         ("alphas", alphas(told)),
-        ("intervals", intervals(their)?),
-        ("bootstrap", intervals(stretched)?),
+        ("intervals", intervals(their)),
+        ("bootstrap", intervals(stretched)),
     ])
 }
 
-fn interval(interval: Option<[f64; 2]>) -> Result<JsValue, JsValue> {
-    interval.map_or(Ok(JsValue::NULL), |interval| list(&interval))
+fn interval(interval: Option<[f64; 2]>) -> JsValue {
+    interval.map_or(JsValue::NULL, |interval| list(&interval))
 }
 
-fn intervals(intervals: &[Option<[f64; 2]>]) -> Result<JsValue, JsValue> {
-    Ok(intervals.iter().map(|each| interval(*each)).collect::<Result<Array, JsValue>>()?.into())
+fn intervals(intervals: &[Option<[f64; 2]>]) -> JsValue {
+    intervals.iter().map(|each| interval(*each)).collect::<Array>().into()
 }
 
-fn systematic_to_js(calibration: &Calibration, remove: Which) -> Result<JsValue, JsValue> {
+fn systematic_to_js(calibration: &Calibration, remove: Which) -> JsValue {
     let value = |error: Error| {
         let determined = calibration.deviations[error as usize].is_some();
         number_or_null(determined.then(|| calibration.systematic.get(error)))
@@ -213,22 +210,22 @@ fn systematic_to_js(calibration: &Calibration, remove: Which) -> Result<JsValue,
     let of = |error: Error| interval(calibration.interval_of(error));
     let entries = SYSTEMATIC.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
-            [error] => [value(*error), of(*error)?],
+            [error] => [value(*error), of(*error)],
             errors => [
                 errors.iter().map(|error| value(*error)).collect::<Array>().into(),
-                errors.iter().map(|error| of(*error)).collect::<Result<Array, JsValue>>()?.into(),
+                errors.iter().map(|error| of(*error)).collect::<Array>().into(),
             ],
         };
         let determined = errors.iter().any(|error| calibration.deviations[*error as usize].is_some());
         let removed = (determined && remove[errors[0] as usize]).into();
-        Ok((*key, object(&[("value", value), ("interval", interval), ("removed", removed)])?))
+        (*key, object(&[("value", value), ("interval", interval), ("removed", removed)]))
     });
-    object(&entries.collect::<Result<Vec<_>, JsValue>>()?)
+    object(&entries.collect::<Vec<_>>())
 }
 
-fn doubts_to_js(doubts: &Doubts) -> Result<JsValue, JsValue> {
+fn doubts_to_js(doubts: &Doubts) -> JsValue {
     let Doubts { kinds, held_out, worst, verdict } = doubts;
-    let kinds = kinds.iter().map(kind_to_js).collect::<Result<Array, JsValue>>()?;
+    let kinds: Array = kinds.iter().map(kind_to_js).collect();
     let worst: Vec<f64> = worst.iter().map(|place| *place as f64).collect();
     object(&[
         ("kinds", kinds.into()),
@@ -238,23 +235,23 @@ fn doubts_to_js(doubts: &Doubts) -> Result<JsValue, JsValue> {
                 ("count", (held_out.count as f64).into()),
                 ("coverage", held_out.coverage.into()),
                 ("expected", 0.95.into()),
-                ("interval", list(&held_out.coverage_interval)?),
+                ("interval", list(&held_out.coverage_interval)),
                 ("logLikelihood", held_out.log_likelihood.into()),
-            ])?,
+            ]),
         ),
         (
             "squaredError",
             object(&[
                 ("mean", held_out.squared_error.into()),
-                ("interval", list(&held_out.squared_error_interval)?),
-            ])?,
+                ("interval", list(&held_out.squared_error_interval)),
+            ]),
         ),
-        ("worst", list(&worst)?),
+        ("worst", list(&worst)),
         ("verdict", verdict_word(*verdict).into()),
     ])
 }
 
-fn kind_to_js(kind: &KindDoubts) -> Result<JsValue, JsValue> {
+fn kind_to_js(kind: &KindDoubts) -> JsValue {
     object(&[
         ("name", kind.name.into()),
         ("count", (kind.count as f64).into()),
@@ -262,7 +259,7 @@ fn kind_to_js(kind: &KindDoubts) -> Result<JsValue, JsValue> {
         ("kurtosisExpected", kind.kurtosis_expected.into()),
         ("autocorrelation", kind.autocorrelation.into()),
         ("autocorrelationLimit", kind.autocorrelation_limit.into()),
-        ("quantiles", float64_array(&kind.quantiles)?.into()),
+        ("quantiles", floats(&kind.quantiles)),
     ])
 }
 
@@ -281,19 +278,16 @@ fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
-fn inflation_to_js(inflation: &Inflation) -> Result<JsValue, JsValue> {
+fn inflation_to_js(inflation: &Inflation) -> JsValue {
     object(&[
-        ("factors", float64_array(&inflation.factors)?.into()),
-        ("coverage", float64_array(&inflation.coverage)?.into()),
-        ("logLikelihood", float64_array(&inflation.log_likelihood)?.into()),
+        ("factors", floats(&inflation.factors)),
+        ("coverage", floats(&inflation.coverage)),
+        ("logLikelihood", floats(&inflation.log_likelihood)),
     ])
 }
 
-/// What is told of the legs, one after the other in each array.
-pub type Columns = [(&'static str, Vec<f64>); 8];
-
-/// The legs of a calibration.
-pub fn columns(calibration: &Calibration) -> Columns {
+/// Makes arrays of the legs of a calibration, one leg after the other in each.
+pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, judged, removed, .. } = calibration;
     let [mut times, mut odometry, mut reference, mut readings, mut residuals] = [const { Vec::new() }; 5];
     let [mut deviations, mut squared_error, mut bad] = [const { Vec::new() }; 3];
@@ -309,24 +303,15 @@ pub fn columns(calibration: &Calibration) -> Columns {
         squared_error.push(judged.squared_error);
         bad.push(judged.bad);
     }
-    [
-        ("times", times),
-        ("odometry", odometry),
-        ("reference", reference),
-        ("readings", readings),
-        ("residuals", residuals),
-        ("deviations", deviations),
-        ("squaredError", squared_error),
-        ("bad", bad),
-    ]
-}
-
-/// With how many they are.
-pub fn columns_to_js(columns: &Columns) -> Result<JsValue, JsValue> {
-    let [.., (_, bad)] = columns;
-    let mut told = vec![("count", (bad.len() as f64).into())];
-    for (key, numbers) in columns {
-        told.push((key, float64_array(numbers)?.into()));
-    }
-    object(&told)
+    object(&[
+        ("count", (legs.len() as f64).into()),
+        ("times", floats(&times)),
+        ("odometry", floats(&odometry)),
+        ("reference", floats(&reference)),
+        ("readings", floats(&readings)),
+        ("residuals", floats(&residuals)),
+        ("deviations", floats(&deviations)),
+        ("squaredError", floats(&squared_error)),
+        ("bad", floats(&bad)),
+    ])
 }

@@ -1,11 +1,10 @@
 //! Reading JavaScript values, each checked once. Every refusal is a TypeError or RangeError that names the field, the
-//! value and what is allowed. Nothing here throws past Rust: what may run the caller's code, or fail, is called by
-//! `Reflect` or with `catch`, and its exceptions come back as values. Nothing is copied before its length is known.
+//! value and what is allowed.
 
 use crate::sim::settings::{
-    Group, MAX_SEED, Rules, Setting, SettingsError, Word, Words, check_group, check_real, check_whole,
+    Group, Rules, Setting, SettingsError, Word, Words, check_group, check_real, check_whole,
 };
-use js_sys::{ArrayBuffer, JsString, Number, RangeError, Reflect, TypeError};
+use js_sys::{Array, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
@@ -24,23 +23,19 @@ pub struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, known: &[&str]) -> Result<Self, JsValue> {
+        let allowed = || format!("an object with keys from {}", known.join(", "));
+        if Array::is_array(object) {
+            return Err(TypeError::new(&format!("{name} is an array; allowed is {}", allowed())).into());
+        }
         if !object.is_object() {
-            return Err(type_error(name, object, &format!("an object with keys from {}", known.join(", "))));
+            return Err(type_error(name, object, &allowed()));
         }
-        // What has a length may have as many keys: arrays, typed arrays, text as an object.
-        let length = Reflect::get(object, &"length".into()).map_err(|_| unreadable(name))?;
-        if !length.is_undefined() {
-            let (length, known) = (describe(&length), known.join(", "));
-            let message = format!("{name} has length {length}; allowed is an object with keys from {known}");
-            return Err(TypeError::new(&message).into());
-        }
-        let keys = Reflect::own_keys(object).map_err(|_| unreadable(name))?;
-        for key in keys.iter() {
-            let Some(key) = key.dyn_ref::<JsString>() else { continue };
-            let key = beginning(key);
+        for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
             if !known.contains(&key.as_str()) {
-                let message = format!("{prefix}{key} is an unknown key; allowed are {}", known.join(", "));
-                return Err(TypeError::new(&message).into());
+                let (key, known) = (shortened(&key), known.join(", "));
+                return Err(
+                    TypeError::new(&format!("{prefix}{key} is an unknown key; allowed are {known}")).into()
+                );
             }
         }
         Ok(Self { object, prefix })
@@ -61,7 +56,7 @@ impl<'a> Fields<'a> {
 
     /// The value of a field; undefined where it is missing.
     pub fn value(&self, key: &str) -> Result<JsValue, JsValue> {
-        Reflect::get(self.object, &key.into()).map_err(|_| unreadable(&self.path(key)))
+        Reflect::get(self.object, &key.into())
     }
 
     /// What `read` makes of a field, or None where it is missing or undefined.
@@ -85,22 +80,15 @@ pub fn number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
     value.as_f64().ok_or_else(|| type_error(field, value, "a number"))
 }
 
-/// A number of the given range.
-pub fn in_range(field: &str, value: &JsValue, allowed: &RangeInclusive<f64>) -> Result<f64, JsValue> {
-    let number = number(field, value)?;
+/// Checks that a number is of the given range.
+pub fn in_range(field: &str, number: f64, allowed: &RangeInclusive<f64>) -> Result<f64, JsValue> {
     check_real(field, number, allowed)?;
     Ok(number)
 }
 
-/// A whole number of the given range.
-pub fn whole(field: &str, value: &JsValue, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
-    Ok(check_whole(field, number(field, value)?, &allowed)?)
-}
-
-/// How much is to be done at once: as much as a word of this processor says, where the number is larger.
-pub fn work(field: &str, value: &JsValue) -> Result<usize, JsValue> {
-    let work = whole(field, value, 1..=MAX_SEED)?;
-    Ok(usize::try_from(work).unwrap_or(usize::MAX))
+/// Checks that a number is a whole one of the given range.
+pub fn whole(field: &str, number: f64, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
+    Ok(check_whole(field, number, &allowed)?)
 }
 
 /// The refusal of the number of a sample that is not shown.
@@ -118,8 +106,8 @@ pub fn word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
 
 fn read_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsValue> {
     let allowed = |word: &dyn Word| word.all().into_iter().map(quoted).collect::<Vec<_>>().join(" or ");
-    let text: &JsString = value.dyn_ref().ok_or_else(|| type_error(field, value, &allowed(word)))?;
-    if text.length() <= LONGEST && word.set(&beginning(text)) {
+    let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
+    if word.set(&text) {
         return Ok(());
     }
     Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed(word))).into())
@@ -139,7 +127,7 @@ fn read_numbers(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(),
         return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
     }
     for (i, slot) in numbers.iter_mut().enumerate() {
-        *slot = number(&format!("{field}[{i}]"), &item(field, value, i)?)?;
+        *slot = number(&format!("{field}[{i}]"), &item(value, i)?)?;
     }
     Ok(())
 }
@@ -190,23 +178,19 @@ pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsVa
 fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), JsValue> {
     match setting {
         Setting::Number(slot, _) => *slot = number(field, value)?,
-        Setting::Whole(slot, allowed) => slot.set(whole(field, value, allowed)?),
+        Setting::Whole(slot, allowed) => slot.set(whole(field, number(field, value)?, allowed)?),
         Setting::WholeOrNone(slot, _) if value.is_null() => *slot = None,
-        Setting::WholeOrNone(slot, allowed) => *slot = Some(whole(field, value, allowed)? as usize),
+        Setting::WholeOrNone(slot, allowed) => {
+            *slot = Some(whole(field, number(field, value)?, allowed)? as usize);
+        }
         Setting::Truth(slot) => *slot = boolean(field, value)?,
         Setting::Word(slot) => read_word(field, value, slot)?,
         Setting::Numbers(slots, _) => read_numbers(field, value, slots)?,
         // Once it is taken apart, nobody could say that it was the level that is out of range.
-        Setting::Level(slot, allowed) => slot.set(in_range(field, value, &allowed)?),
+        Setting::Level(slot, allowed) => slot.set(in_range(field, number(field, value)?, &allowed)?),
         Setting::Group(group) => read_group(field, value, group)?,
     }
     Ok(())
-}
-
-/// What a caller is told who asks for more than there is memory for.
-pub fn no_memory(field: &str) -> JsValue {
-    RangeError::new(&format!("{field} is a number for which there is no memory; allowed is a smaller one"))
-        .into()
 }
 
 pub fn boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
@@ -218,22 +202,18 @@ pub fn length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsV
     if !value.is_object() {
         return Err(type_error(field, value, expected));
     }
-    let length = Reflect::get(value, &"length".into()).map_err(|_| unreadable(field))?;
+    let length = Reflect::get(value, &"length".into())?;
     let length = length.as_f64().ok_or_else(|| type_error(field, value, expected))?;
     Ok(check_whole(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
 }
 
 /// Item `index` of an array.
-pub fn item(field: &str, value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
-    Reflect::get_u32(value, index as u32).map_err(|_| unreadable(&format!("{field}[{index}]")))
+pub fn item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
+    Reflect::get_u32(value, index as u32)
 }
 
 pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
     TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe(value))).into()
-}
-
-fn unreadable(field: &str) -> JsValue {
-    TypeError::new(&format!("{field} is a property that throws; allowed is a plain value")).into()
 }
 
 /// A number as JavaScript prints it.
@@ -245,15 +225,9 @@ pub fn printed(number: f64) -> String {
 /// Characters of a text that are quoted: enough to recognize it, and more than any key or word has.
 const MAX_CHARACTERS: usize = 40;
 
-/// UTF-16 units up to which a text is looked at: the engine may have put a longer one together of pieces that it would
-/// have to copy into one.
-const LONGEST: u32 = 1 << 20;
-
-/// The first characters of a text, whole ones, and "…" where there are more.
-fn beginning(text: &JsString) -> String {
-    // Two units are one character at most; a half of the last one would be the one that is left out.
-    let units = String::from(text.slice(0, 2 * MAX_CHARACTERS as u32 + 2));
-    let mut characters = units
+/// Shortens a text to what a sentence can hold.
+fn shortened(text: &str) -> String {
+    let mut characters = text
         .chars()
         .map(|character| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
     let mut shown: String = characters.by_ref().take(MAX_CHARACTERS).collect();
@@ -276,15 +250,10 @@ pub fn quoted(text: &str) -> String {
     result
 }
 
-/// The value as a sentence can hold it, without running any of the caller's code.
+/// Describes a value as a sentence can hold it.
 fn describe(value: &JsValue) -> String {
-    if let Some(text) = value.dyn_ref::<JsString>() {
-        let length = text.length();
-        return if length <= LONGEST {
-            quoted(&beginning(text))
-        } else {
-            format!("a text of {length} characters")
-        };
+    if let Some(text) = value.as_string() {
+        return quoted(&shortened(&text));
     }
     if let Some(number) = value.as_f64() {
         return printed(number);
@@ -292,57 +261,11 @@ fn describe(value: &JsValue) -> String {
     if let Some(truth) = value.as_bool() {
         return truth.to_string();
     }
-    match value.js_typeof().as_string().as_deref() {
-        Some("undefined") => "undefined".to_owned(),
-        Some("object") if value.is_null() => "null".to_owned(),
-        Some("object") => "an object".to_owned(),
-        Some(kind) => format!("a {kind}"),
-        None => "a value".to_owned(),
+    if value.is_null() || value.is_undefined() {
+        return if value.is_null() { "null" } else { "undefined" }.to_owned();
     }
-}
-
-#[wasm_bindgen]
-extern "C" {
-    #[wasm_bindgen(catch, js_namespace = ["Uint8Array", "prototype", "set"], js_name = call)]
-    fn set_bytes(target: &mut [u8], source: &JsValue) -> Result<(), JsValue>;
-
-    #[wasm_bindgen(catch, js_namespace = ["Float64Array", "prototype", "set"], js_name = call)]
-    fn set_doubles(target: &mut [f64], source: &JsValue) -> Result<(), JsValue>;
-}
-
-/// A copy of the `length` bytes of an array of bytes.
-pub fn bytes(field: &str, source: &JsValue, length: usize) -> Result<Vec<u8>, JsValue> {
-    let mut bytes = room(field, length, 0)?;
-    copy_bytes(field, source, &mut bytes)?;
-    Ok(bytes)
-}
-
-/// Fills `target` with the bytes of an array of bytes.
-pub fn copy_bytes(field: &str, source: &JsValue, target: &mut [u8]) -> Result<(), JsValue> {
-    copied(field, source, || set_bytes(target, source))
-}
-
-/// A copy of the `length` numbers of an array of doubles.
-pub fn doubles(field: &str, source: &JsValue, length: usize) -> Result<Vec<f64>, JsValue> {
-    let mut doubles = room(field, length, 0.0)?;
-    copied(field, source, || set_doubles(&mut doubles, source))?;
-    Ok(doubles)
-}
-
-fn room<T: Clone>(field: &str, length: usize, empty: T) -> Result<Vec<T>, JsValue> {
-    let mut room = Vec::new();
-    room.try_reserve_exact(length).map_err(|_| no_memory(&format!("{field}.length")))?;
-    room.resize(length, empty);
-    Ok(room)
-}
-
-fn copied(field: &str, source: &JsValue, copy: impl FnOnce() -> Result<(), JsValue>) -> Result<(), JsValue> {
-    // What only looks like one may have numbers that are objects with code of the caller's.
-    if ArrayBuffer::is_view(source) && copy().is_ok() {
-        return Ok(());
+    match value.js_typeof().as_string() {
+        Some(kind) if kind != "object" => format!("a {kind}"),
+        _ => "an object".to_owned(),
     }
-    let message = format!(
-        "{field} is an array that has lost its bytes, as when they are transferred; allowed is one that has them"
-    );
-    Err(TypeError::new(&message).into())
 }

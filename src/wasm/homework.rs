@@ -1,7 +1,7 @@
 //! The chapter's models, its inversion and SE(2) for JavaScript: what homework is done and checked with.
 
-use super::fields::{Fields, boolean, group_in_range, in_range, item, length, numbers, whole, word};
-use super::values::{doubles, gathered, group_to_js, list, number_or_null, object};
+use super::fields::{Fields, boolean, group_in_range, in_range, item, length, number, numbers, whole, word};
+use super::values::{flat, group_to_js, list, number_or_null, object};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::models::{
@@ -115,8 +115,8 @@ impl JsVelocityModel {
         &self,
         #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] seed: &JsValue,
+        count: f64,
+        seed: f64,
     ) -> Result<Float64Array, JsValue> {
         samples(&self.0, &velocity_command(command)?, start, count, seed)
     }
@@ -175,8 +175,8 @@ impl JsOdometryModel {
         &self,
         #[wasm_bindgen(unchecked_param_type = "Legs")] control: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] count: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] seed: &JsValue,
+        count: f64,
+        seed: f64,
     ) -> Result<Float64Array, JsValue> {
         let control = legs(control)?;
         match self.reverse_aware {
@@ -192,24 +192,24 @@ impl JsOdometryModel {
 pub fn inverted(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "number")] dt: &JsValue,
+    dt: f64,
 ) -> Result<JsValue, JsValue> {
     let (start, next, dt) = (pose("start", start)?, pose("next", next)?, in_range("dt", dt, &DURATION)?);
     let inversion = invert_arc(&start, &next, dt);
     // A straight way back turns by −0, which is no news to anybody.
     let omega_hat = inversion.omega_hat + 0.0;
     let center = match inversion.centre(&start) {
-        Some([x, y]) => object(&[("x", x.into()), ("y", y.into())])?,
+        Some([x, y]) => object(&[("x", x.into()), ("y", y.into())]),
         None => JsValue::NULL,
     };
-    object(&[
+    Ok(object(&[
         ("vHat", inversion.v_hat.into()),
         ("omegaHat", omega_hat.into()),
         ("gammaHat", inversion.gamma_hat.into()),
         ("center", center),
         ("radius", inversion.radius().into()),
         ("turn", (omega_hat * dt).into()),
-    ])
+    ]))
 }
 
 /// The three legs between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all in `rot2`.
@@ -218,7 +218,7 @@ pub fn decompose(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    group_to_js(&mut OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?))
+    Ok(group_to_js(&mut OdomDelta::from_poses(&pose("start", start)?, &pose("next", next)?)))
 }
 
 /// The covariance, in exponential coordinates about the noise-free pose, after a command was driven a number of times. The
@@ -233,7 +233,9 @@ pub fn propagate(
     let command = velocity_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(alphas(&fields)?), noise: NoiseKind::Normal };
     let order = fields.optional("compounding", word)?.unwrap_or(Compounding::Chapter);
-    let steps = fields.optional("steps", |field, value| whole(field, value, 1..=MAX_STEPS))?.unwrap_or(1);
+    let steps = fields
+        .optional("steps", |field, value| whole(field, number(field, value)?, 1..=MAX_STEPS))?
+        .unwrap_or(1);
     // Of what is in range no variance is negative or too large.
     let noise = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
@@ -249,13 +251,13 @@ pub fn propagate(
             return Err(RangeError::new(&message).into());
         }
     }
-    rows(&last)
+    Ok(rows(&last))
 }
 
 /// The pose that a twist leads to from the origin in a unit of time.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn exp(#[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue) -> Result<JsValue, JsValue> {
-    pose_to_js(SE2::exp(&read_twist("twist", twist)?))
+    Ok(pose_to_js(SE2::exp(&read_twist("twist", twist)?)))
 }
 
 /// The twist that leads from the origin to a pose in a unit of time, turning by half a circle at most.
@@ -263,7 +265,7 @@ pub fn exp(#[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue) -> R
 pub fn log(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    list(pose("pose", of)?.log().as_slice())
+    Ok(list(pose("pose", of)?.log().as_slice()))
 }
 
 /// a · b: `b`, told in the frame of `a`, in the frame that `a` is told in.
@@ -272,7 +274,7 @@ pub fn compose(
     #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    pose_to_js(pose("a", a)? * pose("b", b)?)
+    Ok(pose_to_js(pose("a", a)? * pose("b", b)?))
 }
 
 /// The origin in the frame of a pose.
@@ -280,7 +282,7 @@ pub fn compose(
 pub fn inverse(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    pose_to_js(pose("pose", of)?.inverse())
+    Ok(pose_to_js(pose("pose", of)?.inverse()))
 }
 
 /// x ⊞ τ = x · exp(τ).
@@ -289,7 +291,7 @@ pub fn boxplus(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    pose_to_js(pose("pose", of)?.boxplus(read_twist("twist", twist)?))
+    Ok(pose_to_js(pose("pose", of)?.boxplus(read_twist("twist", twist)?)))
 }
 
 /// a ⊟ b = log(b⁻¹ · a): the twist that leads from `b` to `a`.
@@ -298,7 +300,7 @@ pub fn boxminus(
     #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
 ) -> Result<JsValue, JsValue> {
-    list(pose("a", a)?.boxminus(&pose("b", b)?).as_slice())
+    Ok(list(pose("a", a)?.boxminus(&pose("b", b)?).as_slice()))
 }
 
 /// Ad of a pose, three rows of three.
@@ -306,7 +308,7 @@ pub fn boxminus(
 pub fn adjoint(
     #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
 ) -> Result<Array, JsValue> {
-    rows(&pose("pose", of)?.adjoint())
+    Ok(rows(&pose("pose", of)?.adjoint()))
 }
 
 /// J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
@@ -314,15 +316,15 @@ pub fn adjoint(
 pub fn right_jacobian(
     #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
 ) -> Result<Array, JsValue> {
-    rows(&SE2::right_jacobian(&read_twist("twist", twist)?))
+    Ok(rows(&SE2::right_jacobian(&read_twist("twist", twist)?)))
 }
 
 fn samples<M: MotionModel>(
     model: &M,
     control: &M::Control,
     start: &JsValue,
-    count: &JsValue,
-    seed: &JsValue,
+    count: f64,
+    seed: f64,
 ) -> Result<Float64Array, JsValue> {
     let start = pose("start", start)?;
     let count = whole("count", count, 0..=MAX_SAMPLES as u64)? as usize;
@@ -331,7 +333,7 @@ fn samples<M: MotionModel>(
         let pose = model.sample(control, &start, &mut rng);
         [pose.x(), pose.y(), pose.theta()]
     };
-    doubles("count", gathered((0..count).map(draw)))
+    Ok(flat(&(0..count).map(draw).collect::<Vec<_>>()))
 }
 
 fn alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
@@ -386,7 +388,7 @@ fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     }
     let mut matrix = Matrix3::zeros();
     for i in 0..3 {
-        let row = quantities(&format!("{field}[{i}]"), &item(field, value, i)?)?;
+        let row = quantities(&format!("{field}[{i}]"), &item(value, i)?)?;
         matrix.set_row(i, &Vector3::from(row).transpose());
     }
     let is = match covariance_root(&matrix) {
@@ -397,11 +399,10 @@ fn covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     Err(RangeError::new(&format!("{field} is no covariance: {is}; allowed are {allowed}")).into())
 }
 
-fn pose_to_js(pose: SE2) -> Result<JsValue, JsValue> {
+fn pose_to_js(pose: SE2) -> JsValue {
     group_to_js(&mut [pose.x(), pose.y(), pose.theta()])
 }
 
-fn rows(matrix: &Matrix3<f64>) -> Result<Array, JsValue> {
-    // nalgebra's are in columns.
-    matrix.transpose().as_slice().chunks_exact(3).map(list).collect()
+fn rows(matrix: &Matrix3<f64>) -> Array {
+    matrix.row_iter().map(|row| list(&[row[0], row[1], row[2]])).collect()
 }

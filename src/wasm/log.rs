@@ -1,6 +1,6 @@
 //! Logs of JavaScript: odometry and reference.
 
-use super::fields::{Fields, doubles, in_range, item, length, no_memory, number, printed, type_error, whole};
+use super::fields::{Fields, in_range, item, length, number, printed, type_error, whole};
 use crate::calibrate::{ReferenceError, Trajectory, TrajectoryError, TrajectoryFault};
 use crate::geom::se2::SE2;
 use crate::sim::settings::check_real;
@@ -70,7 +70,8 @@ pub fn read_reference(field: &str, value: &JsValue) -> Result<(Trajectory, Refer
     let prefix = format!("{field}.");
     let keys = ["t", "x", "y", "theta", "breaks", "positionDeviation", "headingDeviation"];
     let fields = Fields::new(field, &prefix, value, &keys)?;
-    let deviation = |key: &str| fields.optional(key, |path, value| in_range(path, value, &(0.0..=1e3)));
+    let deviation =
+        |key: &str| fields.optional(key, |path, value| in_range(path, number(path, value)?, &(0.0..=1e3)));
     let error = ReferenceError {
         position: deviation("positionDeviation")?.unwrap_or(0.0),
         heading: deviation("headingDeviation")?.unwrap_or(0.0),
@@ -111,11 +112,9 @@ fn broken(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsV
     }
     let (last, mut before) = (trajectory.samples().len() - 1, 0);
     for i in 0..length(&field, &breaks, "an array of numbers")? {
-        let item = item(&field, &breaks, i)?;
-        let sample = item.as_f64().map_or(0, |number| number as usize);
-        if sample <= before || sample > last || item.as_f64() != Some(sample as f64) {
-            let path = format!("{field}[{i}]");
-            whole(&path, &item, 1..=last as u64)?;
+        let path = format!("{field}[{i}]");
+        let sample = whole(&path, number(&path, &item(&breaks, i)?)?, 1..=last as u64)? as usize;
+        if sample <= before {
             let message = format!("{path} is {sample}; allowed is more than {before}, the one before it");
             return Err(RangeError::new(&message).into());
         }
@@ -153,17 +152,12 @@ fn columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>
 }
 
 fn column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue> {
-    if value.is_instance_of::<Float64Array>() {
-        return doubles(path, value, rows);
+    if let Some(doubles) = value.dyn_ref::<Float64Array>() {
+        return Ok(doubles.to_vec());
     }
-    let mut column = Vec::new();
-    column.try_reserve_exact(rows).map_err(|_| no_memory(&format!("{path}.length")))?;
-    for row in 0..rows {
-        let item = item(path, value, row)?;
-        column.push(match item.as_f64() {
-            Some(number) => number,
-            None => number(&format!("{path}[{row}]"), &item)?,
-        });
-    }
-    Ok(column)
+    let numbers = (0..rows).map(|row| {
+        let item = item(value, row)?;
+        item.as_f64().map_or_else(|| number(&format!("{path}[{row}]"), &item), Ok)
+    });
+    numbers.collect()
 }

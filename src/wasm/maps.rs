@@ -1,19 +1,17 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, boolean, bytes, doubles, in_range, item, length, no_memory, numbers, printed, type_error, whole,
-    word,
+    Fields, boolean, in_range, item, length, number, numbers, printed, type_error, whole, word,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
-    FloorPlan, FloorPlanError, Image, Interpretation, MAX_BYTES, MAX_PIXELS, MapError, MapReading, Mode,
-    RESOLUTION,
+    FloorPlan, FloorPlanError, Image, ImageError, Interpretation, MAX_BYTES, MAX_PIXELS, Mode, OccupancyGrid,
+    RESOLUTION, read_grid,
 };
 use crate::sim::settings::{QUANTITY, Words};
-use js_sys::{ArrayBuffer, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
+use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
-use web_sys::ImageData;
 
 impl Words for Mode {
     const WORDS: &'static [(&'static str, Self)] =
@@ -26,13 +24,9 @@ impl From<FloorPlanError> for JsValue {
     }
 }
 
-impl From<MapError> for JsValue {
-    fn from(error: MapError) -> Self {
-        match error {
-            MapError::Image(error) => RangeError::new(&error.to_string()).into(),
-            MapError::Plan(error) => error.into(),
-            MapError::NoMemory => no_memory("samples"),
-        }
+impl From<ImageError> for JsValue {
+    fn from(error: ImageError) -> Self {
+        RangeError::new(&error.to_string()).into()
     }
 }
 
@@ -42,44 +36,42 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = numbers("bounds", &fields.value("bounds")?)?;
     let walls = fields.value("walls")?;
-    // What only looks like an array of numbers is no view of a memory.
-    if walls.is_instance_of::<Float64Array>() && ArrayBuffer::is_view(&walls) {
-        let allowed = "an array of walls, or a Float64Array of four numbers a wall";
-        let length = length("walls", &walls, allowed)?;
-        if length % 4 > 0 {
-            return Err(type_error("walls", &walls, allowed));
+    if let Some(walls) = walls.dyn_ref::<Float64Array>() {
+        if !walls.length().is_multiple_of(4) {
+            let allowed = "an array of walls, or a Float64Array of four numbers a wall";
+            return Err(type_error("walls", walls, allowed));
         }
-        if length / 4 > FloorPlan::MAX_WALLS {
-            return Err(FloorPlanError::TooManyWalls(length / 4).into());
-        }
-        let segment = |wall: &[f64]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
-        let walls = doubles("walls", &walls, length)?.chunks_exact(4).map(segment).collect();
-        return Ok(FloorPlan::new(walls, bounds)?);
+        let segment = |wall: &[f64; 4]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
+        return Ok(FloorPlan::new(walls.to_vec().as_chunks().0.iter().map(segment).collect(), bounds)?);
     }
     let count = length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
     if count > FloorPlan::MAX_WALLS {
         return Err(FloorPlanError::TooManyWalls(count).into());
     }
     let segments = (0..count).map(|i| {
-        let [x0, y0, x1, y1] = numbers(&format!("walls[{i}]"), &item("walls", &walls, i)?)?;
+        let [x0, y0, x1, y1] = numbers(&format!("walls[{i}]"), &item(&walls, i)?)?;
         Ok(Segment { from: [x0, y0], to: [x1, y1] })
     });
     Ok(FloorPlan::new(segments.collect::<Result<_, JsValue>>()?, bounds)?)
 }
 
-/// The map that `map_server` would make of an image, a PGM file or pixels, and what its YAML file says of it, the defaults
-/// where it says nothing. What is to be read of the image is still to be looked at.
-pub fn read_map(description: &JsValue, image: &JsValue) -> Result<MapReading, JsValue> {
+/// Reads the map that `map_server` would make of an image, the bytes of a file or pixels, and the fields of its YAML file, with
+/// its defaults.
+pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
     let fields = Fields::open("description", "", description)?;
-    let resolution = in_range("resolution", &fields.value("resolution")?, &RESOLUTION)?;
+    let resolution = in_range("resolution", fields.number("resolution")?, &RESOLUTION)?;
     let origin: [f64; 3] = numbers("origin", &fields.value("origin")?)?;
     for (i, coordinate) in origin.iter().enumerate() {
-        in_range(&format!("origin[{i}]"), &(*coordinate).into(), &QUANTITY)?;
+        in_range(&format!("origin[{i}]"), *coordinate, &QUANTITY)?;
     }
     let negate = fields.optional("negate", |field, value| {
-        if value.as_bool().is_some() { boolean(field, value) } else { Ok(whole(field, value, 0..=1)? == 1) }
+        if value.as_bool().is_some() {
+            return boolean(field, value);
+        }
+        Ok(whole(field, number(field, value)?, 0..=1)? == 1)
     })?;
-    let threshold = |key: &str| fields.optional(key, |field, value| in_range(field, value, &(0.0..=1.0)));
+    let threshold =
+        |key: &str| fields.optional(key, |field, value| in_range(field, number(field, value)?, &(0.0..=1.0)));
     let usual = Interpretation::default();
     let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(usual.occupied_thresh);
     let free_thresh = threshold("free_thresh")?;
@@ -94,33 +86,29 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<MapReading, Js
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
     let [x, y, yaw] = origin;
     let origin = SE2::new(x, y, yaw);
-    if image.is_instance_of::<Uint8Array>() {
-        return Ok(MapReading::of_pgm(read_file(image)?, &interpretation, resolution, origin)?);
+    if let Some(file) = image.dyn_ref::<Uint8Array>() {
+        whole("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
+        return Ok(read_grid(&file.to_vec(), &interpretation, resolution, origin)?);
     }
-    Ok(MapReading::of_colours(read_pixels(image.unchecked_ref())?, &interpretation, resolution, origin))
+    let (width, height, data) = read_pixels(image)?;
+    let pixels = data.as_chunks().0.iter().map(|colours: &[u8; 4]| *colours);
+    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 
-/// The bytes of a PGM file.
-fn read_file(file: &JsValue) -> Result<Vec<u8>, JsValue> {
-    let length = length("image", file, "the bytes of a PGM file")?;
-    whole("image.length", &(length as f64).into(), 0..=MAX_BYTES as u64)?;
-    bytes("image", file, length)
-}
-
-/// Red, green, blue and opacity of an ImageData or, where there is no such class, as in Node, of what has its properties.
-/// They are read by name: its own getters would throw past Rust on what only looks like one, and take pixels of another format for bytes.
-fn read_pixels(image: &ImageData) -> Result<Image<Vec<u8>>, JsValue> {
+/// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData or of what has its properties: in Node
+/// there is no such class.
+fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     let fields = Fields::open("image", "image.", image)?;
-    let width = whole("image.width", &fields.value("width")?, 1..=MAX_PIXELS as u64)? as usize;
-    let height = whole("image.height", &fields.value("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
-    let (data, allowed) = (fields.value("data")?, "a Uint8ClampedArray of red, green, blue, opacity");
-    if !data.is_instance_of::<Uint8ClampedArray>() {
-        return Err(type_error("image.data", &data, allowed));
-    }
-    let length = length("image.data", &data, allowed)?;
-    if length != 4 * width * height {
-        let message = format!("image.data has length {length}; allowed is {}", 4 * width * height);
+    let width = whole("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
+    let height = whole("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
+    let data = fields.value("data")?;
+    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
+        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
+    };
+    let (length, wanted) = (data.length() as usize, 4 * width * height);
+    if length != wanted {
+        let message = format!("image.data has length {length}; allowed is {wanted}");
         return Err(RangeError::new(&message).into());
     }
-    Ok(Image { width, height, pixels: bytes("image.data", &data, length)? })
+    Ok((width, height, data.to_vec()))
 }

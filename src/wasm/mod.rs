@@ -15,8 +15,8 @@ mod calibrate;
 mod calibration;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
+mod face;
 mod fields;
-mod held;
 #[cfg(not(widget))]
 mod homework;
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]
@@ -46,13 +46,13 @@ pub fn random_seed() -> Result<f64, JsError> {
 /// many, the one whose turn is nearest to that command's.
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn speeds_reaching(
-    #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
+    x: f64,
+    y: f64,
     #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
 ) -> Result<JsValue, JsValue> {
     let (x, y) = (in_range("x", x, &QUANTITY)?, in_range("y", y, &QUANTITY)?);
     let mut near = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
     group_in_range("command", command, &mut near)?;
     let VelocityCmd { v, omega, .. } = command_reaching(x, y, &near);
-    object(&[("v", v.into()), ("omega", omega.into())])
+    Ok(object(&[("v", v.into()), ("omega", omega.into())]))
 }

@@ -1,22 +1,18 @@
-//! Densities for JavaScript: what is asked for, and pixels as a view of the core's memory.
+//! Densities for JavaScript: the arguments of pictures, and pixels as a view of the core's memory.
 
-use super::fields::{copy_bytes, in_range, length, number, type_error, whole};
+use super::fields::{in_range, whole};
 use crate::sim::picture::{RAMP, Ramp};
 use crate::sim::views::{EXTENT, Grid, MAX_CELLS, MAX_SIDE};
-use js_sys::{RangeError, Uint8Array, Uint8ClampedArray, WebAssembly};
+use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
 /// Radii around a point; NaN is none.
 pub const RADIUS: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 
-/// Where pixels are in the core's memory: from which byte, and how many bytes.
-pub fn place_of(pixels: &[[u8; 4]]) -> [u32; 2] {
-    [pixels.as_ptr() as u32, pixels.as_flattened().len() as u32]
-}
-
-/// A view of bytes in the core's memory.
-pub fn view_of(&[start, length]: &[u32; 2]) -> Uint8ClampedArray {
+/// Makes a view of pixels in the core's memory.
+pub fn view_of(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
+    let (start, length) = (pixels.as_ptr() as u32, pixels.as_flattened().len() as u32);
     let view = || {
         let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
         Uint8ClampedArray::new_with_byte_offset_and_length(&memory.buffer(), start, length)
@@ -26,35 +22,43 @@ pub fn view_of(&[start, length]: &[u32; 2]) -> Uint8ClampedArray {
     if first.length() == length { first } else { view() }
 }
 
-/// A point, and how far around it.
-pub fn read_disc(x: &JsValue, y: &JsValue, radius: &JsValue) -> Result<([f64; 2], f64), JsValue> {
-    Ok(([number("x", x)?, number("y", y)?], in_range("radius", radius, &RADIUS)?))
+/// Finds the index of what is nearest to a point (m) and within `radius` of it; −1 for none.
+pub fn index_of(
+    x: f64,
+    y: f64,
+    radius: f64,
+    find: impl FnOnce([f64; 2], f64) -> Option<usize>,
+) -> Result<i32, JsValue> {
+    Ok(find([x, y], in_range("radius", radius, &RADIUS)?).map_or(-1, |index| index as i32))
 }
 
-pub fn read_grid(bounds: [&JsValue; 4], columns: &JsValue, rows: &JsValue) -> Result<Grid, JsValue> {
-    let [x_min, y_min, x_max, y_max] = bounds;
+/// Reads least x, least y, greatest x, greatest y as two corners.
+pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 2], JsValue> {
     let min = [in_range("xMin", x_min, &EXTENT)?, in_range("yMin", y_min, &EXTENT)?];
-    let max = [
-        in_range("xMax", x_max, &(min[0]..=*EXTENT.end()))?,
-        in_range("yMax", y_max, &(min[1]..=*EXTENT.end()))?,
-    ];
+    let end = *EXTENT.end();
+    let max = [in_range("xMax", x_max, &(min[0]..=end))?, in_range("yMax", y_max, &(min[1]..=end))?];
+    Ok([min, max])
+}
+
+pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<Grid, JsValue> {
+    let [min, max] = read_bounds(bounds)?;
     let columns = whole("columns", columns, 1..=MAX_SIDE)?;
     let rows = whole("rows", rows, 1..=MAX_SIDE.min(MAX_CELLS / columns))?;
     Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
 }
 
-/// As many ramps one after the other.
-pub fn read_ramps<const COUNT: usize>(field: &str, value: &JsValue) -> Result<[Ramp; COUNT], JsValue> {
+/// Reads ramps that stand one after the other.
+pub fn read_ramps<const COUNT: usize>(field: &str, bytes: &[u8]) -> Result<[Ramp; COUNT], JsValue> {
     let mut ramps = [[[0; 4]; RAMP]; COUNT];
-    let bytes = ramps.as_flattened_mut().as_flattened_mut();
-    let allowed = format!("a Uint8Array of {} bytes, {} colours of four", bytes.len(), RAMP * COUNT);
-    if !value.is_instance_of::<Uint8Array>() {
-        return Err(type_error(field, value, &allowed));
+    let room = ramps.as_flattened_mut().as_flattened_mut();
+    if bytes.len() != room.len() {
+        let (length, wanted) = (bytes.len(), room.len());
+        let message = format!(
+            "{field} has length {length}; allowed is a Uint8Array of {wanted} bytes, {} colours of four",
+            RAMP * COUNT
+        );
+        return Err(RangeError::new(&message).into());
     }
-    let length = length(field, value, &allowed)?;
-    if length != bytes.len() {
-        return Err(RangeError::new(&format!("{field} has length {length}; allowed is {allowed}")).into());
-    }
-    copy_bytes(field, value, bytes)?;
+    room.copy_from_slice(bytes);
     Ok(ramps)
 }

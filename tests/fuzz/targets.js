@@ -65,17 +65,6 @@ async function filesAreTaken(...files) {
   return false;
 }
 
-/** Cells that a machine reads at a time. */
-const SLICE = 1_000_000;
-
-/** Puts a map into Map Squeeze, all of it. @param {unknown} map */
-function enter(map) {
-  const rest = (function* () {
-    while (!squeeze.advance(SLICE)) yield 0;
-  })();
-  for (const done of applyMap(squeeze, map, rest)) assert.equal(done, 0);
-}
-
 /**
  * Returns true if the core takes the value, and checks the message of a refusal.
  *
@@ -231,7 +220,7 @@ export const targets = {
       // The element checks this field before.
       delete rest.widget;
       const before = mapOf(squeeze, '');
-      const taken = map === null || isTaken(() => enter(map));
+      const taken = map === null || isTaken(() => applyMap(squeeze, map));
       if (!taken) assert.deepEqual(mapOf(squeeze, ''), before);
       const configured = isTaken(() => squeeze.configure(rest));
       squeeze.configure(machines[1].opening);
@@ -258,11 +247,7 @@ export const targets = {
 
 /** The map that a machine has, as data. @param {InstanceType<typeof motion.MapSqueeze>} machine @param {string} name */
 function mapOf(machine, name) {
-  const job = mapData(machine, name, cellsOf(machine));
-  for (;;) {
-    const { done, value } = job.next();
-    if (done) return value;
-  }
+  return mapData(machine, name, cellsOf(machine));
 }
 
 /** States that links carry. */

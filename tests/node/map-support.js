@@ -1,12 +1,13 @@
 // Map files as a reader hands them over, and what becomes of them.
 
 import { load } from '../../dist/core.js';
-import { advancing } from '../../www/figure/settings.js';
 import { de } from '../../www/widgets/map-squeeze/de.js';
 import { en } from '../../www/widgets/map-squeeze/en.js';
 import { MapFileError, readMapFiles } from '../../www/widgets/map-squeeze/maps/files.js';
 
 const motion = await load();
+
+const decodePng = async (/** @type {Uint8Array} */ bytes) => motion.readMapImage(bytes);
 
 /**
  * @param {string} name
@@ -27,17 +28,8 @@ export function description(fields) {
  */
 export async function opened(...files) {
   const machine = new motion.MapSqueeze({ samples: 1 });
-  enter(await readMapFiles(files), machine);
+  (await readMapFiles(files, decodePng)).apply(machine);
   return machine;
-}
-
-/**
- * @param {import('../../www/widgets/map-squeeze/maps/files.js').OwnMap} map
- * @param {import('../../www/types.d.ts').MapSqueeze} machine
- */
-function enter(map, machine) {
-  const job = map.apply(machine, advancing(machine));
-  while (!job.next().done);
 }
 
 /** Where maps are tried that nobody asks of afterwards. */
@@ -51,7 +43,7 @@ const machine = new motion.MapSqueeze({ samples: 1 });
  */
 export async function refusalOf(files, language = 'en') {
   try {
-    enter(await readMapFiles(files), machine);
+    (await readMapFiles(files, decodePng)).apply(machine);
   } catch (error) {
     if (error instanceof MapFileError) return error.sentence({ en, de }[language].refused);
     throw error;

@@ -77,7 +77,7 @@ fn what_is_refused_changes_nothing() {
             ),
             ("it.grow(1.5)", "RangeError: count is 1.5; allowed is a whole number from 0 to 5000"),
             ("it.curve(-1, 5)", "RangeError: longest is -1; allowed is a number from 0 to 1000000"),
-            ("it.nearest(0, 0)", "TypeError: radius is undefined; allowed is a number"),
+            ("it.nearest(0, 0)", "RangeError: radius is NaN; allowed is a number from 0 to Infinity"),
         ],
     );
 }

@@ -154,7 +154,7 @@ fn what_is_refused_changes_nothing() {
                 "RangeError: index is 20; allowed is one of the 20 samples shown, counted from 0",
             ),
             ("it.outlines(0)", "RangeError: step is 0; allowed is a whole number from 1 to 200"),
-            ("it.posesAfter('1')", "TypeError: step is \"1\"; allowed is a number"),
+            ("it.posesAfter()", "RangeError: step is NaN; allowed is a whole number from 1 to 200"),
         ],
     );
 }

@@ -201,8 +201,7 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
 #[wasm_bindgen_test]
 fn work_in_slices_ends_where_work_at_once_does_or_is_given_up() {
     let it = Object::new(
-        "({ sliced: new motion.MapSqueeze({ samples: 300 }), whole: new motion.MapSqueeze({ samples: 300 }),
-            pgm: new TextEncoder().encode('P2 256 256 255\\n' + '254 '.repeat(256 * 255) + '0 '.repeat(256)) })",
+        "({ sliced: new motion.MapSqueeze({ samples: 300 }), whole: new motion.MapSqueeze({ samples: 300 }) })",
     );
     let same = || {
         let told = |name: &str| {
@@ -213,15 +212,6 @@ fn work_in_slices_ends_where_work_at_once_does_or_is_given_up() {
         };
         told("sliced") == told("whole")
     };
-    let description = "{ resolution: 0.05, origin: [0, 0, 0] }";
-    it.run(&format!("it.sliced.beginGrid({description}, it.pgm)"));
-    it.assert("!it.sliced.advance(5000) && it.sliced.progress > 0 && it.sliced.progress < 1");
-    it.run("it.sliced.stop()");
-    assert!(it.get::<bool>("it.sliced.advance(1)") && same());
-    it.run(&format!("it.sliced.beginGrid({description}, it.pgm)"));
-    it.run("(() => { while (!it.sliced.advance(5000)); })()");
-    it.run(&format!("it.whole.setGrid({description}, it.pgm)"));
-    assert!(same());
     it.run(
         "(() => { it.sliced.begin({ sampler: 'whole-arc',
         samples: 900 }); while (!it.sliced.advance(100)); })()",
@@ -357,12 +347,7 @@ fn a_malformed_plan_or_map_is_explained_and_the_present_one_stays() {
                 "RangeError: line 1: the magic number is \"GIF89a\"; allowed is P5 or P2",
             ),
             (
-                "it.machine.beginGrid({ ...it.yaml, mode: 1 }, it.pgm)",
-                "TypeError: mode is 1; allowed is \"trinary\" or \"scale\" or \"raw\"",
-            ),
-            (
-                "(() => { it.machine.beginGrid(it.yaml, new TextEncoder().encode('P2 4 3 255 1 2 3')); \
-             while (!it.machine.advance(50)); })()",
+                "it.machine.setGrid(it.yaml, new TextEncoder().encode('P2 4 3 255 1 2 3'))",
                 "RangeError: line 1: a pixel is missing; allowed is a whole number from 0 to 255",
             ),
         ],

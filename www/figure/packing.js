@@ -4,9 +4,9 @@ import { refusal } from './checks.js';
 
 /**
  * Bytes of a state at most when it is unpacked: a link is anybody's, and a short text may say "a billion
- * times a". A plan's file may have as many, and the largest grid has 5.6 million.
+ * times a". The largest grid has 11.2 million.
  */
-const MAX_BYTES = 10_000_000;
+const MAX_BYTES = 12_000_000;
 
 /**
  * @param {object} data

@@ -9,11 +9,8 @@ import { isTrap } from './trap.js';
 /**
  * @typedef {Record<string, any>} Values settings by name
  *
- * @typedef {Generator<number | typeof LONG, void>} Job a few milliseconds' work a step; how much of it is done, from 0 to 1
+ * @typedef {Generator<number, void>} Job a few milliseconds' work a step; how much of it is done, from 0 to 1
  */
-
-/** Of a job: its next step may take as long as a frame has, and is begun in the first quarter of one. */
-export const LONG = Symbol('long');
 
 /** Longest work in a frame, milliseconds: with the pictures, a touch is answered within 50. */
 export const LONGEST_WORK = 25;
@@ -248,8 +245,8 @@ export class Settings extends Part {
         throw error;
       }
       if (!step.done) {
-        if (step.value !== LONG) this.done = step.value;
-        if (performance.now() - began < (step.value === LONG ? limit / 4 : limit)) continue;
+        this.done = step.value;
+        if (performance.now() - began < limit) continue;
         this.host.progress.tell();
         return false;
       }

@@ -8,9 +8,9 @@ pub use figures::{Column, Contours, Executed, Figures, Sample, Stats, Table};
 pub use settings::*;
 
 use super::cloud::drive::Drive;
-use super::cloud::picture::Ramp;
+use super::cloud::picture::{self, Ramp};
 use super::cloud::views::{Grid, Nearest, View};
-use super::cloud::{Cloud, START, picture::Picture};
+use super::cloud::{Cloud, START};
 use super::settings::{Rules, SettingsError};
 use crate::geom::arc::{Arc, arc_near};
 use crate::geom::lanes::LANES;
@@ -25,7 +25,6 @@ use crate::stats::{
     LikelihoodGain,
 };
 use nalgebra::{Matrix3, Vector3};
-use std::collections::TryReserveError;
 use std::f64::consts::TAU;
 
 impl Settings {
@@ -145,7 +144,8 @@ pub struct BananaMachine {
     settings: Settings,
     cloud: Cloud,
     figures: Figures,
-    picture: Picture,
+    /// The latest picture, which the page looks at in place.
+    picture: Vec<[u8; 4]>,
 }
 
 impl BananaMachine {
@@ -168,7 +168,7 @@ impl BananaMachine {
         let drive = settings.motion(settings.command).drive(&settings.command);
         let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))?;
-        Ok(Self { settings, cloud, figures: Figures::NONE, picture: Picture::default() })
+        Ok(Self { settings, cloud, figures: Figures::NONE, picture: Vec::new() })
     }
 
     pub fn settings(&self) -> &Settings {
@@ -415,20 +415,15 @@ impl BananaMachine {
         OdomDelta::from_poses(&START, &command_end(&self.settings.command))
     }
 
-    /// How many of the shown samples lie in each cell of a grid over a view: see [`Picture::density`].
-    ///
-    /// # Errors
-    /// As [`Picture::density`].
-    pub fn density(&mut self, view: View, grid: &Grid) -> Result<Vec<u32>, TryReserveError> {
-        self.picture.density(&self.cloud, view, grid)
+    /// Counts the shown samples in each cell of a grid over a view: see [`picture::density`].
+    pub fn density(&self, view: View, grid: &Grid) -> Vec<u32> {
+        picture::density(&self.cloud, view, grid)
     }
 
-    /// The density of the shown samples in colours: see [`Picture::paint`].
-    ///
-    /// # Errors
-    /// As [`Picture::paint`].
-    pub fn paint(&mut self, view: View, grid: &Grid, ramp: &Ramp) -> Result<&[[u8; 4]], TryReserveError> {
-        self.picture.paint(&self.cloud, view, grid, ramp)
+    /// Paints the density of the shown samples: see [`picture::paint`].
+    pub fn paint(&mut self, view: View, grid: &Grid, ramp: &Ramp) -> &[[u8; 4]] {
+        self.picture = picture::paint(&self.density(view, grid), ramp);
+        &self.picture
     }
 
     /// The shown sample nearest to a point of a view, inside the ellipse of the given radii around it.

@@ -1,6 +1,5 @@
 //! The two pictures of a cloud, and what is asked of them: where is it dense, which sample is nearest.
 
-use crate::map::MAX_PIXELS;
 use crate::sim::settings::Words;
 use std::ops::RangeInclusive;
 
@@ -20,8 +19,8 @@ impl Words for View {
 /// Coordinates that a rectangle of a view may reach: as far as the fastest robot gets in the longest step, and some.
 pub const EXTENT: RangeInclusive<f64> = -1e18..=1e18;
 
-/// Cells of a [`Grid`] at most: as many as a picture of a map may have pixels, beyond any screen. They take 64 MB.
-pub const MAX_CELLS: u64 = MAX_PIXELS as u64;
+/// Largest number of cells of a [`Grid`], beyond any screen. They take 64 MB.
+pub const MAX_CELLS: u64 = 1 << 24;
 
 /// Cells of a side of a [`Grid`] at most: more than a browser's canvas may have on some devices. Longer rows or columns would
 /// have a frame around them, a cell wide, that takes more memory than they do.

@@ -118,6 +118,16 @@ impl OdometryDecomposer {
         self.shown
     }
 
+    /// As [`OdometryDecomposer::grow`], for callers of any machine.
+    pub fn begin_to_grow(&mut self, count: usize) {
+        self.grow(count);
+    }
+
+    /// Number of outcomes shown.
+    pub fn shown(&self) -> usize {
+        self.shown
+    }
+
     /// Shows none; the draws remain.
     pub fn restart(&mut self) {
         self.shown = 0;

@@ -18,16 +18,13 @@ use super::settings::{Allowed, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
 use crate::map::{
-    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MAX_WORK, MapConditioned, MapError, MapReading,
-    OccupancyGrid, Sampler, Wedged,
+    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MAX_WORK, MapConditioned, OccupancyGrid, Sampler, Wedged,
 };
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use driver::Driver;
-use picture::Picture;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
-use std::collections::TryReserveError;
 use tally::share;
 
 /// Accepted samples of a trial, times parts: enough to time, few enough not to freeze a page.
@@ -37,8 +34,6 @@ pub const MAX_TRIAL: u64 = 100_000;
 #[derive(Clone, Debug)]
 pub struct MapSqueeze {
     plan: FloorPlan,
-    /// The map that is to take its place.
-    reading: Option<MapReading>,
     settings: Settings,
     draws: Draws,
     shown: Shown,
@@ -46,7 +41,8 @@ pub struct MapSqueeze {
     former: Option<Former>,
     /// Memory for attempts to come: they take turns.
     spare: Vec<Attempt>,
-    picture: Picture,
+    /// The latest picture, which the page looks at in place.
+    picture: Vec<[u8; 4]>,
 }
 
 /// The attempts shown.
@@ -99,13 +95,12 @@ impl MapSqueeze {
     pub fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut machine = Self {
             plan: FloorPlan::apartment(),
-            reading: None,
             settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
             shown: Shown::default(),
             former: None,
             spare: Vec::new(),
-            picture: Picture::default(),
+            picture: Vec::new(),
         };
         machine.begin(settings)?;
         machine.former = None;
@@ -122,7 +117,6 @@ impl MapSqueeze {
 
     /// Puts the robot into another map, where it stands and with the luck it has.
     pub fn set_plan(&mut self, plan: FloorPlan) {
-        self.reading = None;
         self.plan = plan;
         let goal = self.goal_of(self.settings.samples);
         self.restart();
@@ -136,23 +130,6 @@ impl MapSqueeze {
     pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
         self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
         Ok(())
-    }
-
-    /// As [`MapSqueeze::set_grid`], of an image.
-    ///
-    /// # Errors
-    /// As [`MapReading::advance`] and [`MapReading::finish`]; the map is the former one then.
-    pub fn set_map(&mut self, reading: MapReading) -> Result<(), MapError> {
-        self.begin_map(reading);
-        while !self.read(&mut { usize::MAX })? {}
-        self.finish();
-        Ok(())
-    }
-
-    /// As [`MapSqueeze::set_map`], in slices: [`MapSqueeze::advance`] is to be called until it says true. Until it is read, all
-    /// else is about the present map. It takes the place of another one that is being read.
-    pub fn begin_map(&mut self, reading: MapReading) {
-        self.reading = Some(reading);
     }
 
     /// How many attempts to show when there are `samples` from now on.
@@ -187,7 +164,7 @@ impl MapSqueeze {
             value: f64::NAN,
             allowed: Allowed::Word {
                 is: "blocked",
-                allowed: "free, as the cells of this map would have more than 100000 sides",
+                allowed: "free, as the cells of this map would have more than 20000 sides",
             },
         })?;
         self.renew(plan, settings)
@@ -220,31 +197,8 @@ impl MapSqueeze {
         self.draws.extend_to(self.settings.samples);
     }
 
-    /// Reads a map, looks at it, where that is a new one, and goes on with what was begun, as far as `work` allows (about that
-    /// many distances computed); whether all is done.
-    ///
-    /// # Errors
-    /// As [`MapSqueeze::set_map`], which nobody could say before.
-    pub fn advance(&mut self, mut work: usize) -> Result<bool, MapError> {
-        Ok(self.read(&mut work)? && self.go_on(work))
-    }
-
-    /// Whether no map is to be read any more.
-    fn read(&mut self, work: &mut usize) -> Result<bool, MapError> {
-        let Some(mut reading) = self.reading.take() else { return Ok(true) };
-        if !reading.advance(self.settings.unknown, work)? {
-            self.reading = Some(reading);
-            return Ok(false);
-        }
-        self.renew(Some(reading.finish()?), self.settings).map_err(|_| MapError::NoMemory)?;
-        Ok(true)
-    }
-
-    /// [`MapSqueeze::advance`] in the present map.
-    fn go_on(&mut self, mut work: usize) -> bool {
-        if !self.plan.prepare(&mut work) {
-            return false;
-        }
+    /// Goes on with what was begun, as far as `work` allows (about that many distances computed); whether all is done.
+    pub fn advance(&mut self, mut work: usize) -> bool {
         let steps = self.settings.parts() as usize;
         let Self { plan, settings, draws, shown, .. } = self;
         let Shown { attempts, goal, tally, gave_up, .. } = shown;
@@ -271,25 +225,20 @@ impl MapSqueeze {
         done
     }
 
-    /// Makes all attempts that there are to be. Where there are none, nobody looks at the map.
+    /// Makes all attempts that there are to be.
     fn finish(&mut self) {
-        while self.shown.goal > 0 && !self.go_on(usize::MAX) {}
+        while !self.advance(usize::MAX) {}
         self.former = None;
     }
 
-    /// How much is done of reading a map, of looking at it or, after that, of the attempts; from 0 to 1.
+    /// Share of the attempts that are made, from 0 to 1.
     pub fn progress(&self) -> f64 {
-        if let Some(reading) = &self.reading {
-            return reading.done();
-        }
         let Shown { attempts, goal, .. } = &self.shown;
-        let prepared = self.plan.prepared();
-        if prepared < 1.0 { prepared } else { attempts.len() as f64 / (*goal).max(1) as f64 }
+        attempts.len() as f64 / (*goal).max(1) as f64
     }
 
-    /// Gives up what was begun: all is as it was before, but for a map that was looked at in part.
+    /// Gives up what was begun: all is as it was before.
     pub fn stop(&mut self) {
-        self.reading = None;
         let Some(Former { plan, settings, shown }) = self.former.take() else {
             self.shown.goal = self.shown.attempts.len();
             return;
@@ -313,7 +262,7 @@ impl MapSqueeze {
     pub fn grow(&mut self, count: usize) -> usize {
         self.begin_to_grow(count);
         self.finish();
-        self.shown.attempts.len()
+        self.shown()
     }
 
     /// As [`MapSqueeze::grow`], in slices like [`MapSqueeze::begin`].
@@ -324,6 +273,11 @@ impl MapSqueeze {
     /// The attempts shown, in sample order.
     pub fn attempts(&self) -> &[Attempt] {
         &self.shown.attempts
+    }
+
+    /// Number of attempts shown.
+    pub fn shown(&self) -> usize {
+        self.shown.attempts.len()
     }
 
     pub fn tally(&self) -> &Tally {
@@ -353,11 +307,9 @@ impl MapSqueeze {
 
     /// Where the attempts shown end, as an image of a pixel a cell: each in the colours of the kind that most of those in it
     /// are, ramp[255·√(count/most)] for a count of all of them, transparent where there is nobody.
-    ///
-    /// # Errors
-    /// Where memory does not suffice for the cells.
-    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; KINDS]) -> Result<&[[u8; 4]], TryReserveError> {
-        self.picture.paint(&self.shown.attempts, grid, ramps)
+    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; KINDS]) -> &[[u8; 4]] {
+        self.picture = picture::paint(&self.shown.attempts, grid, ramps);
+        &self.picture
     }
 
     /// The attempt that ends nearest to a point (m) and within `radius` of it.

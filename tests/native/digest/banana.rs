@@ -31,9 +31,8 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         let VelocityCmd { v, omega, .. } = command_reaching(x, y, &settings.command);
         Plain([v, omega])
     });
-    let densities = VIEWS.map(|view| machine.density(view, &grid).expect("memory"));
-    let mut pictures =
-        VIEWS.map(|view| machine.paint(view, &grid, &ramp(0)).expect("memory").as_flattened().to_vec());
+    let densities = VIEWS.map(|view| machine.density(view, &grid));
+    let mut pictures = VIEWS.map(|view| machine.paint(view, &grid, &ramp(0)).as_flattened().to_vec());
     let [plane, twist] = &mut pictures;
     vec![
         Part::new("poses", &[&poses]),

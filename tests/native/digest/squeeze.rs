@@ -47,7 +47,7 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
         ],
     );
     let map = Part::new("map", &[&plan.bounds(), &walls, &plan.grid()]);
-    let pixels = machine.paint(&configuration.grid(), &[ramp(0), ramp(1), ramp(2)]).expect("memory");
+    let pixels = machine.paint(&configuration.grid(), &[ramp(0), ramp(1), ramp(2)]);
     vec![
         map,
         Part::new("poses", &[&poses]),

@@ -5,4 +5,4 @@ mod hard_plans;
 mod occupancy;
 mod pixels;
 mod plans;
-mod reading;
+mod png;

@@ -4,7 +4,6 @@ use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP;
 use motion::sim::settings::{Declaration, Declared, Field, Group, Setting};
 use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL, PATH_FREE};
-use motion::sim::views::MAX_CELLS;
 use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use std::fmt::Write;
 use std::ops::{ControlFlow, RangeInclusive};
@@ -27,8 +26,6 @@ fn settings_js_is_what_the_core_declares() {
 }
 
 fn settings_js() -> String {
-    // In JavaScript one number stands for both.
-    assert_eq!(MAX_CELLS, MAX_PIXELS as u64);
     let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::default();
     format!(
         "{HEAD}
@@ -70,7 +67,7 @@ export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odomet
  * What the core takes at most: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in
  * `trial`, and the number of colours that a `ramp` has.
  */
-export const limits = {{ cells: {MAX_CELLS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
+export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL}, ramp: {RAMP} }};
 
 /** Bits of a verdict of Map Squeeze. */
 export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: {ACCEPTED} }};

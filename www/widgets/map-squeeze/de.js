@@ -122,6 +122,7 @@ export const de = {
     few: 'zu wenige angenommen, um zu messen',
   },
   own: {
+    reading: 'Die Karte wird gelesen …',
     legend: 'Eine eigene Karte',
     text: 'Zieh Dateien irgendwo auf diese Abbildung oder wähle sie hier: einen Grundriss in JSON oder eine Karte des map_server von ROS, die YAML-Datei zusammen mit ihrem Bild in PGM oder PNG. Sie verlassen dieses Gerät nicht.',
     files: 'Kartendateien',
@@ -150,15 +151,7 @@ export const de = {
     pair: (name, wanted, given) =>
       `${name}: image nennt ${wanted}, das nicht dabei ist${given && ` (dafür kam ${given})`}; erwartet werden beide Dateien zusammen.`,
     fields: (name) => `${name}: Darin sind keine Felder; erwartet werden mindestens image, resolution und origin.`,
-    noPng: (name) => `${name}: Die ersten Bytes sind nicht die eines PNG-Bildes; erwartet wird PNG.`,
-    large: (name, size, side, pixels) =>
-      `${name}: Breite × Höhe ist ${size}; erwartet werden Seiten bis ${side} und höchstens ${pixels} Pixel.`,
-    broken: (name, reason) => `${name}: ${reason}; erwartet wird ein vollständiges PNG-Bild.`,
-    png: {
-      cut: (bytes, chunk) => `Die Datei endet nach ${bytes} Bytes, in ${chunk}`,
-      changed: (chunk) => `${chunk} ist nicht, was geschrieben wurde`,
-      field: (field, value, allowed) => `${field} ist ${value}; erlaubt ist ${allowed}`,
-    },
+    broken: (name, reason) => `${name}: ${reason}.`,
     line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
   },
 };

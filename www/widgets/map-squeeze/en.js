@@ -124,6 +124,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     few: 'too few are accepted to time',
   },
   own: {
+    reading: 'Reading the map …',
     legend: 'A map of your own',
     text: 'Drop files anywhere on this figure, or choose them here: a floor plan in JSON, or a map of ROS map_server, its YAML file and its PGM or PNG image together. They do not leave this device.',
     files: 'Map files',
@@ -152,15 +153,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     pair: (name, wanted, given) =>
       `${name}: image names ${wanted}, which is not there${given && ` (${given} came instead)`}; expected are both files together.`,
     fields: (name) => `${name}: there are no fields in it; expected are at least image, resolution and origin.`,
-    noPng: (name) => `${name}: its first bytes are not those of a PNG image; expected is PNG.`,
-    large: (name, size, side, pixels) =>
-      `${name}: width × height is ${size}; expected are sides up to ${side} and at most ${pixels} pixels.`,
-    broken: (name, reason) => `${name}: ${reason}; expected is a complete PNG image.`,
-    png: {
-      cut: (bytes, chunk) => `the file ends after ${bytes} bytes, within ${chunk}`,
-      changed: (chunk) => `${chunk} is not what was written`,
-      field: (field, value, allowed) => `${field} is ${value}; allowed is ${allowed}`,
-    },
+    broken: (name, reason) => `${name}: ${reason}.`,
     line: (name, line, reason) => `${name}, line ${line}: ${reason}.`,
   },
 });

@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
-import { LONG, LONGEST_WORK, advancing } from '../../figure/settings.js';
+import { LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
 import { fold } from '../../ui/fold.js';
@@ -85,25 +85,11 @@ export class MapSqueezeElement extends FigureElement {
     // Of the opening there is none to be put in.
     const { map } = 'map' in state ? state : { map: null };
     if (map !== null) {
-      yield* applyMap(machine, map, advancing(machine));
+      applyMap(machine, map);
       machine.beginToGrow(shownOf(machine, state.shown));
     }
     yield* advancing(machine);
-    if (map !== null) state.map = yield* this.#mapOf(machine, map.name ?? '');
-  }
-
-  /**
-   * The map that a machine has, as data.
-   *
-   * @param {Machine} machine
-   * @param {string} name
-   * @returns {Generator<typeof LONG, MapData>}
-   */
-  *#mapOf(machine, name) {
-    yield LONG;
-    const data = yield* mapData(machine, name, this.#gridOf(machine));
-    yield LONG;
-    return data;
+    if (map !== null) state.map = mapData(machine, map.name ?? '', this.#gridOf(machine));
   }
 
   /** @param {Machine} machine */
@@ -300,35 +286,28 @@ export class MapSqueezeElement extends FigureElement {
   #enter(map, arrived, refuse) {
     const { motion, settings } = this;
     if (!motion) return;
-    // To take over a large file takes as long as a frame has.
     const end = performance.now() + LONGEST_WORK;
     const machine = motion.MapSqueeze.empty();
-    const reading = map.apply(machine, advancing(machine));
     orFree(machine, () => {
       machine.configure(settings.declared(settings.wanted));
-      reading.next();
+      map.apply(machine);
     });
-    settings.prepare(machine, this.#entering(machine, reading, map, arrived), refuse, end);
+    settings.prepare(machine, this.#entering(machine, map, arrived), refuse, end);
   }
 
   /**
    * @param {Machine} machine in another map
-   * @param {Job} reading of that map
    * @param {OwnMap & { start?: Pose }} map
    * @param {() => void} arrived
    * @returns {Job}
    */
-  *#entering(machine, reading, { name, start }, arrived) {
-    yield* reading;
-    yield LONG;
+  *#entering(machine, { name, start }, arrived) {
     const isGrid = this.#gridOf(machine) !== null;
-    yield LONG;
     if (start) machine.configure({ start });
     else if (isGrid || !machine.startFree) machine.configure({ start: this.#putInTheOpen(machine) });
     machine.beginToGrow(this.cloud.asked);
-    yield 0;
     yield* advancing(machine);
-    const data = yield* this.#mapOf(machine, name);
+    const data = mapData(machine, name, this.#gridOf(machine));
     this.runtime.replace(machine);
     this.settings.arrive();
     this.#left = null;
@@ -398,7 +377,7 @@ export class MapSqueezeElement extends FigureElement {
 /** What is there as data. @param {MapData} map @returns {OwnMap} */
 const mapOf = (map) => ({
   name: map.name ?? '',
-  apply: (machine, rest) => applyMap(machine, map, rest),
+  apply: (machine) => applyMap(machine, map),
 });
 
 define('map-squeeze', MapSqueezeElement);

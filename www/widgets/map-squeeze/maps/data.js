@@ -2,11 +2,9 @@
 
 import { object, refusal, renamed, wholeNumber } from '../../../figure/checks.js';
 import { fromBase64, toBase64 } from '../../../figure/packing.js';
-import { LONG } from '../../../figure/settings.js';
 import { limits } from '../../../settings.js';
 
 /**
- * @import { Job } from '../../../figure/settings.js'
  * @import { Cells } from '../../../scene/walls.js'
  * @import { MapData, MapSqueeze } from '../../../types.d.ts'
  */
@@ -20,7 +18,7 @@ const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied'
 const KEYS_OF_GRIDS_ALONE = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
 /** The most that the core takes. */
-const MAX_WALLS = 100_000;
+const MAX_WALLS = 20_000;
 
 /** Shades of a cell in the image that a grid is handed over as, white being occupied; what is brighter counts as white. */
 const [OCCUPIED, UNKNOWN] = [2, 1];
@@ -30,9 +28,6 @@ const FOURS = Uint32Array.from({ length: 16 }, (_, bits) => {
   const cells = Uint8Array.of(bits >> 3, (bits >> 2) & 1, (bits >> 1) & 1, bits & 1);
   return new Uint32Array(cells.buffer)[0];
 });
-
-/** Bytes of bits that become cells between two looks at the clock: a few milliseconds' work before the engine has compiled it. */
-const SHADED = 200_000;
 
 /** Times four cells, all four bits are the highest of 28, in their order. */
 const GATHER = 0x08040201;
@@ -48,14 +43,12 @@ export function cellsOf({ grid }) {
  * @param {MapSqueeze} machine
  * @param {string} name
  * @param {Cells | null} grid of the machine
- * @returns {Generator<typeof LONG, MapData>}
+ * @returns {MapData}
  */
-export function* mapData(machine, name, grid) {
+export function mapData(machine, name, grid) {
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
-    yield LONG;
     const occupied = packBits(grid.occupied);
-    yield LONG;
     const unknown = grid.unknown && { unknown: packBits(grid.unknown) };
     return frozen({ name, columns, rows, resolution, origin: frozen([...origin]), occupied, ...unknown });
   }
@@ -82,16 +75,13 @@ export function inOneList(walls) {
 }
 
 /**
- * Puts a map into a machine, and goes on with the `rest`: a floor plan at once, a grid in slices. The first one checks all
- * fields.
+ * Puts a map into a machine.
  *
  * @param {MapSqueeze} machine
  * @param {unknown} data to be MapData
- * @param {Job} rest
- * @returns {Job}
  * @throws {TypeError | RangeError} with the machine's present map left as it is
  */
-export function* applyMap(machine, data, rest) {
+export function applyMap(machine, data) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
     throw refusal('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
@@ -99,9 +89,8 @@ export function* applyMap(machine, data, rest) {
   const map = object('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusal('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    taken(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: inOneList(map.walls) }));
-    yield 0;
-    return yield* rest;
+    renamingFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: inOneList(map.walls) }));
+    return;
   }
   const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
   const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
@@ -109,20 +98,11 @@ export function* applyMap(machine, data, rest) {
   const occupied = bitsOf('map.occupied', map.occupied, count);
   const unknown = map.unknown === undefined ? undefined : bitsOf('map.unknown', map.unknown, count);
   const description = { resolution: map.resolution, origin: map.origin, negate: 1 };
-  // What the machine checks it says of one cell as well.
-  taken(GRID_KEYS, () => machine.beginGrid(description, imageOf(1, new Uint8Array(1))));
-  yield 0;
   const fours = new Uint32Array(2 * Math.ceil(count / 8));
-  yield* shade(fours, occupied, OCCUPIED);
-  if (unknown) yield* shade(fours, unknown, UNKNOWN);
+  shade(fours, occupied, OCCUPIED);
+  if (unknown) shade(fours, unknown, UNKNOWN);
   const image = imageOf(columns, new Uint8Array(fours.buffer, 0, count));
-  yield 0;
-  try {
-    machine.beginGrid(description, image);
-    yield* rest;
-  } catch (error) {
-    throw ofMap(GRID_KEYS, renamed(error, 'occupied', 'image'));
-  }
+  renamingFields(GRID_KEYS, () => machine.setGrid(description, image));
 }
 
 /**
@@ -132,11 +112,11 @@ export function* applyMap(machine, data, rest) {
  * @param {() => void} take
  * @throws {TypeError | RangeError} that names the field as one of the map's
  */
-function taken(keys, take) {
+function renamingFields(keys, take) {
   try {
     take();
   } catch (error) {
-    throw ofMap(keys, error);
+    throw ofMap(keys, renamed(error, 'occupied', 'image'));
   }
 }
 
@@ -183,16 +163,11 @@ function packBits(cells) {
  * @param {Uint32Array} fours of cells
  * @param {Uint8Array} bits
  * @param {number} shade
- * @returns {Job}
  */
-function* shade(fours, bits, shade) {
-  for (let from = 0; from < bits.length; from += SHADED) {
-    const end = Math.min(from + SHADED, bits.length);
-    for (let i = from; i < end; i++) {
-      fours[2 * i] += FOURS[bits[i] >> 4] * shade;
-      fours[2 * i + 1] += FOURS[bits[i] & 15] * shade;
-    }
-    yield 0;
+function shade(fours, bits, shade) {
+  for (let i = 0; i < bits.length; i++) {
+    fours[2 * i] += FOURS[bits[i] >> 4] * shade;
+    fours[2 * i + 1] += FOURS[bits[i] & 15] * shade;
   }
 }
 

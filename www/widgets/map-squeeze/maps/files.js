@@ -1,18 +1,18 @@
 /** Maps of the reader's own: a JSON floor plan, or a pair of files as ROS map_server has them. */
 
-import { LONGEST_SIDE } from '../../../scene/canvas.js';
 import { limits } from '../../../settings.js';
 
 /**
- * @import { Job } from '../../../figure/settings.js'
  * @import { MapSqueeze } from '../../../types.d.ts'
  *
  * @typedef {import('../../../messages/registry.js').Messages['squeeze']['refused']} Refused
  *
+ * @typedef {(bytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>} DecodePng throws a RangeError for what is
+ *   no PNG image
+ *
  * @typedef {object} OwnMap
  * @property {string} name
- * @property {(machine: MapSqueeze, rest: Job) => Job} apply puts it into a machine, in slices: with the first it begins, and goes
- *   on with what the machine does then; any may throw a MapFileError, with the machine's present map left as it is
+ * @property {(machine: MapSqueeze) => void} apply puts it into a machine, or throws a MapFileError and leaves the present map
  */
 
 /** One sentence that names the file, the line or field, and what was expected. */
@@ -27,8 +27,8 @@ export class MapFileError extends Error {
   }
 }
 
-/** Bytes of a floor plan at most: a hundred for each wall that the core takes. */
-const PLAN_BYTES = 10_000_000;
+/** Largest size of a floor plan, in bytes: a hundred for each wall that the core takes. */
+const PLAN_BYTES = 2_000_000;
 
 /** Bytes at most of what says how an image is to be read. */
 const DESCRIPTION_BYTES = 100_000;
@@ -49,10 +49,11 @@ const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]
  * The map that files hold.
  *
  * @param {File[]} files
+ * @param {DecodePng} decodePng
  * @returns {Promise<OwnMap>}
  * @throws {MapFileError}
  */
-export async function readMapFiles(files) {
+export async function readMapFiles(files, decodePng) {
   const named = (/** @type {RegExp} */ pattern) => files.filter(({ name }) => pattern.test(name));
   const [plans, descriptions, images] = [named(/\.json$/i), named(/\.ya?ml$/i), named(/\.(pgm|png)$/i)];
   const stranger = files.find((file) => ![...plans, ...descriptions, ...images].includes(file));
@@ -65,7 +66,7 @@ export async function readMapFiles(files) {
     throw new MapFileError(names, (say, those) => say.several(those, maps));
   }
   if (plans.length) return readPlan(plans[0].name, await textOf(plans[0], PLAN_BYTES));
-  if (descriptions.length) return readGrid(descriptions[0], images);
+  if (descriptions.length) return readGrid(descriptions[0], images, decodePng);
   throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
 }
 
@@ -120,8 +121,8 @@ export async function readPlan(name, text) {
   const plan = await planOf(name, text);
   return {
     name,
-    apply: (machine, rest) =>
-      retold(name, rest, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
+    apply: (machine) =>
+      explaining(name, () => machine.setPlan(plan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
   };
 }
 
@@ -171,9 +172,10 @@ async function parsed(name, text, language) {
 /**
  * @param {File} file YAML
  * @param {File[]} images
+ * @param {DecodePng} decodePng
  * @returns {Promise<OwnMap>}
  */
-async function readGrid(file, images) {
+async function readGrid(file, images, decodePng) {
   const description = await readDescription(file.name, await textOf(file, DESCRIPTION_BYTES));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
@@ -188,14 +190,13 @@ async function readGrid(file, images) {
   checkSize(image.name, image.size, limits.bytes);
   const pixels = /\.pgm$/i.test(image.name)
     ? new Uint8Array(await bytesOf(image, image.name))
-    : await readPng(image);
+    : await readPng(image, decodePng);
   return {
     name: file.name,
-    apply: (machine, rest) =>
-      retold(
+    apply: (machine) =>
+      explaining(
         file.name,
-        rest,
-        () => machine.beginGrid(description, pixels),
+        () => machine.setGrid(description, pixels),
         (say, name, reason) => gridComplaint(say, name, quoted(image.name), reason),
       ),
   };
@@ -215,20 +216,17 @@ async function readDescription(name, text) {
   return typeof negate === 'string' ? { ...description, negate: WORDS.get(negate.toLowerCase()) ?? negate } : description;
 }
 
-/** @param {File} file */
-async function readPng(file) {
-  const { HEADER_BYTES, PngError, decodePng, headerOf, isPng } = await import('./png.js');
-  const start = new Uint8Array(await bytesOf(file.slice(0, HEADER_BYTES), file.name));
-  if (!isPng(start)) throw new MapFileError(file.name, (say, name) => say.noPng(name));
+/**
+ * @param {File} file
+ * @param {DecodePng} decodePng
+ */
+async function readPng(file, decodePng) {
+  const bytes = new Uint8Array(await bytesOf(file, file.name));
   try {
-    const { width, height } = headerOf(start);
-    if (Math.max(width, height) > LONGEST_SIDE || width * height > limits.cells) {
-      throw new MapFileError(file.name, (say, name) => say.large(name, `${width} × ${height}`, LONGEST_SIDE, limits.cells));
-    }
-    return await decodePng(new Uint8Array(await bytesOf(file, file.name)));
+    return await decodePng(bytes);
   } catch (error) {
-    if (!(error instanceof PngError)) throw error;
-    throw new MapFileError(file.name, (say, name) => say.broken(name, error.reason(say.png)));
+    if (!(error instanceof RangeError)) throw error;
+    throw new MapFileError(file.name, (say, name) => say.broken(name, error.message));
   }
 }
 
@@ -245,17 +243,15 @@ function gridComplaint(say, description, image, reason) {
 }
 
 /**
+ * Lets the core take a map, and explains why it refuses one.
+ *
  * @param {string} name of the file that holds the map
- * @param {Job} rest
- * @param {() => void} begin what the core may refuse, as well as the rest: it names a field and what is allowed
+ * @param {() => void} take
  * @param {(say: Refused, file: string, reason: string) => string} sentence
- * @returns {Job}
  */
-function* retold(name, rest, begin, sentence) {
+function explaining(name, take, sentence) {
   try {
-    begin();
-    yield 0;
-    yield* rest;
+    take();
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
     const reason = error.message.replace(' is undefined;', ' is missing;');

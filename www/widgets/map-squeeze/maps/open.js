@@ -1,5 +1,6 @@
 /** How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused. */
 
+import { instantiate } from '../../../core.js';
 import { Part } from '../../../figure/part.js';
 import { words } from '../../../messages/registry.js';
 import { FileDrop } from '../../shared/files.js';
@@ -12,9 +13,17 @@ export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 /** The fold that says which map is there and why another was refused. */
 export const FOLD = 'map-fold';
 
+/** Files of more bytes take longer than a moment to read. */
+const LARGE = 1_000_000;
+
+/** Decodes by the whole core: that of the figure has no decoder. @type {import('./files.js').DecodePng} */
+const decodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
+
 /** @extends {Part<import('../map-squeeze.js').MapSqueezeElement>} */
 export class MapOpener extends Part {
   dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
+  /** Whether a large file is being read. */
+  isReading = false;
   /** Why the latest map was refused. @type {(() => string) | undefined} */
   #complaint;
   /** The latest attempt to read files: an earlier one that ends later is void. */
@@ -30,8 +39,16 @@ export class MapOpener extends Part {
   }
 
   /** @param {File[]} files */
-  choose(files) {
-    this.#open(({ readMapFiles }) => readMapFiles(files));
+  async choose(files) {
+    if (files.reduce((sum, { size }) => sum + size, 0) > LARGE) {
+      this.isReading = true;
+      this.host.requestUpdate();
+      // Two frames: the message is on the screen when the first has been drawn.
+      for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+    }
+    await this.#open(({ readMapFiles }) => readMapFiles(files, decodePng));
+    this.isReading = false;
+    this.host.requestUpdate();
   }
 
   /** @param {string} text */

@@ -1,0 +1,88 @@
+//! PNG images as maps have them, decoded pixel for pixel: gamma and colour profiles are left alone.
+
+use super::occupancy::Image;
+use super::pgm::MAX_PIXELS;
+use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Limits, Transformations};
+use std::fmt;
+use std::io::Cursor;
+
+/// First bytes of every PNG image.
+pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
+/// Reason why bytes are not a PNG image.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PngError {
+    /// The bytes end, or differ from what the standard allows, before byte `at` of `length`.
+    Damaged { at: u64, length: usize },
+    /// The image has more pixels than [`MAX_PIXELS`].
+    TooLarge { width: u32, height: u32 },
+}
+
+impl fmt::Display for PngError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Damaged { at, length } => {
+                write!(
+                    f,
+                    "the PNG image is damaged or cut short before byte {at} of {length}; allowed is a complete one"
+                )
+            }
+            Self::TooLarge { width, height } => {
+                write!(f, "image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for PngError {}
+
+/// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits become the nearest of 8.
+///
+/// # Errors
+/// [`PngError`] for an image that is cut short, damaged or too large.
+pub fn read_png(bytes: &[u8]) -> Result<Image<Vec<[u8; 4]>>, PngError> {
+    let mut source = Cursor::new(bytes);
+    let size = Decoder::new(&mut source).read_header_info().map(Info::size);
+    let (width, height) = size.map_err(|_| damaged(&source))?;
+    if u64::from(width) * u64::from(height) > MAX_PIXELS as u64 {
+        return Err(PngError::TooLarge { width, height });
+    }
+    source.set_position(0);
+    let pixels = decoded(&mut source).map_err(|_| damaged(&source))?;
+    Ok(Image { width: width as usize, height: height as usize, pixels })
+}
+
+fn damaged(source: &Cursor<&[u8]>) -> PngError {
+    PngError::Damaged { at: source.position(), length: source.get_ref().len() }
+}
+
+fn decoded(source: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
+    // The largest image has eight bytes a pixel.
+    let mut decoder = Decoder::new_with_limits(source, Limits { bytes: 8 * MAX_PIXELS });
+    decoder.set_transformations(Transformations::EXPAND);
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let mut reader = decoder.read_info()?;
+    let (kind, depth) = reader.output_color_type();
+    let mut samples = vec![0; reader.output_buffer_size().unwrap_or_default()];
+    reader.next_frame(&mut samples)?;
+    reader.finish()?;
+    if depth == BitDepth::Sixteen {
+        samples = samples.as_chunks().0.iter().map(|pair| nearest_byte(u16::from_be_bytes(*pair))).collect();
+    }
+    let opaque = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
+    Ok(match kind {
+        ColorType::Grayscale => samples.iter().map(|grey| opaque([*grey; 3])).collect(),
+        ColorType::GrayscaleAlpha => {
+            samples.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
+        }
+        ColorType::Rgb => samples.as_chunks().0.iter().map(|colours| opaque(*colours)).collect(),
+        ColorType::Rgba => samples.as_chunks().0.to_vec(),
+        ColorType::Indexed => unreachable!("a palette is expanded"),
+    })
+}
+
+/// Scales 16 bits to 8, rounded: 65535 is 255 · 257.
+fn nearest_byte(sample: u16) -> u8 {
+    ((u32::from(sample) + 128) / 257) as u8
+}

@@ -1,0 +1,177 @@
+//! PNG images: every kind is read sample for sample, and what is damaged or too large is refused.
+
+use crate::common::seeded;
+use motion::geom::se2::SE2;
+use motion::map::{ImageError, Interpretation, MAX_PIXELS, PngError, read_grid, read_png};
+use png::{BitDepth, ColorType, Encoder, Filter};
+use rand::Rng;
+
+/// An image of one kind.
+struct Kind {
+    color: ColorType,
+    bits: u32,
+    palette: Option<Vec<u8>>,
+    transparency: Option<Vec<u8>>,
+}
+
+/// Encodes samples, those of a pixel one after the other.
+fn encoded(kind: &Kind, width: u32, samples: &[u16]) -> Vec<u8> {
+    let row = width as usize * kind.color.samples();
+    let mut data = Vec::new();
+    for row in samples.chunks(row) {
+        let bits: String =
+            row.iter().map(|sample| format!("{sample:0width$b}", width = kind.bits as usize)).collect();
+        let bytes = bits.as_bytes().chunks(8).map(|byte| {
+            let digits = byte.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
+            digits << (8 - byte.len())
+        });
+        data.extend(bytes);
+    }
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, width, (samples.len() / row) as u32);
+    encoder.set_color(kind.color);
+    encoder.set_depth(BitDepth::from_u8(kind.bits as u8).expect("a depth"));
+    encoder.set_filter(Filter::Adaptive);
+    // A gamma that browsers would change shades by.
+    encoder.set_source_gamma(png::ScaledFloat::new(0.3));
+    if let Some(palette) = &kind.palette {
+        encoder.set_palette(palette.clone());
+    }
+    if let Some(transparency) = &kind.transparency {
+        encoder.set_trns(transparency.clone());
+    }
+    encoder.write_header().expect("a header").write_image_data(&data).expect("an image");
+    file
+}
+
+/// Opaque pixels of a grey image of 8 bits.
+fn grey(width: u32, samples: &[u16]) -> Vec<u8> {
+    let kind = Kind { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
+    encoded(&kind, width, samples)
+}
+
+#[test]
+fn every_kind_of_image_is_read_sample_for_sample() {
+    let mut rng = seeded(9911);
+    let kinds = [
+        (ColorType::Grayscale, &[1, 2, 4, 8, 16][..]),
+        (ColorType::Rgb, &[8, 16]),
+        (ColorType::Indexed, &[1, 2, 4, 8]),
+        (ColorType::GrayscaleAlpha, &[8, 16]),
+        (ColorType::Rgba, &[8, 16]),
+    ];
+    for (color, depths) in kinds {
+        for (&bits, (width, height)) in depths.iter().flat_map(|bits| [(bits, (1, 1)), (bits, (33, 17))]) {
+            for is_clear in [false, true] {
+                let count = width as usize * height * color.samples();
+                let mut below = |end: u32| (rng.next_u32() % end) as u16;
+                let samples: Vec<u16> = (0..count).map(|_| below(1 << bits)).collect();
+                let palette: Vec<u8> = (0..3 << bits.min(8)).map(|_| below(256) as u8).collect();
+                let opacities: Vec<u8> = (0..1 << (bits.min(8) - 1)).map(|_| below(256) as u8).collect();
+                let first = &samples[..color.samples()];
+                let transparency = match color {
+                    ColorType::Indexed => opacities.clone(),
+                    _ => first.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
+                };
+                let has_one = is_clear && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
+                let kind = Kind {
+                    color,
+                    bits,
+                    palette: (color == ColorType::Indexed).then(|| palette.clone()),
+                    transparency: has_one.then_some(transparency),
+                };
+                let greatest = f64::from((1u32 << bits) - 1);
+                let scaled = |sample: u16| (255.0 * f64::from(sample) / greatest).round() as u8;
+                let expected: Vec<[u8; 4]> = samples
+                    .chunks(color.samples())
+                    .map(|pixel| {
+                        let opacity = if has_one && pixel == first { 0 } else { 255 };
+                        match *pixel {
+                            [index] if color == ColorType::Indexed => {
+                                let index = usize::from(index);
+                                let opacity =
+                                    opacities.get(index).copied().filter(|_| has_one).unwrap_or(255);
+                                [palette[3 * index], palette[3 * index + 1], palette[3 * index + 2], opacity]
+                            }
+                            [grey] => [scaled(grey), scaled(grey), scaled(grey), opacity],
+                            [grey, opacity] => [scaled(grey), scaled(grey), scaled(grey), scaled(opacity)],
+                            [red, green, blue] => [scaled(red), scaled(green), scaled(blue), opacity],
+                            [red, green, blue, opacity] => [red, green, blue, opacity].map(scaled),
+                            _ => unreachable!("four samples at most"),
+                        }
+                    })
+                    .collect();
+                let image = read_png(&encoded(&kind, width, &samples)).expect("an image");
+                assert_eq!((image.width, image.height), (width as usize, height));
+                assert_eq!(image.pixels, expected, "{color:?} {bits} {width} {is_clear}");
+            }
+        }
+    }
+}
+
+/// An image of 5 × 6 pixels, 40x + 7y in column x and row y, in passes.
+const INTERLACED: &[u8] = b"\x89PNG\r\n\x1a\n\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x05\x00\x00\x00\x06\x08\x00\x00\x00\x01\
+    \x59\x97\x3b\x01\x00\x00\x00\x32\x49\x44\x41\x54\x78\x9c\x63\x60\x60\x58\xc0\x22\xb3\x80\x21\x80\x45\x86\x89\x2f\x6e\x1d\
+    \x83\x46\x05\x13\x1f\x1f\x0b\x1f\x1f\x23\xbb\x86\x86\x86\x06\xb3\x90\xb4\xb4\xb4\x34\x83\xb2\x77\xf1\xec\xc3\x00\x8a\x0c\
+    \x07\x33\x91\xb1\x6c\xa5\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82";
+
+#[test]
+fn an_interlaced_image_is_read() {
+    let image = read_png(INTERLACED).expect("an image");
+    let expected: Vec<[u8; 4]> =
+        (0..30).map(|i| (40 * (i % 5) + 7 * (i / 5)) as u8).map(|grey| [grey, grey, grey, 255]).collect();
+    assert_eq!((image.width, image.height, image.pixels), (5, 6, expected));
+}
+
+/// A map is the same whichever format its image has.
+#[test]
+fn a_png_is_the_map_that_a_pgm_is() {
+    let mut rng = seeded(9912);
+    let samples: Vec<u16> = (0..20 * 30).map(|_| [0, 100, 205, 254][(rng.next_u32() % 4) as usize]).collect();
+    let pgm = [b"P5 20 30 255\n".to_vec(), samples.iter().map(|sample| *sample as u8).collect()].concat();
+    let grid = |file: &[u8]| read_grid(file, &Interpretation::default(), 0.05, SE2::new(1.0, 2.0, 0.5));
+    assert_eq!(grid(&grey(20, &samples)), grid(&pgm));
+    assert!(grid(&pgm).is_ok());
+}
+
+#[test]
+fn an_image_that_is_cut_short_is_refused() {
+    let file = grey(20, &[7; 400]);
+    assert!(read_png(&file).is_ok());
+    for length in 0..file.len() {
+        match read_png(&file[..length]) {
+            Err(PngError::Damaged { at, length: told }) => assert!(told == length && at <= length as u64),
+            other => panic!("{length} bytes: {other:?}"),
+        }
+    }
+    let error =
+        read_grid(&file[..60], &Interpretation::default(), 0.05, SE2::identity()).expect_err("it ends");
+    assert!(matches!(error, ImageError::Png(_)));
+    let message = error.to_string();
+    assert!(
+        message.starts_with("the PNG image is damaged or cut short before byte ")
+            && message.ends_with(" of 60; allowed is a complete one"),
+        "{message}"
+    );
+}
+
+/// Every chunk that an image needs has a checksum; after the last one anything may follow.
+#[test]
+fn no_byte_of_an_image_can_be_another() {
+    let mut rng = seeded(9913);
+    for at in 0..INTERLACED.len() {
+        let mut file = INTERLACED.to_vec();
+        file[at] ^= 1 + (rng.next_u32() % 255) as u8;
+        assert!(read_png(&file).is_err(), "byte {at}");
+    }
+    assert!(read_png(&[INTERLACED, b"\n"].concat()).is_ok());
+}
+
+/// The header tells: a small file may hold an enormous image.
+#[test]
+fn an_image_that_is_too_large_is_refused_unread() {
+    let mut file = Vec::new();
+    let side = 1 + (MAX_PIXELS as f64).sqrt() as u32;
+    drop(Encoder::new(&mut file, side, side).write_header().expect("a header"));
+    assert_eq!(read_png(&file), Err(PngError::TooLarge { width: side, height: side }));
+}

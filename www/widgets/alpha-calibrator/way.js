@@ -8,7 +8,7 @@ import { channels } from '../../ui/theme.js';
 
 /**
  * @import { CalibrationLegs } from '../../types.d.ts'
- * @import { Bare } from '../../scene/walls.js'
+ * @import { Painter } from '../../scene/walls.js'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Palette } from '../../ui/theme.js'
  *
@@ -83,7 +83,7 @@ export class WayLayer {
 }
 
 /**
- * @param {Bare} brush
+ * @param {Painter} brush
  * @param {CalibrationLegs} legs
  * @param {Uint8Array} classes
  */
@@ -100,7 +100,7 @@ function drawWay(brush, legs, classes) {
  * Returns how many times usual legs cover the squares that they are in. Where that is more than once, wide lines would hide the
  * others, while as hairs each class covers its share of the legs.
  *
- * @param {Bare['view']} view
+ * @param {Painter['view']} view
  * @param {Float64Array} reference both ends of each leg
  */
 function layersOf(view, reference) {
@@ -119,7 +119,7 @@ function layersOf(view, reference) {
 /**
  * Draws the odometry from the first pose of the reference on: it drifts away, and each leg is compared by itself.
  *
- * @param {Bare} brush
+ * @param {Painter} brush
  * @param {CalibrationLegs} legs
  */
 function drawOdometry({ context, view, palette }, { count, odometry, reference }) {
@@ -150,7 +150,7 @@ function drawOdometry({ context, view, palette }, { count, odometry, reference }
 /**
  * Draws some legs of the reference.
  *
- * @param {Bare} brush
+ * @param {Painter} brush
  * @param {Float64Array} reference both ends of each leg
  * @param {(leg: number) => boolean} isDrawn
  * @param {Style} style
@@ -181,7 +181,7 @@ function drawLegs({ context, view }, reference, isDrawn, style) {
 /**
  * Strokes the present path, with round ends unless it is dashed.
  *
- * @param {Bare['context']} context
+ * @param {Painter['context']} context
  * @param {Style} style
  */
 function stroke(context, { colour, width, dash }) {

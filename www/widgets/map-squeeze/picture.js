@@ -151,11 +151,11 @@ export class FloorPicture extends Picture {
         drawDots(brush, sorted.free, layout);
         drawDots({ ...brush, palette: { ...palette, cloud: palette.accent } }, sorted.through, layout);
         drawRings(brush, sorted.through);
-        this.unfinished ||= this.#walls.draw(brush);
+        this.#walls.draw(brush);
         drawCrosses(brush, sorted.rejected);
       } else {
         this.#drawDensity(brush, scene);
-        this.unfinished ||= this.#walls.draw(brush);
+        this.#walls.draw(brush);
         drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY));
       }
       drawOutline(brush, commanded, { colour: palette.prior, width: 2.5, dash: COMMAND_DASH });
@@ -217,7 +217,7 @@ export class FloorPicture extends Picture {
     context.fill();
     clipped(overview, () => {
       // The walls themselves come first.
-      this.unfinished ||= this.#overview.draw(overview);
+      this.#overview.draw(overview);
       drawOutline(overview, commanded, { colour: palette.prior, width: 1.5, dash: [] });
       const [fromX, toX] = [view.extent.xMin, view.extent.xMax].map((at) => small.toPixelX(at));
       const [fromY, toY] = [view.extent.yMax, view.extent.yMin].map((at) => small.toPixelY(at));

@@ -10,7 +10,7 @@
 import './de.js';
 import './widgets/index.js';
 import { COMMON, groupsOf } from './figure/attributes.js';
-import { has } from './figure/reflection.js';
+import { has } from './figure/checks.js';
 import { GLOBAL, elementNamed, sorry } from './named.js';
 
 /**

@@ -3,7 +3,7 @@
  * and how a text becomes a value and the other way round.
  */
 
-import { refusal } from './checks.js';
+import { has, refusal, word } from './checks.js';
 import { THEMES } from './page/scheme.js';
 
 /**
@@ -127,4 +127,21 @@ function settingOf({ key, in: group, field = key, index, of, type }) {
       throw refusal(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${length}`);
     },
   };
+}
+
+/**
+ * Presets of a figure: the name of the one that the settings are, the settings of a named one, and the attribute.
+ *
+ * @template {{ name: string }} Preset
+ * @param {readonly Preset[]} presets
+ * @param {string[]} covers attributes of the settings that a preset makes
+ * @param {(preset: Preset) => Record<string, unknown>} [settingsOf] settings that a preset makes; by default all that it has
+ */
+export function presetsOf(presets, covers, settingsOf = ({ name: _, ...settings }) => settings) {
+  const words = presets.map(({ name }) => name);
+  const presetIn = (/** @type {object} */ config) => presets.find((preset) => has(config, settingsOf(preset)))?.name ?? null;
+  const presetNamed = (/** @type {unknown} */ name) => settingsOf(presets[words.indexOf(word('preset', name, words))]);
+  /** @type {Attribute & Setting} */
+  const preset = { kind: WORD, covers: () => covers, words, get: ({ config }) => presetIn(config), change: presetNamed };
+  return { presetIn, presetNamed, preset };
 }

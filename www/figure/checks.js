@@ -101,3 +101,16 @@ export function subset(field, value, allowed) {
   const names = value.map((name, i) => word(`${field}[${i}]`, name, allowed));
   return allowed.filter((name) => names.includes(name));
 }
+
+/**
+ * Whether a value is, part for part, as it was given.
+ *
+ * @param {any} present
+ * @param {any} given
+ * @returns {boolean}
+ */
+export function has(present, given) {
+  if (Object.is(present, given)) return true;
+  if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
+  return Object.keys(given).every((key) => Object.hasOwn(present, key) && has(present[key], given[key]));
+}

@@ -1,7 +1,7 @@
 /** The element's attributes and properties: taken from the page, and kept saying what the settings are. */
 
 import { COMMON, groupsOf, isSetting } from './attributes.js';
-import { renamed, word } from './checks.js';
+import { has, renamed, word } from './checks.js';
 import { cloudProperties } from './cloud.js';
 import { Part } from './part.js';
 
@@ -270,19 +270,6 @@ export class Reflection extends Part {
     }
     return needed;
   }
-}
-
-/**
- * Whether a value is, part for part, as it was given.
- *
- * @param {any} present
- * @param {any} given
- * @returns {boolean}
- */
-export function has(present, given) {
-  if (Object.is(present, given)) return true;
-  if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
-  return Object.keys(given).every((key) => Object.hasOwn(present, key) && has(present[key], given[key]));
 }
 
 /**

@@ -1,6 +1,6 @@
 /** Arc Anatomy's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORD, attributesOf } from '../../figure/attributes.js';
+import { WORD, attributesOf, presetsOf } from '../../figure/attributes.js';
 import { wholeNumber, word } from '../../figure/checks.js';
 import { presets, settings } from '../../settings.js';
 import { commandLooks } from '../shared/command.js';
@@ -13,10 +13,7 @@ export const declared = settings['arc-anatomy'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'anatomy';
 
-export const PRESETS = presets['arc-anatomy'];
-const PRESET_NAMES = PRESETS.map(({ name }) => name);
-
-/** All of them start here. */
+/** Start of every preset. */
 const ORIGIN = { x: 0, y: 0, theta: 0 };
 
 /** Lines of Table 5.1. */
@@ -27,48 +24,19 @@ export const WHOLE = 100;
 
 const TWISTS = ['hidden', 'shown'];
 
-/**
- * The settings to make for a preset.
- *
- * @param {typeof PRESETS[number]} preset
- */
-const settingsFor = ({ v, omega, dt, nextX, nextY, nextTheta }) => ({
-  start: ORIGIN,
-  command: { v, omega, dt },
-  next: { x: nextX, y: nextY, theta: nextTheta },
-});
-
-/**
- * The name of the preset that the settings are; null where they are none's.
- *
- * @param {Pick<Settings, 'start' | 'command' | 'next'>} config
- */
-export function presetIn(config) {
-  const fits = (/** @type {typeof PRESETS[number]} */ preset) =>
-    Object.entries(settingsFor(preset)).every(([group, wanted]) => {
-      const present = /** @type {any} */ (config)[group];
-      return Object.entries(wanted).every(([key, value]) => present[key] === value);
-    });
-  return PRESETS.find(fits)?.name ?? null;
-}
-
-/**
- * @param {unknown} name
- * @returns {Record<string, unknown>} the settings to make for the preset of that name
- */
-export function presetNamed(name) {
-  return settingsFor(PRESETS[PRESET_NAMES.indexOf(word('preset', name, PRESET_NAMES))]);
-}
+export const { presetIn, presetNamed, preset } = presetsOf(
+  presets['arc-anatomy'],
+  ['startX', 'startY', 'startTheta', 'v', 'omega', 'dt', 'nextX', 'nextY', 'nextTheta'],
+  ({ v, omega, dt, nextX, nextY, nextTheta }) => ({
+    start: ORIGIN,
+    command: { v, omega, dt },
+    next: { x: nextX, y: nextY, theta: nextTheta },
+  }),
+);
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
-  preset: {
-    kind: WORD,
-    covers: () => ['startX', 'startY', 'startTheta', 'v', 'omega', 'dt', 'nextX', 'nextY', 'nextTheta'],
-    words: PRESET_NAMES,
-    get: ({ config }) => presetIn(/** @type {any} */ (config)),
-    change: presetNamed,
-  },
+  preset,
   ...attributesOf(declared),
   twist: { kind: WORD, own: true, words: TWISTS },
 };

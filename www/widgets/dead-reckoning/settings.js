@@ -1,7 +1,6 @@
 /** Dead Reckoning's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORD, attributesOf } from '../../figure/attributes.js';
-import { word } from '../../figure/checks.js';
+import { attributesOf, presetsOf } from '../../figure/attributes.js';
 import { cloudState } from '../../figure/cloud.js';
 import { presets, settings } from '../../settings.js';
 import { commandLooks } from '../shared/command.js';
@@ -14,45 +13,8 @@ export const declared = settings['dead-reckoning'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'reckoning';
 
-export const PRESETS = presets['dead-reckoning'];
-const PRESET_NAMES = PRESETS.map(({ name }) => name);
-
 /** The recursions in the order in which they are offered. */
 export const RECURSIONS = /** @type {DeadReckoningSettings['compounding'][]} */ (declared.find(({ key }) => key === 'compounding')?.words);
-
-/**
- * The name of the preset that the settings are; null where they are none's.
- *
- * @param {DeadReckoningSettings} config
- */
-export function presetIn({ command: { v, omega, dt }, steps, alphas }) {
-  return PRESETS.find((preset) =>
-    preset.command.v === v && preset.command.omega === omega && preset.command.dt === dt &&
-    preset.steps === steps && preset.alphas.every((alpha, i) => alpha === alphas[i]))?.name ?? null;
-}
-
-/**
- * The settings to make for the preset of a name.
- *
- * @param {unknown} name
- * @throws {TypeError | RangeError} where there is none of that name
- */
-export function presetNamed(name) {
-  const { command, steps, alphas } = PRESETS[PRESET_NAMES.indexOf(word('preset', name, PRESET_NAMES))];
-  return { command, steps, alphas };
-}
-
-/** @type {import('../../figure/attributes.js').Attributes} */
-export const attributes = {
-  preset: {
-    kind: WORD,
-    covers: () => ['v', 'omega', 'dt', 'steps', ...Object.keys(NOISE), 'headingNoise'],
-    words: PRESET_NAMES,
-    get: ({ config }) => presetIn(/** @type {any} */ (config)),
-    change: presetNamed,
-  },
-  ...attributesOf(declared),
-};
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
 export const own = cloudState;
@@ -61,6 +23,11 @@ export const own = cloudState;
 export const COMMAND = commandLooks(1);
 
 export const NOISE = alphaLooks(6);
+
+export const { presetIn, presetNamed, preset } = presetsOf(presets['dead-reckoning'], ['v', 'omega', 'dt', 'steps', ...Object.keys(NOISE), 'headingNoise']);
+
+/** @type {import('../../figure/attributes.js').Attributes} */
+export const attributes = { preset, ...attributesOf(declared) };
 
 /** @type {Record<string, import('../../figure/controls.js').Look>} */
 export const looks = {

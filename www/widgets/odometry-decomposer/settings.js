@@ -1,7 +1,6 @@
 /** The Odometry Decomposer's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORD, attributesOf } from '../../figure/attributes.js';
-import { word } from '../../figure/checks.js';
+import { attributesOf, presetsOf } from '../../figure/attributes.js';
 import { cloudState } from '../../figure/cloud.js';
 import { presets, settings } from '../../settings.js';
 import { alphaLooks } from '../shared/noise.js';
@@ -11,43 +10,10 @@ export const declared = settings['odometry-decomposer'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'decomposer';
 
-export const PRESETS = presets['odometry-decomposer'];
-const PRESET_NAMES = PRESETS.map(({ name }) => name);
-
-/** @typedef {import('../../types.d.ts').Pose} Pose */
-
-/** @param {Pose} one @param {Pose} other */
-const areSame = (one, other) => one.x === other.x && one.y === other.y && one.theta === other.theta;
-
-/**
- * The name of the preset that a reading is; null where it is another.
- *
- * @param {{ from: Pose, to: Pose }} config
- */
-export function presetIn({ from, to }) {
-  return PRESETS.find((preset) => areSame(preset.from, from) && areSame(preset.to, to))?.name ?? null;
-}
-
-/**
- * @param {unknown} name
- * @returns {{ from: Pose, to: Pose }} the settings to make for the preset of that name
- */
-export function presetNamed(name) {
-  const { from, to } = PRESETS[PRESET_NAMES.indexOf(word('preset', name, PRESET_NAMES))];
-  return { from, to };
-}
+export const { presetIn, presetNamed, preset } = presetsOf(presets['odometry-decomposer'], ['fromX', 'fromY', 'fromTheta', 'toX', 'toY', 'toTheta']);
 
 /** @type {import('../../figure/attributes.js').Attributes} */
-export const attributes = {
-  preset: {
-    kind: WORD,
-    covers: () => ['fromX', 'fromY', 'fromTheta', 'toX', 'toY', 'toTheta'],
-    words: PRESET_NAMES,
-    get: ({ config }) => presetIn(/** @type {any} */ (config)),
-    change: (name) => presetNamed(name),
-  },
-  ...attributesOf(declared),
-};
+export const attributes = { preset, ...attributesOf(declared) };
 
 export const own = cloudState;
 

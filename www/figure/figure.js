@@ -20,7 +20,7 @@ import { Reflection } from './reflection.js';
 import { Runtime } from './runtime.js';
 import { Settings, advancing } from './settings.js';
 import { Stage } from './stage.js';
-import { State, copyOf } from './state.js';
+import { State } from './state.js';
 import { surface } from './surface.js';
 import { CopyMenu, embedding } from './takeaway/copy.js';
 import { csvOf, pngOf, svgOf } from './takeaway/export.js';
@@ -329,7 +329,7 @@ export class FigureElement extends LitElement {
    * @returns {Values | null}
    */
   getState() {
-    return copyOf(this.ask(() => this.snapshot()) ?? this.state.kept ?? null);
+    return structuredClone(this.ask(() => this.snapshot()) ?? this.state.kept ?? null);
   }
 
   /**
@@ -441,24 +441,6 @@ export class FigureElement extends LitElement {
     } finally {
       this.#updating = false;
     }
-  }
-
-  createRenderRoot() {
-    if (this.ownerDocument === document) return super.createRenderRoot();
-    const root = this.attachShadow(this.kind.shadowRootOptions);
-    this.adoptedCallback();
-    return root;
-  }
-
-  /** It is in another document now, which takes no style sheets but its own. */
-  adoptedCallback() {
-    const { defaultView } = this.ownerDocument;
-    if (!this.shadowRoot || !defaultView) return;
-    this.shadowRoot.adoptedStyleSheets = this.kind.elementStyles.map((style) => {
-      const sheet = new defaultView.CSSStyleSheet();
-      sheet.replaceSync(/** @type {import('lit').CSSResult} */ (style).cssText);
-      return sheet;
-    });
   }
 
   render() {

@@ -48,24 +48,20 @@ export class Progress extends Part {
   #since;
   #shown = false;
 
-  /** Where keys are heard. */
-  #document = this.host.ownerDocument;
-
   hostConnected() {
-    this.#document = this.host.ownerDocument;
     // Before the page or the figure takes it for something else.
-    this.#document.addEventListener('keydown', this.#key, { capture: true });
+    document.addEventListener('keydown', this.#key, { capture: true });
   }
 
   hostDisconnected() {
-    this.#document.removeEventListener('keydown', this.#key, { capture: true });
+    document.removeEventListener('keydown', this.#key, { capture: true });
   }
 
   #key = (/** @type {KeyboardEvent} */ event) => {
     // One for each press.
     if (event.key !== 'Escape' || !this.#shown || event.defaultPrevented) return;
     // What has the focus is the figure, or nothing: a file was dropped, or what had it is gone.
-    if (event.target !== this.#document.body && !event.composedPath().includes(this.host)) return;
+    if (event.target !== document.body && !event.composedPath().includes(this.host)) return;
     event.preventDefault();
     event.stopPropagation();
     this.#stop();

@@ -203,11 +203,5 @@ export function orFree(machine, work) {
   }
 }
 
-/** @param {unknown} error anything: a page's own functions are called too */
-function messageOf(error) {
-  try {
-    return `${error instanceof Error ? error.message : error}`;
-  } catch {
-    return typeof error;
-  }
-}
+/** @param {unknown} error */
+const messageOf = (error) => (error instanceof Error ? error.message : String(error));

@@ -65,7 +65,7 @@ export class Stage extends Part {
     const faded = (/** @type {TransitionEvent} */ { target, propertyName }) => {
       if (propertyName === 'background-color' && ancestors(this.host).includes(/** @type {Element} */ (target))) this.recolour();
     };
-    this.host.ownerDocument.addEventListener('transitionend', faded, { signal });
+    document.addEventListener('transitionend', faded, { signal });
   }
 
   hostDisconnected() {
@@ -176,7 +176,7 @@ export class Stage extends Part {
       return;
     }
     const { scene } = host;
-    const how = { elapsed, still: host.held, atOnce: isCalm(), piecemeal: !this.#printing };
+    const how = { elapsed, still: host.held, atOnce: isCalm() };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();

@@ -48,7 +48,7 @@ export class State extends Part {
 
   /** Something of the element's own, for the page. @param {string} name */
   copy(name) {
-    return copyOf(this.own[name]);
+    return structuredClone(this.own[name]);
   }
 
   keep() {
@@ -136,17 +136,4 @@ export class State extends Part {
     reflection.tell();
     stage.wake();
   }
-}
-
-/**
- * Plain data, for whoever may change it; what is frozen nobody can, nor what is no object.
- *
- * @template Data
- * @param {Data} data
- * @returns {Data}
- */
-export function copyOf(data) {
-  if (Object.isFrozen(data)) return data;
-  const copies = Object.entries(/** @type {object} */ (data)).map(([key, part]) => [key, copyOf(part)]);
-  return /** @type {any} */ (Array.isArray(data) ? copies.map(([, copy]) => copy) : Object.fromEntries(copies));
 }

@@ -1,9 +1,7 @@
 /** What is seen of a figure: all of it, or in its place the way to it, or the sentence why it cannot run. */
 
 import { html, noChange } from 'lit';
-import { en } from '../messages/en.js';
 import { speak, words } from '../messages/registry.js';
-import { keepUsed, stop } from './inside.js';
 import { placeholder } from './placeholder.js';
 
 /** @import { Figure } from './figure.js' */
@@ -28,17 +26,31 @@ export function surface(figure) {
  */
 function contentOf(figure) {
   const { failure } = figure.runtime;
-  if (failure !== undefined) return html`<p class="failure" role="alert">${sorry(failure)}</p>`;
+  if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
   if (figure.machine) return [figure.content(figure.reading), figure.announcer.render()];
   return figure.reading ? noChange : placeholder(figure);
 }
 
-/** The sentence in the place of a figure that cannot run. @param {string} reason */
-function sorry(reason) {
-  try {
-    return `${words.failure(reason)}`;
-  } catch {
-    // Another language's words come from the page.
-    return en.failure(reason);
-  }
+/** Fields take every key. */
+const FIELD = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
+
+/** Sliders and radio buttons take those that move them. */
+const MOVES = /Arrow|Page|Home|End/;
+
+/**
+ * A key that was used goes no further: a book around the figure would turn its page by it, as to the book it comes from no
+ * field or slider.
+ *
+ * @param {KeyboardEvent} event
+ */
+function keepUsed(event) {
+  const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
+  const target = /** @type {Element} */ (event.target);
+  const native = target.matches(FIELD) ? key !== 'Escape' : target.matches('input') && MOVES.test(key);
+  if (defaultPrevented || (native && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
+}
+
+/** The native controls' own events stay inside: the element has one of its own for each gesture. @param {Event} event */
+function stop(event) {
+  event.stopPropagation();
 }

@@ -17,7 +17,6 @@
  * @property {import('../ui/theme.js').Palette} palette
  * @property {number} ratio device pixels a pixel of the view
  * @property {string} font of the canvas's style
- * @property {boolean} [piecemeal] whether what takes longer than a frame is left to the next ones
  */
 
 /** Height of a picture's letters, pixels of its view; those of the figure have 16: see the style of canvases. */
@@ -31,13 +30,6 @@ export const inCss = ({ width, height }, canvas) => [width, height].map((each) =
 
 /** Longest side of a canvas in every browser. */
 export const LONGEST_SIDE = 16_384;
-
-/**
- * What is stroked in a frame at most, pixels of the view, and what a line counts besides its length: a hundredth of a second
- * or two where a browser draws without a graphics processor.
- */
-export const STROKED = 200_000;
-export const A_LINE = 40;
 
 /**
  * A point of the window in the pixels of a view, which what is around it may enlarge.

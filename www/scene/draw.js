@@ -6,6 +6,7 @@
 import { limits } from '../settings.js';
 import { channels } from '../ui/theme.js';
 import { hiddenContext } from './canvas.js';
+import { drawLabel } from './labels.js';
 
 /**
  * @import { Brush } from './canvas.js'
@@ -80,7 +81,7 @@ function headingTick({ context, view }, x, y, heading, length) {
  * @param {{ x: number, y: number, headings: number[], label: string }} heap
  */
 export function drawHeap(brush, { x, y, headings, label }) {
-  const { context, view, palette, font } = brush;
+  const { context, view, palette } = brush;
   const px = view.toPixelX(x);
   const py = view.toPixelY(y);
   context.strokeStyle = palette.prediction;
@@ -97,15 +98,7 @@ export function drawHeap(brush, { x, y, headings, label }) {
   // Large enough to show around the handle, which is often in the same place.
   context.arc(px, py, 14, 0, 2 * Math.PI);
   context.fill();
-  context.font = font;
-  context.textAlign = 'left';
-  context.textBaseline = 'top';
-  // Legible on whatever is under it.
-  context.lineWidth = 4;
-  context.lineJoin = 'round';
-  context.strokeStyle = palette.paper;
-  context.strokeText(label, px + 14, py + 14);
-  context.fillText(label, px + 14, py + 14);
+  drawLabel(brush, { x: px + 14, y: py + 22, towards: 1, text: label, colour: palette.prediction });
 }
 
 /**

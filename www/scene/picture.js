@@ -11,7 +11,6 @@ import { brushOn } from './canvas.js';
  * @property {number} [elapsed] milliseconds since the frame before
  * @property {boolean} [still] whether the view stays aimed at what it is aimed at
  * @property {boolean} [atOnce] whether the view goes there without easing
- * @property {boolean} [piecemeal] whether what takes longer than a frame is left to the next ones
  */
 
 /**
@@ -19,9 +18,6 @@ import { brushOn } from './canvas.js';
  * @template {string} [Name=string]
  */
 export class Picture {
-  /** Whether something was left to the next frame. */
-  unfinished = false;
-
   /**
    * @param {Name} name class of its canvas
    * @param {View} view
@@ -45,15 +41,14 @@ export class Picture {
    * @param {Scene} scene
    * @param {Palette} palette
    * @param {Easing} [easing]
-   * @returns {boolean} whether the view is still moving, or not all is drawn
+   * @returns {boolean} whether the view is still moving
    */
-  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false, piecemeal = false } = {}) {
-    const brush = { ...brushOn(surface, this.view, palette), piecemeal };
+  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false } = {}) {
+    const brush = brushOn(surface, this.view, palette);
     if (!still || !this.view.aimed) this.fit(scene);
     const moving = this.view.ease(elapsed, atOnce);
-    this.unfinished = false;
     this.paint(brush, scene);
-    return moving || this.unfinished;
+    return moving;
   }
 
   /**

@@ -76,7 +76,7 @@ export class WayLayer {
       this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
-      drawWay({ context: layer, view, palette }, legs, classes);
+      drawWay({ context: layer, view, palette, ratio }, legs, classes);
     }
     context.drawImage(this.#layer, 0, 0, width, height);
   }

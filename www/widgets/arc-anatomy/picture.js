@@ -3,6 +3,7 @@
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { drawOutlines, drawRobot } from '../../scene/draw.js';
+import { drawLabel } from '../../scene/labels.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { clamp } from '../../ui/clamp.js';
@@ -117,7 +118,7 @@ export class ArcPicture extends Picture {
       drawUnderway(brush, scene);
       drawHeldRobot(brush, start, RADIUS, palette.truth);
       drawHeldRobot(brush, next, RADIUS, palette.prediction);
-      label(brush, `γ̂Δt = ${fixed(lastTurn, 2)}`, ...besideWedge(brush, next, lastTurn), palette.accent);
+      drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: palette.accent });
     });
   };
 }
@@ -196,7 +197,8 @@ function drawCircle(brush, start, { center, end, turn, arcLength }, { colour, da
   const beside = Math.sign(arcLength) * (seen === 1 ? -1 : 1);
   const tell = (/** @type {string} */ text, /** @type {number} */ share, below = 0) => {
     const at = [fromX + share * (x - fromX) + 10 * beside * ahead.x, fromY + share * (y - fromY) + 10 * beside * ahead.y];
-    label(brush, text, at[0], at[1] + below, colour, beside * ahead.x);
+    const towards = beside * ahead.x;
+    drawLabel(brush, { x: at[0], y: at[1] + below, towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
   };
   tell(signed, seen / 2);
   if (seen === 1) {
@@ -281,11 +283,11 @@ function drawWedge({ context, view }, next, turn, colour) {
  * @param {Brush} brush
  * @param {Pose} next
  * @param {number} turn rad
- * @returns {[x: number, y: number]} CSS pixels
+ * @returns {{ x: number, y: number, towards: number }} CSS pixels
  */
 function besideWedge({ view }, next, turn) {
   const ahead = view.direction(next.theta - turn / 2);
-  return [view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, view.toPixelY(next.y) + (WEDGE + 10) * ahead.y];
+  return { x: view.toPixelX(next.x) + (WEDGE + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE + 10) * ahead.y, towards: 0 };
 }
 
 /**
@@ -373,31 +375,3 @@ function drawLit(brush, { config: { start, next }, stats: { inverted, lastTurn }
 
 /** With its sign, which is that of the side. @param {number} radius */
 const signedText = (radius) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
-
-/**
- * A few words on whatever is under them.
- *
- * @param {Brush} brush
- * @param {string} text
- * @param {number} x of its middle, CSS pixels
- * @param {number} y
- * @param {string} colour
- * @param {number} [side] where it goes from there: to the left where it is negative, to the right where it is positive
- */
-function label({ context, view, palette, font }, text, x, y, colour, side = 0) {
-  context.font = font;
-  context.textAlign = Math.abs(side) < 0.3 ? 'center' : side < 0 ? 'right' : 'left';
-  context.textBaseline = 'middle';
-  const { left, right, top, bottom } = view.frame;
-  // From where it begins, it stays inside.
-  const width = context.measureText(text).width;
-  const before = { center: width / 2, right: width, left: 0 }[/** @type {'center' | 'right' | 'left'} */ (context.textAlign)];
-  x = clamp(x, left + 4 + before, right - 4 + before - width);
-  y = clamp(y, top + 8, bottom - 8);
-  context.lineWidth = 4;
-  context.lineJoin = 'round';
-  context.strokeStyle = palette.paper;
-  context.strokeText(text, x, y);
-  context.fillStyle = colour;
-  context.fillText(text, x, y);
-}

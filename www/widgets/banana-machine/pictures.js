@@ -13,6 +13,7 @@ import {
   drawRobot,
   hasLength,
 } from '../../scene/draw.js';
+import { drawLabel } from '../../scene/labels.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { counted } from '../../ui/format.js';
@@ -198,17 +199,17 @@ function drawReading(brush, { rot1, trans, rot2 }, [x, y]) {
   context.stroke();
   turn(context, fromX, fromY, 0, rot1);
   turn(context, toX, toY, rot1, rot2);
-  context.textBaseline = 'middle';
-  /** @type {[name: string, x: number, y: number, toward: number][]} */
-  const labels = [
-    ['δ_rot1', fromX, fromY, rot1 / 2],
-    ['δ_rot2', toX, toY, rot1 + rot2 / 2],
-  ];
-  for (const [name, atX, atY, toward] of labels) {
-    const { x: dx, y: dy } = view.direction(toward);
-    label(brush, name, atX + (TURN_LINE + 6) * dx, atY + (TURN_LINE + 6) * dy, dx < 0 ? 'right' : 'left');
+  const colour = palette.prior;
+  const turned = (/** @type {string} */ sub, /** @type {number} */ atX, /** @type {number} */ atY, /** @type {number} */ heading) => {
+    const out = view.direction(heading);
+    drawLabel(brush, { x: atX + (TURN_LINE + 6) * out.x, y: atY + (TURN_LINE + 6) * out.y, towards: out.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
+  };
+  turned('rot1', fromX, fromY, rot1 / 2);
+  turned('rot2', toX, toY, rot1 + rot2 / 2);
+  if (trans > 0) {
+    const [atX, atY] = [(fromX + toX) / 2 + 10 * ahead.y, (fromY + toY) / 2 - 10 * ahead.x + 6];
+    drawLabel(brush, { x: atX, y: atY, towards: 1, symbol: 'δ', sub: 'trans', colour });
   }
-  if (trans > 0) label(brush, 'δ_trans', (fromX + toX) / 2 + 10 * ahead.y, (fromY + toY) / 2 - 10 * ahead.x + 6, 'left');
 }
 
 /**
@@ -223,41 +224,6 @@ function turn(context, x, y, from, by) {
   // On the screen y runs down.
   context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0);
   context.stroke();
-}
-
-/**
- * A symbol with its subscript, legible on whatever is under it.
- *
- * @param {Brush} brush
- * @param {string} symbol with its subscript behind a low line
- * @param {number} x CSS pixels
- * @param {number} y
- * @param {'left' | 'right'} align
- */
-function label({ context, palette, font }, symbol, x, y, align) {
-  const [letter, subscript] = symbol.split('_');
-  const [large, small] = [`italic ${font}`, font.replace(/[\d.]+(?=px)/, (size) => String(0.8 * Number(size)))];
-  const widthIn = (/** @type {string} */ style, /** @type {string} */ text) => {
-    context.font = style;
-    return context.measureText(text).width;
-  };
-  const width = widthIn(large, letter);
-  const left = align === 'left' ? x : x - width - widthIn(small, subscript);
-  context.textAlign = 'left';
-  context.lineWidth = 4;
-  context.lineJoin = 'round';
-  context.strokeStyle = palette.paper;
-  context.fillStyle = palette.prior;
-  /** @type {[style: string, text: string, x: number, y: number][]} */
-  const parts = [[large, letter, left, y], [small, subscript, left + width, y + 4]];
-  for (const [style, text, atX, atY] of parts) {
-    context.font = style;
-    context.strokeText(text, atX, atY);
-  }
-  for (const [style, text, atX, atY] of parts) {
-    context.font = style;
-    context.fillText(text, atX, atY);
-  }
 }
 
 /** Robots that are all in one place. @param {BananaMachine} machine */

@@ -3,6 +3,7 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
+import { cloudStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
@@ -19,61 +20,6 @@ const own = css`
   @container (min-width: 56em) {
     canvas {
       aspect-ratio: 2;
-    }
-  }
-
-  /* In the column of a book the rows of buttons are one line each. */
-  @container (max-width: 48em) {
-    .controls {
-      column-gap: 1.5em;
-    }
-
-    .cloud .buttons {
-      gap: 0.25em;
-    }
-
-    .cloud .buttons button {
-      --size: 0.84;
-      --beside: 0.25em;
-    }
-
-    .buttons {
-      gap: 0.35em;
-    }
-
-    .presets button {
-      --size: 0.92;
-      --beside: 0.4em;
-    }
-  }
-
-  @container (max-width: 42em) {
-    .presets {
-      gap: 0.25em;
-    }
-
-    .presets button {
-      --size: 0.84;
-      --beside: 0.3em;
-    }
-  }
-
-  .cloud .buttons {
-    margin-bottom: 0.2em;
-  }
-
-  /* Where the buttons leave it no room, the seed shares the line in which the help of N appears. */
-  @container (max-width: 68.75em) {
-    .cloud .seed {
-      position: absolute;
-      right: 0;
-      bottom: 0;
-      font-size: 0.84em;
-      line-height: 1.25;
-    }
-
-    .cloud:has(.slider:is(:focus-within, :hover)) .seed {
-      visibility: hidden;
     }
   }
 
@@ -114,7 +60,6 @@ const own = css`
   .legend .exponential {
     --role: var(--posterior);
   }
-
 `;
 
-export const bananaStyles = [...layoutStyles, plotStyles, own];
+export const bananaStyles = [...layoutStyles, plotStyles, cloudStyles, own];

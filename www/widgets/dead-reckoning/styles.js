@@ -3,6 +3,7 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
+import { cloudStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
@@ -67,43 +68,6 @@ const own = css`
     }
   }
 
-  .cloud .buttons {
-    margin-bottom: 0.2em;
-  }
-
-  /* The seed shares the line in which the help of N appears. */
-  .cloud .seed {
-    position: absolute;
-    right: 0;
-    bottom: 0;
-    font-size: 0.84em;
-    line-height: 1.25;
-  }
-
-  .cloud:has(.slider:is(:focus-within, :hover)) .seed {
-    visibility: hidden;
-  }
-
-  @container (max-width: 48em) {
-    .controls {
-      column-gap: 1.5em;
-    }
-
-    .presets {
-      gap: 0.25em;
-    }
-
-    .presets button,
-    .cloud .buttons button {
-      --size: 0.84;
-      --beside: 0.3em;
-    }
-
-    .cloud .buttons {
-      gap: 0.25em;
-    }
-  }
-
   @container (min-width: 56em) {
     canvas {
       aspect-ratio: 5 / 4;
@@ -125,4 +89,4 @@ const own = css`
   }
 `;
 
-export const reckoningStyles = [...layoutStyles, plotStyles, own];
+export const reckoningStyles = [...layoutStyles, plotStyles, cloudStyles, own];

@@ -1,66 +1,15 @@
-/** What both pictures are drawn with: symbols with their subscripts, turns as arcs with an arrow, and fans of uncertainty. */
-
-import { clamp } from '../../ui/clamp.js';
+/** Marks of both pictures: turns as arcs with an arrow, and fans of uncertainty. */
 
 /**
  * @import { Pose } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  */
 
-/** Of a symbol's subscript, as a share of its own letters; and how far below the line it stands, pixels. */
-const SUBSCRIPT = 0.78;
-const DROP = 3;
-
-/** Half the height of a label's ground, pixels, and how far it hides what is under it. */
-const GROUND = { half: 9, alpha: 0.9 };
-
 /** Half the width and the length of an arrow's head, pixels. */
 const HEAD = { half: 4, length: 9 };
 
 /** Steps of the chord that an arc is drawn by, radians. */
 const STEP = 0.1;
-
-/**
- * A symbol, its subscript and what is said of it, on a ground of its own and inside of the axes.
- *
- * @param {Brush} brush
- * @param {{ x: number, y: number, towards: number, symbol: string, sub: string, text?: string, colour: string }} label with a point
- *   in pixels, and to which side of it there is room: −1 to 1
- */
-export function drawLabel({ context, view, palette, font }, { x, y, towards, symbol, sub, text = '', colour }) {
-  const small = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT * parseFloat(size)}px`);
-  const parts = [
-    { text: symbol, style: `italic ${font}`, drop: 0 },
-    { text: sub, style: small, drop: DROP },
-    { text: text && ` ${text}`, style: font, drop: 0 },
-  ];
-  const widths = parts.map((part) => {
-    context.font = part.style;
-    return context.measureText(part.text).width;
-  });
-  const width = widths.reduce((sum, one) => sum + one);
-  const { left, right, top, bottom } = view.frame;
-  let at = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
-  const line = clamp(y, top + 10, bottom - 10);
-  context.fillStyle = palette.paper;
-  context.globalAlpha = GROUND.alpha;
-  const [from, to, above, below] = [at - 2, at + width + 2, line - GROUND.half, line + GROUND.half];
-  path(context, [[from, above], [to, above], [to, below], [from, below]]);
-  context.fill();
-  context.globalAlpha = 1;
-  context.textAlign = 'left';
-  context.textBaseline = 'middle';
-  context.lineJoin = 'round';
-  context.lineWidth = 4;
-  context.strokeStyle = palette.paper;
-  context.fillStyle = colour;
-  parts.forEach((part, i) => {
-    context.font = part.style;
-    context.strokeText(part.text, at, line + part.drop);
-    context.fillText(part.text, at, line + part.drop);
-    at += widths[i];
-  });
-}
 
 /**
  * Points of an arc about a place of the world.

@@ -3,12 +3,13 @@
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { drawDots, drawMark } from '../../scene/draw.js';
+import { drawLabel } from '../../scene/labels.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { fixed } from '../../ui/format.js';
 import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.js';
-import { drawBar, drawFan, drawLabel, drawTurn } from './marks.js';
+import { drawBar, drawFan, drawTurn } from './marks.js';
 import { poseIn } from './reading.js';
 
 /**
@@ -38,12 +39,6 @@ const SEEN = 40;
 
 /** A smaller turn, rad, has no arc. */
 const NO_TURN = 0.005;
-
-/** What a pose's label takes, CSS pixels. */
-const LABEL = { width: 36, height: 20 };
-
-/** Where it may stand, as shares of the way to the corner that is tried first. */
-const AROUND = [[1, 1], [-1, 1], [1, -1], [-1, -1], [1.2, 0], [-1.2, 0], [0, 1.5], [0, -1.5]];
 
 const AXES = { x: 'x (m)', y: 'y (m)' };
 
@@ -256,10 +251,8 @@ export class WorldPicture extends OutcomesPicture {
       this.#paintLine(brush, start, end, palette.prediction, [], 1.75);
       this.#paintLine(brush, to, end, palette.accent, [2, 4], 1.5);
       drawHeldRobot(brush, start, RADIUS, palette.truth);
-      this.#labels(brush, [
-        { poses: [start, end], side: -1, symbol: 'x', colours: [palette.ink, palette.prediction] },
-        { poses: [from, to], side: 1, symbol: 'x̄', colours: [palette.prior, palette.prior] },
-      ]);
+      this.#label(brush, { poses: [start, end], side: -1, symbol: 'x', colours: [palette.ink, palette.prediction] });
+      this.#label(brush, { poses: [from, to], side: 1, symbol: 'x̄', colours: [palette.prior, palette.prior] });
       this.paintMark(brush, scene);
     });
   };
@@ -310,60 +303,21 @@ export class WorldPicture extends OutcomesPicture {
   }
 
   /**
-   * The poses before and the poses after, the former where these are two places: each label beside its pose, where it covers
-   * no other and the least of the lines.
+   * Labels the poses before and the poses after; the former where these are two places.
    *
    * @param {Brush} brush
-   * @param {{ poses: Pose[], side: number, symbol: string, colours: string[] }[]} pairs with the side that is tried first:
-   *   −1 for above and to the left, 1 for below and to the right
+   * @param {{ poses: Pose[], side: number, symbol: string, colours: string[] }} pair with the side of a pose that its label
+   *   stands on: −1 for above and to the left, 1 for below and to the right
    */
-  #labels(brush, pairs) {
+  #label(brush, { poses, side, symbol, colours }) {
     const { view } = brush;
-    const pixels = (/** @type {Pose} */ { x, y }) => [view.toPixelX(x), view.toPixelY(y)];
-    const [[start, end], [from, to]] = pairs.map(({ poses }) => poses.map(pixels));
-    const ahead = view.direction(pairs[0].poses[0].theta);
-    const held = turnDistance(view, RADIUS);
-    const nose = [start[0] + held * ahead.x, start[1] + held * ahead.y];
-    const lines = [[start, end], [from, to], [to, end], [start, nose]].flatMap(([one, other]) => dotted(one, other));
-    const out = Math.max(8, RADIUS * view.scaleX) + 7;
-    const taken = /** @type {number[][]} */ ([]);
-    for (const { poses, side, symbol, colours } of pairs) {
-      const [before, after] = poses.map(pixels);
-      const apart = Math.hypot(before[0] - after[0], before[1] - after[1]) > SEEN;
-      [before, after].forEach(([x, y], i) => {
-        if (i === 0 && !apart) return;
-        const spots = AROUND.map(([dx, dy]) => [x + side * out * dx, y + side * out * dy, Math.sign(side * dx)]);
-        const costs = spots.map(([left, top, towards]) => {
-          const middle = [left + (towards * LABEL.width) / 2, top];
-          return 100 * under(middle, taken, 2).length + under(middle, lines, 1).length;
-        });
-        const [left, top, towards] = spots[costs.indexOf(Math.min(...costs))];
-        taken.push([left + (towards * LABEL.width) / 2, top]);
-        drawLabel(brush, { x: left, y: top, towards, symbol, sub: ['t−1', 't'][i], colour: colours[i] });
-      });
-    }
+    const out = side * (Math.max(8, RADIUS * view.scaleX) + 7);
+    const [before, after] = poses.map(({ x, y }) => [view.toPixelX(x), view.toPixelY(y)]);
+    const apart = Math.hypot(before[0] - after[0], before[1] - after[1]) > SEEN;
+    [before, after].forEach(([x, y], i) => {
+      if (i === 1 || apart) drawLabel(brush, { x: x + out, y: y + out, towards: side, symbol, sub: ['t−1', 't'][i], colour: colours[i] });
+    });
   }
-}
-
-/**
- * Points on a line, near enough to each other for a label to lie on one wherever it lies on the line.
- *
- * @param {number[]} from pixels
- * @param {number[]} to
- */
-function dotted([fromX, fromY], [toX, toY]) {
-  const count = Math.ceil(Math.hypot(toX - fromX, toY - fromY) / (LABEL.height / 2));
-  return Array.from({ length: count + 1 }, (_, i) => [fromX + ((toX - fromX) * i) / (count || 1), fromY + ((toY - fromY) * i) / (count || 1)]);
-}
-
-/**
- * @param {number[]} middle of a label of the world, pixels
- * @param {number[][]} points
- * @param {number} labels 1 for those that it covers, 2 for the middles of labels that it meets
- */
-function under([x, y], points, labels) {
-  const [wide, high] = [(labels * LABEL.width) / 2, (labels * LABEL.height) / 2];
-  return points.filter(([px, py]) => Math.abs(px - x) < wide && Math.abs(py - y) < high);
 }
 
 /**

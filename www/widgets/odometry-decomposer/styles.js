@@ -3,7 +3,7 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
-import { poseHandleStyles } from '../shared/styles.js';
+import { cloudStyles, poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
@@ -100,17 +100,6 @@ const own = css`
     margin-top: 0.2em;
   }
 
-  @container (width < 50em) {
-    .presets {
-      gap: 0.3em;
-    }
-
-    .presets button {
-      --size: 0.84;
-      --beside: 0.4em;
-    }
-  }
-
   .surface .machine > .readouts {
     display: grid;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 12em), 1fr));
@@ -127,4 +116,4 @@ const own = css`
   }
 `;
 
-export const decomposerStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];
+export const decomposerStyles = [...layoutStyles, plotStyles, cloudStyles, poseHandleStyles, own];

@@ -31,6 +31,7 @@ export function drawLabel({ context, view, palette, font }, { x, y, towards, col
     { text: sub, style: small, drop: DROP },
     { text: symbol && text ? ` ${text}` : text, style: font, drop: 0 },
   ].filter((part) => part.text);
+  if (parts.length === 0) return;
   const widths = parts.map((part) => {
     context.font = part.style;
     return context.measureText(part.text).width;

@@ -7,8 +7,6 @@ import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.js';
 import { resolvePalette } from '../ui/theme.js';
 import { sleep, wake } from './page/frames.js';
-import { onPixels } from './page/pixels.js';
-import { onPrint } from './page/print.js';
 import { ancestors, surroundings } from './page/scheme.js';
 import { Part } from './part.js';
 import { LONGEST_WORK } from './settings.js';
@@ -57,9 +55,12 @@ export class Stage extends Part {
   hostConnected() {
     this.#listening = new AbortController();
     const { signal } = this.#listening;
-    onPrint((printing) => this.#print(printing), signal);
-    // Where the observer tells of lengths in CSS pixels alone, as in WebKit.
-    onPixels(() => this.#measure(), signal);
+    addEventListener('beforeprint', () => this.#print(true), { signal });
+    addEventListener('afterprint', () => this.#print(false), { signal });
+    // Some browsers have only the one, others tell too late by the other.
+    const media = matchMedia('print');
+    media.addEventListener('change', () => this.#print(media.matches), { signal });
+    this.#followPixels(signal);
     onLanguage(this.host, () => this.#speakAgain(), signal);
     // What the text around says at once, a background that fades says when it has arrived.
     const faded = (/** @type {TransitionEvent} */ { target, propertyName }) => {
@@ -86,6 +87,19 @@ export class Stage extends Part {
     this.#sizes = new ResizeObserver((entries) => this.#resize(entries));
     this.#measure();
     this.wake();
+  }
+
+  /**
+   * Measures again when the window moves to a screen of other pixels: in WebKit the observer reports CSS pixels alone.
+   *
+   * @param {AbortSignal} signal
+   */
+  #followPixels(signal) {
+    const changed = () => {
+      this.#measure();
+      this.#followPixels(signal);
+    };
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', changed, { once: true, signal });
   }
 
   /** Observes the sizes of the canvases, beginning with the present ones. */

@@ -179,31 +179,6 @@ export function trace({ context, view }, points) {
   }
 }
 
-/** Chords of a smooth outline that are drawn as one bend, which browsers stroke in half the time. */
-const CHORDS_A_BEND = 4;
-
-/**
- * As `trace`, of what is smooth where it has many points: each bend goes through its first point, its middle and its last.
- *
- * @param {Brush} brush
- * @param {Float64Array} points
- */
-function traceSmooth(brush, points) {
-  const { context, view } = brush;
-  const chords = points.length / 2 - 1;
-  if (chords % CHORDS_A_BEND !== 0) {
-    trace(brush, points);
-    return;
-  }
-  const x = (/** @type {number} */ i) => view.toPixelX(points[2 * i]);
-  const y = (/** @type {number} */ i) => view.toPixelY(points[2 * i + 1]);
-  context.moveTo(x(0), y(0));
-  for (let i = 0; i < chords; i += CHORDS_A_BEND) {
-    const [middle, end] = [i + CHORDS_A_BEND / 2, i + CHORDS_A_BEND];
-    context.quadraticCurveTo(2 * x(middle) - (x(i) + x(end)) / 2, 2 * y(middle) - (y(i) + y(end)) / 2, x(end), y(end));
-  }
-}
-
 /**
  * @typedef {object} Outline
  * @property {Float64Array} points x, y pairs
@@ -230,14 +205,14 @@ export function drawOutlines(brush, outlines) {
   context.strokeStyle = palette.paper;
   for (const { points, width } of drawn) {
     context.beginPath();
-    traceSmooth(brush, points);
+    trace(brush, points);
     context.lineWidth = width + 2.5;
     context.stroke();
   }
   context.globalAlpha = 1;
   for (const { points, colour, width, dash } of drawn) {
     context.beginPath();
-    traceSmooth(brush, points);
+    trace(brush, points);
     context.strokeStyle = colour;
     context.lineWidth = width;
     context.setLineDash(dash);

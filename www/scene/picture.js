@@ -52,12 +52,11 @@ export class Picture {
   }
 
   /**
-   * The sample nearest to a point.
+   * Index of the sample nearest to a point; −1 for none.
    *
    * @param {any} _machine
    * @param {number} _x CSS pixels of the canvas
    * @param {number} _y
-   * @returns {number} −1 for none
    */
   nearest(_machine, _x, _y) {
     return -1;
@@ -73,4 +72,18 @@ export class Picture {
     const { view } = this;
     return [view.toWorldX(x), view.toWorldY(y), reach / view.scaleX, reach / view.scaleY];
   }
+}
+
+/** Greatest distance from the pointer to a sample that it marks, CSS pixels. */
+const REACH = 14;
+
+/**
+ * Picture of samples that the pointer can mark, in an equal view.
+ *
+ * @template Scene
+ * @extends {Picture<Scene>}
+ */
+export class SamplesPicture extends Picture {
+  /** @type {Picture<any>['nearest']} */
+  nearest = (machine, x, y) => machine.nearest(...this.around(x, y, REACH).slice(0, 3));
 }

@@ -84,11 +84,6 @@ export class SvgContext {
     this.#path += `${this.#path ? 'L' : 'M'}${short(x)},${short(y)}`;
   };
 
-  /** @type {CanvasPath['quadraticCurveTo']} */
-  quadraticCurveTo = (...points) => {
-    this.#path += `Q${points.map(short).join(',')}`;
-  };
-
   /** @type {CanvasPath['arc']} */
   arc = (x, y, radius, from, to, backwards = false) => {
     const r = short(radius);

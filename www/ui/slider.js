@@ -124,8 +124,7 @@ export const sliderStyles = css`
     margin-top: calc(1px - 0.525em);
     background: var(--thumb);
     border: 2px solid var(--thumb-edge);
-    border-radius: var(--thumb-round, 50%);
-    clip-path: var(--thumb-shape);
+    border-radius: 50%;
     box-shadow: 0 0 0 3px var(--paper);
   }
 
@@ -135,22 +134,8 @@ export const sliderStyles = css`
     height: 1.05em;
     background: var(--thumb);
     border: 2px solid var(--thumb-edge);
-    border-radius: var(--thumb-round, 50%);
-    clip-path: var(--thumb-shape);
+    border-radius: 50%;
     box-shadow: 0 0 0 3px var(--paper);
-  }
-
-  /* A thumb at its end points to where the value is. */
-  .slider.above {
-    --thumb-shape: polygon(0 0, 55% 0, 100% 50%, 55% 100%, 0 100%);
-  }
-
-  .slider.below {
-    --thumb-shape: polygon(100% 0, 45% 0, 0 50%, 45% 100%, 100% 100%);
-  }
-
-  .slider:is(.above, .below) input[type='range'] {
-    --thumb-round: 0;
   }
 
   /* Around the thumb alone: around all of the slider it would cut into the rows above and below. */
@@ -245,8 +230,6 @@ export function sliderRow(row) {
   const states = {
     picking: row.pick,
     off: row.off,
-    below: row.value < row.min,
-    above: row.value > row.max,
     refused: row.refusal,
   };
   const classes = ['slider', ...Object.keys(states).filter((key) => states[/** @type {keyof typeof states} */ (key)])].join(' ');

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { drawDots, drawMark, drawOutline, drawOutlines } from '../../scene/draw.js';
-import { Picture } from '../../scene/picture.js';
+import { Picture, SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';
 import { READ_DASH, WayLayer, readStyleOf, stylesOf } from './way.js';
@@ -15,9 +15,6 @@ import { READ_DASH, WayLayer, readStyleOf, stylesOf } from './way.js';
  * @typedef {Reading & { chosen: number, leg: LegView | null }} Scene with the leg that is shown
  */
 
-/** Largest distance from the pointer to the leg that it chooses, CSS pixels. */
-const REACH = 16;
-
 /** Room for a key in two lines, CSS pixels. */
 const TWO_LINES = 42;
 
@@ -27,23 +24,13 @@ const RING = 6;
 /**
  * The floor from above, in the frame of the reference.
  *
- * @extends {Picture<Scene>}
+ * @extends {SamplesPicture<Scene>}
  */
-export class WayPicture extends Picture {
+export class WayPicture extends SamplesPicture {
   #layer = new WayLayer();
 
   constructor() {
     super('plane', new View({ top: TWO_LINES }));
-  }
-
-  /**
-   * @param {Machine} machine
-   * @param {number} x CSS pixels of the canvas
-   * @param {number} y
-   */
-  nearest(machine, x, y) {
-    const [atX, atY, radius] = this.around(x, y, REACH);
-    return machine.nearest(atX, atY, radius);
   }
 
   /** @param {Scene} scene */

@@ -3,22 +3,18 @@
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { drawDots, drawMark, drawOutlines, drawRobot, trace } from '../../scene/draw.js';
-import { Picture } from '../../scene/picture.js';
+import { Picture, SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { COMMAND_DASH } from '../shared/command.js';
 import { lineKey } from '../shared/line-key.js';
 
 /**
- * @import { DeadReckoning } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined }} Scene what both pictures are of, with the
  *   poses of the robot that is marked after each step
  */
-
-/** How near to a robot the pointer must be to mark it, CSS pixels. */
-const REACH = 14;
 
 /** Standard deviations of a cloud that a view makes room for. */
 const ROOM = 3.2;
@@ -48,21 +44,11 @@ function keyEntry(brush, name) {
 /**
  * The floor from above.
  *
- * @extends {Picture<Scene>}
+ * @extends {SamplesPicture<Scene>}
  */
-export class PathPicture extends Picture {
+export class PathPicture extends SamplesPicture {
   constructor() {
     super('plane', new View());
-  }
-
-  /**
-   * @param {DeadReckoning} machine
-   * @param {number} x CSS pixels of the canvas
-   * @param {number} y
-   */
-  nearest(machine, x, y) {
-    const [atX, atY, radius] = this.around(x, y, REACH);
-    return machine.nearest(atX, atY, radius);
   }
 
   /** @param {Scene} scene */

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { densityRamp, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
-import { Picture } from '../../scene/picture.js';
+import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer, cornerOf } from '../../scene/walls.js';
 import { clamp } from '../../ui/clamp.js';
@@ -37,9 +37,6 @@ const MIN_SURROUNDINGS = 0.8;
 /** Room shown around the commanded way, metres. */
 const WAYSIDE = 0.45;
 
-/** How near to a sample the pointer must be to mark it, CSS pixels. */
-const REACH = 12;
-
 /** Cells of the density, CSS pixels, of many samples and of few, which need larger ones to be a density. */
 const CELL = { least: 2, most: 5, samples: 40_000 };
 
@@ -49,14 +46,8 @@ const PATHS_ON_DENSITY = 25;
 /** The overview in a corner of a close-up: its sides at most, as shares of the picture's, and what is around it. */
 const OVERVIEW = { width: 0.34, height: 0.4, margin: 8, padding: 0.05, wall: 1.25 };
 
-/** How much further the overview keeps from the end of the commanded way than from its start. */
-const END_WEIGHT = 1.5;
-
-/** How much further from the way another corner must be for the overview to go there: nearly alike, it stays. */
-const MUCH_FURTHER = 1.1;
-
-/** @extends {Picture<Scene>} */
-export class FloorPicture extends Picture {
+/** @extends {SamplesPicture<Scene>} */
+export class FloorPicture extends SamplesPicture {
   plan;
   /** Whether there are cells of which the map says nothing. */
   hasUnknown;
@@ -126,19 +117,7 @@ export class FloorPicture extends Picture {
     return inside ? box : { xMin, yMin, xMax, yMax };
   }
 
-  /**
-   * The sample nearest to the pointer; −1 for none.
-   *
-   * @param {MapSqueeze} machine
-   * @param {number} x CSS pixels of the canvas
-   * @param {number} y
-   */
-  nearest(machine, x, y) {
-    const [worldX, worldY, radius] = this.around(x, y, REACH);
-    return machine.nearest(worldX, worldY, radius);
-  }
-
-  /** @type {Picture<Scene>['paint']} */
+  /** @type {SamplesPicture<Scene>['paint']} */
   paint = (brush, scene) => {
     const { sorted, paths, commanded, config, marked } = scene;
     const { palette } = brush;
@@ -205,7 +184,9 @@ export class FloorPicture extends Picture {
     const [spanX, spanY] = [xMax - xMin, yMax - yMin].map((span) => (1 + 2 * OVERVIEW.padding) * span);
     const scale = Math.min((OVERVIEW.width * (right - left)) / spanX, (OVERVIEW.height * (bottom - top)) / spanY);
     const [width, height] = [scale * spanX, scale * spanY];
-    const [x, y] = freeCorner(view, width, height, commanded);
+    // At the bottom, on the side that the commanded way does not end on.
+    const endsRight = 2 * view.toPixelX(commanded[commanded.length - 2]) > left + right;
+    const [x, y] = [endsRight ? left + OVERVIEW.margin : right - OVERVIEW.margin - width, bottom - OVERVIEW.margin - height];
     const small = new View({ left: x, right: view.width - x - width, top: y, bottom: view.height - y - height });
     small.resize(view.width, view.height);
     const [padX, padY] = [OVERVIEW.padding * (xMax - xMin), OVERVIEW.padding * (yMax - yMin)];
@@ -229,31 +210,6 @@ export class FloorPicture extends Picture {
     context.lineWidth = 1;
     context.strokeRect(x, y, width, height);
   }
-}
-
-/**
- * The corner of a picture that is furthest from the commanded way, above all from its end, where the samples are.
- *
- * @param {View} view
- * @param {number} width of what is put there, CSS pixels
- * @param {number} height
- * @param {Float64Array} commanded
- * @returns {[x: number, y: number]} its left and its top, CSS pixels
- */
-function freeCorner(view, width, height, commanded) {
-  const { left, right, top, bottom } = view.frame;
-  const { margin } = OVERVIEW;
-  const [start, end] = [commanded.slice(0, 2), commanded.slice(-2)];
-  let [most, corner] = [-1, /** @type {[number, number]} */ ([left, top])];
-  for (const y of [bottom - margin - height, top + margin]) {
-    for (const x of [right - margin - width, left + margin]) {
-      const distance = (/** @type {Float64Array} */ [atX, atY]) =>
-        Math.hypot(x + width / 2 - view.toPixelX(atX), y + height / 2 - view.toPixelY(atY));
-      const least = Math.min(distance(start), distance(end) / END_WEIGHT);
-      if (least > MUCH_FURTHER * most) [most, corner] = [least, [x, y]];
-    }
-  }
-  return corner;
 }
 
 /**

@@ -4,7 +4,7 @@ import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { drawDots, drawMark } from '../../scene/draw.js';
 import { drawLabel } from '../../scene/labels.js';
-import { Picture } from '../../scene/picture.js';
+import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { fixed } from '../../ui/format.js';
 import { lineKey } from '../shared/line-key.js';
@@ -13,7 +13,7 @@ import { drawBar, drawFan, drawTurn } from './marks.js';
 import { poseIn } from './reading.js';
 
 /**
- * @import { OdometryDecomposer, Pose } from '../../types.d.ts'
+ * @import { Pose } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  *
  * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined }} Scene what both pictures are of
@@ -27,9 +27,6 @@ const ROOM = { metres: 0.3, deviations: 2.2 };
 
 /** With more outcomes their headings would be one blot. */
 const MAX_TICKS = 1000;
-
-/** How near to an outcome the pointer must be to mark it, CSS pixels. */
-const REACH = 12;
 
 /** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
 const GAP = { handle: 16, arcs: 22 };
@@ -75,18 +72,8 @@ function drawOutcomes(brush, { poses }) {
   drawDots(brush, poses, { x: 0, y: 1, heading: poses.length <= 3 * MAX_TICKS ? 2 : null });
 }
 
-/** @extends {Picture<Scene, string>} */
-class OutcomesPicture extends Picture {
-  /**
-   * @param {OdometryDecomposer} machine
-   * @param {number} x CSS pixels of the canvas
-   * @param {number} y
-   */
-  nearest(machine, x, y) {
-    const [atX, atY, radius] = this.around(x, y, REACH);
-    return machine.nearest(atX, atY, radius);
-  }
-
+/** @extends {SamplesPicture<Scene>} */
+class OutcomesPicture extends SamplesPicture {
   /**
    * @param {Brush} brush
    * @param {Scene} scene
@@ -107,7 +94,7 @@ export class LegsPicture extends OutcomesPicture {
     this.view.fit(extentOf(surroundings(scene), 1.2));
   }
 
-  /** @type {Picture<Scene>['paint']} */
+  /** @type {SamplesPicture<Scene>['paint']} */
   paint = (brush, scene) => {
     const { palette } = brush;
     const { linkage, legs, deviations, config } = scene;
@@ -237,7 +224,7 @@ export class WorldPicture extends OutcomesPicture {
     this.view.fit(extentOf([...surroundings(scene), ...around], 1.2));
   }
 
-  /** @type {Picture<Scene>['paint']} */
+  /** @type {SamplesPicture<Scene>['paint']} */
   paint = (brush, scene) => {
     const { palette } = brush;
     const [frame, from, to] = [0, 1, 2].map((index) => poseIn(scene.drifted.poses, index));

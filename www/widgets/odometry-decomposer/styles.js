@@ -57,12 +57,6 @@ const own = css`
   }
 
   /* Wider, and not higher: all of it is to fit on a screen. */
-  @container (min-width: 45em) {
-    .views > .stage {
-      --high: 0.6;
-    }
-  }
-
   @container (min-width: 55em) {
     .views > .stage {
       --high: 0.52;

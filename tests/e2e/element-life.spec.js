@@ -246,44 +246,6 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   await page.mouse.up();
 });
 
-test('a figure has its style sheets in another document, and back', async ({ page, figure }) => {
-  await show(page, `<div id="a"><${figure}></${figure}></div><iframe srcdoc="<!doctype html><body style='margin: 8px; background: #123; color: #eee'></body>" width="1100" height="900" style="border: 0"></iframe>`);
-  const widget = page.locator(figure);
-  await ready(widget);
-  const before = await stateOf(widget);
-  const { slider } = KNOWN[figure];
-  const picture = await pictureOf(widget.locator('canvas.plane'));
-  const frame = page.frameLocator('iframe').locator(figure);
-  await widget.evaluate((element) => document.querySelector('iframe')?.contentDocument?.body.append(element));
-  await ready(frame);
-  expect(await stateOf(frame)).toEqual(before);
-  /** @param {Locator} figure */
-  const styled = (figure) =>
-    figure.evaluate((element, id) => {
-      const root = /** @type {ShadowRoot} */ (element.shadowRoot);
-      const [machine, track] = ['.machine', `#${id}`].map((selector) => getComputedStyle(/** @type {Element} */ (root.querySelector(selector))));
-      return { display: machine.display, appearance: track.appearance, scheme: getComputedStyle(/** @type {Element} */ (root.querySelector('.surface'))).colorScheme };
-    }, slider);
-  const looks = await styled(frame);
-  expect(looks.appearance).toBe('none');
-  // The ground of that document is dark.
-  expect(looks.scheme).toBe('dark');
-  await frame.evaluate((element) => window.parent.document.querySelector('#a')?.append(element));
-  await ready(widget);
-  expect(await styled(widget)).toEqual({ ...looks, scheme: 'light' });
-  await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
-  expect(await heard(page, ['error'])).toEqual([]);
-});
-
-test('a figure may begin in the document of a frame', async ({ page, figure }) => {
-  await show(page, '<iframe srcdoc="<!doctype html><body></body>" width="1100" height="900"></iframe>');
-  await page.waitForFunction((tag) => customElements.get(tag) && document.querySelector('iframe')?.contentDocument?.body, figure);
-  await page.evaluate((tag) => document.querySelector('iframe')?.contentDocument?.body.append(document.createElement(tag)), figure);
-  const widget = page.frameLocator('iframe').locator(figure);
-  await ready(widget);
-  await expect(widget.locator(`#${KNOWN[figure].slider}`)).toHaveCSS('appearance', 'none');
-});
-
 test('a canvas that has got its context back is drawn again', async ({ page, figure }) => {
   await show(page, `<${figure}></${figure}>`);
   const widget = page.locator(figure);

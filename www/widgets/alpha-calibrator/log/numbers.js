@@ -13,8 +13,8 @@ const DECIMAL = /^([+-]?)(\d+)(?:\.(\d*))?$/;
  */
 export function numberOf(cell) {
   const value = Number(cell);
-  // Number reads an empty cell as 0 and takes hexadecimal digits, parseFloat stops at other text: decimals are read alike by both.
-  if (value === parseFloat(cell)) return value;
+  // Number also takes empty cells and hexadecimal digits, both as whole numbers, which parseFloat does not.
+  if (value === value && (value % 1 !== 0 || value === parseFloat(cell))) return value;
   return NOT_FINITE.test(cell.trim()) ? NaN : undefined;
 }
 

@@ -27,7 +27,7 @@ export function headingOf(qx, qy, qz, qw) {
  * @param {number} qw
  */
 export function isRotation(qx, qy, qz, qw) {
-  return !(Math.abs(Math.hypot(qx, qy, qz, qw) - 1) > TOLERANCE);
+  return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > TOLERANCE);
 }
 
 /** Hamilton product. @param {Quaternion} a @param {Quaternion} b @returns {Quaternion} */

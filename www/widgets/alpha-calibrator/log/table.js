@@ -86,6 +86,8 @@ class Table {
   /** @type {How['unit'] | undefined} */
   #unit;
   #cutShort = false;
+  /** Numbers of the present row. */
+  #values = new Float64Array(8);
 
   /** @param {string} file its name @param {'poses' | 'commands' | undefined} wanted */
   constructor(file, wanted) {
@@ -129,21 +131,31 @@ class Table {
       const size = Math.abs(numberOf(time) ?? NaN);
       if (size >= 0) this.#unit = SIZES.find(([, least]) => size >= least)?.[0] ?? 's';
     }
-    const values = [];
-    for (let i = 1; i < columns.length; i++) values.push(numberOf(cells[columns[i]]));
     const at = timeOf(time, UNITS[this.#unit ?? 's']);
-    const wrong = at === undefined ? 0 : values.indexOf(undefined) + 1;
-    if (at === undefined || wrong > 0) this.#refuse((say) => say.number(cut(names[wrong]), cut(cells[columns[wrong]].trim())));
-    const numbers = /** @type {number[]} */ (values);
-    const [seconds, part] = at;
-    const rest = fields[1] === 'nanoseconds' ? part + /** @type {number} */ (numbers.shift()) / 1e9 : part;
-    const [a, b, ...rotation] = numbers;
-    if (kind === 'commands') return this.#rows.add(seconds, rest, a, b, 0, this.#line);
-    if (rotation.length === 1) return this.#rows.add(seconds, rest, a, b, rotation[0] * (degrees ? Math.PI / 180 : 1), this.#line);
-    const [qz, qw] = rotation.slice(-2);
-    const [qx, qy] = rotation.length === 4 ? rotation : [0, 0];
-    if (!isRotation(qx, qy, qz, qw)) return this.#rows.leaveOut('noRotation', this.#line);
-    this.#rows.add(seconds, rest, a, b, headingOf(qx, qy, qz, qw), this.#line);
+    if (at === undefined) return this.#refuseNumber(names[0], time);
+    const values = this.#values;
+    for (let i = 1; i < columns.length; i++) {
+      const value = numberOf(cells[columns[i]]);
+      if (value === undefined) return this.#refuseNumber(names[i], cells[columns[i]]);
+      values[i] = value;
+    }
+    const inTwo = fields[1] === 'nanoseconds';
+    const [seconds, rest] = inTwo ? [at[0], at[1] + values[1] / 1e9] : at;
+    const [first, last] = [inTwo ? 2 : 1, columns.length - 1];
+    const [x, y] = [values[first], values[first + 1]];
+    let heading = 0;
+    if (fields[last] === 'qw') {
+      const [qz, qw] = [values[last - 1], values[last]];
+      const [qx, qy] = last - first === 5 ? [values[last - 3], values[last - 2]] : [0, 0];
+      if (!isRotation(qx, qy, qz, qw)) return this.#rows.leaveOut('noRotation', this.#line);
+      heading = headingOf(qx, qy, qz, qw);
+    } else if (kind === 'poses') heading = values[last] * (degrees ? Math.PI / 180 : 1);
+    this.#rows.add(seconds, rest, x, y, heading, this.#line);
+  }
+
+  /** @param {string} name @param {string} cell @returns {never} */
+  #refuseNumber(name, cell) {
+    this.#refuse((say) => say.number(cut(name), cut(cell.trim())));
   }
 
   /** @returns {Log} @throws {LogError} if the rows are no log */

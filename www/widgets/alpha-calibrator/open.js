@@ -35,6 +35,9 @@ export const FOLD = 'log-fold';
 /** Usual frames of a topic of transforms: parent and child. */
 const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
 
+/** Progress of one part of the reading. @param {Watched} watching @param {number} from @param {number} to @returns {Watched} */
+const partOf = ({ onProgress, signal }, from, to) => ({ signal, onProgress: (share) => onProgress(from + share * (to - from)) });
+
 /** @extends {Part<Figure>} */
 export class LogOpener extends Part {
   dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
@@ -110,7 +113,7 @@ export class LogOpener extends Part {
       // A file with the extension of a recording is refused as one.
       const isTaken = second ? files.length === 2 && !recorded.includes(true) : recorded[0] || /\.mcap$/i.test(name);
       if (!isTaken) throw new Error(words.calibrator.own.two(files.length));
-      const topics = second ? [] : reader.usefulTopics(name, await reader.topicsOf(files[0], watching));
+      const topics = second ? [] : reader.usefulTopics(name, await reader.topicsOf(files[0], partOf(watching, 0, 0.5)));
       const kind = this.#kind;
       const guess = reader.guessTopics(topics, kind);
       const chosen = {
@@ -151,8 +154,11 @@ export class LogOpener extends Part {
       return { topic, ...(holdsTransforms(topics, topic) && { frames: { parent, child } }) };
     };
     const [first, second] = topics.length
-      ? await reader.logsOf(files[0], [choice(odometry, frames.odometry), choice(reference, frames.reference)], watching)
-      : [await reader.readLog(files[0], { kind, ...watching }), await reader.readLog(files[1], { kind: 'poses', ...watching })];
+      ? await reader.logsOf(files[0], [choice(odometry, frames.odometry), choice(reference, frames.reference)], partOf(watching, this.share ?? 0, 1))
+      : [
+          await reader.readLog(files[0], { kind, ...partOf(watching, 0, 0.5) }),
+          await reader.readLog(files[1], { kind: 'poses', ...partOf(watching, 0.5, 1) }),
+        ];
     const paired = reader.pairLogs(first, second);
     const name = [...new Set(files.map((file) => file.name))].join(', ');
     const log = { name, odometry: paired.odometry.data, reference: /** @type {Poses} */ (paired.reference.data) };

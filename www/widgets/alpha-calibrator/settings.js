@@ -14,7 +14,7 @@ export const vocabulary = 'calibrator';
 export const attributes = attributesOf(declared);
 
 /** Motions whose squares a variance is made of. */
-export const DRIVERS = /** @type {const} */ (['turn', 'way']);
+const DRIVERS = /** @type {const} */ (['turn', 'way']);
 
 /** @typedef {(typeof DRIVERS)[number]} Driver */
 

@@ -53,7 +53,7 @@ import { LogError } from './log-error.js';
 export const LOG_TIME = 'log time';
 
 /** Most rows: a day at 100 Hz. */
-export const MAX_ROWS = 10_000_000;
+const MAX_ROWS = 10_000_000;
 
 /** Largest coordinate or speed that the core accepts. */
 export const MAX_VALUE = 1e9;

@@ -11,7 +11,7 @@ import { nativeRust } from './toolchain.mjs';
 const TARGETS = readdirSync(join(ROOT, 'fuzz/fuzz_targets')).map((file) => file.replace(/\.rs$/, ''));
 
 /** Limits of one input: seconds, allocated megabytes, and bytes. The program itself takes 30 MB. */
-const LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=160'];
+const LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
 
 /** Options of the build. Safe Rust needs no sanitizer, and tracing of comparisons would halve the speed. */
 const OPTIONS = ['--sanitizer', 'none', '--no-trace-compares'];

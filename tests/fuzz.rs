@@ -31,6 +31,7 @@ tests! {
     grid: 4_000,
     pgm: 40_000,
     plan: 2_000,
+    png: 4_000,
     reckoning: 500,
     squeeze: 1_000,
 }

@@ -9,6 +9,7 @@ pub mod input;
 pub mod laws;
 pub mod pgm;
 pub mod plan;
+pub mod png;
 pub mod reckoning;
 pub mod settings;
 pub mod squeeze;

@@ -1,5 +1,5 @@
 /**
- * What machines of the JavaScript face tell, to the last bit: main.rs asks the same of the simulations themselves. It imports
+ * What machines of the JavaScript face tell, to the last bit: tests/native/digest asks the same of the simulations themselves. It imports
  * nothing, so that it runs in Node and in any page.
  *
  * @module
@@ -16,7 +16,7 @@
  * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
  */
 
-/** The NaN that stands for every NaN: main.rs says why. */
+/** The NaN that stands for every NaN: tests/native/digest/told.rs says why. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
 /** What is asked of a machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Told>>} */

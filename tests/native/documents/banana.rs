@@ -12,12 +12,6 @@ fn page() -> Told {
     Told::on_page(include_str!("../../../www/index.html"))
 }
 
-#[test]
-fn the_opening_is_what_the_page_sends() {
-    let [robots] = page().numbers("Send one command to # identical robots");
-    assert_eq!(robots.value, Settings::default().samples as f64);
-}
-
 /// The robots a square metre in what only one of the outlines encloses: of a million, known to a hundredth.
 #[test]
 fn the_ellipse_covers_floor_where_few_stop() {

@@ -132,20 +132,6 @@ proptest! {
         }
     }
 
-    /// The way back is as free as the way there.
-    #[test]
-    fn the_way_back_is_the_same(walls in walls(), arcs in vec(arcs(), 8), clearance in 0.0..2.0f64) {
-        let plan = plan(walls.clone());
-        for arc in arcs {
-            let back = Arc { start: arc.end(), length: -arc.length, turn: -arc.turn };
-            let room = least_room(&walls, |wall| wall.distance_to_arc(&arc));
-            let [deep, depth] = inside(&arc);
-            if (room - clearance).abs() > ROUNDING && (deep > ROUNDING || depth < -ROUNDING) {
-                prop_assert_eq!(plan.arc_free(&arc, clearance).free, plan.arc_free(&back, clearance).free, "{:?}", arc);
-            }
-        }
-    }
-
     #[test]
     fn bounds_are_taken_or_named(bounds in [any_double(), any_double(), any_double(), any_double()]) {
         let [left, bottom, right, top] = bounds;

@@ -121,26 +121,3 @@ fn hard_plans_are_no_harder_than_one_can_wait_for() {
         assert!(tests < 300 * MEASURED, "{name}: {tests}");
     }
 }
-
-/// Bit for bit: whoever copies a wall changes nothing, and pays for the few nodes that its copies fill.
-#[test]
-fn equal_walls_count_as_one() {
-    let mut rng = seeded(9803);
-    let walls: Vec<Segment> = (0..40)
-        .map(|_| std::array::from_fn(|_| uniform(&mut rng, 0.0, 10.0)))
-        .map(|[a, b, c, d]| wall(a, b, c, d))
-        .collect();
-    let copies = walls.iter().flat_map(|wall| std::iter::repeat_n(*wall, 500)).collect();
-    let [once, often] = [walls, copies].map(|walls| FloorPlan::new(walls, ROOM).expect("allowed"));
-    let [mut of_once, mut of_often] = [0; 2];
-    for i in 0..3000 {
-        let (arc, clearance) = (some_arc(&mut rng), [0.0, 0.05, 0.13][i % 3]);
-        let [one, other] = [&once, &often].map(|plan| plan.arc_free(&arc, clearance));
-        assert_eq!(one.free, other.free, "{arc:?} {clearance}");
-        of_once += one.wall_tests;
-        of_often += other.wall_tests;
-    }
-    // Halved again and again, the 500 copies of a wall, ten to a leaf, are about one node of each of six sizes, and at either end
-    // a leaf that is shared with other walls.
-    assert!(of_often < (6 + 2) * of_once, "{of_often} and {of_once}");
-}

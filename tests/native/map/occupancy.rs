@@ -5,10 +5,10 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, Unknown, read_pgm,
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, Unknown,
 };
 use rand::Rng;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const TRINARY: Interpretation =
     Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
@@ -101,55 +101,6 @@ fn the_walls_are_as_far_as_the_cells() {
     assert!(inside > 4000 && outside > 4000, "{inside} {outside}");
 }
 
-/// Arcs through a grid, judged by looking at 200 points of each.
-#[test]
-fn arcs_are_judged_by_the_cells() {
-    let mut rng = seeded(9901);
-    let (mut free, mut blocked, mut buried) = (0, 0, 0);
-    for _ in 0..300 {
-        let cells = Cells::random(&mut rng);
-        let grid = cells.grid();
-        let (origin, side) = (grid.origin(), grid.resolution());
-        let [right, top] = [cells.width as f64 * side, cells.height as f64 * side];
-        let plan = FloorPlan::from_grid(grid).expect("a small grid");
-        // How far inside the edge of the map, which turns with the grid.
-        let depth = |x: f64, y: f64| {
-            let local = origin.inverse() * SE2::new(x, y, 0.0);
-            local.x().min(right - local.x()).min(local.y()).min(top - local.y())
-        };
-        for _ in 0..30 {
-            let at = cells.in_map(
-                uniform(&mut rng, 0.0, cells.width as f64),
-                uniform(&mut rng, 0.0, cells.height as f64),
-            );
-            let length = uniform(&mut rng, -2.0, 2.0) * cells.resolution;
-            let start = SE2::new(at[0], at[1], uniform(&mut rng, -PI, PI));
-            let arc = Arc { start, length, turn: uniform(&mut rng, -TAU, TAU) };
-            let clearance = uniform(&mut rng, 0.0, 0.7) * cells.resolution;
-            let (mut least, mut edge) = (f64::INFINITY, f64::INFINITY);
-            for i in 0..=200 {
-                let f = f64::from(i) / 200.0;
-                let end = Arc { length: f * arc.length, turn: f * arc.turn, ..arc }.end();
-                let room = cells.distance([end.x(), end.y()]) - clearance;
-                edge = edge.min(depth(end.x(), end.y()));
-                least = least.min(room);
-            }
-            // Between two of the points either distance falls by half their spacing at most.
-            let between = 0.5 * length.abs() / 200.0;
-            let verdict = plan.arc_free(&arc, clearance).free;
-            if least <= -1e-12 || edge <= -1e-12 {
-                assert!(!verdict, "{arc:?}");
-                blocked += 1;
-                buried += u32::from(cells.distance(at) == 0.0);
-            } else if least > between && edge > between {
-                assert!(verdict, "{arc:?}");
-                free += 1;
-            }
-        }
-    }
-    assert!(free > 500 && blocked > 500 && buried > 500, "{free} {blocked} {buried}");
-}
-
 /// Deep inside a block there is no wall within reach, and yet nobody is free there.
 #[test]
 fn a_block_is_solid() {
@@ -199,49 +150,6 @@ fn outlines_are_joined() {
     let bounds = FloorPlan::from_grid(turned.grid()).expect("a small grid").bounds();
     for (bound, expected) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
         assert!((bound - expected).abs() < 1e-15, "{bounds:?}");
-    }
-}
-
-/// Sides of single cells, as sets: those of outlines are where one of two neighbours alone is in the way, each once.
-#[test]
-fn outlines_are_where_cells_change() {
-    let mut rng = seeded(16_180);
-    for _ in 0..400 {
-        let (width, height) = (1 + (rng.next_u32() % 70) as usize, 1 + (rng.next_u32() % 12) as usize);
-        let mut occupied: Vec<bool> = Vec::new();
-        for row in 0..height {
-            // Mostly as the row before, as maps are.
-            for column in 0..width {
-                let like = if row > 0 { occupied[(row - 1) * width + column] } else { column % 40 < 20 };
-                occupied.push(like != rng.next_u32().is_multiple_of(30));
-            }
-        }
-        let cells = Cells { width, height, occupied, resolution: 1.0, origin: [0.0; 3] };
-        let at = |column: i64, row: i64| {
-            let on = (0..width as i64).contains(&column) && (0..height as i64).contains(&row);
-            on && cells.occupied[(height - 1 - row as usize) * width + column as usize]
-        };
-        let mut expected = Vec::new();
-        for row in 0..=height as i64 {
-            for column in 0..=width as i64 {
-                let here = at(column, row);
-                if here != at(column, row - 1) {
-                    expected.push([column, row, column + 1, row]);
-                }
-                if here != at(column - 1, row) {
-                    expected.push([column, row, column, row + 1]);
-                }
-            }
-        }
-        let outlines = cells.grid().outlines(usize::MAX).expect("no limit");
-        let mut sides = Vec::new();
-        for Segment { from, to } in outlines {
-            let [[x0, y0], [x1, y1]] = [from, to].map(|end| end.map(|coordinate| coordinate as i64));
-            sides.extend((x0..x1).map(|x| [x, y0, x + 1, y0]).chain((y0..y1).map(|y| [x0, y, x0, y + 1])));
-        }
-        sides.sort_unstable();
-        expected.sort_unstable();
-        assert_eq!(sides, expected);
     }
 }
 
@@ -387,30 +295,6 @@ fn a_robot_is_put_in_the_open() {
     assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").open_place(0.1), None);
 }
 
-/// The place that is found has room on every random grid where any of its cells has, whatever the grid's turn.
-#[test]
-fn a_place_is_found_where_there_is_one() {
-    let mut rng = seeded(27_182);
-    let (mut found, mut none) = (0, 0);
-    for _ in 0..2000 {
-        let cells = Cells::random(&mut rng);
-        let clearance = cells.resolution * uniform(&mut rng, 0.0, 2.0);
-        let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
-        let middles = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (column, row)));
-        let room = middles
-            .map(|(column, row)| cells.in_map(column as f64 + 0.5, row as f64 + 0.5))
-            .any(|middle| plan.point_free(middle, clearance).free);
-        if let Some(place) = plan.open_place(clearance) {
-            assert!(plan.point_free([place.x(), place.y()], clearance).free, "{place:?}");
-            found += 1;
-        } else {
-            assert!(!room);
-            none += 1;
-        }
-    }
-    assert!(found > 300 && none > 100, "{found} {none}");
-}
-
 /// The robot is put in the middle of the largest square of free cells: of several, of that whose upper right corner is the first.
 #[test]
 fn the_largest_free_square_is_found() {
@@ -463,57 +347,4 @@ fn the_largest_free_square_is_found() {
         let place = plan.open_place(0.1).expect("a free cell");
         assert_eq!([place.x(), place.y()], middle);
     }
-}
-
-/// Shades that have a byte in common are told apart.
-#[test]
-fn shades_of_two_bytes_are_cells() {
-    let mut rng = seeded(27_185);
-    let (width, height) = (37, 300);
-    let values: Vec<u16> =
-        (0..width * height).map(|_| (rng.next_u32() % 256 * 256 + rng.next_u32() % 3) as u16).collect();
-    let mut file = format!("P5 {width} {height} 65535\n").into_bytes();
-    file.extend(values.iter().flat_map(|value| value.to_be_bytes()));
-    let image = read_pgm(&file).expect("an image");
-    let grid = OccupancyGrid::new(&image, &TRINARY, 0.05, SE2::identity());
-    let shade = |value: &u16| f32::from(*value) / 65535.0;
-    let expected = values
-        .chunks(width)
-        .rev()
-        .flatten()
-        .map(|value| TRINARY.cell(Pixel { shade: shade(value), opacity: 1.0 }));
-    assert!(grid.cells().eq(expected));
-}
-
-/// Where nothing is known to be free, the robot is put into the first cell, row by row from the bottom, in whose middle it fits.
-#[test]
-fn the_first_place_with_room_is_found() {
-    let mut rng = seeded(27_183);
-    let (mut first, mut later, mut none) = (0, 0, 0);
-    for _ in 0..2000 {
-        let cells = Cells::random(&mut rng);
-        let clearance = cells.resolution * uniform(&mut rng, 0.0, 4.0);
-        let grey = Pixel { shade: 205.0 / 255.0, ..WHITE };
-        let pixels = cells.occupied.iter().map(|occupied| if *occupied { BLACK } else { grey });
-        let image = Image { width: cells.width, height: cells.height, pixels };
-        let [x, y, yaw] = cells.origin;
-        let grid = OccupancyGrid::new(&image, &TRINARY, cells.resolution, SE2::new(x, y, yaw));
-        let plan = FloorPlan::from_grid(grid).expect("a small grid");
-        let middles = (0..cells.height).flat_map(|row| (0..cells.width).map(move |column| (column, row)));
-        let expected = middles
-            .enumerate()
-            .map(|(i, (column, row))| (i, cells.in_map(column as f64 + 0.5, row as f64 + 0.5)))
-            .find(|(_, middle)| plan.point_free(*middle, clearance).free);
-        let place = plan.open_place(clearance).map(|place| [place.x(), place.y()]);
-        match (expected, place) {
-            (Some((i, [x, y])), Some(place)) => {
-                // Coordinates up to 56 m, rounded by a few of their last bits.
-                assert!((place[0] - x).abs().max((place[1] - y).abs()) < 1e-12, "{place:?} {x} {y}");
-                *if i == 0 { &mut first } else { &mut later } += 1;
-            }
-            (None, None) => none += 1,
-            (expected, place) => panic!("{place:?} instead of {expected:?}"),
-        }
-    }
-    assert!(first > 100 && later > 300 && none > 300, "{first} {later} {none}");
 }

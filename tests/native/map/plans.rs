@@ -88,38 +88,10 @@ fn the_apartment_has_its_walls() {
 
 #[test]
 fn a_plan_is_checked() {
-    for bounds in [
-        [f64::NAN, 0.0, 1.0, 1.0],
-        [0.0, f64::NEG_INFINITY, 1.0, 1.0],
-        [0.0, 0.0, f64::INFINITY, 1.0],
-        [0.0, 0.0, 1.0, f64::NAN],
-        [1.0, 0.0, 1.0, 1.0],
-        [0.0, 2.0, 1.0, 1.0],
-        [2.0, 0.0, 1.0, 1.0],
-    ] {
-        let error = FloorPlan::new(vec![], bounds).expect_err("bad bounds");
-        assert!(matches!(error, FloorPlanError::BadBounds(_)), "{error:?}");
-        assert!(error.to_string().starts_with("bounds is ["), "{error}");
-    }
-    for end in [
-        [f64::NAN, 1.0],
-        [1.0, f64::INFINITY],
-        [f64::NEG_INFINITY, 1.0],
-        [10.001, 5.0],
-        [-0.001, 5.0],
-        [5.0, 10.001],
-        [5.0, -0.001],
-    ] {
-        for bad in [Segment { from: end, to: [1.0, 1.0] }, Segment { from: [1.0, 1.0], to: end }] {
-            let error = FloorPlan::new(vec![wall(0.0, 0.0, 10.0, 10.0), bad], ROOM).expect_err("a bad wall");
-            assert!(matches!(error, FloorPlanError::BadWall { index: 1, .. }), "{error:?}");
-            let message = error.to_string();
-            assert!(
-                message.starts_with("walls[1] ends at [") && message.contains("inside the bounds"),
-                "{message}"
-            );
-        }
-    }
+    let outside = Segment { from: [10.001, 5.0], to: [1.0, 1.0] };
+    let error = FloorPlan::new(vec![wall(0.0, 0.0, 10.0, 10.0), outside], ROOM).expect_err("a bad wall");
+    let message = error.to_string();
+    assert!(message.starts_with("walls[1] ends at [") && message.contains("inside the bounds"), "{message}");
     for bounds in [
         [0.0, 0.0, 1e-300, 1e-300],
         [0.0, 5.4e6, 9.0, 5.4e6 + 9.0],
@@ -224,43 +196,6 @@ fn touching_is_not_free() {
     assert!(plan.arc_free(&round, 0.2499).free && !plan.arc_free(&round, 0.2501).free);
 }
 
-/// A robot that leaves the map and comes back is not free, wherever it ends. Reference: points along the arc, of which
-/// 2000 come within 1e-5 m of the arc's extremes.
-#[test]
-fn leaving_the_bounds_is_seen() {
-    let plan = FloorPlan::new(vec![], ROOM).expect("a valid plan");
-    let mut rng = seeded(9700);
-    let (mut inside, mut leaves, mut returns) = (0, 0, 0);
-    for _ in 0..20_000 {
-        let point = in_box(ROOM.map(|edge| 5.0 + (edge - 5.0) * 1.02), &mut rng);
-        let arc = arc_from(point, &mut rng);
-        let depth = |x: f64, y: f64| x.min(y).min(10.0 - x).min(10.0 - y);
-        let least = (0..=200)
-            .map(|i| {
-                let f = f64::from(i) / 200.0;
-                let at = Arc { length: f * arc.length, turn: f * arc.turn, ..arc }.end();
-                depth(at.x(), at.y())
-            })
-            .fold(f64::INFINITY, f64::min);
-        // 200 chords of 3 m and two half turns: 3/200 · 2π/200 / 8 = 6e-5 m between arc and chord.
-        if least.abs() < 1e-4 {
-            continue;
-        }
-        let free = plan.arc_free(&arc, 0.1).free;
-        assert_eq!(free, least > 0.0, "{arc:?}");
-        let end = arc.end();
-        let ends_inside = depth(point[0], point[1]) > 0.0 && depth(end.x(), end.y()) > 0.0;
-        inside += u32::from(free);
-        leaves += u32::from(!free);
-        returns += u32::from(!free && ends_inside);
-        assert_eq!(plan.point_free([end.x(), end.y()], 0.1).free, depth(end.x(), end.y()) >= 0.0);
-    }
-    assert!(inside > 5000 && leaves > 2000 && returns > 100, "{inside} {leaves} {returns}");
-    // A disc may stick out: the walls, not the bounds, are in its way.
-    assert!(plan.point_free([0.0, 10.0], 0.5).free);
-    assert!(!plan.point_free([-1e-9, 5.0], 0.5).free);
-}
-
 /// Fewer than one wall is measured for a motion, however many there are at the same density; all of them in the same area
 /// cost at most in proportion.
 #[test]
@@ -285,41 +220,6 @@ fn wall_tests_grow_slower_than_the_number_of_walls() {
     assert!(growing.windows(2).all(|pair| pair[1] < 2.5 * pair[0]) && growing[2] < 1.0, "{growing:?}");
     let fixed: Vec<f64> = [10usize, 100, 1000, 10_000].map(|count| mean_tests(count, 100.0, 0.5)).to_vec();
     assert!(fixed[3] < 0.001 * 10_000.0, "{fixed:?}: a thousandth of the walls");
-}
-
-/// The box of a wall across the map holds half of it; who drives in that box, but far from all such walls, measures but the
-/// sixteen at most that are looked up together with what is near.
-#[test]
-fn walls_across_the_map_are_measured_only_from_nearby() {
-    let across = (0..200).map(f64::from).map(|i| wall(0.005 * i, 0.0, 99.0 + 0.005 * i, 99.0));
-    let walls = across.chain([wall(80.0, 20.0, 81.0, 20.0)]).collect();
-    let plan = FloorPlan::new(walls, [0.0, 0.0, 100.0, 100.0]).expect("a valid plan");
-    let mut rng = seeded(9900);
-    let mut measured = 0;
-    for _ in 0..1000 {
-        let point = in_box([79.8, 19.8, 81.2, 20.2], &mut rng);
-        let tests = plan.point_free(point, 0.13).wall_tests;
-        assert!(tests <= 16, "{point:?}: {tests} walls");
-        measured += tests;
-    }
-    assert!(measured > 100, "{measured}");
-}
-
-/// A plan that is told in other units has its place at the same spot. By a power of two, even to the bit.
-#[test]
-fn a_place_does_not_depend_on_the_unit() {
-    let apartment = FloorPlan::apartment();
-    for clearance in [0.0, 0.13, 1.0] {
-        let place = apartment.open_place(clearance).expect("there is room");
-        for unit in [1.0 / 64.0, 4.0, 256.0] {
-            let scaled = |[x, y]: [f64; 2]| [unit * x, unit * y];
-            let walls = apartment.walls().iter();
-            let walls = walls.map(|Segment { from, to }| Segment { from: scaled(*from), to: scaled(*to) });
-            let plan = FloorPlan::new(walls.collect(), apartment.bounds().map(|edge| unit * edge));
-            let found = plan.expect("a valid plan").open_place(unit * clearance).expect("there is room");
-            assert_eq!(found, SE2::new(unit * place.x(), unit * place.y(), place.theta()), "{unit}");
-        }
-    }
 }
 
 #[test]

@@ -201,27 +201,6 @@ fn isolating_an_alpha_silences_the_others() {
     assert_eq!(picture(&machine), picture(&self::machine(Settings { isolate: None, ..straight })));
 }
 
-/// The exact column is what the measured one tends to, and the curve of skews passes through it.
-#[test]
-fn exact_and_measured_figures_agree() {
-    for settings in models() {
-        for noise in KINDS {
-            let machine = machine(Settings { noise, samples: 200_000, ..settings });
-            let (exact, figures) = (machine.exact(), machine.figures());
-            let off = figures.cross_track.skew - exact.cross_track_skew;
-            assert!(off.abs() < SIGMAS * figures.cross_track.skew_error, "{settings:?}: {off}");
-            for i in 0..3 {
-                let error = (exact.cov[(i, i)] / 200_000.0).sqrt();
-                assert!((figures.cartesian.mean[i] - exact.mean[i]).abs() < SIGMAS * error);
-            }
-            let curve = machine.skew_curve(-1.5, 2.5, 9);
-            assert_eq!(curve.len(), 9);
-            assert!((curve[4] - exact.cross_track_skew).abs() < 1e-12, "the fifth point is the command's ω");
-            assert!((machine.linearized().mean.x - 2.0 * 0.5f64.sin()).abs() < 1e-15);
-        }
-    }
-}
-
 #[test]
 fn a_dragged_end_is_reached() {
     for (x, y) in [(1.0, 0.2), (1.0, -2.0), (-1.0, 0.3), (-0.5, -0.5), (2.0, 0.0), (-2.0, 0.0), (0.0, 1.0)] {
@@ -411,16 +390,4 @@ fn the_opening_cloud_shows_the_exact_skew() {
     let present = off(Settings::default().seed);
     assert!(present < 0.005);
     assert!((0..10).all(|seed| off(seed) >= present));
-}
-
-/// One robot has no spread to be drawn; what is known of the model without a cloud is drawn all the same.
-#[test]
-fn one_robot_has_no_contours() {
-    for (samples, drawn) in [(1, false), (2, true)] {
-        let contours = machine(Settings { samples, ..Settings::default() }).contours();
-        for of_cloud in [contours.ellipse, contours.exponential, contours.twist_ellipse] {
-            assert_eq!(!of_cloud.is_empty(), drawn, "{samples}");
-        }
-        assert!(!contours.linearized.is_empty() && !contours.additive.is_empty());
-    }
 }

@@ -206,63 +206,6 @@ fn a_seed_is_the_same_luck() {
     assert_eq!(large.rollout(1500), None);
 }
 
-/// Whether two machines tell the same, to the bit.
-fn assert_tell_the_same(one: &DeadReckoning, other: &DeadReckoning) {
-    assert_eq!(one.settings(), other.settings());
-    assert_eq!(one.shown(), other.shown());
-    // NaN is not equal to itself.
-    assert_eq!(format!("{:?}", one.stats()), format!("{:?}", other.stats()));
-    assert_eq!(format!("{:?}", one.measured()), format!("{:?}", other.measured()));
-    for step in 1..=one.settings().steps {
-        assert_eq!(one.poses(step), other.poses(step));
-        assert_eq!(one.outlines(step), other.outlines(step));
-    }
-}
-
-/// However it came there: grown by odd batches, in slices, by a detour over other settings.
-#[test]
-fn every_way_to_a_figure_is_the_same() {
-    let settings = few(2000);
-    let direct = machine(settings);
-    let mut grown = DeadReckoning::empty(settings).expect("valid settings");
-    for batch in [1, 2, 300, 5, 700, 255, 256, 10_000] {
-        let before = grown.shown();
-        assert_eq!(grown.grow(batch), (before + batch).min(2000));
-    }
-    assert_tell_the_same(&grown, &direct);
-
-    let mut moved = machine(Settings { steps: 50, step: 40, seed: 8, ..few(900) });
-    moved.begin(settings).expect("valid settings");
-    let mut slices = 0;
-    while !moved.advance(1000) {
-        slices += 1;
-        assert_eq!(moved.shown(), 900, "the former figures stay");
-        assert!((0.0..=1.0).contains(&moved.progress()));
-    }
-    assert!(slices > 5);
-    assert_tell_the_same(&moved, &direct);
-
-    let more = Settings { samples: 3000, ..settings };
-    moved.configure(more).expect("valid settings");
-    assert_tell_the_same(&moved, &machine(more));
-    moved.configure(settings).expect("valid settings");
-    assert_tell_the_same(&moved, &direct);
-    moved.restart();
-    assert_eq!(moved.shown(), 0);
-    moved.grow(2000);
-    assert_tell_the_same(&moved, &direct);
-}
-
-/// To look elsewhere drives nobody.
-#[test]
-fn another_step_or_recursion_is_there_at_once() {
-    let mut machine = machine(few(5000));
-    let settings = Settings { step: 17, compounding: Compounding::FirstOrder, ..few(5000) };
-    machine.begin(settings).expect("valid settings");
-    assert!(machine.advance(1));
-    assert_tell_the_same(&machine, &DeadReckoning::new(settings).expect("valid settings"));
-}
-
 /// Of the whole path, each step has its share: the sum of the shares is the path's own variance, whatever the number of steps.
 #[test]
 fn noise_of_the_whole_path_is_shared_by_its_steps() {

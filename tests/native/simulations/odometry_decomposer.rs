@@ -132,14 +132,6 @@ fn the_spreads_of_the_cloud_are_the_exact_ones() {
             (stats.heading - stats.exact_heading) / stats.heading_error,
         ];
         assert!(off.iter().all(|off| off.abs() < SIGMAS), "{preset} {rule:?}: {off:?}");
-        // Of 400 clouds the spread is known to 3.5 %; the errors of single ones vary as much again.
-        let clouds: Vec<_> =
-            (0..400).map(|seed| machine(Settings { seed, samples: 1000, ..settings }).stats()).collect();
-        let mean = |of: &dyn Fn(&_) -> f64| clouds.iter().map(of).sum::<f64>() / clouds.len() as f64;
-        let centre = mean(&|stats: &motion::sim::odometry_decomposer::Stats| stats.cross_track);
-        let spread = mean(&|stats| (stats.cross_track - centre).powi(2)).sqrt();
-        let told = mean(&|stats| stats.cross_track_error);
-        assert!((spread / told - 1.0).abs() < 0.15, "{preset} {rule:?}: {spread}, told {told}");
     }
     let none = machine(Settings { alphas: [0.0; 5], ..Settings::default() }).stats();
     assert_eq!((none.cross_track, none.cross_track_error, none.exact_cross_track), (0.0, 0.0, 0.0));

@@ -1,16 +1,12 @@
 //! Whether errors and intervals are what they say: over thousands of seeds, those of 95 % hold the exact value in as many.
 
 use crate::common::told::Told;
-use crate::common::{SIGMAS, mean, preset};
-use motion::geom::arc::arc_near;
+use crate::common::{SIGMAS, preset};
 use motion::geom::se2::SE2;
-use motion::geom::sinc::sinc;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::sim::banana::{BananaMachine, Figures, ModelKind, Settings};
 use motion::sim::squeeze::{self, MapSqueeze, PRESETS};
 use motion::{NoiseKind, VelocityAlphas, VelocityModel};
-use nalgebra::{Matrix2, Vector2};
-use std::f64::consts::TAU;
 
 /// Seeds of each case: a count of 10 000 scatters by √(0.95 · 0.05 / 10 000) = 0.2 % around 95 %, and 4.5 times that is 1 %.
 const REPETITIONS: u64 = 10_000;
@@ -97,52 +93,6 @@ fn errors_of_the_worked_example_as_it_opens() {
     let [skew, _, floor] = shares_within_errors(preset("worked"), LARGE_REPETITIONS);
     assert_covered("skew, worked example", skew, LARGE_REPETITIONS);
     assert_covered("gain on the floor, worked example", floor, LARGE_REPETITIONS);
-}
-
-/// Where two dozen robots have most of the variance, their number scatters, and the error with it.
-#[test]
-#[ignore = "nightly: thousands of clouds"]
-fn errors_of_straight_under_the_odometry_model_are_as_told() {
-    let told = Told::in_document(include_str!("../../../doc/model.md"));
-    let [robots, around, of_variance, held] = told.numbers(
-        "In the preset *Straight* under the odometry model, of # robots # are driven aside by more than a quarter turn and \
-         have # % of the variance on the floor: there 1.96 errors hold the exact gain in # of 100 clouds",
-    );
-    let settings = Settings { model: ModelKind::Odometry, ..preset("straight") };
-    let large = Settings { samples: 2_000_000, ..settings };
-    let machine = BananaMachine::new(large).expect("valid settings");
-    let plain: Vec<_> = machine.poses().map(|pose| Vector2::new(pose.x(), pose.y())).collect();
-    let arcs = machine.poses().map(|pose| arc_near(&SE2::identity(), &pose, 0.0));
-    let arcs: Vec<_> = arcs.map(|(length, turn)| Vector2::new(length, turn)).collect();
-    let differences = log_densities(&arcs).into_iter().zip(log_densities(&plain)).zip(&arcs);
-    let differences: Vec<_> = differences
-        .map(|((bent, plain), arc)| bent - plain - (arc.x.abs() * sinc(0.5 * arc.y).powi(2) / 2.0).ln())
-        .collect();
-    let gain = mean(&differences);
-    let squares = || differences.iter().map(|difference| (difference - gain).powi(2)).zip(&arcs);
-    let is_around = |arc: &Vector2<f64>| arc.x < 0.0;
-    let share = arcs.iter().filter(|arc| is_around(arc)).count() as f64 / arcs.len() as f64;
-    around.assert(robots.value * share, 0.0);
-    let theirs: f64 = squares().filter(|(_, arc)| is_around(arc)).map(|(square, _)| square).sum();
-    of_variance.assert_percent(theirs / squares().map(|(square, _)| square).sum::<f64>(), 0.0);
-
-    let samples = robots.value as usize;
-    let [skew, pose, floor] = shares_within_errors(Settings { samples, ..settings }, LARGE_REPETITIONS);
-    assert_covered("skew, straight", skew, LARGE_REPETITIONS);
-    assert_covered("gain of poses, straight", pose, LARGE_REPETITIONS);
-    held.assert_percent(floor, 0.0);
-}
-
-/// Of each point under the Gaussian that has their own moments.
-fn log_densities(points: &[Vector2<f64>]) -> Vec<f64> {
-    let n = points.len() as f64;
-    let centre = points.iter().sum::<Vector2<f64>>() / n;
-    let scatter = points.iter().map(|point| (point - centre) * (point - centre).transpose());
-    let cov = scatter.sum::<Matrix2<f64>>() / n;
-    let (precision, volume) = (cov.try_inverse().expect("a spread"), TAU * cov.determinant().sqrt());
-    let at =
-        |point: &Vector2<f64>| -0.5 * (point - centre).dot(&(precision * (point - centre))) - volume.ln();
-    points.iter().map(at).collect()
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! The likelihood gains and the ratio of areas: against their definitions, against references, and where they have no
 //! meaning.
 
-use crate::common::{KINDS, SIGMAS, Table, mean, seeded, uniform, variance};
+use crate::common::{KINDS, SIGMAS, Table, mean, variance};
 use motion::geom::arc::{arc_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Figures, ModelKind, PRESETS, Preset, Settings};
-use motion::stats::{CartesianMoments, ExactGain, ExponentialMoments, MeasuredGain};
+use motion::stats::{CartesianMoments, ExactGain, MeasuredGain};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -148,61 +148,6 @@ fn the_machine_has_the_gain_of_its_poses() {
     }
 }
 
-/// The noise of the robots, which no model and no command changes.
-fn unit_noise(settings: Settings) -> Vec<[f64; 3]> {
-    let alphas = VelocityAlphas([1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
-    let settings =
-        Settings { model: ModelKind::Velocity, command: STRAIGHT, velocity_alphas: alphas.0, ..settings };
-    let machine = BananaMachine::new(settings).expect("a valid setting");
-    machine.executed().map(|[v, omega, gamma]| [v - 1.0, omega, gamma]).collect()
-}
-
-/// What a sample says of all: fours of robots in order, and of those with a robot whose squared noises add up to more than 20
-/// all, to more than 13 the first 16 384, of the others the first 512.
-fn sampled_error(noise: &[[f64; 3]], differences: &[f64]) -> f64 {
-    let (fours, gain) = (noise.len().div_ceil(4), mean(differences));
-    let (mut robots, mut squares) = (0.0, 0.0);
-    for (four, (noise, differences)) in noise.chunks(4).zip(differences.chunks(4)).enumerate() {
-        let farthest = noise.iter().map(|z| z.iter().map(|z| z * z).sum()).fold(0.0, f64::max);
-        let among = fours.min(if farthest > 20.0 {
-            usize::MAX
-        } else if farthest > 13.0 {
-            16_384
-        } else {
-            512
-        });
-        if four < among {
-            let weight = fours as f64 / among as f64;
-            robots += weight * differences.len() as f64;
-            squares += weight * differences.iter().map(|d| (d - gain).powi(2)).sum::<f64>();
-        }
-    }
-    (squares / (robots - 1.0) / noise.len() as f64).sqrt()
-}
-
-#[test]
-fn the_error_of_a_large_cloud_is_that_of_its_sample() {
-    for (model, noise, command, velocity_alphas) in [
-        (ModelKind::Velocity, NoiseKind::Normal, STRAIGHT, FAN),
-        (ModelKind::Velocity, NoiseKind::Triangular, HARD, OPENING),
-        (ModelKind::Odometry, NoiseKind::Normal, GENTLE, OPENING),
-    ] {
-        let settings = Settings { model, noise, command, velocity_alphas, ..Settings::default() };
-        let mut machine = BananaMachine::new(settings).expect("a valid setting");
-        // Up and down, as the sample is that of the robots there are.
-        for samples in [2049, 40_002, 5_003, 40_002] {
-            let settings = Settings { samples, ..settings };
-            machine.configure(settings).expect("a valid setting");
-            let (found, noise) = (gains(&machine.figures().gain), unit_noise(settings));
-            let differences = differences(&poses(&machine), command.omega * command.dt);
-            for ([_, error], differences) in found.into_iter().zip(differences) {
-                let expected = sampled_error(&noise, &differences);
-                assert_close(&format!("{settings:?}"), error, expected, 1e-6 * expected);
-            }
-        }
-    }
-}
-
 // ---------------------------------------------------------------------------------------------- exact figures
 
 /// The references are cut off at 6 or 6.6 standard deviations of each noise, and have the jump to another branch between
@@ -230,7 +175,7 @@ fn exact_gains_match_the_references() {
 /// known to √(0.117/n), the skews are exact.
 #[test]
 fn the_published_figures_are_met() {
-    const ROBOTS: usize = 4_000_000;
+    const ROBOTS: usize = 400_000;
     for (command, alphas, pose, area_ratio, inside, skew) in [
         (GENTLE, OPENING, 0.124, 1.007, 0.869, -0.431),
         (HARD, OPENING, 0.260, 0.978, 0.872, -0.466),
@@ -256,7 +201,7 @@ fn the_published_figures_are_met() {
         assert_close("ellipse", figures.inside_ellipse, inside, 5e-4 + error);
         assert_close("exponential", figures.inside_exponential, 0.865, 5e-4 + error);
         assert_close("skew", exact.cross_track_skew, skew, 5e-4);
-        assert!(figures.gain.error.pose < 2e-3 && figures.gain.error.floor < 1e-3);
+        assert!(figures.gain.error.pose < 7e-3 && figures.gain.error.floor < 4e-3);
     }
 }
 
@@ -387,33 +332,6 @@ fn all(figures: &Figures) -> [f64; 11] {
     ]
 }
 
-/// One point, for all that its headings do to exponential coordinates, has neither skew nor shape nor inside.
-#[test]
-fn figures_of_one_point_are_nan() {
-    for alphas in [[0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.0, 0.0, 0.4]] {
-        for [v, omega, dt] in
-            [[1.0, 0.5, 1.0], [1.0, 1.2, 1.4], [-300.0, 0.01, 7.0], [1e-6, 1.5, 1.0], [0.0, 1.0, 1.0]]
-        {
-            for noise in KINDS {
-                let command = VelocityCmd { v, omega, dt };
-                let settings = Settings {
-                    command,
-                    velocity_alphas: alphas,
-                    noise,
-                    samples: 5000,
-                    ..Settings::default()
-                };
-                let machine = BananaMachine::new(settings).expect("a valid setting");
-                let figures = all(machine.figures());
-                assert!(figures.iter().all(|figure| figure.is_nan()), "{command:?} {alphas:?}: {figures:?}");
-                let exact = machine.table().exact;
-                assert!(exact.likelihood_gain.pose.is_nan() && exact.likelihood_gain.floor.is_nan());
-                assert!(exact.area_ratio.is_nan() && exact.cross_track_skew.is_nan());
-            }
-        }
-    }
-}
-
 /// On a line through the start there is nothing to gain, whatever the headings.
 #[test]
 fn a_line_has_no_gain() {
@@ -446,26 +364,4 @@ fn tiny_noise_keeps_its_figures() {
             assert_close("share", figures[4], 1.0 - (-2f64).exp(), SIGMAS * (0.117f64 / 20_000.0).sqrt());
         }
     }
-}
-
-/// Few robots have a gain from four on, and from three on the floor.
-#[test]
-fn a_gain_needs_more_robots_than_dimensions() {
-    let mut rng = seeded(611);
-    for count in 0..8 {
-        let cloud: Vec<SE2> = (0..count)
-            .map(|_| {
-                SE2::new(
-                    1.0 + uniform(&mut rng, -0.2, 0.2),
-                    uniform(&mut rng, -0.2, 0.2),
-                    uniform(&mut rng, -0.3, 0.3),
-                )
-            })
-            .collect();
-        let MeasuredGain { value, error } = MeasuredGain::from_poses(&cloud, &SE2::identity(), 0.0);
-        assert_eq!((value.pose.is_nan(), error.pose.is_nan()), (count < 4, count < 4), "{count}");
-        assert_eq!((value.floor.is_nan(), error.floor.is_nan()), (count < 3, count < 3), "{count}");
-    }
-    let none = ExponentialMoments::from_poses(&[], &SE2::identity());
-    assert!(none.mean.x.is_nan());
 }

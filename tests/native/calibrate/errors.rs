@@ -3,7 +3,7 @@
 use super::simulated::{ALPHAS, MODELS, Simulation};
 use motion::calibrate::{
     CalibrateError, Calibration, ERRORS, Error, Model, Options, ReferenceError, Robust, Systematic,
-    Trajectory, Uncertainty, Verdict, calibrate, cut,
+    Trajectory, Verdict, calibrate,
 };
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::models::OdometryRule;
@@ -100,56 +100,6 @@ fn what_is_not_removed_is_in_the_alphas() {
     // It makes tails, and it is not them that are to be mended.
     assert!(with.doubts.kinds[0].kurtosis > 10.0, "{:?}", with.doubts.kinds[0]);
     assert_eq!(with.doubts.verdict, Verdict::Correlated);
-}
-
-/// Now and then a leg is left out of the log, which is cut as before but for that one. Its residual by the errors that the others tell is
-/// what was told of it, less what it drew the errors to itself. Where residuals are linear in the errors, as those of the omnidirectional
-/// model, nearly all of that is given back, in the mean no more and no less; where a direction is that of a short way, most of it.
-#[test]
-#[ignore = "nightly: 540 calibrations"]
-fn a_residual_is_what_it_is_by_the_errors_that_the_other_legs_tell() {
-    const OMNI: Model = Model::Odometry(OdometryRule::Omni);
-    let errors = Systematic { clock_offset: 0.0, ..INJECTED };
-    for model in [OdometryRule::Omni, OdometryRule::Table, OdometryRule::Nav2].map(Model::Odometry) {
-        for remove in [[true; ERRORS], [false, true, true, true, true, true]] {
-            // By deviations: how far the residuals were drawn, what is left of that, and products with what was given back.
-            let [mut drawn, mut left, mut product, mut given] = [0.0; 4];
-            for seed in 12..15 {
-                let simulation = Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, 300, seed) };
-                let [odometry, reference] = simulation.log();
-                let options = Options { remove, ..simulation.options(Robust::No) };
-                let told = calibrate(&odometry, &reference, &options).expect("legs enough");
-                for (place, leg) in told.legs.iter().enumerate().step_by(10) {
-                    let inside = odometry.samples().enumerate().filter_map(|(place, (time, _))| {
-                        (leg.times[0] < time && time <= leg.times[1]).then_some(place)
-                    });
-                    let inside: Vec<usize> = inside.collect();
-                    let broken = odometry.clone().broken_before(inside);
-                    let others = calibrate(&broken, &reference, &options).expect("legs enough");
-                    assert_eq!(others.legs.len() + 1, told.legs.len(), "{model:?} {seed} {place}");
-                    let by = |errors: &Systematic| {
-                        let legs = cut(&odometry, &reference, options.legs, errors.clock_offset);
-                        let same =
-                            legs.iter().find(|other| other.times == leg.times).expect("of the same wheels");
-                        model.observe(same, errors, &Uncertainty::default()).residuals
-                    };
-                    let (all, without) = (by(&told.removed), by(&others.removed));
-                    let now = told.observations[place].residuals;
-                    for k in (0..3).filter(|k| now[*k].is_finite()) {
-                        let deviations = |off: f64| off / told.judged[place].deviations[k];
-                        drawn += deviations(without[k] - all[k]).powi(2);
-                        left += deviations(without[k] - now[k]).powi(2);
-                        given += deviations(now[k] - all[k]).powi(2);
-                        product += deviations(without[k] - all[k]) * deviations(now[k] - all[k]);
-                    }
-                }
-            }
-            let (rest, slope) = (left / drawn, product / given);
-            let most = if model == OMNI { 0.05 } else { 0.4 };
-            assert!(rest < most, "{model:?} {remove:?}: {rest}");
-            assert!(model != OMNI || (slope - 1.0).abs() < 0.1, "{model:?} {remove:?}: {slope}");
-        }
-    }
 }
 
 /// Against the fits to the same legs without errors, of which none is looked for: the noise is the same in both, and by 200 logs the ratio

@@ -11,6 +11,5 @@ mod passes;
 mod simulated;
 mod sparse;
 mod standing;
-mod steps;
 mod understated;
 mod undetermined;

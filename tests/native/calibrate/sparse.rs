@@ -1,13 +1,13 @@
 //! Trajectories of which one has far fewer samples than the other.
 
 use motion::calibrate::{
-    Calibration, Error, LegLength, Model, Options, ReferenceError, Robust, Systematic, Trajectory,
-    Uncertainty, calibrate, cut,
+    Calibration, Error, LegLength, Model, Options, ReferenceError, Robust, Systematic, Trajectory, calibrate,
+    cut,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::{NoiseKind, Variance};
-use nalgebra::{Matrix2, Vector3};
+use nalgebra::Vector3;
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -155,57 +155,3 @@ proptest! {
         prop_assert_eq!(told.to_bits(), expected.to_bits());
     }
 }
-
-/// A leg of a way t whose ends are blurred has a distance and a bearing of another spread than to first order: by 5 parts in a hundred where the
-/// variance of the blur is a twentieth of t². Of 40,000 legs a mean square is known to √(2/40000), and legs that share an end have something in
-/// common: 2 parts in a hundred are allowed, and for the mean distance four of its deviations.
-#[test]
-fn where_an_end_is_blurred_distance_and_bearing_have_the_variances_that_are_told() {
-    const LEGS: u32 = 40_000;
-    const WAY: f64 = 0.25;
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(11);
-    let mut noise = |variance: f64| NoiseKind::Normal.sample(Variance(variance), &mut rng);
-    // Of the robot's own noise there is none, or that of a way alone.
-    for (blur, alpha) in [(0.04, 0.0), (0.01, 0.1)] {
-        let (mut read, mut truth) = (SE2::identity(), SE2::identity());
-        let mut log = [Vec::new(), Vec::new()];
-        for row in 0..=LEGS {
-            let seen = SE2::new(truth.x() + noise(blur * blur), noise(blur * blur), 0.0);
-            log[0].push((f64::from(row), read));
-            log[1].push((f64::from(row), seen));
-            read = read * SE2::new(WAY, 0.0, 0.0);
-            truth = truth * SE2::new(WAY + noise(alpha * WAY * WAY), 0.0, 0.0);
-        }
-        let [odometry, reference] = log.map(|samples| Trajectory::new(samples).expect("times rise"));
-        let legs = cut(&odometry, &reference, LegLength::Lasted { duration: 1.0 }, 0.0);
-        assert!(legs.len() > 39_000, "{}", legs.len());
-        let place = Matrix2::identity() * (2.0 * blur * blur);
-        for (model, distance, bearing) in
-            [(Model::Odometry(OdometryRule::Nav2), 1, 0), (Model::Velocity, 0, 1)]
-        {
-            let mut alphas = [0.0; 6];
-            alphas[if distance == 1 { 2 } else { 0 }] = alpha;
-            let error = Uncertainty { place, bearing: place, headings: [0.0; 2], alphas };
-            let told: Vec<[f64; 3]> = legs
-                .iter()
-                .map(|leg| model.observe(leg, &Systematic::NONE, &error))
-                // Of those that hardly lead anywhere there is no bearing.
-                .map(|leg| {
-                    let variance = leg.floors[distance] + alpha * leg.coefficients[distance][0];
-                    let off = leg.residuals[distance];
-                    [
-                        off / variance.sqrt(),
-                        off * off / variance,
-                        leg.residuals[bearing].powi(2) / leg.floors[bearing],
-                    ]
-                })
-                .collect();
-            let mean = |k: usize| told.iter().map(|each| each[k]).sum::<f64>() / told.len() as f64;
-            let case = format!("{model:?}, {blur} m, {alpha}: {} {} {}", mean(0), mean(1), mean(2));
-            assert!(mean(0).abs() < 4.0 / f64::from(LEGS).sqrt(), "{case}");
-            assert!((mean(1) - 1.0).abs() < 0.02 && (mean(2) - 1.0).abs() < 0.02, "{case}");
-        }
-    }
-}
-
-proptest! {}

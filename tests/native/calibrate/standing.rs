@@ -1,79 +1,10 @@
 //! Robots that start, stop and turn off where a leg ends, and stand or hardly move all through some.
 
-use super::simulated::{ALPHAS, MODELS, Simulation, Unlike};
+use super::simulated::{MODELS, Simulation, Unlike};
 use motion::NoiseKind;
-use motion::calibrate::{ERRORS, Error, LegLength, Robust, Systematic, Trajectory, Verdict, calibrate};
+use motion::calibrate::{ERRORS, Error, Robust, Systematic, Trajectory, calibrate};
 use motion::geom::se2::SE2;
 use nalgebra::Vector3;
-
-/// v (m/s) and ω (rad/s) of a leg of a second: standing, hardly turning, turning on the spot, straight on, bends.
-fn started_and_stopped(leg: usize) -> [f64; 2] {
-    let mixed = leg.wrapping_mul(0x9e37_79b9).wrapping_add(leg / 7) >> 8;
-    let part = (mixed / 16 % 64) as f64 / 64.0;
-    match mixed % 8 {
-        0 => [0.0, 0.0],
-        1 => [0.0, 1e-3 * (part - 0.5)],
-        2 => [0.0, 1.6 * (part - 0.5)],
-        3 | 4 => [0.2 + 0.4 * part, 0.0],
-        _ => [0.2 + 0.4 * part, 1.4 * (part - 0.5)],
-    }
-}
-
-/// A clock that is known to some milliseconds has a robot that stands move by as many millimetres, where its own noise is none: a single
-/// such leg would decide on the α's and on the clock. Against the fits of which no error is removed, for there are none: the noise is the
-/// same in both, and the ratio of the means is allowed three of its deviations, and three hundredths, for velocity commands have two left: of
-/// logs made with other seeds α₃ was 1.022 ± 0.005. The shares of intervals and verdicts are allowed three deviations, below 95 % and the 94 %
-/// of `doubts`.
-#[test]
-#[ignore = "nightly: 240 calibrations"]
-fn a_leg_that_shows_no_more_than_the_clocks_error_does_not_decide() {
-    const LOGS: u64 = 30;
-    let (mut held, mut of, mut fits, mut logs) = (0, 0, 0, 0);
-    // The robot never backs up, without which three of the rules are one.
-    let [table, _, _, omnidirectional, velocity] = MODELS.map(|model| (model, NoiseKind::Normal));
-    for (model, noise) in [table, omnidirectional, velocity, (table.0, NoiseKind::Triangular)] {
-        let pairs: Vec<[Vec<f64>; 2]> = (0..LOGS)
-            .map(|seed| {
-                let simulation = Simulation {
-                    legs: LegLength::Lasted { duration: 1.0 },
-                    drive: Some(started_and_stopped),
-                    ..Simulation::of(model, noise, 600, 9_000 + seed)
-                };
-                let [odometry, reference] = simulation.log();
-                let [with, without] = [true, false].map(|remove| {
-                    let mut options = simulation.options(Robust::No);
-                    options.remove = [remove; 6];
-                    calibrate(&odometry, &reference, &options).expect("legs enough")
-                });
-                for (interval, alpha) in with.estimate.intervals.iter().zip(ALPHAS) {
-                    of += 1;
-                    held += u32::from(interval.is_some_and(|[from, to]| from <= alpha && alpha <= to));
-                }
-                logs += 1;
-                fits += u32::from(with.doubts.verdict == Verdict::Fits);
-                [with, without].map(|told| told.estimate.alphas)
-            })
-            .collect();
-        for alpha in 0..model.alphas() {
-            let mean = |k: usize| pairs.iter().map(|pair| pair[k][alpha]).sum::<f64>() / LOGS as f64;
-            let (ratio, without) = (mean(0) / mean(1), mean(1));
-            let square = pairs
-                .iter()
-                .map(|[with, without]| (with[alpha] - ratio * without[alpha]).powi(2))
-                .sum::<f64>();
-            let deviation = square.sqrt() / LOGS as f64 / without;
-            assert!(
-                (ratio - 1.0).abs() < 0.03 + 3.0 * deviation,
-                "{model:?} {noise:?} α{}: {ratio} ± {deviation}",
-                alpha + 1
-            );
-            assert!(deviation < 0.05, "{model:?} {noise:?} α{}: {deviation}", alpha + 1);
-        }
-    }
-    let least = |share: f64, of: u32| share - 3.0 * (share * (1.0 - share) / f64::from(of)).sqrt();
-    assert!(f64::from(held) / f64::from(of) > least(0.95, of), "{held} of {of}");
-    assert!(f64::from(fits) / f64::from(logs) > least(0.94, logs), "{fits} of {logs}");
-}
 
 /// Of wheels that err by nothing most legs are exact whatever the clocks, and the others must not pass for bad: those in which the robot starts,
 /// stops or turns off tell the offset. The reference has samples when the odometry has, and twice and once a second between these. All errors are

@@ -7,7 +7,7 @@
 use crate::common::{SIGMAS, with_standard_error};
 use approx::assert_relative_eq;
 use motion::geom::se2::SE2;
-use motion::stats::{CartesianMoments, CrossTrack, ExactMoments, ExponentialMoments};
+use motion::stats::{CartesianMoments, ExactMoments, ExponentialMoments};
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas,
     VelocityCmd, VelocityModel,
@@ -43,29 +43,6 @@ fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
     }
     assert_relative_eq!(by_arc.x(), 2.0 * 0.5f64.sin(), epsilon = 1e-15);
     assert_relative_eq!(by_arc.y(), 2.0 * (1.0 - 0.5f64.cos()), epsilon = 1e-15);
-}
-
-#[test]
-fn exponential_coordinates_have_the_mean_and_covariance_of_the_command() {
-    let x0 = SE2::identity();
-    let xis: Vec<Vector3<f64>> = cloud_of(&MODEL).iter().map(|pose| pose.boxminus(&x0)).collect();
-    let n = xis.len() as f64;
-    let mean = xis.iter().sum::<Vector3<f64>>() / n;
-    let cov = xis.iter().map(|xi| (xi - mean) * (xi - mean).transpose()).sum::<Matrix3<f64>>() / (n - 1.0);
-
-    let r_u = MODEL.tangent_cov(&U).unwrap();
-    assert_relative_eq!(r_u, Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025)), epsilon = 1e-17);
-    // A mean has the standard error σ/√n, a Gaussian variance √(2/n) of itself.
-    let mean_error = SIGMAS * (0.025 / n).sqrt();
-    assert_relative_eq!(mean, Vector3::new(1.0, 0.0, 0.5), epsilon = mean_error);
-    let relative_error = SIGMAS * (2.0 / n).sqrt();
-    assert_relative_eq!(cov[(0, 0)], r_u[(0, 0)], max_relative = relative_error);
-    assert_relative_eq!(cov[(2, 2)], r_u[(2, 2)], max_relative = relative_error);
-    assert!(cov[(1, 1)] < 1e-30, "no lateral noise, only rounding: {}", cov[(1, 1)]);
-
-    let moments = ExponentialMoments::from_poses(&cloud_of(&MODEL), &x0);
-    assert_relative_eq!(moments.mean, mean, epsilon = 1e-12);
-    assert_relative_eq!(moments.cov, cov, epsilon = 1e-12);
 }
 
 #[test]
@@ -146,14 +123,6 @@ fn the_measured_table() {
     }
     let lateral = ExponentialMoments::from_poses(&cloud, &SE2::identity());
     assert!(lateral.mean.y.abs() < 1e-15 && lateral.cov[(1, 1)] < 1e-30, "printed 0.0000 and 0.00000");
-}
-
-/// The same cloud is no Gaussian in (x, y): its skew is forty standard errors from 0.
-#[test]
-fn the_cloud_is_skewed_in_the_plane() {
-    let figures = CrossTrack::from_poses(&cloud_of(&MODEL));
-    assert!(figures.skew < -0.25 && figures.skew < -40.0 * figures.skew_error, "{figures:?}");
-    assert!((figures.skew - -0.30056).abs() < SIGMAS * figures.skew_error, "{figures:?}");
 }
 
 /// γ̂ folded into R_u: the heading variance comes out right, and a little leaks into the lateral coordinate.

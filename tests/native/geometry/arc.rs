@@ -1,6 +1,6 @@
 //! The distance between a driven arc and a wall, against two references that know nothing of circles' equations.
 
-use crate::common::distance::{Point, along, by_halving, minus, norm, point_to_line, scale};
+use crate::common::distance::{Point, along, by_halving, minus, norm, scale};
 use crate::common::{seeded, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -179,21 +179,6 @@ fn the_distance_is_the_same_from_either_end_and_in_every_frame() {
     }
 }
 
-/// Kilometres from the origin the wall's own coordinates are rounded, and nothing worse happens.
-#[test]
-fn large_coordinates_cost_their_own_rounding_only() {
-    let mut rng = seeded(9300);
-    for _ in 0..5_000 {
-        let [x, y] = point(&mut rng, 1e6);
-        let arc = Arc { start: SE2::new(x, y, uniform(&mut rng, -PI, PI)), ..any_arc(&mut rng) };
-        let wall = tangent_wall(&mut rng, &arc);
-        let [low, high] = by_halving(&arc, &wall);
-        let exact = wall.distance_to_arc(&arc);
-        let tolerance = 8.0 * f64::EPSILON * 20.0;
-        assert!((low - tolerance..=high + tolerance).contains(&exact), "{exact:e}: {arc:?} {wall:?}");
-    }
-}
-
 #[test]
 fn known_distances() {
     let quarter = Arc { start: SE2::identity(), length: FRAC_PI_2, turn: FRAC_PI_2 };
@@ -241,39 +226,6 @@ fn known_distances() {
         assert!((distance - expected).abs() < 4e-16 * 9.0, "{name}: {distance} instead of {expected}");
     }
     assert!((quarter.end().x() - 1.0).abs() < 1e-15 && (half.end().y() - 2.0).abs() < 1e-15);
-}
-
-#[test]
-fn the_distance_to_a_point_is_exact() {
-    let mut rng = seeded(9400);
-    for _ in 0..10_000 {
-        let size = signed_log_uniform(&mut rng, 1e-9, 10.0).abs();
-        let wall = Segment { from: point(&mut rng, size), to: point(&mut rng, size) };
-        let at = if rng.next_u32().is_multiple_of(2) {
-            point(&mut rng, 2.0 * size)
-        } else {
-            // Next to the wall, or next to the line beyond it.
-            let (t, off) = (uniform(&mut rng, -0.5, 1.5), signed_log_uniform(&mut rng, 1e-15, 1.0) * size);
-            [
-                wall.from[0] + t * (wall.to[0] - wall.from[0]),
-                wall.from[1] + t * (wall.to[1] - wall.from[1]) + off,
-            ]
-        };
-        let (exact, reference) = (wall.distance_to_point(at), point_to_line(at, [wall.from, wall.to]));
-        assert!(
-            (exact - reference).abs() < 16.0 * f64::EPSILON * size,
-            "{exact:e}, {reference:e}: {at:?} {wall:?}"
-        );
-        let spot = Arc { start: SE2::new(at[0], at[1], 1.0), length: 0.0, turn: 0.0 };
-        assert!((wall.distance_to_arc(&spot) - reference).abs() < 16.0 * f64::EPSILON * size);
-    }
-    let wall = Segment { from: [0.0, 0.0], to: [4.0, 0.0] };
-    for (at, distance) in
-        [([2.0, 3.0], 3.0), ([7.0, 4.0], 5.0), ([-3.0, -4.0], 5.0), ([1.0, 0.0], 0.0), ([4.0, 0.0], 0.0)]
-    {
-        assert_eq!(wall.distance_to_point(at), distance);
-    }
-    assert_eq!(Segment { from: [1.0, 1.0], to: [1.0, 1.0] }.distance_to_point([4.0, 5.0]), 5.0);
 }
 
 #[test]

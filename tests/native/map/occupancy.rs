@@ -101,25 +101,6 @@ fn the_walls_are_as_far_as_the_cells() {
     assert!(inside > 4000 && outside > 4000, "{inside} {outside}");
 }
 
-/// Deep inside a block there is no wall within reach, and yet nobody is free there.
-#[test]
-fn a_block_is_solid() {
-    let side = 40;
-    let cells = Cells {
-        width: side,
-        height: side,
-        occupied: vec![true; side * side],
-        resolution: 1.0,
-        origin: [-20.0, -20.0, 0.0],
-    };
-    let plan = FloorPlan::from_grid(cells.grid()).expect("four walls");
-    assert_eq!(plan.walls().len(), 4, "{:?}", plan.walls());
-    assert!(!plan.point_free([0.0, 0.0], 0.1).free);
-    let inside = Arc { start: SE2::new(0.0, 0.0, 0.5), length: 3.0, turn: 1.0 };
-    assert!(!plan.arc_free(&inside, 0.1).free);
-    assert_eq!(plan.open_place(0.1), None);
-}
-
 /// Neighbouring sides are one wall, sides between two occupied cells are none, and corners touch.
 #[test]
 fn outlines_are_joined() {
@@ -293,58 +274,4 @@ fn a_robot_is_put_in_the_open() {
     assert!((place.x() - 0.05).abs() + (place.y() - 0.05).abs() < 1e-12, "the first: {place:?}");
     let blocked = drawn(&["???", "???", "???"], Unknown::Blocked);
     assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").open_place(0.1), None);
-}
-
-/// The robot is put in the middle of the largest square of free cells: of several, of that whose upper right corner is the first.
-#[test]
-fn the_largest_free_square_is_found() {
-    let mut rng = seeded(27_184);
-    for round in 0..3000 {
-        let [width, height] = [0, 1].map(|_| 1 + (rng.next_u32() % 40) as usize);
-        // From a few marks on open ground to as many as there are free cells; in stripes, whole parts of rows are alike.
-        let share = [0.003, 0.03, 0.2, 0.5][round % 4];
-        let mut cells = vec![Cell::Free; width * height];
-        for row in cells.chunks_mut(width) {
-            let stripe = if uniform(&mut rng, 0.0, 1.0) < share { width / 2 } else { 0 };
-            for (column, cell) in row.iter_mut().enumerate() {
-                let kind = if rng.next_u32().is_multiple_of(2) { Cell::Occupied } else { Cell::Unknown };
-                if column < stripe || uniform(&mut rng, 0.0, 1.0) < share {
-                    *cell = kind;
-                }
-            }
-        }
-        let shade = |cell: &Cell| match cell {
-            Cell::Free => 1.0,
-            Cell::Occupied => 0.0,
-            Cell::Unknown => 0.5,
-        };
-        let pixels: Vec<_> = cells
-            .chunks(width)
-            .rev()
-            .flatten()
-            .map(|cell| Pixel { shade: shade(cell), opacity: 1.0 })
-            .collect();
-        let grid = OccupancyGrid::new(&Image { width, height, pixels }, &TRINARY, 1.0, SE2::identity());
-        assert!(grid.cells().eq(cells.iter().copied()), "cells are those of their pixels");
-
-        let (mut largest, mut middle) = (0, None);
-        let mut sizes = vec![vec![0; width + 1]; height + 1];
-        for row in 0..height {
-            for column in 0..width {
-                if cells[row * width + column] == Cell::Free {
-                    let (below, left) = (sizes[row][column + 1], sizes[row + 1][column]);
-                    sizes[row + 1][column + 1] = 1 + sizes[row][column].min(below).min(left);
-                }
-                let size = sizes[row + 1][column + 1];
-                if size > largest {
-                    let half = 0.5 * f64::from(size);
-                    (largest, middle) = (size, Some([column as f64 + 1.0 - half, row as f64 + 1.0 - half]));
-                }
-            }
-        }
-        let Some(middle) = middle else { continue };
-        let plan = FloorPlan::from_grid(grid).expect("a small grid");
-        let place = plan.open_place(0.1).expect("a free cell");
-        assert_eq!([place.x(), place.y()], middle);
-    }
 }

@@ -59,26 +59,6 @@ fn prob_is_a_density_and_that_of_the_samples() {
 }
 
 #[test]
-fn kurtosis_is_that_of_the_density() {
-    for kind in KINDS {
-        // Simpson's rule out to where nothing is left, with the triangle's kinks on the grid.
-        let (edge, intervals) = (4.0 * 6f64.sqrt(), 8000);
-        let h = 2.0 * edge / f64::from(intervals);
-        let moment = |order: i32| {
-            (0..=intervals)
-                .map(|i| {
-                    let (a, ends) = (f64::from(i) * h - edge, i == 0 || i == intervals);
-                    let weight = if ends { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
-                    weight * a.powi(order) * kind.prob(a, Variance(1.0)) * h / 3.0
-                })
-                .sum::<f64>()
-        };
-        assert!((moment(2) - 1.0).abs() < 1e-9, "{kind:?}: {}", moment(2));
-        assert!((moment(4) - kind.kurtosis()).abs() < 1e-8, "{kind:?}: {}", moment(4));
-    }
-}
-
-#[test]
 fn zero_variance_is_certainty() {
     for kind in KINDS {
         let mut rng = seeded(8);

@@ -3,7 +3,6 @@
 use crate::common::density::Grid;
 use crate::common::{KINDS, KOLMOGOROV, SAMPLES, SIGMAS, kolmogorov_smirnov, seeded, uniform, unit_cdf};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::stats::CartesianMoments;
 use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, Variance};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -229,65 +228,5 @@ fn a_reversing_robot_is_charged_for_what_it_turned() {
             kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
         assert!((aware.prob(&hat.apply(&x), &back, &x) / expected - 1.0).abs() < 1e-9);
         assert!(aware.prob(&back.apply(&x), &back, &x) > 50.0 * tables.prob(&back.apply(&x), &back, &x));
-    }
-}
-
-/// Driving forward, where no rotation exceeds a right angle, the option changes nothing.
-#[test]
-fn the_reverse_aware_option_leaves_forward_motion_alone() {
-    let x = SE2::new(0.0, 1.0, 2.0);
-    for kind in KINDS {
-        for u in &readings()[..5] {
-            let (mut a, mut b) = (seeded(111), seeded(111));
-            for _ in 0..100 {
-                let pose = model(kind).sample(u, &x, &mut a);
-                assert_eq!(ReverseAware(model(kind)).sample(u, &x, &mut b), pose);
-                assert_eq!(
-                    ReverseAware(model(kind)).pose_density(&pose, u, &x),
-                    model(kind).pose_density(&pose, u, &x)
-                );
-            }
-        }
-    }
-}
-
-/// The chapter calls independent legs conservative: a wider cloud than correlated ones of the same size. By volume they
-/// are, in every direction they are not. Of correlated noises the pose's entropy is less by −½ ln det C, C their
-/// correlation matrix (Hadamard's inequality), because the map from legs to poses has the same Jacobian; while the heading
-/// is their sum, with the variance σ₁² + σ₂² + 2ρσ₁σ₂.
-#[test]
-fn correlated_hinges_fill_less_volume_but_may_turn_further() {
-    const ROBOTS: usize = 400_000;
-    let model = OdometryModel { alphas: OdomAlphas([0.0, 0.0004, 0.0004, 0.0]), noise: NoiseKind::Normal };
-    let reading = delta(0.25, 1.0, 0.25);
-    let mut rng = seeded(577);
-    let normals: Vec<[f64; 3]> = (0..ROBOTS)
-        .map(|_| std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), &mut rng)))
-        .collect();
-    let cov = |rho: f64| {
-        let cloud: Vec<SE2> = normals
-            .iter()
-            .map(|&[a, b, c]| [a, b, rho * a + (1.0 - rho * rho).sqrt() * c])
-            .map(|noise| model.apply_noise(&reading, &SE2::identity(), noise))
-            .collect();
-        CartesianMoments::from_poses(&cloud).cov
-    };
-    let independent = cov(0.0);
-    // A variance is known to √(2/n) of itself, a determinant of three to √3 times that; the same robots in both clouds
-    // only help. The curvature of so small a cloud adds some 1e-3 to the determinants.
-    let error = SIGMAS * (2.0 * 2.0 / ROBOTS as f64).sqrt();
-    for rho in [-0.9, -0.5, 0.5, 0.9] {
-        let correlated = cov(rho);
-        let heading = correlated[(2, 2)] / independent[(2, 2)];
-        assert!((heading - (1.0 + rho)).abs() < 2.0 * error, "ρ = {rho}: heading variance times {heading}");
-        let volume = correlated.determinant() / independent.determinant();
-        let expected = 1.0 - rho * rho;
-        assert!(
-            (volume / expected - 1.0).abs() < 3f64.sqrt() * error + 5e-3,
-            "ρ = {rho}: determinant times {volume}"
-        );
-        // The place is that of the first two legs, which are as they were.
-        let places = |cov: &nalgebra::Matrix3<f64>| cov.fixed_view::<2, 2>(0, 0).into_owned();
-        assert!((places(&correlated) - places(&independent)).amax() < 1e-15);
     }
 }

@@ -261,16 +261,6 @@ fn without_a_chart_exponential_figures_are_undefined() {
 }
 
 #[test]
-fn the_model_in_exponential_coordinates_is_its_command_and_noise() {
-    let velocity = machine(Settings::default()).tangent().unwrap();
-    assert_eq!(velocity.mean, Vector3::new(1.0, 0.0, 0.5));
-    // 0.05 + 0.05/4, and 0.05 + 0.09/4 with 0.01 + 0.01/4 of the turn after the arc.
-    let expected = Matrix3::from_diagonal(&Vector3::new(0.0625, 0.0, 0.085));
-    assert!((velocity.cov - expected).amax() < 1e-15);
-    assert!(machine(Settings { model: ModelKind::Odometry, ..Settings::default() }).tangent().is_none());
-}
-
-#[test]
 fn both_views_find_the_nearest_sample_and_count_all() {
     let machine = machine(Settings { samples: 3000, ..Settings::default() });
     for view in [View::Plane, View::Twist] {

@@ -19,7 +19,7 @@ fn verdicts(made: Simulation, logs: u64, verdict: Verdict) -> usize {
 }
 
 #[test]
-fn each_verdict_comes_from_a_log_that_earns_it() {
+fn each_verdict_comes_from_a_matching_log() {
     // Chance gives one log in twenty another verdict.
     const LOGS: u64 = 3;
     let noise = |unlike, count| Simulation { unlike, ..Simulation::of(OMNI, NoiseKind::Normal, count, 0) };
@@ -61,7 +61,7 @@ fn each_verdict_comes_from_a_log_that_earns_it() {
 }
 
 #[test]
-fn what_the_first_half_does_not_tell_nobody_is_blamed_for() {
+fn a_first_half_without_turns_gives_no_verdict_on_turns() {
     // Straight on at first, and then with turns, which need α's that nobody could know by then.
     for model in [OMNI, Model::Odometry(OdometryRule::Nav2), Model::Velocity] {
         let made = Simulation { straight: 0.5, ..Simulation::of(model, NoiseKind::Normal, 800, 5) };
@@ -81,7 +81,7 @@ fn likeliest(Inflation { log_likelihood, .. }: &Inflation) -> usize {
 }
 
 #[test]
-fn too_small_and_too_large_alphas_have_their_signatures() {
+fn coverage_and_likelihood_show_alphas_that_are_too_small_or_too_large() {
     for model in [OMNI, Model::Velocity] {
         // Of 12,000 residuals in two halves the logarithm of their variances has a deviation of √(2/3000 + 2/3000) at most: a fifth
         // of the way to the next factor, 10^(1/12).
@@ -103,7 +103,7 @@ fn too_small_and_too_large_alphas_have_their_signatures() {
 }
 
 #[test]
-fn an_overconfident_log_asks_for_larger_alphas() {
+fn an_overconfident_log_is_likelier_under_inflated_alphas() {
     for model in [OMNI, Model::Velocity] {
         let unlike = Unlike::Changing(|course| if course < 0.5 { 1.0 } else { 1.5 });
         let made = Simulation { unlike, ..Simulation::of(model, NoiseKind::Normal, 4000, 22) };
@@ -118,7 +118,7 @@ fn an_overconfident_log_asks_for_larger_alphas() {
 
 #[test]
 #[ignore = "nightly: 180 calibrations"]
-fn blocks_of_legs_know_what_legs_have_in_common() {
+fn the_block_bootstrap_covers_correlated_legs() {
     // Each α of each log is one of 300 intervals, whose share has a deviation of 0.03 at most.
     const LOGS: u64 = 60;
     let shares = |unlike| {

@@ -27,7 +27,7 @@ fn calibrated(simulation: &Simulation, robust: Robust) -> Calibration {
 
 #[test]
 #[ignore = "nightly: 200 calibrations"]
-fn what_is_injected_is_found_within_its_interval() {
+fn injected_errors_are_in_their_intervals() {
     // Of 200 logs a share of 0.95 has the deviation 0.015: it is allowed three of them. More may be inside: the larger of two
     // deviations is told.
     const LOGS: u64 = 20;
@@ -55,7 +55,7 @@ fn what_is_injected_is_found_within_its_interval() {
 }
 
 #[test]
-fn a_hundredth_of_bad_legs_does_not_decide() {
+fn one_percent_of_outliers_leaves_robust_alphas_unchanged() {
     for (model, noise) in
         [(Model::Odometry(OdometryRule::Nav2), NoiseKind::Normal), (Model::Velocity, NoiseKind::Triangular)]
     {
@@ -81,7 +81,7 @@ fn a_hundredth_of_bad_legs_does_not_decide() {
 }
 
 #[test]
-fn what_is_not_removed_is_in_the_alphas() {
+fn an_error_that_is_not_removed_inflates_the_alphas() {
     // A mount of 0.07 rad: each rotation is off by that, which on legs of a quarter of a metre is an α₂ of 0.08, and on the shorter
     // ones of turns of more.
     let model = Model::Odometry(OdometryRule::Nav2);
@@ -106,7 +106,7 @@ fn what_is_not_removed_is_in_the_alphas() {
 /// of the means is known to one to three hundredths. It is allowed three of its deviations.
 #[test]
 #[ignore = "nightly: 800 calibrations"]
-fn alphas_of_a_hundred_legs_are_as_large_as_if_nothing_had_been_removed() {
+fn removing_errors_does_not_bias_the_alphas_of_a_hundred_legs() {
     const LOGS: u64 = 200;
     for rule in [OdometryRule::Table, OdometryRule::Nav2] {
         let logs = (0..LOGS).map(|seed| {
@@ -135,7 +135,7 @@ fn alphas_of_a_hundred_legs_are_as_large_as_if_nothing_had_been_removed() {
 }
 
 #[test]
-fn clocks_that_have_nothing_to_do_with_each_other_are_aligned() {
+fn clocks_with_any_offset_are_aligned() {
     let model = Model::Odometry(OdometryRule::Nav2);
     for offset in [-1.7e9, -4000.0, 7.25, 15.12, 1.7e9] {
         let errors = Systematic { clock_offset: offset, ..Systematic::NONE };
@@ -148,7 +148,7 @@ fn clocks_that_have_nothing_to_do_with_each_other_are_aligned() {
 }
 
 #[test]
-fn clocks_are_aligned_by_what_is_known_of_the_turns() {
+fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let model = Model::Odometry(OdometryRule::Nav2);
     let errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
     let simulation = Simulation { errors, ..Simulation::of(model, NoiseKind::Normal, 2000, 6) };
@@ -183,7 +183,7 @@ fn clocks_are_aligned_by_what_is_known_of_the_turns() {
 }
 
 #[test]
-fn the_references_own_error_is_no_noise_of_the_robot() {
+fn a_stated_reference_error_is_not_counted_as_noise() {
     // A reference that shakes by 3 mm and 3 mrad, as stated: α's as they are, of legs whose noise is not much larger.
     let model = Model::Odometry(OdometryRule::Omni);
     let simulation = Simulation::of(model, NoiseKind::Normal, 10_000, 8);
@@ -216,7 +216,7 @@ fn too_few_legs_are_refused() {
 }
 
 #[test]
-fn two_drives_without_a_common_time_are_refused() {
+fn trajectories_without_a_common_time_are_refused() {
     let model = Model::Odometry(OdometryRule::Nav2);
     let one = Simulation::of(model, NoiseKind::Normal, 500, 6);
     let [odometry, reference] = one.log();
@@ -243,7 +243,7 @@ fn two_drives_without_a_common_time_are_refused() {
 
 /// A mount may be turned by any angle, and stand anywhere on the robot: a camera that looks back, markers as they came.
 #[test]
-fn a_mount_is_found_however_far_it_is_turned() {
+fn a_mount_yaw_of_any_size_is_found() {
     for yaw in [-2.6, -0.6, 1.6, PI] {
         for model in MODELS {
             let errors = Systematic { mount_yaw: yaw, ..INJECTED };

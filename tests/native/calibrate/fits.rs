@@ -54,7 +54,7 @@ fn log_density(model: Model, alphas: &[f64], noise: NoiseKind, legs: &[motion::c
 }
 
 #[test]
-fn no_other_alphas_are_likelier_by_the_models_own_density() {
+fn fitted_alphas_maximize_the_density_of_the_model() {
     for noise in NOISES {
         for (model, reverses) in [
             (Model::Odometry(OdometryRule::Table), false),
@@ -100,7 +100,7 @@ fn no_other_alphas_are_likelier_by_the_models_own_density() {
 }
 
 #[test]
-fn intervals_are_those_of_the_likelihood() {
+fn intervals_match_the_closed_form_profile_likelihood() {
     // Of n residuals with one α each: α̂ is the mean of r²/f, and the profile falls by n(ln s + 1/s − 1) at s times that.
     let n = 50;
     let squares: Vec<f64> = (0..n).map(|i| 1e-3 * (1.0 + f64::from(i % 7))).collect();
@@ -131,7 +131,7 @@ fn intervals_are_those_of_the_likelihood() {
 
 #[test]
 #[ignore = "nightly: 4,000 fits"]
-fn ninety_five_of_a_hundred_intervals_have_the_true_value() {
+fn intervals_cover_the_true_alphas_in_95_percent_of_logs() {
     // Of 400 logs a share of 0.95 has the deviation 0.011: 2.5 hundredths are 2.3 of them, beyond which one in fifty is by chance, and of
     // all 46 more than five once in two thousand times. None is beyond four.
     const LOGS: u64 = 400;

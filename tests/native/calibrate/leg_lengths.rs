@@ -107,7 +107,7 @@ fn is_mean(mean: f64, place: usize, logs: u64, spread: f64) -> bool {
 const STIFF: f64 = 1e-6;
 
 #[test]
-fn of_a_random_walk_they_fall_as_one_over_the_length() {
+fn alphas_of_a_random_walk_fall_with_the_leg_length() {
     // m² a metre, as of a robot whose α₃ falls from 0.014 on legs of 0.12 m to 0.0017 on legs of 1 m.
     const WALK: f64 = 0.0017;
     const LOGS: u64 = 10;
@@ -131,7 +131,7 @@ fn written(calibration: &Calibration) -> String {
 }
 
 #[test]
-fn the_legs_that_are_asked_for_are_those_of_the_fit() {
+fn the_column_of_the_requested_leg_length_is_the_main_fit() {
     const LOGS: u64 = 2;
     let errors = Systematic { mount_yaw: 0.07, lever_arm: [0.1, -0.05], ..Systematic::NONE };
     for seed in 0..LOGS {
@@ -149,7 +149,7 @@ fn the_legs_that_are_asked_for_are_those_of_the_fit() {
 }
 
 #[test]
-fn too_few_legs_or_rows_tell_nothing() {
+fn too_few_legs_or_rows_give_no_estimate() {
     let told_of = |legs: usize, asked: LegLength| {
         let mut noise = Noise::of(6);
         let step = move |_, from| ahead(from, ROW + noise.of_variance(1e-6), noise.of_variance(1e-6));

@@ -32,7 +32,7 @@ fn legs_end_as_amcl_ends_them() {
 }
 
 #[test]
-fn no_leg_leads_across_a_gap() {
+fn no_leg_spans_a_gap() {
     let whole = straight(101, 0.1);
     let length = LegLength::Moved { distance: 0.25, angle: 0.2 };
     // A second is missing, ten steps.
@@ -82,7 +82,7 @@ fn no_leg_spans_a_break() {
 }
 
 #[test]
-fn a_jump_that_is_said_is_in_no_velocity() {
+fn a_declared_jump_is_in_no_velocity() {
     let jumps = |at: usize| if (40..43).contains(&at) { 5.0 } else { 0.0 };
     let whole = straight(101, 0.1);
     let samples = whole.samples().map(|(t, pose)| (t, pose.x())).enumerate();
@@ -98,7 +98,7 @@ fn a_jump_that_is_said_is_in_no_velocity() {
 }
 
 #[test]
-fn between_two_samples_the_robot_drives_an_arc() {
+fn poses_between_samples_lie_on_an_arc() {
     let twist = motion_twist();
     let ends = [(1.0, SE2::new(2.0, 1.0, 3.0)), (2.0, SE2::new(2.0, 1.0, 3.0).boxplus(twist))];
     let trajectory = Trajectory::new(ends).expect("times rise");
@@ -113,7 +113,7 @@ fn motion_twist() -> nalgebra::Vector3<f64> {
 }
 
 #[test]
-fn times_rise_and_numbers_are_numbers() {
+fn times_must_rise_and_numbers_must_be_finite() {
     let of = |samples: &[(f64, f64)]| {
         Trajectory::new(samples.iter().map(|(t, x)| (*t, SE2::new(*x, 0.0, 0.0))))
             .map_err(|error| error.to_string())
@@ -129,7 +129,7 @@ fn times_rise_and_numbers_are_numbers() {
 }
 
 #[test]
-fn legs_are_of_one_moment_by_both_clocks() {
+fn both_ends_of_a_leg_are_at_one_moment_of_both_clocks() {
     let odometry = straight(101, 0.1);
     let ahead = Trajectory::new(odometry.samples().map(|(t, pose)| (t + 3.0, pose))).expect("times rise");
     let legs = cut(&odometry, &ahead, LegLength::AMCL, 3.0);
@@ -143,7 +143,7 @@ fn legs_are_of_one_moment_by_both_clocks() {
 }
 
 #[test]
-fn commands_lead_along_their_arcs() {
+fn commands_are_integrated_along_arcs() {
     let commands = [(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)];
     let driven = Trajectory::from_commands(commands).expect("times rise");
     let poses: Vec<SE2> = driven.samples().map(|(_, pose)| pose).collect();

@@ -29,7 +29,7 @@ fn edited(
 }
 
 #[test]
-fn a_reference_of_another_drive_or_in_other_units_is_told() {
+fn a_reference_of_another_drive_or_in_other_units_is_reported() {
     let [odometry, reference] = simulation(1).log();
     let [_, of_another] = simulation(2).log();
     let in_millimetres = |log: &Trajectory| {
@@ -55,7 +55,7 @@ fn a_reference_of_another_drive_or_in_other_units_is_told() {
 }
 
 #[test]
-fn legs_that_are_longer_than_asked_are_told() {
+fn legs_longer_than_requested_are_reported() {
     let [odometry, reference] = simulation(3).log();
     // A pose every two seconds.
     let sparse = edited(&reference, |(sample, row)| (sample % 40 == 0).then_some(row));
@@ -63,7 +63,7 @@ fn legs_that_are_longer_than_asked_are_told() {
 }
 
 #[test]
-fn what_is_not_determined_is_not_removed() {
+fn an_undetermined_error_is_not_removed() {
     let straight = Simulation { straight: 1.0, ..simulation(4) };
     let [odometry, reference] = straight.log();
     let calibration = told(&odometry, &reference, ReferenceError::default());

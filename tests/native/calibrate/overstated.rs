@@ -33,7 +33,7 @@ fn judged(made: &Simulation, reference_error: ReferenceError, rows: [&Trajectory
 }
 
 #[test]
-fn one_that_errs_less_is_told() {
+fn an_overstated_reference_error_is_reported() {
     // Larger than what the wheels err by, which would hide that it is not there.
     let stated = ReferenceError { position: 0.05, heading: 0.05 };
     let halved = ReferenceError { position: 0.5 * stated.position, heading: 0.5 * stated.heading };
@@ -52,7 +52,7 @@ fn one_that_errs_less_is_told() {
 
 /// Residuals of exact wheels are the reference's own. By chance, one log in two hundred is beyond three deviations.
 #[test]
-fn one_that_errs_as_stated_is_not() {
+fn a_correct_reference_error_is_not_reported_as_overstated() {
     let mut told = 0;
     for model in MODELS {
         for seed in 0..2 {
@@ -68,7 +68,7 @@ fn one_that_errs_as_stated_is_not() {
 }
 
 #[test]
-fn what_no_reference_of_its_kind_would_show_asks_for_another_one() {
+fn alphas_far_below_the_reference_error_are_undetermined() {
     let made = Simulation::of(Model::Odometry(OdometryRule::Nav2), NoiseKind::Normal, 400, 32);
     let [odometry, reference] = made.log();
     let told = judged(&made, ReferenceError { position: 100.0, heading: 0.0 }, [&odometry, &reference]);

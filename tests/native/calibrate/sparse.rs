@@ -62,7 +62,7 @@ fn calibrated(odometry: &Trajectory, reference: &Trajectory) -> Calibration {
 
 #[test]
 #[ignore = "nightly: 60 calibrations"]
-fn one_of_them_may_have_a_sample_a_leg() {
+fn one_sample_a_leg_is_enough_for_either_trajectory() {
     // Of 20 logs of 780 legs the mean of an α is known to √(2/780/20) = 0.011, α₄, that has a third of the noise, to 0.04: means may be apart by
     // three deviations of a difference. Of 240 intervals a share of 0.95 has the deviation 0.014, and is allowed three.
     const LOGS: u64 = 20;
@@ -95,7 +95,7 @@ fn one_of_them_may_have_a_sample_a_leg() {
 }
 
 #[test]
-fn a_leg_ends_where_the_sparser_one_has_a_sample() {
+fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
     let [odometry, reference] = winding(0);
     let length = LegLength::Lasted { duration: 1.0 };
     let has = |samples: &Trajectory, time: f64| samples.samples().any(|(at, _)| (at - time).abs() < 1e-9);
@@ -134,7 +134,7 @@ fn a_leg_ends_where_the_sparser_one_has_a_sample() {
 
 proptest! {
     #[test]
-    fn the_usual_step_is_in_the_middle_of_all_when_they_are_sorted(
+    fn the_usual_step_is_the_upper_median(
         steps in prop::collection::vec(
             prop_oneof![1e-6_f64..1e6, Just(0.01), 0.01_f64..0.0101, (1_u64..9).prop_map(f64::from_bits)],
             0..200,

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 /// stops or turns off tell the offset. The reference has samples when the odometry has, and twice and once a second between these. All errors are
 /// true but for rounding, and known to nearly that.
 #[test]
-fn of_a_robot_without_noise_the_clock_is_found() {
+fn the_clock_offset_of_a_robot_without_noise_is_exact() {
     const STEP: f64 = 0.01;
     const OFFSET: f64 = 0.123;
     let (mut pose, mut samples) = (SE2::identity(), Vec::new());

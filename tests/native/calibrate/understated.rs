@@ -33,14 +33,14 @@ fn told(stated: f64, robust: Robust) -> usize {
 }
 
 #[test]
-fn one_that_errs_is_told() {
+fn an_unstated_reference_error_is_reported() {
     assert_eq!(told(0.0, Robust::No), MODELS.len());
     assert_eq!(told(0.0, Robust::Estimated), MODELS.len());
 }
 
 /// A heading is in the second rotation of a leg and in the first of the next, with opposite signs.
 #[test]
-fn a_heading_alone_is_told_too() {
+fn an_unstated_heading_error_is_reported() {
     let errs = ReferenceError { position: 0.0, heading: 0.005 };
     for rule in [OdometryRule::Table, OdometryRule::Nav2] {
         for seed in 0..2 {
@@ -54,12 +54,12 @@ fn a_heading_alone_is_told_too() {
 
 /// Of a hundred such logs 96 get the verdict.
 #[test]
-fn one_of_whose_error_half_is_stated_is_told_mostly() {
+fn a_reference_error_stated_by_half_is_usually_reported() {
     assert!(told(0.5, Robust::No) > 3);
 }
 
 /// By chance, one log in two hundred is beyond three deviations.
 #[test]
-fn one_that_errs_as_stated_is_not() {
+fn a_correct_reference_error_is_not_reported() {
     assert!(told(1.0, Robust::No) < 2);
 }

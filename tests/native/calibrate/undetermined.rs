@@ -78,7 +78,7 @@ const BENDS: Drive = Drive {
 };
 
 #[test]
-fn each_log_says_what_it_lacks_and_with_that_all_is_told() {
+fn each_log_names_the_missing_drive_and_adding_it_determines_all_alphas() {
     let [mut covered, mut intervals] = [0, 0];
     for model in MODELS {
         for noise in [NoiseKind::Normal, NoiseKind::Triangular] {

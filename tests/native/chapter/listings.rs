@@ -91,7 +91,7 @@ fn a_readers_velocity_model_is_the_crates() {
 }
 
 #[test]
-fn what_a_reader_does_not_say_is_none() {
+fn methods_that_a_model_does_not_implement_return_none() {
     let reader = Rotations { alphas: OdomAlphas([0.1; 4]) };
     let x = SE2::identity();
     let u = OdomDelta::from_poses(&x, &SE2::new(1.0, 0.2, 0.3));

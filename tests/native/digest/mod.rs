@@ -44,7 +44,7 @@ fn the_same_seed_gives_the_same_bits() {
 
 /// A change of the bits reaches readers: their seeds show other clouds.
 #[test]
-fn the_changelog_tells_the_digest() {
+fn the_changelog_names_the_digest() {
     let golden = std::fs::read(format!("{DIRECTORY}/golden.txt")).expect("golden.txt");
     let digest = hex(&Sha256::digest(&golden));
     let changelog =

@@ -23,7 +23,7 @@ fn without_wedge(settings: Settings) -> Settings {
 }
 
 #[test]
-fn the_last_turn_is_the_culprit() {
+fn the_last_turn_explains_the_low_probability() {
     let [off, alone, all] = page().numbers(
         "The robot stands # standard deviations of the last turn off, and that factor alone leaves # % of its peak; all \
          three leave # %.",
@@ -53,7 +53,7 @@ fn the_last_turn_is_the_culprit() {
 }
 
 #[test]
-fn as_printed_p_is_gone_where_the_centre_is_to_the_right() {
+fn the_printed_table_loses_p_for_centres_to_the_right() {
     let [v]: [Number; 1] = page().numbers("and v̂ comes out as # m/s.");
     for name in ["right", "reverse"] {
         let printed = Settings { printed: true, ..preset(name) };

@@ -14,7 +14,7 @@ fn page() -> Told {
 
 /// The robots a square metre in what only one of the outlines encloses: of a million, known to a hundredth.
 #[test]
-fn the_ellipse_covers_floor_where_few_stop() {
+fn the_ellipse_covers_floor_where_few_robots_stop() {
     page().says("where it alone lies, robots stop a seventh as densely as where the outline alone does.");
     let machine = machine(Settings { samples: 300_000, ..preset("banana") });
     let contours = machine.contours();
@@ -34,7 +34,7 @@ fn the_ellipse_covers_floor_where_few_stop() {
 }
 
 #[test]
-fn the_shares_inside_do_not_give_the_hard_arc_away_and_the_skew_does() {
+fn the_skew_reveals_the_hard_arc_and_the_shares_do_not() {
     let [ellipse, outline, skew, any] = page().numbers(
         "do not give the ellipse away, # % and # %. The skew does: #, where any Gaussian in (x, y) has #.",
     );
@@ -48,7 +48,7 @@ fn the_shares_inside_do_not_give_the_hard_arc_away_and_the_skew_does() {
 }
 
 #[test]
-fn the_banana_gains_most_and_has_no_skew() {
+fn the_banana_has_the_largest_gain_and_no_skew() {
     let [skew, area, banana, gentle, hard] = page().numbers(
         "so that the skew is # however many robots you send. Yet the ellipse covers # times the floor of the green \
          outline: where it alone lies, robots stop a seventh as densely as where the outline alone does. The Gaussian \

@@ -70,7 +70,7 @@ fn crossings_are_those_of_exercise_7() {
 }
 
 #[test]
-fn bananas_bend_after_the_crossing() {
+fn the_crossing_times_are_those_on_the_page() {
     let [along, across]: [Number; 2] =
         page().numbers("along the track with the power #, across it with the power #. They cross");
     let [usual, sharper]: [Number; 2] =

@@ -42,7 +42,7 @@ fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
 
 /// Exercise 1.
 #[test]
-fn the_straight_line_branch() {
+fn exercise_1_the_straight_line_branch() {
     let dt = 0.1;
     let straight = |omega: f64| 0.5 * omega * dt * dt;
     // The error jumps about with ω: over a tenth of a decade it is what one would call it there.
@@ -70,7 +70,7 @@ fn the_straight_line_branch() {
 
 /// Exercise 2.
 #[test]
-fn why_bananas_bend() {
+fn exercise_2_why_bananas_bend() {
     let spread = |[along, turn]: [f64; 2], dt: f64| {
         let cov = velocity([along, 0.0, turn, 0.0, 0.0, 0.0])
             .cartesian_cov(&VelocityCmd { v: 1.0, omega: 0.0, dt }, &SE2::identity());
@@ -91,7 +91,7 @@ fn why_bananas_bend() {
 
 /// Exercise 3. The determinant by differences, of an error of the square of the step.
 #[test]
-fn the_unpaid_jacobian() {
+fn exercise_3_the_unpaid_jacobian() {
     let model = velocity([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
     let x = SE2::identity();
     let end = x.boxplus(TangentNoiseModel::twist(&U));
@@ -125,7 +125,7 @@ fn the_unpaid_jacobian() {
 
 /// Exercise 4.
 #[test]
-fn what_each_alpha_does() {
+fn exercise_4_each_alpha() {
     let exact = |index: usize, command: VelocityCmd| {
         let mut alphas = [0.0; 6];
         alphas[index] = 0.09;
@@ -155,7 +155,7 @@ fn what_each_alpha_does() {
 
 /// Exercise 5: the same seed is the same motions, so that shares are those of the table, to a digit.
 #[test]
-fn the_pose_that_the_model_cannot_see_through() {
+fn exercise_5_poses_through_walls() {
     let settings = |n: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
         let alphas = alphas_of_noise(n);
@@ -203,7 +203,7 @@ fn the_pose_that_the_model_cannot_see_through() {
 
 /// Exercise 6.
 #[test]
-fn the_triangular_sampler() {
+fn exercise_6_the_triangular_sampler() {
     let b2 = Variance(0.025);
     let [bound, beyond]: [Number; 2] =
         document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");

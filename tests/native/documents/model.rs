@@ -13,7 +13,7 @@ fn document() -> Told {
 }
 
 #[test]
-fn the_presets_are_those_of_the_table() {
+fn the_presets_are_those_in_the_document() {
     for (name, label) in
         [("straight", "Straight"), ("gentle", "Gentle arc"), ("hard", "Hard arc"), ("pivot", "Pivot")]
     {
@@ -30,7 +30,7 @@ fn the_presets_are_those_of_the_table() {
 
 /// Shares to 4.5 standard errors of a million robots.
 #[test]
-fn the_gains_are_those_of_the_table() {
+fn the_gains_are_those_in_the_document() {
     let row = |name, gains: &[Number], [area, ellipse, skew]: [Number; 3]| {
         let machine = machine(Settings { samples: 1_000_000, ..preset(name) });
         let exact = machine.table().exact;
@@ -55,7 +55,7 @@ fn the_gains_are_those_of_the_table() {
 }
 
 #[test]
-fn the_exact_skews_are_those_told() {
+fn the_exact_skews_are_those_in_the_document() {
     let [worked, opening] = document().numbers(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the widget's opening α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
     );

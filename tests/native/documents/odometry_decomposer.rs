@@ -41,7 +41,7 @@ fn the_lever_grows_faster_than_the_drive() {
 }
 
 #[test]
-fn backing_up_is_two_half_turns_for_the_table_alone() {
+fn only_the_table_charges_two_half_turns_for_backing_up() {
     let [table, deployed] =
         page().numbers("the table charges ± # rad and more; AMCL of Nav2 and Beluga charge ± # for either.");
     let of = |rule| figures(of_preset("reverse"), rule).deviations;
@@ -56,7 +56,7 @@ fn backing_up_is_two_half_turns_for_the_table_alone() {
 }
 
 #[test]
-fn correlation_takes_the_heading_from_difference_to_sum() {
+fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
     let [least, most] =
         page().numbers("No outcome leaves its place, and the heading’s deviation goes from # to # rad.");
     let of = |correlation| machine(Settings { correlation, ..Settings::default() });
@@ -69,7 +69,7 @@ fn correlation_takes_the_heading_from_difference_to_sum() {
 
 /// The table of doc/model.md: deviations of the first rotation, the drive and the second rotation of its three readings.
 #[test]
-fn the_document_tells_what_the_rules_charge() {
+fn the_variances_of_the_rules_are_those_in_the_document() {
     for (preset, rule, row) in [
         ("reverse", Table, "| reverse | Table 5.6 | # | # | # | # |"),
         ("reverse", Nav2, "| reverse | Nav2, Beluga | # | # | # | # |"),

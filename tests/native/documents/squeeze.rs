@@ -59,7 +59,7 @@ fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
 }
 
 #[test]
-fn facing_the_wall_most_of_what_is_accepted_lies_behind_it() {
+fn most_accepted_samples_lie_behind_the_wall() {
     let [share] = page().numbers(
         "Press Facing a wall: # % of what is accepted went through a wall, where the robot could never have gone. \
          Choose whole arc: only what stopped short of the wall is left.",
@@ -78,7 +78,7 @@ fn facing_the_wall_most_of_what_is_accepted_lies_behind_it() {
 
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
-fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
+fn shares_through_walls_by_substeps_are_those_in_the_documents() {
     let told = document().numbers(
         "Facing the doorway and in the corridor it falls with k on a straight command, to # % and # % at 16.",
     );
@@ -107,7 +107,7 @@ fn more_parts_let_fewer_pass_at_the_doorway_but_not_on_a_bend() {
 
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
-fn facing_the_wall_more_parts_make_it_worse() {
+fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     let shares = [2, 4, 8].map(|parts| in_parts(WALL, parts, 0.0));
     shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
     let [one, two, four, eight, wedged] = document().numbers(
@@ -137,7 +137,7 @@ fn facing_the_wall_more_parts_make_it_worse() {
 /// Judged by the geodesic instead of the arc.
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
-fn judged_by_the_geodesic_some_get_the_other_verdict() {
+fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
     let [least, most, doorway_least, doorway_most] = document().numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",

@@ -129,7 +129,7 @@ const FAMILIES: [(&str, MakeArc, MakeWall, u32); 14] = [
 /// The analytic distance and the reference each round coordinates of the figure a few times: eight units in the last
 /// place of its size are enough for both, which is a hundredth of a picometre in the apartment.
 #[test]
-fn the_distance_is_that_of_the_reference() {
+fn the_distance_to_an_arc_matches_bisection() {
     let (mut pairs, mut touching, mut closed) = (0, 0, 0);
     for (seed, (name, make_arc, make_wall, count)) in (0..).zip(FAMILIES) {
         let mut rng = seeded(9000 + seed);
@@ -154,7 +154,7 @@ fn the_distance_is_that_of_the_reference() {
 
 /// The distance depends on nothing but the two sets of points.
 #[test]
-fn the_distance_is_the_same_from_either_end_and_in_every_frame() {
+fn the_distance_to_an_arc_is_symmetric_and_independent_of_the_frame() {
     let mut rng = seeded(9200);
     for _ in 0..5_000 {
         let arc =
@@ -260,7 +260,7 @@ fn the_bounding_box_holds_the_arc_and_its_points_lie_on_it() {
 /// Between two points that are drawn, an arc of a metre that turns by a radian rises by 0.05 mm: a fiftieth of a radian each,
 /// s·φ/8 of it. Beyond two turns the circle repeats itself, and its chords may be longer.
 #[test]
-fn an_arc_is_drawn_by_chords_of_a_degree() {
+fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
     for (length, turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {
         let arc = Arc { start: SE2::new(1.0, -2.0, 0.7), length, turn };
         let points = arc.points();

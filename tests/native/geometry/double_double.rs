@@ -23,7 +23,7 @@ fn off(value: DoubleDouble, high: f64, low: f64) -> f64 {
 }
 
 #[test]
-fn sine_cosine_and_sinc_are_those_of_fifty_digits() {
+fn sine_cosine_and_sinc_match_fifty_digit_references() {
     let mut count = 0;
     for [angle, sin_high, sin_low, cos_high, cos_low, sinc_high, sinc_low] in rows() {
         let angle = DoubleDouble::from(angle);
@@ -72,7 +72,7 @@ fn the_reference_is_the_integral_of_the_velocity() {
 }
 
 #[test]
-fn the_three_forms_lose_what_exercise_1_says() {
+fn errors_of_the_three_arc_forms_are_those_in_exercise_1() {
     let FormErrors { omega, arc, straight, chord, estimated_crossover } = form_errors();
     // The chord loses nothing anywhere: the last digit of a tenth of a metre, from its product and two sums.
     assert!(chord.iter().all(|error| *error < 3e-17), "{chord:?}");

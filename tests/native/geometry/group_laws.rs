@@ -75,7 +75,7 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
 
 /// On the branch of a known turn the logarithm undoes exp beyond half a turn; its coordinates grow towards a whole one.
 #[test]
-fn the_logarithm_near_a_turn_is_on_its_branch() {
+fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
     let mut rng = seeded(6);
     for _ in 0..2000 {
         let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);

@@ -43,7 +43,7 @@ fn circles_agree_with_libm_over_the_whole_range() {
 }
 
 #[test]
-fn half_turns_are_those_of_the_branch() {
+fn half_turns_lie_on_the_requested_branch() {
     let trigonometry = Trigonometry::default();
     for near in [0.0, 0.25, -1.5, 1.7, -2.9] {
         for half in angles().into_iter().step_by(7) {

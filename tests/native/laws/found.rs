@@ -26,7 +26,7 @@ fn a_cloud_too_small_for_its_powers_has_no_skew() {
 
 /// The direction of a chord was a division by a number whose inverse is no double, and nobody could stand there.
 #[test]
-fn an_arc_may_be_shorter_than_any_length() {
+fn an_arc_of_subnormal_length_is_judged() {
     let plan = FloorPlan::apartment();
     for length in [0.0, 1e-300, 9.7e-310, 5e-324, -5e-324] {
         for turn in [0.0, 1.7e-308, 0.5, 3.0, 100.0] {
@@ -52,7 +52,7 @@ fn a_circle_too_long_for_a_double_is_not_driven() {
 
 /// 0 / 0: a displacement whose square is no double is none.
 #[test]
-fn a_displacement_may_be_too_small_to_be_squared() {
+fn a_displacement_with_a_subnormal_square_counts_as_none() {
     let model = model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
     let u = VelocityCmd { v: 78.0, omega: 38.0, dt: 633_457.9 };
     let (x, next) = (SE2::new(2.2e-308, 0.0, PI), SE2::identity());
@@ -61,7 +61,7 @@ fn a_displacement_may_be_too_small_to_be_squared() {
 
 /// 0 · ∞ again, in solving twice for what is divided by a variance below any normal number.
 #[test]
-fn a_last_turn_may_have_next_to_no_variance() {
+fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
     let tangent =
         TangentNoiseModel::from_velocity(&model([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u).expect("variances");

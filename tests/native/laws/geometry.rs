@@ -75,7 +75,7 @@ proptest! {
     }
 
     #[test]
-    fn differences_are_made_up_for(a in poses(), b in poses()) {
+    fn boxplus_inverts_boxminus(a in poses(), b in poses()) {
         let sizes = size(&a) + size(&b);
         same_pose(&a.boxplus(b.boxminus(&a)), &b, UNITS, 2.0 * sizes)?;
         prop_assert_eq!(a.boxplus(Vector3::zeros()), a);

@@ -72,7 +72,7 @@ proptest! {
 
     /// Against points along the way; between two of them either verdict will do.
     #[test]
-    fn verdicts_are_those_of_points_along_the_way(walls in walls(), arc in arcs(), clearance in 0.0..2.0f64) {
+    fn verdicts_match_points_along_the_arc(walls in walls(), arc in arcs(), clearance in 0.0..2.0f64) {
         let ([nearest, near], [shallowest, shallow]) = (looked_at(&arc, &walls), inside(&arc));
         let free = plan(walls).arc_free(&arc, clearance).free;
         if near < clearance - ROUNDING || shallow < -ROUNDING {
@@ -120,7 +120,7 @@ proptest! {
 
     /// More walls and a wider robot are never freer.
     #[test]
-    fn more_walls_leave_less_room(
+    fn more_walls_and_more_clearance_never_free_a_path(
         walls in walls(), more in walls(), arcs in vec(arcs(), 8), clearance in 0.0..2.0f64, wider in 0.0..1.0f64,
     ) {
         let less = plan([walls.clone(), more].concat());
@@ -133,7 +133,7 @@ proptest! {
     }
 
     #[test]
-    fn bounds_are_taken_or_named(bounds in [any_double(), any_double(), any_double(), any_double()]) {
+    fn bounds_are_accepted_or_reported(bounds in [any_double(), any_double(), any_double(), any_double()]) {
         let [left, bottom, right, top] = bounds;
         let good = bounds.iter().all(|bound| bound.abs() <= 1e6)
             && [right - left, top - bottom].iter().all(|side| (0.01..=1e5).contains(side));
@@ -148,7 +148,7 @@ proptest! {
     }
 
     #[test]
-    fn walls_are_taken_or_named(walls in walls(), end in [any_double(), any_double()], at in any::<u8>(), last in any::<bool>()) {
+    fn walls_are_accepted_or_reported(walls in walls(), end in [any_double(), any_double()], at in any::<u8>(), last in any::<bool>()) {
         let index = usize::from(at) % (walls.len() + 1);
         let wall = if last { Segment { from: [1.0, 1.0], to: end } } else { Segment { from: end, to: [1.0, 1.0] } };
         let mut walls = walls;
@@ -179,7 +179,7 @@ proptest! {
 
     /// The same picture, however its file is laid out.
     #[test]
-    fn files_of_maps_are_read_however_they_are_laid_out(
+    fn pgm_headers_may_have_any_white_space_and_comments(
         (width, height) in (1..6usize, 1..6usize), greatest in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
         gaps in vec(gaps(), 40), cut in any::<usize>(),
     ) {

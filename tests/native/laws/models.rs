@@ -99,7 +99,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_no_variance_is_refused(b2 in any_double()) {
+    fn negative_and_nan_variances_are_refused(b2 in any_double()) {
         prop_assert_eq!(Variance::new(b2).is_ok(), b2 >= 0.0);
     }
 

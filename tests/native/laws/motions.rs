@@ -19,7 +19,7 @@ proptest! {
 
     /// Whatever the two poses are, the controls that an inversion finds lead from the one to the other.
     #[test]
-    fn inverted_arcs_lead_there(x in poses(), next in poses(), dt in durations()) {
+    fn an_inverted_arc_ends_at_the_given_pose(x in poses(), next in poses(), dt in durations()) {
         let found = invert_arc(&x, &next, dt);
         let [length, turn, last] = [found.v_hat, found.omega_hat, found.gamma_hat].map(|rate| rate * dt);
         let half = PI * (1.0 + 2.0 * f64::EPSILON);
@@ -32,7 +32,7 @@ proptest! {
     /// From the origin, where no digit is lost in the coordinates of the start. Half a turn is driven forward or in reverse
     /// as rounding will have it.
     #[test]
-    fn driven_arcs_are_found_again(length in up_to(1e300), turn in up_to(3.1), last in up_to(3.1), dt in durations()) {
+    fn inverting_a_driven_arc_returns_its_controls(length in up_to(1e300), turn in up_to(3.1), last in up_to(3.1), dt in durations()) {
         let (forward, left) = chord(length, turn);
         // Shorter chords lose the digits of their bearing.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
@@ -60,7 +60,7 @@ proptest! {
 
     /// A displacement below a nanometre is none for an odometry reading.
     #[test]
-    fn readings_lead_there(prev in poses(), curr in poses()) {
+    fn an_odometry_reading_leads_to_the_second_pose(prev in poses(), curr in poses()) {
         let reading = OdomDelta::from_poses(&prev, &curr);
         prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
         let sizes = size(&prev) + size(&curr);
@@ -70,7 +70,7 @@ proptest! {
 
     /// The reading is of the odometry frame's poses alone: turned and moved with their frame they read the same.
     #[test]
-    fn readings_know_no_frame(x in -1e3..1e3, y in -1e3..1e3, theta in -3.0..3.0, frame in (-1e3..1e3, -1e3..1e3, -3.0..3.0)) {
+    fn an_odometry_reading_does_not_depend_on_the_frame(x in -1e3..1e3, y in -1e3..1e3, theta in -3.0..3.0, frame in (-1e3..1e3, -1e3..1e3, -3.0..3.0)) {
         let (prev, curr) = (SE2::new(1.0, 2.0, 0.5), SE2::new(x, y, theta));
         let frame = SE2::new(frame.0, frame.1, frame.2);
         let (here, there) = (OdomDelta::from_poses(&prev, &curr), OdomDelta::from_poses(&(frame * prev), &(frame * curr)));

@@ -81,7 +81,7 @@ proptest! {
     #![proptest_config(cases(3000))]
 
     #[test]
-    fn every_number_is_taken_or_refused_by_name(widget in 0..6usize, place in 0..100usize, value in any_double()) {
+    fn every_number_is_accepted_or_refused_by_name(widget in 0..6usize, place in 0..100usize, value in any_double()) {
         match widget {
             0 => number::<banana::Settings>(place, value)?,
             1 => number::<squeeze::Settings>(place, value)?,
@@ -94,7 +94,7 @@ proptest! {
 
     /// Counts and seeds, and how many samples there may be of how many parts.
     #[test]
-    fn whole_numbers_are_taken_or_named(samples in wholes(), seed in wholes(), steps in wholes(), parts in any::<bool>(), isolate in proptest::option::of(wholes())) {
+    fn whole_numbers_are_accepted_or_refused_by_name(samples in wholes(), seed in wholes(), steps in wholes(), parts in any::<bool>(), isolate in proptest::option::of(wholes())) {
         let count = usize::try_from(samples).expect("64 bits");
         let isolate = isolate.map(|number| number as usize);
         let settings = banana::Settings { samples: count, seed, isolate, ..Default::default() };

@@ -96,7 +96,7 @@ proptest! {
     #![proptest_config(cases(1500))]
 
     #[test]
-    fn no_order_matters(cloud in clouds(), by in any::<usize>()) {
+    fn moments_do_not_depend_on_the_order_of_samples(cloud in clouds(), by in any::<usize>()) {
         let mut other = cloud.clone();
         other.rotate_left(by % cloud.len());
         other.reverse();
@@ -113,7 +113,7 @@ proptest! {
 
     /// Told in another frame, a cloud has its mean there and the same spread, turned.
     #[test]
-    fn no_frame_matters(cloud in clouds(), frame in frames()) {
+    fn moments_transform_with_the_frame(cloud in clouds(), frame in frames()) {
         let moved: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
         let [here, there] = [&cloud, &moved].map(|cloud| CartesianMoments::from_poses(cloud));
         let mean = frame * SE2::new(here.mean.x, here.mean.y, here.mean.z);
@@ -134,7 +134,7 @@ proptest! {
     /// A unit that is a power of two times another changes no bit of what has none, from 10⁻³⁰ m to 10³⁰ m, and a mirror but
     /// the sign.
     #[test]
-    fn no_unit_matters(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
+    fn cross_track_figures_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
         let (unit, side) = (2f64.powi(power), if left { 1.0 } else { -1.0 });
         let scaled: Vec<SE2> =
             cloud.iter().map(|pose| SE2::new(unit * pose.x(), side * unit * pose.y(), side * pose.theta())).collect();
@@ -196,7 +196,7 @@ proptest! {
 
     /// Covariances grow step by step, and stay covariances.
     #[test]
-    fn covariances_are_carried_on(sigma in covariances(), r in covariances(), tau in (-5.0..5.0, -5.0..5.0, -3.0..3.0)) {
+    fn propagated_covariances_stay_positive_semidefinite(sigma in covariances(), r in covariances(), tau in (-5.0..5.0, -5.0..5.0, -3.0..3.0)) {
         let model = TangentNoiseModel::new(r).expect("a covariance");
         let tau = Vector3::new(tau.0, tau.1, tau.2);
         for order in [Compounding::Chapter, Compounding::FirstOrder] {
@@ -207,7 +207,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_no_covariance_is_refused(cov in covariances(), at in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
+    fn matrices_that_are_no_covariances_are_refused(cov in covariances(), at in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
         let mut changed = cov;
         changed[at] = number;
         match TangentNoiseModel::new(changed) {

@@ -137,7 +137,7 @@ fn rejection_is_rejection() {
 /// In front of a wall few parts jump it (a part must clear 2 · 0.13 m at once), and many have to turn aside, at the
 /// price of hundreds of draws a motion.
 #[test]
-fn in_front_of_a_wall_few_parts_jump_and_many_pay() {
+fn few_substeps_jump_a_wall_and_many_need_more_draws() {
     let plan = FloorPlan::apartment();
     let run = |parts: u32, count: usize| {
         let sub_stepped = conditioned(&plan, Sampler::SubStepped(parts));

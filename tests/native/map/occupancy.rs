@@ -209,7 +209,7 @@ fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
 
 /// Blocked, an unknown cell is to a robot what an occupied one is; free, it is what a free one is.
 #[test]
-fn unknown_cells_are_what_one_decides() {
+fn unknown_cells_are_free_or_blocked_as_set() {
     let mut rng = seeded(31_415);
     let random: Vec<String> = (0..30)
         .map(|_| (0..30).map(|_| ['#', '?', '.', '.', '.', '.'][(rng.next_u32() % 6) as usize]).collect())
@@ -245,7 +245,7 @@ fn unknown_cells_are_what_one_decides() {
 
 /// In the middle of the largest square that is known to be free, heading along the longest way known to be free.
 #[test]
-fn a_robot_is_put_in_the_open() {
+fn the_open_place_has_the_most_room() {
     let rows = [
         "????????????????",
         "????????????????",

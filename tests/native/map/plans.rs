@@ -223,7 +223,7 @@ fn wall_tests_grow_slower_than_the_number_of_walls() {
 }
 
 #[test]
-fn a_robot_is_put_in_the_open() {
+fn the_open_place_has_the_most_room() {
     let apartment = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
         let place = apartment.open_place(clearance).expect("there is room");

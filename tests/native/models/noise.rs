@@ -78,7 +78,7 @@ fn zero_variance_is_certainty() {
 }
 
 #[test]
-fn quantiles_match_the_references_to_1e_15() {
+fn quantiles_match_references_to_1e_15() {
     for row in Table::parse(include_str!("../../reference/quantile.csv")).rows() {
         let q = row.get("q");
         for (kind, column) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {

@@ -95,7 +95,7 @@ fn prob_is_the_tables_score() {
 }
 
 #[test]
-fn without_noise_there_is_certainty_and_no_density() {
+fn zero_noise_gives_certainty_and_no_density() {
     let mut rng = seeded(93);
     let x = SE2::new(-1.0, 0.5, 2.0);
     for kind in KINDS {
@@ -117,7 +117,7 @@ fn without_noise_there_is_certainty_and_no_density() {
 
 /// The density is the noise's at the legs, with the variances of the reading, over the determinant: the translation.
 #[test]
-fn pose_density_pays_the_jacobian() {
+fn the_pose_density_divides_by_the_jacobian() {
     let mut rng = seeded(94);
     let x = SE2::new(1.0, -2.0, 0.3);
     for kind in KINDS {
@@ -148,7 +148,7 @@ fn box_around(u: &OdomDelta, x: &SE2, sizes: [f64; 3], cells: usize) -> Grid {
 
 /// Noise as large as the motion: reversed translations and whole turns are part of the density.
 #[test]
-fn pose_density_integrates_to_one_however_large_the_noise() {
+fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
     for (kind, allowed) in [(NoiseKind::Normal, 1e-6), (NoiseKind::Triangular, 1e-3)] {
         for u in [delta(0.7, 0.8, -0.4), readings()[5]] {

@@ -25,7 +25,7 @@ fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
 
 /// By hand, to eight digits: (π − 3)² = 0.02004848, (π − 2.2)² = 0.88659673.
 #[test]
-fn each_rule_charges_what_its_source_does() {
+fn the_variances_of_each_rule_match_its_source() {
     // Turn by 0.5, drive 2 m, turn back by 1: no angle is nearer to π than to 0, and the whole turn is −0.5.
     let bend = delta(0.5, 2.0, -1.0);
     // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
@@ -108,7 +108,7 @@ fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
 
 /// Whatever the rule, without noise the robot is where it was read, to within the jitter that a spin leaves out.
 #[test]
-fn legs_lead_where_the_reading_does() {
+fn legs_of_every_rule_end_where_the_reading_does() {
     let mut rng = seeded(191);
     for _ in 0..10_000 {
         let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
@@ -144,7 +144,7 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
 /// A million outcomes: the mean square of a quantity of kurtosis κ is off by √((κ − 1)/n) of itself a standard error; κ is
 /// measured along.
 #[test]
-fn spreads_are_those_of_a_million_outcomes() {
+fn exact_spreads_match_samples() {
     let readings = [delta(0.7, 1.5, 0.5), delta(3.0, 1.0, -3.0), delta(0.2, 0.3, FRAC_PI_2)];
     for (kind, rule) in KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
         for reading in readings {

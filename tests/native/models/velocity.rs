@@ -82,7 +82,7 @@ fn prob_falls_off_as_the_noise_does() {
 }
 
 #[test]
-fn without_noise_there_is_certainty_and_no_density() {
+fn zero_noise_gives_certainty_and_no_density() {
     let mut rng = seeded(53);
     for kind in KINDS {
         let still = model(VelocityAlphas([0.0; 6]), kind);
@@ -109,7 +109,7 @@ fn without_noise_there_is_certainty_and_no_density() {
 
 /// Certainty is "0 to rounding", and what rounding leaves of γ̂ grows with the distance from the origin over |v|Δt².
 #[test]
-fn the_samplers_own_poses_are_possible_far_from_the_origin() {
+fn samples_far_from_the_origin_have_a_positive_score() {
     let mut rng = seeded(56);
     for (far, u) in [
         (1000.0, command(1.0, 0.5, 0.01)),
@@ -134,7 +134,7 @@ fn the_samplers_own_poses_are_possible_far_from_the_origin() {
 /// The scoring function is the density without the determinant of (v̂, ω̂, γ̂) → (x, y, θ), here differentiated
 /// numerically.
 #[test]
-fn pose_density_pays_the_jacobian() {
+fn the_pose_density_divides_by_the_jacobian() {
     let mut rng = seeded(54);
     let model = model(OPENING, NoiseKind::Normal);
     for u in commands().into_iter().filter(|u| u.v != 0.0) {
@@ -171,7 +171,7 @@ fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2, cells: [usize; 3]
 /// Noise as large as the motion drives the robot backwards and more than once round; none of it may be lost. Spins on
 /// the spot belong here: their v̂ has either sign.
 #[test]
-fn pose_density_integrates_to_one_however_large_the_noise() {
+fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(1.0, -1.0, -2.0);
     let wild = VelocityAlphas([0.5, 0.5, 1.5, 1.5, 0.5, 0.5]);
     for (v, omega) in [(0.6, 0.9), (0.0, 1.2)] {

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 /// A setting takes each of its words and no other.
 #[test]
-fn a_setting_takes_its_words() {
+fn a_word_setting_accepts_its_words_only() {
     fn check(mut settings: impl Declared) -> usize {
         let mut seen = 0;
         let _ = settings.each(&mut |declaration, setting| {
@@ -32,7 +32,7 @@ fn a_setting_takes_its_words() {
 
 /// Numbers in messages are those of JavaScript, where most who read them are.
 #[test]
-fn numbers_are_told_as_javascript_prints_them() {
+fn numbers_in_messages_are_formatted_as_in_javascript() {
     for (number, told) in [
         (f64::INFINITY, "Infinity"),
         (f64::NEG_INFINITY, "-Infinity"),

@@ -33,7 +33,7 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
 /// errors were removed that they say themselves.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
-fn the_simulated_log_is_what_it_is_said_to_be() {
+fn intervals_of_simulated_logs_hold_the_true_values() {
     let mut counts = [0; 10];
     for seed in 0..SEEDS {
         let machine = machine(Settings { seed, ..Settings::default() });
@@ -48,7 +48,7 @@ fn the_simulated_log_is_what_it_is_said_to_be() {
 
 /// What everybody sees first holds all that is true.
 #[test]
-fn it_opens_with_intervals_that_hold_the_truth() {
+fn the_opening_intervals_hold_the_true_values() {
     let machine = machine(Settings::default());
     assert_eq!(held(&machine), [true; 10]);
     assert_eq!(machine.calibration().doubts.verdict, Verdict::Fits);
@@ -72,7 +72,7 @@ fn legs_end_after_a_duration_where_one_is_set() {
 
 /// Of long legs there are few, and the likelihood is no parabola; it falls on both sides of its maximum all the same.
 #[test]
-fn an_interval_has_room_on_both_sides_of_its_value() {
+fn an_interval_extends_to_both_sides_of_its_estimate() {
     for duration in [1.0, 3.0] {
         for seed in 0..2 {
             for robust in [false, true] {
@@ -91,7 +91,7 @@ fn an_interval_has_room_on_both_sides_of_its_value() {
 
 /// What is set of the reference's own error counts as if the log had said it, and takes its place where that does.
 #[test]
-fn the_references_own_error_is_set_or_said_by_the_log() {
+fn the_reference_error_comes_from_the_settings_or_the_log() {
     let alphas = |set: ReferenceError, said: ReferenceError| {
         let mut machine = machine(Settings { deviations: set, ..Settings::default() });
         machine.set_log(Log { error: said, ..example(Settings::default().seed) });
@@ -153,7 +153,7 @@ fn panels_are_means_of_squared_residuals() {
 /// one leg of much turn decides: bars by how squares scatter alone would leave out 1.7 % at three, six times as many.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
-fn the_bars_of_panels_hold_their_lines() {
+fn the_error_bars_of_panels_hold_the_fitted_lines() {
     let [mut bins, mut beyond, mut far] = [0; 3];
     for seed in 0..SEEDS {
         let machine = machine(Settings { seed, ..Settings::default() });
@@ -172,7 +172,7 @@ fn the_bars_of_panels_hold_their_lines() {
 }
 
 #[test]
-fn a_leg_is_seen_from_where_it_began() {
+fn a_leg_is_shown_in_the_frame_of_its_start() {
     let machine = machine(Settings { inflation: 4.0, ..Settings::default() });
     let calibration = machine.calibration();
     let index = 100;
@@ -241,7 +241,7 @@ fn the_model_and_the_rule_go_together() {
 }
 
 #[test]
-fn in_slices_it_is_as_at_once_and_stopping_leaves_all_as_it_was() {
+fn a_calibration_in_slices_equals_one_call() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
     let mut sliced = machine(Settings::default());
     let before = sliced.calibration().clone();
@@ -259,7 +259,7 @@ fn in_slices_it_is_as_at_once_and_stopping_leaves_all_as_it_was() {
 }
 
 #[test]
-fn a_log_that_says_nothing_is_shown_as_one() {
+fn a_log_without_legs_gives_an_empty_calibration() {
     let mut machine = machine(Settings::default());
     let poses =
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");

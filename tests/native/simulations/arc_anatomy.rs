@@ -55,7 +55,7 @@ fn table_as_printed(settings: &Settings) -> [f64; 8] {
 }
 
 #[test]
-fn as_printed_the_lines_are_those_of_the_table() {
+fn the_printed_option_computes_the_lines_of_the_table() {
     for settings in random(1).take(20_000) {
         let printed = machine(Settings { printed: true, ..settings }).table().lines;
         let expected = table_as_printed(&settings);
@@ -74,7 +74,7 @@ fn as_printed_the_lines_are_those_of_the_table() {
 }
 
 #[test]
-fn what_was_found_drives_to_the_final_pose() {
+fn the_inverted_controls_drive_to_the_final_pose() {
     for settings in random(3).take(2000) {
         let (_, next) = poses(&settings);
         let Stats { driven, last_turn, .. } = stats(settings);
@@ -97,7 +97,7 @@ fn what_was_found_drives_to_the_final_pose() {
 /// The table as printed is wrong where the centre lies to the right of the heading, and nowhere else: what it finds then
 /// drives to the mirror image of the final position.
 #[test]
-fn as_printed_it_fails_for_centres_to_the_right() {
+fn the_printed_option_mirrors_centres_to_the_right() {
     let mut right = 0;
     for settings in random(4).take(2000) {
         let signed = stats(settings);
@@ -158,7 +158,7 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
 }
 
 #[test]
-fn without_noise_a_residual_is_none_or_beyond_all_deviations() {
+fn without_noise_a_residual_is_zero_or_infinite() {
     let settings = Settings { alphas: [0.0; 6], ..preset("straight") };
     let Stats { factors, prob, share, density, weakest, .. } = stats(settings);
     assert_eq!(factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
@@ -171,7 +171,7 @@ fn without_noise_a_residual_is_none_or_beyond_all_deviations() {
 
 /// The lateral velocity by differences of the path, whose error is that of the square of the step.
 #[test]
-fn the_twist_slips_sideways_where_the_last_turn_is_not_nothing() {
+fn the_twist_slips_sideways_when_there_is_a_last_turn() {
     for settings in random(6).take(200) {
         let machine = machine(settings);
         let [along, lateral, _] = machine.stats().xi;
@@ -199,7 +199,7 @@ fn the_twist_slips_sideways_where_the_last_turn_is_not_nothing() {
 }
 
 #[test]
-fn what_is_straight_has_no_centre_and_what_stays_has_no_arc() {
+fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     let straight = Settings { next: FinalPose { x: 2.0, y: 0.0, theta: 0.0 }, ..Settings::default() };
     let machine = machine(straight);
     let Stats { inverted, factors, .. } = machine.stats();

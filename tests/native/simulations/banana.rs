@@ -85,7 +85,7 @@ fn the_cloud_is_what_the_model_samples() {
 
 /// A slider moves the same robots: each keeps its own luck, read off here as (v̂ − v)/σ and so on.
 #[test]
-fn a_slider_moves_the_same_robots() {
+fn changed_settings_move_the_same_robots() {
     let opening = Settings { samples: 300, ..Settings::default() };
     let mut machine = machine(opening);
     let luck = |machine: &BananaMachine| -> Vec<[f64; 3]> {
@@ -305,7 +305,7 @@ fn both_views_find_the_nearest_sample_and_count_all() {
 
 /// What the machine says of each robot's way leads to where that robot is shown, under either model.
 #[test]
-fn what_was_executed_leads_to_the_pose() {
+fn the_executed_motion_leads_to_the_pose() {
     for settings in models() {
         let machine = machine(Settings { samples: 200, ..settings });
         for ((i, numbers), pose) in machine.executed().enumerate().zip(machine.poses()) {
@@ -353,7 +353,7 @@ fn a_reverse_aware_robot_is_not_charged_for_half_turns() {
 /// Noise on the pose knows neither distance nor wheels: its circle is the same for a step and for a room, and its size
 /// is that of the opening cloud.
 #[test]
-fn added_noise_is_the_same_everywhere() {
+fn additive_noise_does_not_depend_on_the_motion() {
     for [v, omega, dt] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {
         let command = VelocityCmd { v, omega, dt };
         let machine = machine(Settings { command, samples: 10, ..Settings::default() });

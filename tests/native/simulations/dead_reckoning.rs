@@ -130,7 +130,7 @@ fn ratios_and_misses_are_counted() {
 
 /// What the chapter's recursion misses, and that nothing is said of it by too few robots, or of no spread.
 #[test]
-fn misses_are_told_by_robots_enough() {
+fn misses_are_reported_with_enough_robots_only() {
     let told = |settings| machine(settings).compared(Compounding::Chapter).misses.map(|misses| misses.told);
     assert_eq!(told(Settings::default()), [true; 3]);
     assert_eq!(told(few(5000)), [false; 3]);
@@ -144,7 +144,7 @@ fn misses_are_told_by_robots_enough() {
 
 /// What has no variance has no error that were a share of it, and nothing is told by it, however small the numbers are.
 #[test]
-fn without_a_variance_there_is_no_error_of_it() {
+fn a_zero_variance_has_no_relative_error() {
     let errors = |settings| machine(settings).measured()[1].relative_error;
     for samples in [1, 2] {
         assert!(errors(Settings { alphas: [0.0; 6], ..few(samples) }).iter().all(|error| error.is_nan()));
@@ -180,7 +180,7 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
 
 /// The same luck: fewer robots are the first of more, a shorter path is the beginning of a longer one, and α's rescale noise.
 #[test]
-fn a_seed_is_the_same_luck() {
+fn a_seed_gives_the_same_draws() {
     let large = machine(few(1500));
     let small = machine(few(300));
     let short = machine(Settings { steps: 7, ..few(300) });

@@ -175,7 +175,7 @@ fn the_commanded_path_and_the_room_at_its_start() {
 
 /// Where nothing fits the machine stops after a bounded number of draws, says so, and goes on in better times.
 #[test]
-fn the_machine_gives_up_in_time() {
+fn the_machine_stops_after_a_bounded_number_of_draws() {
     let wedged = Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
     let mut machine = machine(wedged);
     assert!(!machine.gave_up());
@@ -206,7 +206,7 @@ fn the_machine_gives_up_in_time() {
 }
 
 #[test]
-fn a_trial_costs_what_it_says_and_changes_nothing() {
+fn a_trial_reports_its_cost_and_changes_nothing() {
     let settings = Settings::default();
     let machine = machine(settings);
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
@@ -233,7 +233,7 @@ fn a_trial_costs_what_it_says_and_changes_nothing() {
 /// Newcombe, "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17 (1998), table I,
 /// method 3.
 #[test]
-fn the_interval_is_wilsons() {
+fn the_interval_is_the_wilson_interval() {
     for (through_wall, accepted, low, high) in
         [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
     {

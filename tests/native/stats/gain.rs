@@ -288,7 +288,7 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
 
 /// On a line through the start there is nothing to gain, whatever the headings.
 #[test]
-fn a_line_has_no_gain() {
+fn robots_on_a_line_have_no_gain() {
     for (command, alphas) in [
         (STRAIGHT, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0]),
         (STRAIGHT, [0.1, 0.0, 0.0, 0.0, 0.1, 0.0]),

@@ -59,7 +59,7 @@ fn a_saddle_is_parted_as_the_mean_of_its_corners_says() {
 /// Of a field of noise: each edge whose ends lie on two sides is crossed once, lines end where they began or at the rim, and no
 /// two points of a line are more than a cell apart.
 #[test]
-fn of_noise_no_crossing_is_missed() {
+fn contours_of_noise_contain_every_crossing() {
     let mut rng = seeded(21);
     let (columns, rows) = (23, 17);
     let values: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();

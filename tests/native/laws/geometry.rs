@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 const UNITS: f64 = 32.0;
 
 proptest! {
-    #![proptest_config(cases(2000))]
+    #![proptest_config(cases(1000))]
 
     /// The remainder towards 0 is exact, and so is a turn taken off it.
     #[test]

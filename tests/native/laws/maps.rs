@@ -68,7 +68,7 @@ fn inside(arc: &Arc) -> [f64; 2] {
 }
 
 proptest! {
-    #![proptest_config(cases(300))]
+    #![proptest_config(cases(150))]
 
     /// Against points along the way; between two of them either verdict will do.
     #[test]
@@ -175,7 +175,7 @@ fn gaps() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(cases(1500))]
+    #![proptest_config(cases(700))]
 
     /// The same picture, however its file is laid out.
     #[test]

@@ -93,7 +93,7 @@ impl Lost {
 }
 
 proptest! {
-    #![proptest_config(cases(1500))]
+    #![proptest_config(cases(700))]
 
     #[test]
     fn moments_do_not_depend_on_the_order_of_samples(cloud in clouds(), by in any::<usize>()) {

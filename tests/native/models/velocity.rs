@@ -174,21 +174,21 @@ fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2, cells: [usize; 3]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(1.0, -1.0, -2.0);
     let wild = VelocityAlphas([0.5, 0.5, 1.5, 1.5, 0.5, 0.5]);
-    for (v, omega) in [(0.6, 0.9), (0.0, 1.2)] {
+    for (kind, allowed, v, omega) in
+        [(NoiseKind::Normal, 1e-5, 0.6, 0.9), (NoiseKind::Triangular, 2e-3, 0.0, 1.2)]
+    {
         let u = command(v, omega, 1.5);
-        for (kind, allowed) in [(NoiseKind::Normal, 1e-5), (NoiseKind::Triangular, 2e-3)] {
-            let model = model(wild, kind);
-            // No robot gets further than its arc is long, and none drives seven deviations more than commanded.
-            let radius = (v.abs() + 7.0 * model.variances(&u)[0].0.sqrt()) * u.dt;
-            let integral = |cells| {
-                Grid::everything(&x, 2.0, radius, [cells; 3])
-                    .integral(|pose| model.pose_density(pose, &u, &x).unwrap())
-            };
-            // Arcs of a whole turn end near the start however long they are: a corner of the integrand where the
-            // error falls as the width of a cell, and two even numbers of cells tell the limit.
-            let total = 2.0 * integral(16) - integral(8);
-            assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
-        }
+        let model = model(wild, kind);
+        // No robot gets further than its arc is long, and none drives seven deviations more than commanded.
+        let radius = (v.abs() + 7.0 * model.variances(&u)[0].0.sqrt()) * u.dt;
+        let integral = |cells| {
+            Grid::everything(&x, 2.0, radius, [cells; 3])
+                .integral(|pose| model.pose_density(pose, &u, &x).unwrap())
+        };
+        // Arcs of a whole turn end near the start however long they are: a corner of the integrand where the
+        // error falls as the width of a cell, and two even numbers of cells give the limit.
+        let total = 2.0 * integral(16) - integral(8);
+        assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
     }
 }
 

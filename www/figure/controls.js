@@ -1,10 +1,10 @@
 /** A setting's control, made of its declaration, of how it looks, and of the words for it. */
 
-import { html } from 'lit';
+import { html, noChange, nothing } from 'lit';
+import { live } from 'lit/directives/live.js';
 import { words } from '../messages/registry.js';
-import { radioGroup, rich, toggle } from '../ui/controls.js';
+import { inputOf, radioGroup, rich, toggle } from '../ui/controls.js';
 import { counted, limit, numberIn, typed } from '../ui/format.js';
-import { markedSample } from '../ui/marked.js';
 import { sliderRow } from '../ui/slider.js';
 import { exportMenu } from './takeaway/export.js';
 
@@ -185,29 +185,45 @@ export function cloudControls(figure, counts) {
 }
 
 /**
- * The marked sample, by its number.
+ * Field with the number of the marked sample. It keeps what was typed and is refused until it is right or left.
  *
  * @param {Figure & { cloud: import('./cloud.js').Cloud }} figure
- * @param {Omit<Parameters<typeof markedSample>[0], 'index' | 'type' | 'refusal' | 'forget'>} row
- * @returns {import('lit').TemplateResult}
+ * @param {object} row
+ * @param {string} row.id
+ * @param {string} row.label
+ * @param {number} row.shown number of samples
+ * @param {unknown} row.told text about the marked sample; nothing where none is marked
+ * @param {string} row.hint text where none is marked
  */
-export function markedField({ cloud, typing }, row) {
-  const { label, shown } = row;
-  return markedSample({
-    ...row,
-    index: cloud.index,
-    type: (text) => {
-      const number = Number(text);
-      if (text && !(Number.isInteger(number) && number >= 1 && number <= shown)) {
-        typing.refuse('marked', words.refused(label, text.replace('-', '\u2212'), '1', counted(shown), true));
-        return;
-      }
-      typing.forget();
-      cloud.mark(number - 1);
-    },
-    refusal: typing.refusalOf('marked'),
-    forget: () => typing.forget(),
-  });
+export function markedField({ cloud, typing }, { id, label, shown, told, hint }) {
+  const refusal = typing.refusalOf('marked');
+  const type = (/** @type {Event} */ event) => {
+    const text = inputOf(event).value;
+    const number = Number(text);
+    if (text && !(Number.isInteger(number) && number >= 1 && number <= shown)) {
+      typing.refuse('marked', words.refused(label, text.replace('-', '\u2212'), '1', counted(shown), true));
+      return;
+    }
+    typing.forget();
+    cloud.mark(number - 1);
+  };
+  return html`<p class="marked">
+    <label>
+      ${label}
+      <input
+        id=${id}
+        type="number"
+        min="1"
+        max=${Math.max(1, shown)}
+        placeholder=${shown === 0 ? '' : `1–${counted(shown)}`}
+        ?disabled=${shown === 0}
+        .value=${refusal ? noChange : live(cloud.index < 0 ? '' : String(cloud.index + 1))}
+        @input=${type}
+        @blur=${() => typing.forget()}
+      />
+    </label>
+    <output for=${id} role=${refusal ? 'alert' : nothing}>${refusal || told || html`<span class="hint">${hint}</span>`}</output>
+  </p>`;
 }
 
 /**

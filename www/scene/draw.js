@@ -144,6 +144,21 @@ export function drawPixels({ context, view }, grid, pixels, columns) {
 }
 
 /**
+ * Draws a density over the inside of the axes.
+ *
+ * @param {Brush} brush
+ * @param {OffscreenCanvas} grid as for `drawPixels`
+ * @param {number} cell CSS pixels
+ * @param {(...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>} pixelsOf
+ */
+export function drawDensity(brush, grid, cell, pixelsOf) {
+  const { left, right, top, bottom } = brush.view.frame;
+  const { xMin, yMin, xMax, yMax } = brush.view.extent;
+  const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cell)));
+  drawPixels(brush, grid, pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns);
+}
+
+/**
  * The box of the pixels with ink and a pixel around it, into which they fade where they are stretched.
  *
  * @param {Uint8ClampedArray<ArrayBuffer>} pixels

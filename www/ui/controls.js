@@ -140,6 +140,39 @@ export const controlStyles = css`
     min-width: max-content;
   }
 
+  .marked {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: 0.1em 1.1em;
+    min-height: 2.2em;
+    margin: 0.3em 0 0;
+  }
+
+  .marked output {
+    display: inline-flex;
+    flex-wrap: wrap;
+    gap: 0.1em 1.1em;
+  }
+
+  .marked label {
+    color: var(--accent);
+  }
+
+  .marked input {
+    width: 8em;
+    min-height: 1.75em;
+    margin-left: 0.3em;
+    padding: 0 0.3em;
+    font: inherit;
+    font-variant-numeric: inherit;
+  }
+
+  .hint {
+    color: var(--muted);
+    font-style: italic;
+  }
+
   input:is([type='radio'], [type='checkbox']) {
     flex: none;
     width: 1em;
@@ -163,11 +196,6 @@ export function rich(message) {
             ? html`<sub>${part.charCodeAt(0) - 0x2080}</sub>`
             : part,
     );
-}
-
-/** @param {string[]} texts */
-export function longest(texts) {
-  return texts.reduce((one, other) => (other.length > one.length ? other : one), '');
 }
 
 /**

@@ -5,7 +5,6 @@
 
 import { css } from 'lit';
 import { controlStyles } from './controls.js';
-import { markedStyles } from './marked.js';
 import { readoutStyles } from './readouts.js';
 import { sliderStyles } from './slider.js';
 
@@ -221,4 +220,4 @@ const layout = css`
   }
 `;
 
-export const layoutStyles = [readoutStyles, markedStyles, controlStyles, sliderStyles, layout];
+export const layoutStyles = [readoutStyles, controlStyles, sliderStyles, layout];

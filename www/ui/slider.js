@@ -3,7 +3,7 @@
 import { css, html, noChange, nothing } from 'lit';
 import { Directive, directive } from 'lit/directive.js';
 import { live } from 'lit/directives/live.js';
-import { inputOf, longest } from './controls.js';
+import { inputOf } from './controls.js';
 
 export const sliderStyles = css`
   /* Room for the line of help of the row that has the focus or the pointer. */
@@ -234,7 +234,7 @@ export function sliderRow(row) {
   };
   const classes = ['slider', ...Object.keys(states).filter((key) => states[/** @type {keyof typeof states} */ (key)])].join(' ');
   const shown = row.show(row.value);
-  const room = longest([shown, row.show(row.min), row.show(row.max)]);
+  const room = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), shown);
   return html`
     <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}

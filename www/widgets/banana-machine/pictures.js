@@ -4,12 +4,12 @@ import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import {
   densityRamp,
+  drawDensity,
   drawDots,
   drawHeap,
   drawMark,
   drawOutline,
   drawOutlines,
-  drawPixels,
   drawRobot,
   hasLength,
 } from '../../scene/draw.js';
@@ -55,10 +55,6 @@ const REACH = 14;
  */
 class CloudPicture extends Picture {
   #grid = new OffscreenCanvas(1, 1);
-  /** Colours of the density. @type {Uint8Array} */
-  #ramp = new Uint8Array();
-  /** What the ramp was made of. @type {Palette | undefined} */
-  #palette;
 
   /**
    * The robot nearest to the pointer; −1 for none.
@@ -78,23 +74,14 @@ class CloudPicture extends Picture {
    */
   paintCloud(brush, machine, area) {
     const { name } = this;
-    const { view, palette } = brush;
+    const { palette } = brush;
     if (machine.shown <= MAX_DOTS) {
       if (name === 'plane') drawDots(brush, machine.poses, { x: 0, y: 1, heading: 2 });
       else drawDots(brush, machine.twists, { x: 0, y: 2, heading: null });
       return;
     }
-    const cell = cellSize(area, machine.shown);
-    const { left, right, top, bottom } = view.frame;
-    const { xMin, yMin, xMax, yMax } = view.extent;
-    const columns = Math.max(1, Math.round((right - left) / cell));
-    const rows = Math.max(1, Math.round((bottom - top) / cell));
-    if (this.#palette !== palette) {
-      this.#palette = palette;
-      this.#ramp = densityRamp(palette);
-    }
-    const pixels = machine.picture(name, xMin, yMin, xMax, yMax, columns, rows, this.#ramp);
-    drawPixels(brush, this.#grid, pixels, columns);
+    const ramp = densityRamp(palette);
+    drawDensity(brush, this.#grid, cellSize(area, machine.shown), (...part) => machine.picture(name, ...part, ramp));
   }
 }
 

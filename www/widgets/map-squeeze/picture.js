@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { densityRamp, drawDots, drawMark, drawOutline, drawPixels, trace } from '../../scene/draw.js';
+import { densityRamp, drawDensity, drawDots, drawMark, drawOutline, trace } from '../../scene/draw.js';
 import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer, cornerOf } from '../../scene/walls.js';
@@ -16,7 +16,6 @@ import { keptWords } from './words.js';
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Extent } from '../../scene/view.js'
  * @import { Cells } from '../../scene/walls.js'
- * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
  *   machine: MapSqueeze,
@@ -58,10 +57,6 @@ export class FloorPicture extends SamplesPicture {
   /** Corners of what the map knows: what is around it may be much more. @type {ArrayLike<number>} */
   #known;
   #pixels = new OffscreenCanvas(1, 1);
-  /** Colours of the density. @type {Uint8Array} */
-  #ramps = new Uint8Array();
-  /** What they were made of. @type {Palette | undefined} */
-  #palette;
 
   /**
    * @param {Plan} plan
@@ -156,19 +151,10 @@ export class FloorPicture extends SamplesPicture {
    * @param {Scene} scene
    */
   #drawDensity(brush, { machine, stats }) {
-    const { view, palette } = brush;
-    if (this.#palette !== palette) {
-      this.#palette = palette;
-      const ramps = [palette.truth, palette.cloud, palette.accent].map((cloud) => densityRamp({ ...palette, cloud }));
-      this.#ramps = Uint8Array.from(ramps.flatMap((ramp) => [...ramp]));
-    }
-    const { left, right, top, bottom } = view.frame;
-    const { xMin, yMin, xMax, yMax } = view.extent;
+    const { palette } = brush;
+    const ramps = [palette.truth, palette.cloud, palette.accent].flatMap((cloud) => [...densityRamp({ ...palette, cloud })]);
     const cell = clamp(CELL.most * Math.sqrt(CELL.samples / stats.attempts) / 2, CELL.least, CELL.most);
-    const columns = Math.max(1, Math.round((right - left) / cell));
-    const rows = Math.max(1, Math.round((bottom - top) / cell));
-    const pixels = machine.picture(xMin, yMin, xMax, yMax, columns, rows, this.#ramps);
-    drawPixels(brush, this.#pixels, pixels, columns);
+    drawDensity(brush, this.#pixels, cell, (...part) => machine.picture(...part, Uint8Array.from(ramps)));
   }
 
   /**

@@ -12,7 +12,7 @@ const OPENING_ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 const BATCHES = 150;
 
 /** @param {Locator} widget */
-const sentence = (widget) => widget.locator('.caption > span');
+const sentence = (widget) => widget.locator('.caption');
 
 /** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
 async function set(widget, values) {

@@ -103,7 +103,7 @@ export function subset(field, value, allowed) {
 }
 
 /**
- * Whether a value is, part for part, as it was given.
+ * Tells whether a value has every part of another one; parts that the other one lacks do not count.
  *
  * @param {any} present
  * @param {any} given

@@ -164,7 +164,7 @@ export const sliderStyles = css`
 /** A finger that has moved less than this, CSS pixels, may be going anywhere. */
 const SLOP = 8;
 
-/** Where a finger came down of which it is not known yet what it wants. @type {{ clientX: number, clientY: number } | undefined} */
+/** Position of a finger that may still scroll or set. @type {{ clientX: number, clientY: number } | undefined} */
 let down;
 
 const forget = () => (down = undefined);
@@ -173,7 +173,7 @@ const finger = {
   /** @param {PointerEvent} event */
   comes({ pointerType, clientX, clientY }) {
     down = pointerType === 'touch' ? { clientX, clientY } : undefined;
-    // What it came down on may leave the page, and does not hear then that it goes.
+    // The element under the finger may leave the page, and then hears no pointerup.
     addEventListener('pointerup', forget);
     addEventListener('pointercancel', forget);
   },
@@ -192,7 +192,7 @@ const finger = {
     return tapped;
   },
 
-  /** Whether it may still be on its way up or down the page. */
+  /** True while the finger may still scroll the page. */
   get waits() {
     return down !== undefined;
   },

@@ -42,7 +42,7 @@ export const cloudStyles = css`
     }
   }
 
-  /* Where the buttons leave no room for it, the seed shares the line in which the help of N appears. */
+  /* The seed shares the line in which the help of N appears, if the buttons leave no room for it. */
   @container (max-width: 68.75em) {
     .cloud .seed {
       position: absolute;

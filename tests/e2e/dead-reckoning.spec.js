@@ -35,7 +35,7 @@ async function settled(widget) {
 
 /** @param {Locator} widget */
 const config = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.config);
-const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption] > span');
+const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
 /** Returns the texts of the three readouts of the components. @param {Locator} widget */

@@ -352,7 +352,7 @@ test('the picture and the announcements have words', async ({ page }) => {
   const status = widget.locator('p[role=status]');
   const said = `${after.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
   await expect(status).toHaveText(said);
-  await expect(widget.locator('.verdict span')).toHaveText(said);
+  await expect(widget.locator('.verdict')).toHaveText(said);
   // Without the condition nothing is judged.
   await widget.getByLabel('Condition on the map').uncheck();
   const { throughWall } = (await squeezed(widget)).stats;

@@ -1,4 +1,4 @@
-//! Doubts: each verdict from a log that earns it, what inflation shows, and what holds where legs are not independent.
+//! Verdicts, inflation curves and the block bootstrap of simulated logs.
 
 use super::simulated::{ALPHAS, Simulation, Unlike};
 use motion::NoiseKind;

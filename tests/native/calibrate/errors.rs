@@ -1,4 +1,4 @@
-//! Systematic errors and bad legs: found, removed, and the α's as they were.
+//! Systematic errors and outliers: estimated, removed, and the alphas unchanged by them.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
 use motion::calibrate::{

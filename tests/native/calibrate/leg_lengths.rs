@@ -1,4 +1,4 @@
-//! The α's of a log by the length of its legs, against closed forms of what was put into it.
+//! Alphas by leg length, against closed forms of simulated errors.
 
 use super::simulated::Simulation;
 use motion::calibrate::{

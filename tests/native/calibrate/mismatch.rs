@@ -1,4 +1,4 @@
-//! Logs that are not what they are taken for.
+//! Logs whose reference does not belong to the odometry, and errors that a log does not determine.
 
 use super::simulated::Simulation;
 use motion::NoiseKind;

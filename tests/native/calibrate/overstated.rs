@@ -1,4 +1,4 @@
-//! A reference that errs less than is stated is told, and one that errs as stated never is, nor does it pass for noise of the wheels.
+//! A reference error that is stated too large is reported; one stated correctly is not.
 
 use super::simulated::{MODELS, Simulation};
 use crate::common::KINDS;

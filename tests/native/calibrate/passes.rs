@@ -1,4 +1,4 @@
-//! What a fit costs: passes over the legs, for that is the same on every machine.
+//! Cost of a fit, as passes over the legs: the same on every machine.
 
 use super::simulated::Simulation;
 use motion::NoiseKind;

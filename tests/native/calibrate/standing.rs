@@ -1,4 +1,4 @@
-//! Robots that start, stop and turn off where a leg ends, and stand or hardly move all through some.
+//! Logs of robots without noise, and the scaling of alphas with the noise.
 
 use super::simulated::{MODELS, Simulation, Unlike};
 use motion::NoiseKind;

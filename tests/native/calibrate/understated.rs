@@ -1,4 +1,4 @@
-//! A reference that errs by more than is stated is told by neighbouring legs, which it makes err opposite.
+//! A reference error that is stated too small is reported by the correlation of neighbouring legs.
 
 use super::overstated::off_by;
 use super::simulated::{MODELS, Simulation, Unlike};
@@ -52,7 +52,7 @@ fn an_unstated_heading_error_is_reported() {
     }
 }
 
-/// Of a hundred such logs 96 get the verdict.
+/// The verdict is given for 96 of a hundred such logs.
 #[test]
 fn a_reference_error_stated_by_half_is_usually_reported() {
     assert!(told(0.5, Robust::No) > 3);

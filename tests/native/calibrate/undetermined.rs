@@ -1,4 +1,4 @@
-//! What a log does not determine, why not, and that the drive that is advised determines it.
+//! Alphas that a log does not determine, the reason given, and the drive that determines them.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
 use motion::NoiseKind;

@@ -1,4 +1,4 @@
-//! What the page says under "What to try" of Arc Anatomy, computed: the numbers are read from the page.
+//! Numbers of Arc Anatomy on the page, read there and computed.
 
 use crate::common::told::{Number, Told};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Mapped, PRESETS, Settings, Stats};

@@ -1,4 +1,4 @@
-//! What the page says under "What to try" of the Banana Machine, computed: the numbers are read from the page.
+//! Numbers of the Banana Machine on the page, read there and computed.
 
 use crate::common::told::Told;
 use crate::common::{SIGMAS, preset, winds_around};

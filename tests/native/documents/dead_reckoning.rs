@@ -1,4 +1,4 @@
-//! What the page says of dead reckoning, computed: its numbers are read there.
+//! Numbers of Dead Reckoning on the page, read there and computed.
 
 use crate::common::told::{Number, Told};
 use motion::Compounding;

@@ -1,4 +1,4 @@
-//! doc/exercises.md, computed: its numbers are read from there.
+//! Numbers of doc/exercises.md, read there and computed.
 
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, preset, seeded, unit_cdf};

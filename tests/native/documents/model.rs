@@ -1,4 +1,4 @@
-//! The figures of doc/model.md on the Banana Machine, computed: they are read from there.
+//! Figures of the Banana Machine in doc/model.md, read there and computed.
 
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, preset};

@@ -1,5 +1,4 @@
-//! What the page says under "What to try" of the Odometry Decomposer, and doc/model.md of the rules, computed: the numbers
-//! are read there.
+//! Numbers of the Odometry Decomposer on the page and of the rules in doc/model.md, read there and computed.
 
 use crate::common::told::Told;
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};

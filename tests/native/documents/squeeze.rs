@@ -1,5 +1,4 @@
-//! What the page, the widget and doc/model.md say of motion in the apartment, computed: every "more", "less" and "first",
-//! and every share to the digits it is told in, which are read there.
+//! Shares of Map Squeeze on the page and in doc/model.md, read there and computed.
 
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, seeded};

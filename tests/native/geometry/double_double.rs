@@ -1,4 +1,4 @@
-//! Twice the digits: against tables of fifty digits, and the identities that exact arithmetic has.
+//! Double-double arithmetic against fifty-digit references and exact integer arithmetic.
 
 use crate::common::told::{Number, Told};
 use crate::common::{seeded, uniform};

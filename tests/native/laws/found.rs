@@ -1,4 +1,4 @@
-//! What these laws and the fuzzing found, case by case.
+//! Cases that property tests and fuzzing found.
 
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;

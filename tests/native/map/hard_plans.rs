@@ -1,4 +1,4 @@
-//! Plans that are allowed and made to be hard: every verdict on them is right, and takes no more than one can wait for.
+//! Plans with many walls in one place: verdicts are right and measure few walls.
 
 use crate::common::{seeded, uniform};
 use motion::geom::arc::Arc;

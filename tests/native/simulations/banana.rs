@@ -1,4 +1,4 @@
-//! The Banana Machine's simulation: common random numbers, settings, and what it reports.
+//! The Banana Machine: common random numbers, settings and reported figures.
 
 use crate::common::{KINDS, SIGMAS, pose_distance, seeded};
 use motion::geom::lanes::ACCURACY;

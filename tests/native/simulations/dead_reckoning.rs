@@ -1,5 +1,4 @@
-//! Dead Reckoning: rollouts against the models one pose at a time, recursions against matrices in high precision, and what the
-//! machine promises of seeds, slices and counts.
+//! The machine of Dead Reckoning: rollouts against the models one pose at a time, statistics against plain sums.
 
 use motion::geom::se2::SE2;
 use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, Settings};

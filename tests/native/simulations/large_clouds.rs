@@ -1,4 +1,4 @@
-//! What ten million robots say, against sums that lose nothing.
+//! Statistics of up to ten million robots, against sums in twice the precision.
 
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Figures, MAX_SAMPLES, ModelKind, Settings};

@@ -1,4 +1,4 @@
-//! The Odometry Decomposer's machine: common random numbers, the frame that drifts, spreads and curves, refusals.
+//! The machine of the Odometry Decomposer: common random numbers, linkage, drifting frame and curve.
 
 use crate::common::{KINDS, pose_distance, seeded};
 use motion::geom::se2::SE2;

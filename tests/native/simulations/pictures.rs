@@ -1,4 +1,4 @@
-//! Densities as images: every pixel has the colour of those who are in its cell, and nothing is left for the next image.
+//! Densities as images: every pixel has the colour of the samples in its cell.
 
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};

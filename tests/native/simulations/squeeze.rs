@@ -1,4 +1,4 @@
-//! Map Squeeze's simulation: common random numbers, budget, tally, and the interval it reports.
+//! The machine of Map Squeeze: common random numbers, draw budget, tally and its interval.
 
 use crate::common::seeded;
 use motion::geom::se2::SE2;

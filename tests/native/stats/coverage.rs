@@ -1,4 +1,4 @@
-//! Whether errors and intervals are what they say: over thousands of seeds, those of 95 % hold the exact value in as many.
+//! Coverage of the reported errors and intervals over thousands of seeds.
 
 use crate::common::told::Told;
 use crate::common::{SIGMAS, preset};

@@ -1,5 +1,4 @@
-//! The likelihood gains and the ratio of areas: against their definitions, against references, and where they have no
-//! meaning.
+//! Likelihood gains and ratios of areas: against their definitions, references and degenerate clouds.
 
 use crate::common::{KINDS, SIGMAS, Table, mean, variance};
 use motion::geom::arc::{arc_near, chord};

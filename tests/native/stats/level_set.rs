@@ -1,4 +1,4 @@
-//! Contour lines against what is known of the field, and those of Arc Anatomy's maps against the models.
+//! Contour lines of known fields, and those of the maps of Arc Anatomy.
 
 use crate::common::{seeded, uniform};
 use motion::geom::se2::SE2;

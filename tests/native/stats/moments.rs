@@ -1,4 +1,4 @@
-//! What a cloud says of itself, and what a model says without one.
+//! Moments, skews and contours of clouds, and exact moments of models.
 
 use crate::common::{SIGMAS, Table, mean, seeded, uniform, variance};
 use motion::geom::se2::{SE2, wrap_angle};

@@ -73,16 +73,6 @@ pub struct Cost {
     pub draws: usize,
     /// Walls measured to decide on them, see [`Verdict`].
     pub wall_tests: usize,
-    /// Walls measured for the verdict that does not decide.
-    #[cfg_attr(target_arch = "wasm32", serde(skip))]
-    pub besides: usize,
-}
-
-impl Cost {
-    /// How long it takes: a draw is one, and a wall that is measured a few.
-    pub fn work(&self) -> usize {
-        self.draws + 4 * (self.wall_tests + self.besides)
-    }
 }
 
 /// The robot is wedged: none of [`MAX_DRAWS`] draws in a row was accepted, or too few of many.
@@ -100,10 +90,6 @@ impl std::error::Error for Wedged {}
 /// Draws before a robot counts as wedged: a tenth of a second's worth. An acceptance below one in ten thousand is no
 /// use to a filter; more draws would freeze a page.
 pub const MAX_DRAWS: usize = 10_000;
-
-/// [`Cost::work`] for one sample after which one counts as wedged in any case: about a second. Only plans that are made to
-/// be hard, and motions of a thousand parts of which hardly one is accepted, come near.
-pub const MAX_WORK: usize = 8_000_000;
 
 /// [`MapConditioned::judge`] of draws that leave one pose under one command.
 #[derive(Clone, Copy, Debug)]
@@ -200,16 +186,10 @@ impl MapConditioned<'_> {
     ) -> Result<Accepted, Wedged> {
         let mut path_free = true;
         let mut cost = Cost::default();
-        let mut besides = 0;
         let pose = self.drive(u, x, rng, &mut cost, &mut |driven, end| {
             along(&driven.arc);
-            if path_free {
-                let path = self.plan.path_free(driven, end, self.clearance);
-                path_free = path.free;
-                besides += path.wall_tests - end.wall_tests;
-            }
+            path_free = path_free && self.plan.path_free(driven, end, self.clearance).free;
         })?;
-        cost.besides = besides;
         Ok(Accepted { pose, path_free, cost })
     }
 
@@ -220,27 +200,26 @@ impl MapConditioned<'_> {
         Ok(cost)
     }
 
-    /// The last part of a motion of as many parts as the sampler has, each accepted as it is drawn, whether all of them are
-    /// free, and how many walls were measured. Until the first rejection these are the draws of [`MapConditioned::sample_along`].
+    /// The last part of a motion of as many parts as the sampler has, each accepted as it is drawn, and whether all of them
+    /// are free. Until the first rejection these are the draws of [`MapConditioned::sample_along`].
     pub fn sample_unconditioned<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
         mut along: impl FnMut(&Arc),
-    ) -> (Draw, bool, usize) {
+    ) -> (Draw, bool) {
         let (steps, step) = self.parts(u);
         let judged = |from: &SE2, unit_noise| self.judging_part(step, from).judge(unit_noise);
         let mut draw = judged(x, self.unit_noise(rng));
         along(&draw.arc);
-        let (mut path_free, mut wall_tests) = (draw.path.free, draw.path.wall_tests);
+        let mut path_free = draw.path.free;
         for _ in 1..steps {
             draw = judged(&draw.pose, self.unit_noise(rng));
             along(&draw.arc);
             path_free &= draw.path.free;
-            wall_tests += draw.path.wall_tests;
         }
-        (draw, path_free, wall_tests)
+        (draw, path_free)
     }
 
     /// The number of parts of a motion, and each of them.
@@ -295,9 +274,6 @@ impl MapConditioned<'_> {
             cost.wall_tests += deciding.wall_tests;
             if deciding.free {
                 return Ok((pose, driven, end));
-            }
-            if cost.work() > MAX_WORK {
-                break;
             }
         }
         Err(Wedged(*cost))

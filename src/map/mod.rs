@@ -12,7 +12,7 @@ mod png;
 mod reading;
 mod wall_tree;
 
-pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MAX_WORK, MapConditioned, Sampler, Wedged};
+pub use conditioned::{Accepted, Cost, Draw, Judging, MAX_DRAWS, MapConditioned, Sampler, Wedged};
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
 pub use occupancy::{Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION, Unknown};
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, Shade, Shades, read_pgm};

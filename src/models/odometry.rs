@@ -62,7 +62,18 @@ pub trait Hinges {
     /// The legs driven when their noises take the values `unit_noise` times their standard deviations. As in Table 5.6,
     /// noise is subtracted.
     fn executed(&self, u: &OdomDelta, unit_noise: [f64; 3]) -> OdomDelta {
-        executed(u, self.variances(u), unit_noise)
+        let [rot1, trans, rot2] = self.variances(u).map(|variance| variance.0.sqrt());
+        OdomDelta {
+            rot1: u.rot1 - rot1 * unit_noise[0],
+            trans: u.trans - trans * unit_noise[1],
+            rot2: u.rot2 - rot2 * unit_noise[2],
+        }
+    }
+
+    /// A draw of the pose after the reading: Table 5.6.
+    fn draw<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
+        let unit_noise = std::array::from_fn(|_| self.noise().quantile(centred_uniform(rng)));
+        self.executed(u, unit_noise).apply(x)
     }
 
     /// The covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the frame
@@ -113,7 +124,7 @@ impl OdometryModel {
     /// The pose reached from `x` when the noises of the three legs take the values `unit_noise` times their standard
     /// deviations: Table 5.6 after its three draws. As in the table, noise is subtracted.
     pub fn apply_noise(&self, u: &OdomDelta, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
-        apply_noise(u, x, self.variances(u), unit_noise)
+        self.executed(u, unit_noise).apply(x)
     }
 
     /// The covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the frame
@@ -178,29 +189,6 @@ impl Hinges for ReverseAware {
     }
 }
 
-fn executed(u: &OdomDelta, variances: [Variance; 3], unit_noise: [f64; 3]) -> OdomDelta {
-    let [rot1, trans, rot2] = variances.map(|variance| variance.0.sqrt());
-    OdomDelta {
-        rot1: u.rot1 - rot1 * unit_noise[0],
-        trans: u.trans - trans * unit_noise[1],
-        rot2: u.rot2 - rot2 * unit_noise[2],
-    }
-}
-
-fn apply_noise(u: &OdomDelta, x: &SE2, variances: [Variance; 3], unit_noise: [f64; 3]) -> SE2 {
-    executed(u, variances, unit_noise).apply(x)
-}
-
-fn sample<R: Rng + ?Sized>(
-    noise: NoiseKind,
-    u: &OdomDelta,
-    x: &SE2,
-    variances: [Variance; 3],
-    rng: &mut R,
-) -> SE2 {
-    apply_noise(u, x, variances, std::array::from_fn(|_| noise.quantile(centred_uniform(rng))))
-}
-
 impl MotionModel for OdometryModel {
     /// Built by [`OdomDelta::from_poses`] from two poses of the odometry frame, never of the map's.
     type Control = OdomDelta;
@@ -214,7 +202,7 @@ impl MotionModel for OdometryModel {
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
-        sample(self.noise, u, x, self.variances(u), rng)
+        self.draw(u, x, rng)
     }
 }
 
@@ -243,6 +231,6 @@ impl MotionModel for ReverseAware {
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
-        sample(self.0.noise, u, x, Hinges::variances(self, u), rng)
+        self.draw(u, x, rng)
     }
 }

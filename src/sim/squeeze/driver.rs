@@ -66,8 +66,7 @@ impl<'a> Driver<'a> {
                 path_free: draw.path.free,
             };
             let wall_tests = if conditioned { deciding.wall_tests } else { 0 };
-            // Whoever looks at the path has looked at its end.
-            see(attempt, Cost { draws: 1, wall_tests, besides: draw.path.wall_tests - wall_tests });
+            see(attempt, Cost { draws: 1, wall_tests });
         });
     }
 
@@ -87,10 +86,9 @@ impl<'a> Driver<'a> {
         // How many numbers an attempt uses depends on the walls, so that each has a stream of its own.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
         if !conditioned {
-            let (end, path_free, besides) =
-                self.model.sample_unconditioned(&command, &start, &mut rng, along);
+            let (end, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, along);
             let attempt = Attempt { pose: end.pose, accepted: true, end_free: end.end.free, path_free };
-            return (attempt, Cost { draws: steps as usize, wall_tests: 0, besides });
+            return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
         }
         match self.model.sample_along(&command, &start, &mut rng, along) {
             Ok(Accepted { pose, path_free, cost }) => {

@@ -18,7 +18,7 @@ use super::settings::{Allowed, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
 use crate::map::{
-    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MAX_WORK, MapConditioned, OccupancyGrid, Sampler, Wedged,
+    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned, OccupancyGrid, Sampler, Wedged,
 };
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
@@ -52,8 +52,6 @@ struct Shown {
     /// How many there are to be.
     goal: usize,
     tally: Tally,
-    /// See [`Cost::work`].
-    work: usize,
     gave_up: bool,
 }
 
@@ -69,12 +67,9 @@ struct Former {
 /// would give up where a patient filter still works; more would keep a page waiting for seconds.
 const PATIENCE: usize = 20;
 
-/// [`Cost::work`] of a draw on average before the machine gives up: some 25 walls are measured for it, where buildings
-/// and maps of rooms have one to five.
-const WORK_A_DRAW: usize = 100;
-
-/// What a draw takes, in distances to a point.
-const WORK: usize = 8;
+/// Work of a draw, and of a wall that is measured, in distances to a point.
+const DRAW: usize = 8;
+const WALL: usize = 32;
 
 impl MapSqueeze {
     /// A machine in the apartment, all of its samples attempted.
@@ -210,12 +205,11 @@ impl MapSqueeze {
                 tally.wall_tests += cost.wall_tests;
                 tally.accepted += usize::from(attempt.accepted);
                 tally.through_wall += usize::from(attempt.accepted && !attempt.path_free);
-                shown.work += cost.work();
-                work = work.saturating_sub(WORK * cost.work());
+                work = work.saturating_sub(DRAW * cost.draws + WALL * cost.wall_tests);
                 attempts.push(attempt);
             });
             let parts = steps * attempts.len();
-            *gave_up = tally.draws > most_draws(parts) || shown.work > most_work(parts);
+            *gave_up = tally.draws > most_draws(parts);
         }
         let done = attempts.len() >= *goal || *gave_up;
         if let Some(former) = self.former.take_if(|_| done) {
@@ -342,7 +336,7 @@ impl MapSqueeze {
             let cost = conditioned.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total.draws += cost.draws;
             total.wall_tests += cost.wall_tests;
-            if total.draws > most_draws(parts) || total.work() > most_work(parts) {
+            if total.draws > most_draws(parts) {
                 return Err(Wedged(total));
             }
         }
@@ -370,11 +364,6 @@ impl MapSqueeze {
 /// Draws at most for so many parts of motions, before the machine gives up.
 pub fn most_draws(parts: usize) -> usize {
     MAX_DRAWS + PATIENCE * parts
-}
-
-/// [`Cost::work`] at most for so many parts.
-fn most_work(parts: usize) -> usize {
-    MAX_WORK + PATIENCE * WORK_A_DRAW * parts
 }
 
 /// The model under these settings in a plan, by a sampler.

@@ -42,8 +42,6 @@ export const de = {
   commandAndNoise: 'Fahrbefehl, Rauschen und Teile',
   wedged: (drawn, accepted, printed, all, through) =>
     `Der Roboter sitzt fest: In ${drawn} Zügen von Teilen ${accepted === 0 ? 'kam keine Bewegung ans Ende' : `kamen nur ${printed} von ${all} Bewegungen ans Ende; ${through}`}.`,
-  tooMuch: (tried, all, through) =>
-    `Zu viele Wände sind nah, um alle Fahrten zu beurteilen: ${tried} von ${all} wurden versucht; ${through}.`,
   nothing: (count, drawn, wholeArc) =>
     `Nichts wurde angenommen: Von ${drawn} ${count === 1 ? 'versuchten Zug' : 'versuchten Zügen'} ${wholeArc ? 'blieb unterwegs keiner ohne Berührung einer Wand' : 'endet keiner, wo der Roboter Platz hat'}.`,
   noRoom: 'Der Roboter hat keinen Platz, wo er steht; so beginnt jeder Weg von hier in einer Wand.',

@@ -43,8 +43,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   commandAndNoise: 'Command, noise and parts',
   wedged: (drawn, accepted, printed, all, through) =>
     `The robot is wedged: in ${drawn} draws of parts ${accepted === 0 ? 'no motion came to its end' : `only ${printed} of ${all} motions came to their end; ${through}`}.`,
-  tooMuch: (tried, all, through) =>
-    `Too many walls are near to judge all motions: ${tried} of ${all} were tried; ${through}.`,
   nothing: (count, drawn, wholeArc) =>
     `Nothing was accepted: of the ${drawn} ${plural(count, 'draw')} that ${count === 1 ? 'was' : 'were'} tried, none ${wholeArc ? 'touches no wall on its way' : 'ends where the robot fits'}.`,
   noRoom: 'The robot does not fit where it stands, so that every way from here begins in a wall.',

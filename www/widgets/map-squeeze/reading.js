@@ -80,10 +80,9 @@ export function throughText({ throughWall, throughWallRate }) {
  * @returns {string} empty for an ordinary cloud
  */
 function noteOn(config, stats, startFree) {
-  const { wedged, tooMuch, nothing, noRoom } = words.squeeze;
+  const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted } = stats;
   const drawn = counted(stats.drawn);
-  if (stats.gaveUp && config.sampler !== 'sub-stepped') return tooMuch(counted(stats.attempts), counted(config.samples), throughText(stats));
   if (stats.gaveUp) return wedged(drawn, accepted, counted(accepted), counted(config.samples), throughText(stats));
   if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
   return startFree ? '' : noRoom;

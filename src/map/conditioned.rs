@@ -11,7 +11,7 @@ use std::fmt;
 use std::ops::{Add, Mul, Range};
 use wide::f64x4;
 
-/// What a draw must satisfy to be accepted.
+/// Condition for accepting a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
     /// The last pose of the draw is free: Table 5.7, which cannot see how the robot got there.
@@ -50,9 +50,9 @@ pub struct Draw {
     pub pose: SE2,
     /// The arc driven, (v̂, ω̂); `pose` is its end turned by γ̂Δt.
     pub arc: Arc,
-    /// Whether the robot fits where it ends.
+    /// Verdict on the pose where it ends.
     pub end: Verdict,
-    /// Whether it fits all along the arc.
+    /// Verdict on the whole arc.
     pub path: Verdict,
 }
 
@@ -60,12 +60,12 @@ pub struct Draw {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accepted {
     pub pose: SE2,
-    /// Whether the way there was free too: never false with [`Sampler::WholeArc`].
+    /// True if the way there was free too: never false with [`Sampler::WholeArc`].
     pub path_free: bool,
     pub cost: Cost,
 }
 
-/// What rejection costs.
+/// Cost of rejection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Cost {
@@ -193,7 +193,7 @@ impl MapConditioned<'_> {
         Ok(Accepted { pose, path_free, cost })
     }
 
-    /// What one accepted motion costs a filter that deploys the sampler: of each draw, just the verdict that decides.
+    /// Cost of one accepted motion to a filter that deploys the sampler: of each draw, just the verdict that decides.
     pub fn cost<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> Result<Cost, Wedged> {
         let mut cost = Cost::default();
         self.drive(u, x, rng, &mut cost, &mut |_, _| ())?;

@@ -1,4 +1,4 @@
-//! How far the nearest wall is, about, from everywhere on a map.
+//! Approximate distance of the nearest wall from everywhere on a map.
 
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::WallTree;
@@ -18,7 +18,7 @@ pub(super) struct DistanceField {
     last: [f64; 2],
     /// Half the diagonal of a cell, m.
     radius: f64,
-    /// How well the distance of the middle of a cell is known, m.
+    /// Uncertainty of the distance from the middle of a cell, m.
     blur: f64,
     /// Row by row from the bottom, m. Negative where a wall passes through the cell or its neighbour, −∞ where the cell is
     /// inside of an occupied one, [`UNKNOWN`] where nothing is known.
@@ -37,7 +37,7 @@ const MAX_CELLS: f64 = 1_048_576.0;
 const WALLS_A_BLOCK: usize = 32;
 const WALLS_A_CELL: usize = 3;
 
-/// Where there is a tree, the distance of a block need not be known better than to this share of its radius: walls that
+/// Uncertainty of the distance from a block where there is a tree, as a share of its radius: walls that
 /// lie closer together are measured as one.
 const BLUR: f64 = 0.125;
 
@@ -81,7 +81,7 @@ impl DistanceField {
             let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
             cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND - ROUND
         });
-        // Where a whole number is added to it, it becomes the last bits of the sum.
+        // A whole number that is added to it becomes the last bits of the sum.
         let cells = (row * self.columns as f64 + column + ROUND).to_array();
         lanes(|i| f64::from(self.least.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(UNKNOWN)))
     }
@@ -103,10 +103,10 @@ struct Filling {
     side: f64,
     /// More than the rounding of any coordinate on the map, m.
     slack: f64,
-    /// What may be nearest to a point of the blocks that are to be filled, for one after the other.
+    /// Candidates for the nearest wall of the blocks that are to be filled, for one after the other.
     near: Vec<Near>,
     blocks: Vec<Block>,
-    /// Of the present block: what is to be measured, and what was.
+    /// Candidates of the present block: those to be measured, and those that were.
     open: Vec<Near>,
     measured: Vec<(f64, Near)>,
 }
@@ -116,7 +116,7 @@ struct Filling {
 struct Block {
     first: [usize; 2],
     size: usize,
-    /// What may be the nearest to any of its points is in `near`, from here to there.
+    /// Range of its candidates in `near`.
     range: [usize; 2],
 }
 
@@ -173,7 +173,7 @@ impl Filling {
         let centre = self.centre(block.first, size);
         let radius = size as f64 * self.field.radius;
         let blur = size as f64 * self.field.blur;
-        // What the blocks before had is of no use to this one.
+        // Candidates of the blocks before are of no use to this one.
         self.near.truncate(range[1]);
         let Some([least, most]) = self.measure(tree, centre, block, blur) else { return };
         if size > 1 && least <= FAR * radius + blur / BLUR {
@@ -206,7 +206,7 @@ impl Filling {
     fn measure(&mut self, tree: &WallTree, point: [f64; 2], block: Block, blur: f64) -> Option<[f64; 2]> {
         let Self { near, open, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
-        // What is nearer to another point of the block than the wall nearest to its middle is no further from there.
+        // A wall that is nearer to another point of the block than the one nearest to its middle is no further from there.
         let reach = 2.0 * size as f64 * self.field.radius + self.slack;
         measured.clear();
         open.clear();

@@ -25,7 +25,7 @@ pub struct FloorPlan {
     survey: OnceLock<Survey>,
 }
 
-/// What verdicts are looked up in.
+/// Index in which verdicts are looked up.
 #[derive(Clone, Debug)]
 struct Survey {
     tree: WallTree,
@@ -98,9 +98,9 @@ impl Verdict {
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
-/// Where bounds may lie, m: as far out as a robot's coordinates may.
+/// Range of bounds, m: as far out as a robot's coordinates may.
 const COORDINATE: RangeInclusive<f64> = -1e6..=1e6;
-/// How far bounds may be apart, m: what a screen can show.
+/// Range of the sides between bounds, m: what a screen can show.
 const SIDE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
@@ -176,7 +176,7 @@ impl FloorPlan {
         self.solid.as_ref()
     }
 
-    /// Whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
+    /// Tests whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
     pub fn point_free(&self, point: [f64; 2], clearance: f64) -> Verdict {
         if !self.holds(point) {
             return Verdict::BLOCKED;
@@ -200,7 +200,7 @@ impl FloorPlan {
         Verdict { free, wall_tests }
     }
 
-    /// Whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
+    /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
     /// bounds.
     pub fn arc_free(&self, arc: &Arc, clearance: f64) -> Verdict {
         let driven = Departure::new(arc.start).drive(arc.length, arc.turn);
@@ -237,7 +237,7 @@ impl FloorPlan {
         &self.survey().field
     }
 
-    /// Whether a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
+    /// Returns true if a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
     #[inline(always)]
     fn holds(&self, point: [f64; 2]) -> bool {
         if let Some(grid) = &self.solid {
@@ -280,7 +280,7 @@ impl FloorPlan {
         })
     }
 
-    /// Whether every wall whose box comes within `reach` (m) of the point, by both coordinates, is `free`; but for those in
+    /// Tests whether every wall whose box comes within `reach` (m) of the point, by both coordinates, is `free`; but for those in
     /// nodes of the tree that are known to be.
     fn walls_keep(
         &self,
@@ -316,7 +316,7 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// Whether a course is free between `from` and `to` metres after its middle. Looks at four pieces of it at once.
+    /// Tests whether a course is free between `from` and `to` metres after its middle, four pieces of it at once.
     fn free(&mut self, course: &Course, from: f64, to: f64) -> bool {
         let field = self.field;
         let reach = (to - from) / (2 * LANES) as f64;
@@ -345,7 +345,7 @@ impl Sweep<'_> {
         })
     }
 
-    /// Whether the walls around a piece are all clear of the arc. They are measured to the middle of the piece first, which
+    /// Tests whether the walls around a piece are all clear of the arc. They are measured to the middle of the piece first, which
     /// decides on most.
     fn measure(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);

@@ -5,7 +5,7 @@ use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use std::ops::RangeInclusive;
 
-/// How pixels become cells, as `map_server` reads its YAML file.
+/// Rules that make cells of pixels, as `map_server` reads its YAML file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interpretation {
     pub mode: Mode,
@@ -17,7 +17,7 @@ pub struct Interpretation {
     pub free_thresh: f64,
 }
 
-/// What is taken where the YAML file says nothing: the grey that maps are saved with where nothing is known, 205 of
+/// Defaults where the YAML file says nothing: the grey that maps are saved with where nothing is known, 205 of
 /// 255, is not below the threshold.
 impl Default for Interpretation {
     fn default() -> Self {
@@ -36,7 +36,7 @@ pub enum Mode {
     Raw,
 }
 
-/// What a map says of a cell.
+/// State of a cell in a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Cell {
@@ -45,7 +45,7 @@ pub enum Cell {
     Unknown,
 }
 
-/// What unknown cells are for a robot.
+/// Treatment of unknown cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unknown {
     /// It may be there, as particle filters have it.
@@ -193,23 +193,23 @@ impl OccupancyGrid {
         self.origin
     }
 
-    /// What is known of each cell, row by row from the bottom.
+    /// State of each cell, row by row from the bottom.
     pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + '_ {
         self.cells.iter().copied()
     }
 
-    /// Whether a point of the plane lies in a cell that is in a robot's way.
+    /// Returns true if a point of the plane lies in a cell that is in a robot's way.
     pub fn holds(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
         column >= 0.0 && row >= 0.0 && self.is_blocked(self.row(row as usize), column as usize)
     }
 
-    /// Whether a cell is known to be free; cells off the grid are not.
+    /// Returns true if a cell is known to be free; cells off the grid are not.
     pub(super) fn known_free(&self, column: usize, row: usize) -> bool {
         self.row(row).get(column) == Some(&Cell::Free)
     }
 
-    /// Whether a point of the plane lies on the grid, its edge included.
+    /// Returns true if a point of the plane lies on the grid, its edge included.
     pub fn spans(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point);
         (0.0..=self.width as f64).contains(&column) && (0.0..=self.height as f64).contains(&row)
@@ -232,12 +232,12 @@ impl OccupancyGrid {
         [point.x(), point.y()]
     }
 
-    /// Of a point of the plane, in cells from the origin.
+    /// Coordinates of a point of the plane, in cells from the origin.
     pub(super) fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         self.to_local.transform([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
-    /// Whether a cell of a row is in a robot's way; cells off the grid are not.
+    /// Returns true if a cell of a row is in a robot's way; cells off the grid are not.
     fn is_blocked(&self, row: &[Cell], column: usize) -> bool {
         match row.get(column) {
             Some(Cell::Occupied) => true,

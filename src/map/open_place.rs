@@ -1,4 +1,4 @@
-//! Where a robot is put that comes into a map.
+//! Free start pose for a robot that enters a map.
 
 use super::floor_plan::FloorPlan;
 use super::occupancy::OccupancyGrid;
@@ -69,7 +69,7 @@ impl<'a> Squares<'a> {
         })
     }
 
-    /// Whether all of a square is known to be free.
+    /// Returns true if all of a square is known to be free.
     fn free(&self, column: usize, row: usize) -> bool {
         if let Some(grid) = self.grid() {
             return grid.known_free(column, row);

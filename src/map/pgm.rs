@@ -6,11 +6,11 @@ use std::fmt;
 /// Why bytes are not a PGM image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PgmError {
-    /// What was looked for: "the width".
+    /// Name of the field: "the width".
     pub field: &'static str,
     /// The line of the header where it should have been, from 1.
     pub line: usize,
-    /// What is there instead, as a sentence quotes it.
+    /// Text found instead, as a sentence quotes it.
     pub value: String,
     pub allowed: String,
 }
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
     }
 
     fn error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
-        // What is no letter of a text may be anything, the pixels of another kind of image among it.
+        // Bytes that are no letters may be anything, the pixels of another kind of image among it.
         let readable = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };

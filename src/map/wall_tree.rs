@@ -15,7 +15,7 @@ pub(super) struct WallTree {
     /// Each of them, ready to be measured.
     lines: Vec<Line>,
     nodes: Vec<Node>,
-    /// How often the walls are halved.
+    /// Number of times that the walls are halved.
     depth: u32,
     /// More than the rounding of any distance on the map, m.
     slack: f64,
@@ -27,7 +27,7 @@ pub(super) struct Node {
     hull: Line,
     /// No wall gets further from the line than this, m.
     pub thickness: f64,
-    /// Whether the walls are all the same.
+    /// True if the walls are all the same.
     is_one: bool,
 }
 
@@ -105,7 +105,7 @@ impl WallTree {
         Node { hull, thickness: furthest + self.slack, is_one: walls.iter().all(|wall| *wall == walls[0]) }
     }
 
-    /// Where the walls of a node are.
+    /// Range of the walls of a node.
     fn range(&self, at: usize) -> Range<usize> {
         let depth = at.ilog2();
         let (count, place) = (self.walls.len() as u64, (at - (1 << depth)) as u64);
@@ -127,17 +127,17 @@ impl WallTree {
         &self.nodes[at]
     }
 
-    /// How many walls there are.
+    /// Number of walls.
     pub fn count(&self) -> usize {
         self.walls.len()
     }
 
-    /// Whether there is nothing to descend to.
+    /// Returns true if there is nothing to descend to.
     pub fn is_leaf(&self, at: usize) -> bool {
         at >> self.depth > 0 || self.nodes[at].is_one
     }
 
-    /// Whether all walls are `kept`, but for those in nodes that are `far`.
+    /// Returns true if all walls are `kept`, but for those in nodes that are `far`.
     #[inline(always)]
     pub fn all(&self, mut far: impl FnMut(&Node) -> bool, mut kept: impl FnMut(&Segment) -> bool) -> bool {
         let mut at = 1;
@@ -168,7 +168,7 @@ impl Node {
         Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
     }
 
-    /// Whether no wall of the node comes within `reach` (m) of a point.
+    /// Returns true if no wall of the node comes within `reach` (m) of a point.
     #[inline(always)]
     pub fn is_beyond(&self, point: [f64; 2], reach: f64) -> bool {
         let reach = reach + self.thickness;

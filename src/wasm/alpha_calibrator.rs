@@ -89,7 +89,7 @@ impl JsAlphaCalibrator {
         Ok(())
     }
 
-    /// How often the figures have become others since the machine was made.
+    /// Number of times that the figures have changed since the machine was made.
     #[wasm_bindgen(getter)]
     pub fn fits(&self) -> u32 {
         self.0.fits()
@@ -143,7 +143,7 @@ impl JsAlphaCalibrator {
         columns_to_js(self.0.calibration())
     }
 
-    /// How many legs there are.
+    /// Number of legs.
     #[wasm_bindgen(getter)]
     pub fn count(&self) -> usize {
         self.0.legs().len()

@@ -143,7 +143,7 @@ impl JsArcAnatomy {
         PRESETS.into_iter().map(preset).collect()
     }
 
-    /// What the forms of the arc lose at small turn rates: exercise 1.
+    /// Errors of the forms of the arc at small turn rates: exercise 1.
     #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
     pub fn form_errors() -> JsValue {
         let FormErrors { omega, arc, straight, chord, estimated_crossover } = form_errors();
@@ -179,7 +179,7 @@ impl JsArcAnatomy {
         ])
     }
 
-    /// What is mapped over the positions of a rectangle (m), for the heading of the final pose; null for nothing.
+    /// Surface over the positions of a rectangle (m), for the heading of the final pose; null for none.
     #[wasm_bindgen(unchecked_return_type = "AnatomySurface | null")]
     pub fn surface(
         &self,
@@ -202,7 +202,7 @@ impl JsArcAnatomy {
         ]))
     }
 
-    /// Where the robot is after a share of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the one that v̂ and ω̂
+    /// Poses after a share of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the one that v̂ and ω̂
     /// drive, and on the way of constant twist.
     pub fn underway(&self, share: f64) -> Result<Float64Array, JsValue> {
         let poses = self.0.underway(in_range("share", share, &(0.0..=1.0))?);

@@ -164,7 +164,7 @@ impl JsBananaMachine {
         object(&[("velocity", list(velocity_alphas)), ("odometry", list(odometry_alphas))])
     }
 
-    /// Whether exponential coordinates reach as far as the robots turn: to short of a full circle. Where not, figures and
+    /// True if exponential coordinates reach as far as the robots turn: to short of a full circle. If not, figures and
     /// contours in them are undefined.
     #[wasm_bindgen(getter, js_name = chartHolds)]
     pub fn chart_holds(&self) -> bool {
@@ -183,7 +183,7 @@ impl JsBananaMachine {
         flat(&self.0.twists().map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
-    /// What each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
+    /// Motion that each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
     /// δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter)]
     pub fn executed(&self) -> Float64Array {

@@ -1,4 +1,4 @@
-//! What a log says of a robot's α's, as plain JavaScript values.
+//! Calibrations as plain JavaScript values.
 
 use super::values::{floats, list, number_or_null, object};
 use crate::calibrate::{
@@ -122,7 +122,7 @@ export interface CalibrationLegs {
 }
 "#;
 
-/// What each systematic error is called, and which of [`Error::ALL`] it is.
+/// Name of each systematic error, and its members of [`Error::ALL`].
 pub const SYSTEMATIC: [(&str, &[Error]); 5] = [
     ("clockOffset", &[Error::ClockOffset]),
     ("mountYaw", &[Error::MountYaw]),

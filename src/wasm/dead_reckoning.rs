@@ -151,7 +151,7 @@ impl JsDeadReckoning {
         flat(&self.0.commanded())
     }
 
-    /// How the variances of a straight drive at this speed and noise grow with its duration, each as one command.
+    /// Growth of the variances of a straight drive at this speed and noise with its duration, each as one command.
     #[wasm_bindgen(getter, unchecked_return_type = "StraightGrowth")]
     pub fn straight(&self) -> JsValue {
         let Straight { durations, along, across, along_first_order, across_first_order, crossing } =
@@ -203,7 +203,7 @@ impl JsDeadReckoning {
         index_of(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 
-    /// Of a step, 1 to 200, and the recursion that is looked at; null where the path is shorter.
+    /// Outlines of a step, 1 to 200, by the recursion in view; null where the path is shorter.
     #[wasm_bindgen(unchecked_return_type = "StepOutlines | null")]
     pub fn outlines(&self, step: f64) -> Result<JsValue, JsValue> {
         let outlines = self.0.outlines(whole("step", step, 1..=MAX_STEPS)? as u32);

@@ -69,7 +69,7 @@ macro_rules! stoppable {
     ($class:ident, $name:literal) => {
         #[wasm_bindgen(js_class = $name)]
         impl $class {
-            /// How much is done of what was begun, from 0 to 1.
+            /// Share of the work that is done, from 0 to 1.
             #[wasm_bindgen(getter)]
             pub fn progress(&self) -> f64 {
                 self.0.progress()
@@ -94,7 +94,7 @@ macro_rules! cloud {
                 $most as f64
             }
 
-            /// How many samples there are now, 0 to `config.samples`.
+            /// Number of samples shown, 0 to `config.samples`.
             #[wasm_bindgen(getter)]
             pub fn shown(&self) -> usize {
                 self.0.shown()

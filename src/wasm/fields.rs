@@ -17,7 +17,7 @@ impl From<SettingsError> for JsValue {
 /// An object of named fields, with no other keys than those it may have.
 pub struct Fields<'a> {
     object: &'a JsValue,
-    /// Where it stands in what the caller gave: "" at the top, "command." one below.
+    /// Path of the object in the argument: "" at the top, "command." one below.
     prefix: &'a str,
 }
 
@@ -59,7 +59,7 @@ impl<'a> Fields<'a> {
         Reflect::get(self.object, &key.into())
     }
 
-    /// What `read` makes of a field, or None where it is missing or undefined.
+    /// Reads a field by `read`; None where it is missing or undefined.
     pub fn optional<T>(
         &self,
         key: &str,

@@ -236,7 +236,7 @@ pub fn propagate(
     let steps = fields
         .optional("steps", |field, value| whole(field, number(field, value)?, 1..=MAX_STEPS))?
         .unwrap_or(1);
-    // Of what is in range no variance is negative or too large.
+    // Arguments in range give no variance that is negative or too large.
     let noise = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);

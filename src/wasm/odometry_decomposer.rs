@@ -93,13 +93,13 @@ impl JsOdometryDecomposer {
         Ok(flat(&ghosts.as_flattened().iter().map(numbers).collect::<Vec<_>>()))
     }
 
-    /// Where the robot is on its way.
+    /// Pose of the robot on its way.
     #[wasm_bindgen(getter, unchecked_return_type = "Start")]
     pub fn robot(&self) -> JsValue {
         group_to_js(&mut numbers(&self.0.robot()))
     }
 
-    /// What each rule makes of the reading.
+    /// Figures of the reading by each rule.
     #[wasm_bindgen(getter, unchecked_return_type = "RuleFigures[]")]
     pub fn rules(&self) -> Array {
         let figures = |RuleFigures { rule, mut legs, deviations, cross_track, heading }: RuleFigures| {

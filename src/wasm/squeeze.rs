@@ -127,7 +127,7 @@ impl JsMapSqueeze {
         Ok(())
     }
 
-    /// What the YAML file of map_server says, and the bytes of a PGM file or the pixels of another. The whole core reads the
+    /// Fields of the YAML file of map_server, and the bytes of a PGM file or the pixels of another. The whole core reads the
     /// bytes of a PNG file too.
     #[wasm_bindgen(js_name = setGrid)]
     pub fn set_grid(
@@ -147,7 +147,7 @@ impl JsMapSqueeze {
         place.map_or(JsValue::NULL, |place| group_to_js(&mut [place.x(), place.y(), place.theta()]))
     }
 
-    /// Whether the robot fits where it starts.
+    /// True if the robot fits where it starts.
     #[wasm_bindgen(getter, js_name = startFree)]
     pub fn start_free(&self) -> bool {
         self.0.start_free()
@@ -205,7 +205,7 @@ impl JsMapSqueeze {
         plain(&cost)
     }
 
-    /// Where the attempts shown end, as RGBA pixels of a grid, row by row from the top. Each cell has the colour of what most
+    /// Ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. Each cell has the colour of what most
     /// of those in it are, rejected, accepted or accepted through a wall, for which there are 256 colours each one after
     /// the other: of them number 255·√(c/most) for a count c of all in the cell. Transparent where there is nobody. A view
     /// of the core's memory: to be used before the machine is asked for anything else.

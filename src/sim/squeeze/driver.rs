@@ -10,12 +10,12 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::ops::Range;
 
-/// What became of one attempt.
+/// Outcome of one attempt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attempt {
     pub pose: SE2,
     pub accepted: bool,
-    /// Whether the robot fits where it ends, and all along the way.
+    /// True if the robot fits where it ends; and all along the way.
     pub end_free: bool,
     pub path_free: bool,
 }
@@ -26,7 +26,7 @@ pub const PATH_FREE: u8 = 2;
 pub const ACCEPTED: u8 = 4;
 
 impl Attempt {
-    /// What became of it in bits: [`END_FREE`], [`PATH_FREE`], [`ACCEPTED`].
+    /// Outcome in bits: [`END_FREE`], [`PATH_FREE`], [`ACCEPTED`].
     pub fn verdict(&self) -> u8 {
         END_FREE * u8::from(self.end_free)
             + PATH_FREE * u8::from(self.path_free)

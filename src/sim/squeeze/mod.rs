@@ -49,7 +49,7 @@ pub struct MapSqueeze {
 #[derive(Clone, Debug, Default)]
 struct Shown {
     attempts: Vec<Attempt>,
-    /// How many there are to be.
+    /// Number of attempts that there are to be.
     goal: usize,
     tally: Tally,
     gave_up: bool,
@@ -57,7 +57,7 @@ struct Shown {
 
 #[derive(Clone, Debug)]
 struct Former {
-    /// Where it is another one now.
+    /// The former plan, if it was another one.
     plan: Option<FloorPlan>,
     settings: Settings,
     shown: Shown,
@@ -127,7 +127,7 @@ impl MapSqueeze {
         Ok(())
     }
 
-    /// How many attempts to show when there are `samples` from now on.
+    /// Number of attempts to show when there are `samples` from now on.
     fn goal_of(&self, samples: usize) -> usize {
         let Shown { goal, gave_up, .. } = self.shown;
         if gave_up || goal == self.settings.samples { samples } else { goal.min(samples) }
@@ -178,7 +178,7 @@ impl MapSqueeze {
             shown: std::mem::replace(&mut self.shown, shown),
         };
         match &mut self.former {
-            // What was begun before was not completed either.
+            // A change that was begun before was not completed either.
             Some(first) => first.plan = first.plan.take().or(former.plan),
             None => self.former = Some(former),
         }
@@ -278,7 +278,7 @@ impl MapSqueeze {
         &self.shown.tally
     }
 
-    /// Whether the machine stopped short of its samples because too few draws were accepted.
+    /// Returns true if the machine stopped short of its samples because too few draws were accepted.
     pub fn gave_up(&self) -> bool {
         self.shown.gave_up
     }
@@ -299,7 +299,7 @@ impl MapSqueeze {
         }
     }
 
-    /// Where the attempts shown end, as an image of a pixel a cell: each in the colours of the kind that most of those in it
+    /// Paints where the attempts shown end, a pixel a cell: each in the colours of the kind that most of those in it
     /// are, ramp[255·√(count/most)] for a count of all of them, transparent where there is nobody.
     pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; KINDS]) -> &[[u8; 4]] {
         self.picture = picture::paint(&self.shown.attempts, grid, ramps);
@@ -322,7 +322,7 @@ impl MapSqueeze {
         Driver::new(&model, &self.settings, &self.draws).arcs(index)
     }
 
-    /// What `count` accepted samples of a sampler cost here and now, to be timed by the caller.
+    /// Cost of `count` accepted samples of a sampler here and now, to be timed by the caller.
     ///
     /// # Errors
     /// [`Wedged`] where one of them is not to be had, or where all of them take so many draws that the machine would give
@@ -348,7 +348,7 @@ impl MapSqueeze {
         self.plan.open_place(self.settings.clearance)
     }
 
-    /// Whether the robot fits where it starts.
+    /// Returns true if the robot fits where it starts.
     pub fn start_free(&self) -> bool {
         let [x, y, _] = self.settings.start;
         self.plan.point_free([x, y], self.settings.clearance).free

@@ -1,4 +1,4 @@
-//! What is counted of the attempts, and what that says.
+//! Counts over the attempts, and their statistics.
 
 use crate::noise::NoiseKind;
 
@@ -42,7 +42,7 @@ pub(super) fn share(part: usize, all: usize) -> f64 {
     part as f64 / all as f64
 }
 
-/// What the attempts shown say. Shares of nothing are NaN.
+/// Statistics of the attempts shown. Shares of nothing are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize), serde(rename_all = "camelCase"))]
 pub struct Stats {
@@ -57,6 +57,6 @@ pub struct Stats {
     pub through_wall_interval: [f64; 2],
     pub draws_per_accepted: f64,
     pub wall_tests_per_accepted: f64,
-    /// Whether the machine stopped short of its samples.
+    /// True if the machine stopped short of its samples.
     pub gave_up: bool,
 }

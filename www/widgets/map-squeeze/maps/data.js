@@ -14,7 +14,7 @@ const frozen = Object.freeze;
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
 
-/** What only a grid has tells that it is to be one. */
+/** Keys that only a grid has. */
 const KEYS_OF_GRIDS_ALONE = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 
 /** The most that the core takes. */

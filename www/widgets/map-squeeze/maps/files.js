@@ -42,7 +42,7 @@ const FORGIVEN = 200_000;
 /** Characters of a name or a value that a sentence quotes. */
 const QUOTED = 100;
 
-/** What a floor plan looks like. */
+/** Form of a floor plan. */
 const PLAN_FORM = '{"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]}';
 
 /**
@@ -71,7 +71,7 @@ export async function readMapFiles(files, decodePng) {
 }
 
 /**
- * What is in a file: it may have gone, or be forbidden, since it was chosen.
+ * Contents of a file: it may have gone, or be forbidden, since it was chosen.
  *
  * @param {Blob} part of the file or all of it
  * @param {string} name
@@ -148,7 +148,7 @@ function isObject(value) {
 }
 
 /**
- * What a text says. JSON is YAML too: the one parser forgives a trailing comma or a comment in a plan
+ * Parses a text. JSON is YAML too: the one parser forgives a trailing comma or a comment in a plan
  * written by hand, and knows the line of a mistake, which JSON.parse says in some browsers only. It is
  * as long as both widgets together, and loaded when the first map is opened.
  *

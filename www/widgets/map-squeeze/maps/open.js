@@ -1,4 +1,4 @@
-/** How a map of the reader's own gets in: chosen, dropped or pasted; and why the latest was refused. */
+/** Maps of the reader's own, chosen, dropped or pasted; and why the latest was refused. */
 
 import { instantiate } from '../../../core.js';
 import { Part } from '../../../figure/part.js';
@@ -7,7 +7,7 @@ import { FileDrop } from '../../shared/files.js';
 
 /** @import { OwnMap } from './files.js' */
 
-/** What the names of files may end in. */
+/** Extensions of map files. */
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
 /** The fold that says which map is there and why another was refused. */
@@ -22,7 +22,7 @@ const decodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
 /** @extends {Part<import('../map-squeeze.js').MapSqueezeElement>} */
 export class MapOpener extends Part {
   dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
-  /** Whether a large file is being read. */
+  /** True while a large file is being read. */
   isReading = false;
   /** Why the latest map was refused. @type {(() => string) | undefined} */
   #complaint;

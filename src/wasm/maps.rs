@@ -91,7 +91,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
         return Ok(read_grid(&file.to_vec(), &interpretation, resolution, origin)?);
     }
     let (width, height, data) = read_pixels(image)?;
-    let pixels = data.as_chunks().0.iter().map(|colours: &[u8; 4]| *colours);
+    let pixels = data.as_chunks::<4>().0.iter().copied();
     Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 

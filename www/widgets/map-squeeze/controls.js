@@ -105,7 +105,7 @@ export function ownMap(figure, opener, map) {
       <p>${say.text}</p>
       <label for="map-files">${say.files}</label>
       ${fileInput('map-files', EXTENSIONS, (files) => opener.choose(files))}
-      <p class="note" role="status">${opener.isReading ? say.reading : nothing}</p>
+      <p ?hidden=${!opener.isReading}>${say.reading}</p>
       <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>
     </div>

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, boxOf, centreOf, detail, frames, numberIn, open, openWhole, pauseEarly, pictureOf, pixelsOf, readout, state, test } from './support.js';
+import { STILL, boxOf, centreOf, detail, frames, numberIn, open, openWhole, pauseEarly, pictureOf, pixelsOf, posesOf, readout, state, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -12,7 +12,7 @@ const OPENING_ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 const BATCHES = 150;
 
 /** @param {Locator} widget */
-const sentence = (widget) => widget.locator('.caption');
+const sentence = (widget) => widget.locator('p[part=caption]');
 
 /** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
 async function set(widget, values) {
@@ -25,7 +25,7 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await pauseEarly(page, 'banana-machine');
   const widget = await open(page);
   await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
-  const paused = await state(widget);
+  const [paused, first] = [await state(widget), await posesOf(widget)];
   expect(paused.shown).toBeGreaterThan(0);
   expect(paused.shown).toBeLessThan(paused.config.samples);
   await frames(page);
@@ -35,8 +35,7 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await expect.poll(async () => (await state(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
   await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
   // The robots of the paused cloud are the first of the complete one.
-  const { poses } = await state(widget);
-  expect(poses.slice(0, paused.poses.length)).toEqual(paused.poses);
+  expect((await posesOf(widget)).slice(0, first.length)).toEqual(first);
 });
 
 test('opens with the whole cloud of the opening command, and shows the numbers of the machine', async ({ page }) => {
@@ -71,8 +70,8 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
 });
 
 test('Reset empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
-  const widget = await openWhole(page);
-  const whole = await state(widget);
+  const widget = await open(page, 'samples="3000"');
+  const [whole, poses] = [await state(widget), await posesOf(widget)];
   await widget.getByRole('button', { name: 'Reset' }).click();
   expect((await state(widget)).shown).toBe(0);
   await expect(readout(widget, 'cross-track skew')).toHaveText('—');
@@ -81,21 +80,20 @@ test('Reset empties the cloud, Step adds a batch of the same robots', async ({ p
   const batch = Math.ceil(whole.config.samples / BATCHES);
   for (const shown of [batch, 2 * batch]) {
     await widget.getByRole('button', { name: 'Step' }).click();
-    const { shown: now, poses } = await state(widget);
-    expect(now).toBe(shown);
-    expect(poses).toEqual(whole.poses.slice(0, 3 * shown));
+    expect((await state(widget)).shown).toBe(shown);
+    expect(await posesOf(widget)).toEqual(poses.slice(0, 3 * shown));
   }
 });
 
 test('New seed sends other robots, and no other control does', async ({ page }) => {
-  const widget = await openWhole(page);
-  const before = await state(widget);
+  const widget = await open(page, 'samples="500"');
+  const [before, poses] = [await state(widget), await posesOf(widget)];
   await widget.getByRole('button', { name: 'New seed' }).click();
   const after = await state(widget);
   expect(after.config).toEqual({ ...before.config, seed: after.config.seed });
   expect(after.config.seed).not.toBe(before.config.seed);
   expect(after.shown).toBe(before.shown);
-  expect(after.poses).not.toEqual(before.poses);
+  expect(await posesOf(widget)).not.toEqual(poses);
   await expect(widget.getByText(`seed ${after.config.seed}`)).toBeVisible();
 });
 
@@ -196,7 +194,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason', as
   await expect(sentence(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
   await expect(sentence(widget)).toContainText('ahead of the start and behind it');
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
-  const behind = (await state(widget)).poses.filter((x, i) => i % 3 === 0 && x < 0).length;
+  const behind = (await posesOf(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
   expect(behind / config.samples).toBeGreaterThan(0.3);
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { KNOWN } from './figures.js';
-import { FRESH, STILL, frames, heard, ready, show, stateOf, test } from './support.js';
+import { FRESH, STILL, frames, heard, property, ready, show, stateOf, test } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -60,7 +60,7 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   expect(await heard(other, ['error', 'input', 'change'])).toEqual([]);
 });
 
-test('figures in frames and shadow roots, closed ones too, have parts of their own in the fragment', FRESH, async ({ page }) => {
+test('figures in shadow roots, closed ones too, have parts of their own in the fragment', FRESH, async ({ page }) => {
   await page.addInitScript(() => {
     for (const [name, mode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
       customElements.define(name, class extends HTMLElement {
@@ -69,19 +69,16 @@ test('figures in frames and shadow roots, closed ones too, have parts of their o
     }
   });
   const hosts = '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>';
-  await show(page, `${hosts}<iframe srcdoc="<!doctype html><body></body>" width="1100" height="900"></iframe>`);
-  await page.waitForFunction(() => document.querySelector('iframe')?.contentDocument?.body);
+  await show(page, hosts);
   await page.locator('body > banana-machine').scrollIntoViewIfNeeded();
   await ready(page.locator('body > banana-machine'));
   const keys = await page.evaluate(async () => {
     const inShadow = [...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure'));
-    const inFrame = document.createElement('banana-machine');
-    document.querySelector('iframe')?.contentDocument?.body.append(inFrame);
-    const figures = /** @type {AnyElement[]} */ ([...inShadow, document.querySelector('body > banana-machine'), inFrame]);
+    const figures = /** @type {AnyElement[]} */ ([...inShadow, document.querySelector('body > banana-machine')]);
     return Promise.all(figures.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
   });
   expect(keys).toEqual([
-    'open-host.1/banana-machine.1', 'open-host.2/banana-machine.1', 'closed-host:c/banana-machine.1', 'banana-machine.1', 'iframe.1/banana-machine.1',
+    'open-host.1/banana-machine.1', 'open-host.2/banana-machine.1', 'closed-host:c/banana-machine.1', 'banana-machine.1',
   ]);
 });
 
@@ -290,4 +287,22 @@ test('the code to embed has the published script where that of the page is nothi
     return document.createElement('banana-machine').embedCode();
   });
   expect(code).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/motion-widgets.js"></script>\n<banana-machine></banana-machine>\n');
+});
+
+test('a frame shows the figure of its address, sends its height, and names a parameter that is unknown', async ({ page, figure }) => {
+  await page.addInitScript(() => {
+    Object.assign(window, { heights: [] });
+    addEventListener('message', ({ data }) => data?.type === 'motion-widgets:height' && Reflect.get(window, 'heights').push(data.height));
+  });
+  const { slider, values: [value] } = KNOWN[figure];
+  await show(page, `<iframe src="/embed.html?widget=${figure}&${slider}=${value}" width="700" height="900"></iframe>`, { script: '' });
+  const widget = page.frameLocator('iframe').locator(figure);
+  await expect(widget.locator('.folds')).toBeVisible();
+  expect(await property(widget, slider)).toBe(value);
+  await expect.poll(async () => {
+    const [height, told] = [await widget.evaluate(() => document.body.getBoundingClientRect().height), await page.evaluate(() => Reflect.get(window, 'heights').at(-1))];
+    return Math.abs(height - told);
+  }).toBeLessThanOrEqual(1);
+  await page.goto(`/embed.html?widget=${figure}&speed=1`);
+  await expect(page.getByText(`speed is an unknown parameter of ${figure}`)).toBeVisible();
 });

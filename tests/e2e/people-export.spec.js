@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { presets } from '../../www/settings.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { STILL, assign, boxOf, frames, numberIn, open, readout, ready, show, state, test } from './support.js';
+import { STILL, assign, boxOf, frames, numberIn, open, posesOf, readout, ready, show, state, test } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -60,9 +60,10 @@ function elementsOf(page, svg) {
 }
 
 test('CSV of the Banana Machine has the samples, their skew, and the settings that bring them back', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await open(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  const { config, shown, stats, poses } = await state(widget);
+  const { config, shown, stats } = await state(widget);
+  const poses = await posesOf(widget);
   const { settings, columns, rows } = parsed(await csvOf(widget));
   expect(columns).toEqual([
     ...['x_m', 'y_m', 'theta_rad', 'xi_along_m', 'xi_lateral_m', 'xi_heading_rad'],
@@ -71,7 +72,7 @@ test('CSV of the Banana Machine has the samples, their skew, and the settings th
   expect(rows).toHaveLength(shown);
   // Every digit comes back.
   expect(rows.flatMap((row) => row.slice(0, 3))).toEqual(poses);
-const skew = crossTrackSkew(rows);
+  const skew = crossTrackSkew(rows);
   expect(skew).toBeCloseTo(stats.crossTrackSkew, 9);
   const printed = ((await readout(widget, 'cross-track skew').textContent()) ?? '').split(' ± ')[0];
   expect(Math.abs(numberIn(printed) - skew)).toBeLessThanOrEqual(0.0005);

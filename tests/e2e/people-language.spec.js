@@ -141,7 +141,7 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(widget.getByRole('button', { name: 'Jouer' })).toBeVisible();
   await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Step' })).toBeVisible();
-  await expect(widget.locator('.caption')).toHaveText('À droite.');
+  await expect(widget.locator('p[part=caption]')).toHaveText('À droite.');
 });
 
 test('a page from right to left has the same picture, and nothing beside its figure', async ({ page, figure }) => {

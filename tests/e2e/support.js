@@ -253,20 +253,22 @@ export async function frames(page) {
 }
 
 /**
- * What the machine behind the widget says now.
+ * Returns the readings of a machine after the next frames, other than its poses, which are many.
  *
  * @param {Locator} widget
  */
 export async function state(widget) {
   await frames(widget.page());
-  const said = await widget.evaluate((element) => {
-    const { machine } = /** @type {BananaMachineElement} */ (element);
-    const { config, shown, stats, table, contours } = machine;
-    const end = [...contours.command.slice(-2)];
-    // As it is, an array comes as bytes; spread here, number by number.
-    return { config, shown, stats, table, end, poses: machine.poses };
+  return widget.evaluate((element) => {
+    const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).machine;
+    return { config, shown, stats, table, end: [...contours.command.slice(-2)] };
   });
-  return { ...said, poses: [...said.poses] };
+}
+
+/** Returns the poses of a machine after the next frames. @param {Locator} widget @returns {Promise<number[]>} */
+export async function posesOf(widget) {
+  await frames(widget.page());
+  return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).machine.poses))];
 }
 
 /**

@@ -202,6 +202,8 @@ async function expectEmbedded(page, name, seeds) {
       const loaded = [told, again].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
       element.before(...boxes);
       await Promise.all(loaded);
+      // A log is fitted in the frames after the state.
+      while (/** @type {any} */ (element).settings.next) await new Promise(requestAnimationFrame);
       const configs = [element, told, again].map((each) => /** @type {AnyElement} */ (each).machine.config);
       for (const box of boxes) box.remove();
       return configs;

@@ -23,7 +23,7 @@ const border = (/** @type {number} */ column, /** @type {number} */ row) =>
 
 const FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
 
-const complaint = (/** @type {Locator} */ widget) => widget.locator('.own-map .note');
+const complaint = (/** @type {Locator} */ widget) => widget.locator('.own-map [role=alert]');
 const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
 /** Chooses files, as a reader does. @param {Locator} widget @param {MapFile[]} files */

@@ -8,7 +8,6 @@ import { binder } from './bindgen.mjs';
 import { WIDGETS, bundle, filesOf } from './bundle.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
-import { opened } from './modules.mjs';
 import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
 import { ensurePackages, wasmRust } from './toolchain.mjs';
 
@@ -23,24 +22,31 @@ declare const cores: { motion: Carried; [tag: string]: Carried | undefined };
 export default cores;
 `;
 
+/** Files that decide what the compiled cores are. */
+const CORE = [
+  'src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/package.json',
+  ...['build', 'bindgen', 'licences'].map((name) => `scripts/${name}.mjs`), 'scripts/bind',
+];
+
 /**
  * Brings dist/ up to date with the sources.
  *
  * @param {object} [options]
- * @param {boolean} [options.local] for a server on this machine: all figures share the whole core, unless their own modules
- *   are there already. That is one compilation instead of seven.
+ * @param {boolean} [options.local] for a server on this machine: all figures share the whole core, compiled by the profile `web`
+ *   and not shrunk, unless the modules to be published are there already
  */
 export async function build({ local = false } = {}) {
-  const core = digest(['src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'package-lock.json', 'scripts/build.mjs', 'scripts/bindgen.mjs', 'scripts/licences.mjs', 'scripts/modules.mjs', 'scripts/bind']);
+  const core = digest(CORE);
   const whole = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json'];
   const figures = WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
-  await together([ensurePackages(), whenStale('build/core.sha256', core, whole, () => buildCores(['motion']))]);
-  if (!local) await whenStale('build/figures.sha256', core, figures, () => buildCores(WIDGETS));
-  const tags = isCurrent('build/figures.sha256', core, figures) ? WIDGETS : [];
-  const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], core + tags);
+  const published = isCurrent('build/core.sha256', core, whole);
+  const compiled = local && !published ? `${core} local` : core;
+  await together([ensurePackages(), whenStale('build/core.sha256', compiled, whole, () => buildCores(['motion'], local))]);
+  if (!local) await whenStale('build/figures.sha256', core, figures, () => buildCores(WIDGETS, false));
+  const tags = compiled === core && isCurrent('build/figures.sha256', core, figures) ? WIDGETS : [];
+  const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiled + tags);
   await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags }));
-  const log = digest(['scripts/example-log.mjs'], core);
-  await whenStale('build/example-log.sha256', log, Object.values(EXAMPLE_LOGS), writeExampleLog);
+  await whenStale('build/example-log.sha256', digest(['scripts/example-log.mjs'], core), Object.values(EXAMPLE_LOGS), writeExampleLog);
 }
 
 /**
@@ -81,17 +87,18 @@ function isCurrent(stamp, sources, products) {
  * Builds cores, each a module and its glue.
  *
  * @param {string[]} names "motion" for the whole core, or the tags of figures, whose cores have their own machine alone
+ * @param {boolean} local
  */
-async function buildCores(names) {
-  // All three at a time: one waits for the network while another computes.
-  const [rust, bind] = await together([wasmRust(), binder(), ensurePackages()]);
+async function buildCores(names, local) {
+  const [binding, packages] = [binder(), ensurePackages(local ? undefined : 'scripts')];
+  const rust = await wasmRust();
   progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
   const finished = [];
   for (const name of names) {
     // Cargo puts all of them in one place: each is bound before the next is compiled, and finished meanwhile.
-    const wasm = await compileCore(rust, name);
+    const [wasm, bind] = await together([compileCore(rust, name, local), binding, packages]);
     await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at(`build/bound/${name}`)]);
-    finished.push(finish(name));
+    finished.push(finish(name, local));
   }
   await together(finished);
   if (!names.includes('motion')) return;
@@ -102,15 +109,17 @@ async function buildCores(names) {
 /**
  * @param {Awaited<ReturnType<typeof wasmRust>>} rust
  * @param {string} name the tag of a widget, or "motion" for the whole core
+ * @param {boolean} local
  * @returns {Promise<string>} the path of the module as rustc leaves it
  */
-async function compileCore(rust, name) {
+async function compileCore(rust, name, local) {
   const cargo = join(rust.bin, 'cargo');
   // By `cargo build`, which makes the library for Rust as well, nothing would be optimized across crates.
-  // The places of panics name files: not those of this machine.
+  // The places of panics name files: not those of this machine, where the module is published.
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
   const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
-  const options = ['--quiet', '--locked', '--release', '--lib', '--crate-type', 'cdylib', '--config', remapped];
+  const profile = local ? 'web' : 'release';
+  const options = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapped])];
   const only = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
   await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target, ...only], { env: rust.env });
   const ask = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
@@ -119,15 +128,23 @@ async function compileCore(rust, name) {
     const tree = await ask('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
     writeFileSync(at('build/crates.json'), JSON.stringify(cratesOf(tree, metadata)));
   }
-  return join(metadata.target_directory, 'wasm32-unknown-unknown/release/motion.wasm');
+  return join(metadata.target_directory, `wasm32-unknown-unknown/${profile}/motion.wasm`);
 }
 
-/** @param {string} name of a core that is bound */
-async function finish(name) {
+/**
+ * @param {string} name of a core that is bound
+ * @param {boolean} local
+ */
+async function finish(name, local) {
   copyFileSync(at(`build/bound/${name}/motion_bg.wasm`), at(`build/${name}.wasm`));
-  await silencePanics(`build/${name}.wasm`);
-  await optimize(`build/${name}.wasm`);
-  await writeGlue(name);
+  if (!local) await shrink(`build/${name}.wasm`);
+  await writeGlue(name, local ? boundNames(name) : await shortNames(name));
+}
+
+/** @param {string} path of a module, which is changed */
+async function shrink(path) {
+  await silencePanics(path);
+  await optimize(path);
 }
 
 /**
@@ -138,7 +155,9 @@ async function finish(name) {
 async function silencePanics(path) {
   // Not in a bare clone.
   const { default: binaryen } = await import('binaryen');
-  const module = await opened(path);
+  const module = binaryen.readBinary(readFileSync(at(path)));
+  const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
+  module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
   // Its types leave this out.
   const { Function: functions } = /** @type {any} */ (binaryen);
   const panics = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
@@ -171,13 +190,36 @@ async function optimize(path, passes = PASSES) {
 }
 
 /**
+ * Names by which a module and its glue call each other.
+ *
+ * @typedef {object} Names
+ * @property {[module: string, name: string, short: string][]} imports
+ * @property {[name: string, short: string][]} exports
+ */
+
+/** The names as wasm-bindgen gives them. @param {string} name of the core @returns {Names} */
+function boundNames(name) {
+  const module = new WebAssembly.Module(readFileSync(at(`build/${name}.wasm`)));
+  return {
+    imports: WebAssembly.Module.imports(module).map((each) => [each.module, each.name, each.name]),
+    exports: WebAssembly.Module.exports(module).map((each) => [each.name, each.name]),
+  };
+}
+
+/** Shortens the names in the module, which saves some 2 kB on the wire. @param {string} name of the core @returns {Promise<Names>} */
+async function shortNames(name) {
+  const { imports, exports } = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
+  return { exports, imports: imports.map((/** @type {string[]} */ [, each, short]) => ['a', each, short]) };
+}
+
+/**
  * Makes of wasm-bindgen's glue a module that exports a function which instantiates the core once more: as it is, the glue
- * would be there once, and one instance with it. What nobody asks for is left out, and what the two call each other by is
- * shortened: some 2 kB on the wire.
+ * would be there once, and one instance with it. What nobody asks for is left out.
  *
  * @param {string} name of the core
+ * @param {Names} between the module and its glue
  */
-async function writeGlue(name) {
+async function writeGlue(name, between) {
   const changes = /** @type {[RegExp, string][]} */ ([
     // What it throws by itself is the end of a core, as a trap is; plain errors are the page's own, thrown where a core reads.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
@@ -193,25 +235,23 @@ async function writeGlue(name) {
   if (missing) throw new Error(`wasm-bindgen's glue has no ${missing[0]}, as scripts/build.mjs takes it to have.`);
   const contents = changes.reduce((text, [pattern, instead]) => text.replace(pattern, instead), script);
   const names = [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, each]) => each);
-  /** @type {{ imports: [string, string, string][], exports: [string, string][] }} */
-  const shortened = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
   const { build: bundled } = await import('esbuild');
   const glue = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents })) };
   const { outputFiles } = await bundled({
-    stdin: { contents: `export { ${[...names, ...shortened.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: at(`build/bound/${name}`) },
+    stdin: { contents: `export { ${[...names, ...between.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: at(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
     write: false,
     charset: 'utf8',
     plugins: [glue],
   });
-  const short = new Map(shortened.exports);
+  const short = new Map(between.exports);
   const ofCore = (/** @type {string} */ each) => short.get(each) ?? (() => { throw new Error(`The core of ${name} does not export ${each}.`); })();
   const body = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, each) => `wasm.${ofCore(each)}`);
   const lines = [
     'export default async (module) => {',
     body,
-    `const { exports } = await WebAssembly.instantiate(module, { a: { ${shortened.imports.map(([, each, key]) => `${key}: ${each}`)} } });`,
+    `const { exports } = await WebAssembly.instantiate(module, { '${between.imports[0][0]}': { ${between.imports.map(([, each, key]) => `${key}: ${each}`)} } });`,
     '__wbg_set_wasm(exports);',
     `exports.${ofCore('__wbindgen_start')}();`,
     `return { ${names} };`,

@@ -12,7 +12,7 @@ import { testRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { filesOf } from './bundle.mjs';
-import { Missing, ROOT, inOnePiece, once, progress, run, runAsScript } from './process.mjs';
+import { Missing, ROOT, inOnePiece, once, progress, run, runAsScript, together } from './process.mjs';
 import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
 
 /**
@@ -39,7 +39,7 @@ const LIMIT = ALL ? 3600 : 1200;
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 /** The quick tier tests the whole core in all figures; the modules of single figures are built for the nightly one. */
-const built = once(() => build({ local: !ALL }));
+const built = once(() => together([build({ local: !ALL }), ensurePackages(ALL ? 'tests/package' : undefined), ensurePackages('tests')]));
 
 /** Versions of the tools that the parts ran with. */
 const versions = new Set([`Node ${process.versions.node}`]);
@@ -102,7 +102,7 @@ const PARTS = {
   },
   eslint: {
     async prepare(more) {
-      await ensurePackages();
+      await ensurePackages('tests');
       return npmProgram('eslint/bin/eslint.js', ['--max-warnings', '0', ...more, '.']);
     },
   },

@@ -6,7 +6,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { homedir, tmpdir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { Missing, ROOT, findProgram, mustRun, once, progress, queue, run } from './process.mjs';
+import { Missing, ROOT, findProgram, mustRun, once, progress, queue, run, runAsScript } from './process.mjs';
 
 const TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -19,25 +19,52 @@ export const CACHE = join(
   'motion-widgets',
 );
 
-/** Installs the npm packages unless those of the present package-lock.json are there. */
-export const ensurePackages = once(async () => {
+/**
+ * Workspaces of package.json, whose packages are installed when they are asked for. Those of the root are enough for a server
+ * on this machine.
+ *
+ * @typedef {'scripts' | 'tests' | 'tests/package' | 'tests/engines'} Workspace
+ */
+
+/** Installations by npm, one at a time, as all go into one directory. */
+const npm = queue();
+
+/** @type {Map<string, Promise<void>>} */
+const installing = new Map();
+
+/**
+ * Installs the npm packages of the root, and those of a workspace, unless those of the present package-lock.json are there.
+ *
+ * @param {Workspace} [workspace]
+ * @returns {Promise<void>}
+ */
+export async function ensurePackages(workspace) {
+  if (workspace) await ensurePackages();
+  const key = workspace ?? 'root';
+  if (!installing.has(key)) installing.set(key, npm(() => installPackages(key)));
+  return installing.get(key);
+}
+
+/** @param {string} key a workspace, or "root" */
+async function installPackages(key) {
   const [major, minor] = process.versions.node.split('.').map(Number);
   if (major < 20 || (major === 20 && minor < 19)) {
     throw new Missing(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
   }
   const lock = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
-  const stamp = join(ROOT, 'node_modules/.installed-lock');
+  const name = `motion-widgets-${key.replace('/', '-')}`;
+  const stamp = join(ROOT, `node_modules/.installed-${name}`);
   if (existsSync(stamp) && readFileSync(stamp, 'utf8') === lock) return;
-  progress('Installing npm packages');
-  // No package's install script is needed.
+  progress(`Installing npm packages${key === 'root' ? '' : ` of ${key}`}`);
+  // No package's install script is needed. `npm ci` would remove those of the other workspaces.
   await mustRun(
     'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
     'npm',
-    ['ci', '--ignore-scripts', '--no-audit', '--no-fund'],
+    ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', key === 'root' ? '--workspaces=false' : `--workspace=${name}`],
     { seconds: 600 },
   );
   writeFileSync(stamp, lock);
-});
+}
 
 /** Neither waits for another of its kind in all that it does. */
 const [apt, rustup] = [queue(), queue()];
@@ -248,3 +275,6 @@ export function manifestValue(file, pattern) {
   if (found === null) throw new Error(`${file} has nothing like ${pattern}`);
   return found[1];
 }
+
+// `node scripts/toolchain.mjs WORKSPACE` installs what another script imports at once.
+await runAsScript(import.meta.url, () => ensurePackages(/** @type {Workspace} */ (process.argv[2])));

@@ -3,11 +3,8 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { beside, pythonProgram } from './book.mjs';
-import { live, picture, settled } from './checks.mjs';
-import { lightness } from './lightness.mjs';
-import { textOf } from './looking.mjs';
-import { pinned } from './project.mjs';
+import { hasScheme, live } from './checks.mjs';
+import { besidePython, pinned, pythonInstall, pythonProgram } from './project.mjs';
 import { files, program } from './serving.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
@@ -130,28 +127,12 @@ const CHECKS = {
     assert.notEqual(omega, ORIGINAL.omega);
     await comesTo(page, '[machine.omega, machine.command["omega"]]', [omega, omega]);
   },
-  async 'its type is that of the notebook'(page, site) {
-    await run(page, site);
-    const { page: around, figure } = await machine(page).evaluate(textOf);
-    assert.deepEqual(figure, around);
-  },
   async 'light and dark with JupyterLab'(page, site) {
     await run(page, site);
-    for (const [theme, dark] of /** @type {const} */ ([['JupyterLab Dark', true], ['JupyterLab Light', false]])) {
+    for (const [theme, scheme] of /** @type {const} */ ([['JupyterLab Dark', 'dark'], ['JupyterLab Light', 'light']])) {
       await choose(page, 'Settings', 'Theme', theme);
-      await page.locator(`body[data-jp-theme-light="${!dark}"]`).waitFor({ state: 'attached' });
-      await machine(page).scrollIntoViewIfNeeded();
-      await settled(page);
-      await page.waitForFunction((dark) => {
-        const text = document.querySelector('banana-machine')?.shadowRoot?.querySelector('p');
-        const [red] = getComputedStyle(/** @type {Element} */ (text)).color.match(/[\d.]+/g) ?? [];
-        return dark ? Number(red) > 200 : Number(red) < 80;
-      }, dark);
-      const light = await lightness(page, await machine(page).locator('canvas').first().screenshot());
-      assert.ok(dark ? light < 0.35 : light > 0.75, `${theme}: the picture has a lightness of ${light.toFixed(2)}.`);
-      if (dark) await page.screenshot({ path: picture(site, 'dark') });
+      await machine(page).evaluate(hasScheme, scheme);
     }
-    await page.screenshot({ path: picture(site, 'light') });
   },
 };
 
@@ -163,18 +144,10 @@ const EXPORTED = {
     await page.route('**/mathjax/**', (route) => route.fulfill({ contentType: 'text/javascript', body: '' }));
     await page.goto(new URL('motion.html', site.url).href);
     await live(page, site);
-    await page.screenshot({ path: picture(site, 'exported'), fullPage: true });
     const slider = machine(page).getByRole('slider', { name: /ω/ }).first();
     await slider.focus();
     await page.keyboard.press('ArrowRight');
     assert.notDeepEqual(await shows(page, ['omega']), { omega: ORIGINAL.omega });
-    for (const width of [700, 375]) {
-      await page.setViewportSize({ width, height: 800 });
-      await settled(page);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-      assert.ok(wide <= 0, `At ${width} px the page scrolls sideways by ${wide} px.`);
-      await page.screenshot({ path: picture(site, `${width}`), fullPage: true });
-    }
   },
 };
 
@@ -183,13 +156,9 @@ export default {
   heading: 'Jupyter',
   versions: () => pinned('jupyter', 'jupyterlab', 'anywidget', 'nbconvert'),
   python: true,
-  async install(directory, { run: execute, wheel }) {
-    const tools = beside(directory);
-    await execute('python3', ['-m', 'venv', tools]);
-    const pip = ['install', '--quiet', '--disable-pip-version-check'];
-    await execute(pythonProgram(directory, 'pip'), [...pip, '--requirement', 'requirements.txt', wheel]);
-    // The package has another content under the same version.
-    await execute(pythonProgram(directory, 'pip'), [...pip, '--force-reinstall', '--no-deps', wheel]);
+  async install(directory, { run: execute, start, wheel }) {
+    const tools = besidePython(directory);
+    await pythonInstall(directory, { run: execute, start }, [wheel]);
     await execute('npm', ['install', '--prefix', tools, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...PACKAGES]);
     // It would ask whether it may ask.
     const settings = join(tools, 'share/jupyter/lab/settings');
@@ -197,7 +166,7 @@ export default {
     writeFileSync(join(settings, 'overrides.json'), '{ "@jupyterlab/apputils-extension:notification": { "fetchNews": "false" } }');
   },
   async build(directory, { run: execute }) {
-    packages = join(beside(directory), 'node_modules');
+    packages = join(besidePython(directory), 'node_modules');
     const command = ['nbconvert', '--execute', '--to', 'html', '--output-dir', '_build'];
     await execute(pythonProgram(directory, 'jupyter'), [...command, 'motion.ipynb']);
     assert.ok(readFileSync(join(directory, '_build/motion.html'), 'utf8').includes('widget-state+json'));
@@ -208,7 +177,7 @@ export default {
       serve(directory, tools) {
         const options = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
         // What others have configured, and how they left it, is no part of it.
-        const own = (/** @type {string} */ name) => join(beside(directory), 'own', name);
+        const own = (/** @type {string} */ name) => join(besidePython(directory), 'own', name);
         const env = { JUPYTER_CONFIG_DIR: own('config'), JUPYTERLAB_SETTINGS_DIR: own('settings'), JUPYTERLAB_WORKSPACES_DIR: own('workspaces') };
         return program((port) => [pythonProgram(directory, 'jupyter'), ['lab', ...options, '--port', port], env])(directory, tools);
       },
@@ -216,8 +185,7 @@ export default {
     },
     { name: 'exported by nbconvert', serve: files('_build'), checks: EXPORTED },
   ],
-  pages: { first: 'motion.ipynb', second: 'motion.ipynb' },
-  go: async () => {},
+  pages: { first: 'motion.ipynb' },
   expected: [
     { selector: 'banana-machine', properties: ORIGINAL },
     { selector: 'map-squeeze', properties: { preset: 'corridor', samples: 1000 } },

@@ -21,14 +21,6 @@ export default {
     { name: 'production', serve: next('start') },
     { name: 'development', serve: next('dev') },
     {
-      name: 'production by webpack',
-      async serve(directory, tools) {
-        await tools.run('npx', ['next', 'build', '--webpack']);
-        return next('start')(directory, tools);
-      },
-    },
-    { name: 'development', serve: next('dev', '--webpack') },
-    {
       name: 'static export',
       async serve(directory, tools) {
         // Without what the example turns on, pages of which parts wait for a server, and with addresses that any server has.

@@ -22,20 +22,15 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  * @property {(directory: string, tools: Tools & Packed) => Promise<unknown>} install in a fresh copy of the example
  * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
  * @property {Serving[]} servings the first is what readers of the site get
- * @property {{ first: string, second: string }} pages paths; the first has the figures
- * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} go by the engine's own link
- * @property {boolean} [movesItself] whether it moves what stands before the figure, with or without one: letters when its fonts
- *   come, or its sidebar while a slow machine reads the page
- * @property {boolean} [wholePages] whether its links load another document
- * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] by the engine's own
- *   switch; undefined where there is none
+ * @property {{ first: string, second?: string }} pages paths; the first has the figures
+ * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [go] by the engine's own link to a path,
+ *   or to "first" or "second" where both have one address
+ * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] by the engine's own switch
  * @property {Expected[]} expected as written in the example
- * @property {Record<string, (page: import('@playwright/test').Page) => Promise<void>>} [also] what only this engine can
- *   break, by what it is called; the page is the first one, with its figures drawn
  * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that are the engine's own
  *
  * @typedef {object} Serving
- * @property {string} name `development` where readers never get it: nothing is kept from moving there
+ * @property {string} name
  * @property {(directory: string, tools: Tools) => Promise<Served>} serve
  * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] of
  *   what is no site, in place of those that a site goes through
@@ -106,6 +101,31 @@ export function pinned(example, ...packages) {
  */
 export async function npmInstall(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
+}
+
+/** Directory of an example's Python tools, outside of it, as a program that reads a whole directory would read them too. @param {string} directory */
+export const besidePython = (directory) => `${directory}.tools`;
+
+/**
+ * @param {string} directory
+ * @param {string} name of a program that `pythonInstall` has installed
+ */
+export const pythonProgram = (directory, name) => join(besidePython(directory), 'bin', name);
+
+/**
+ * For engines that are Python packages.
+ *
+ * @param {string} directory
+ * @param {Tools} tools
+ * @param {string[]} more packages, which are installed anew
+ */
+export async function pythonInstall(directory, { run }, more) {
+  await run('python3', ['-m', 'venv', besidePython(directory)]);
+  const pip = pythonProgram(directory, 'pip');
+  const options = ['install', '--quiet', '--disable-pip-version-check'];
+  await run(pip, [...options, '--requirement', 'requirements.txt', ...more]);
+  // The package has another content under the same version.
+  if (more.length > 0) await run(pip, [...options, '--force-reinstall', '--no-deps', ...more]);
 }
 
 /** The npm package, packed from what is built. */

@@ -1,31 +1,46 @@
-/** A book by Sphinx in each of its usual themes. */
+/** A book by Sphinx, made by a program and a classic script. Every link loads another document. */
 
-import { copyScript, expected, follow, nextScheme, pythonInstall, pythonProgram, schemeFromList } from './book.mjs';
-import { pinned } from './project.mjs';
+import { copyFileSync, mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { besidePython, pinned, pythonInstall, pythonProgram } from './project.mjs';
 import { files } from './serving.mjs';
 
-const THEMES = ['furo', 'pydata_sphinx_theme', 'sphinx_book_theme', 'sphinx_rtd_theme', 'alabaster'];
-
-/** Of those that have one. @type {Record<string, import('./project.mjs').Engine['dark']>} */
-const SWITCHES = { furo: nextScheme('.theme-toggle'), pydata_sphinx_theme: schemeFromList, sphinx_book_theme: schemeFromList };
+/** Themes with a switch between light and dark, and one without. @type {Record<string, import('./project.mjs').Engine['dark']>} */
+const THEMES = {
+  async furo(page, on) {
+    const chosen = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
+    // The button takes the next of light, dark, and what the system has.
+    for (let i = 0; i < 3 && (await chosen.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
+  },
+  async pydata_sphinx_theme(page, on) {
+    await page.locator('.theme-switch-button').filter({ visible: true }).click();
+    await page.locator(`.theme-change-button[data-mode="${on ? 'dark' : 'light'}"]`).filter({ visible: true }).click();
+  },
+  sphinx_rtd_theme: undefined,
+};
+const names = Object.keys(THEMES);
 
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'Sphinx',
-  versions: () => pinned('sphinx', 'sphinx', ...THEMES.map((theme) => theme.replaceAll('_', '-'))),
-  install: pythonInstall,
+  versions: () => pinned('sphinx', 'sphinx', ...names.map((theme) => theme.replaceAll('_', '-'))),
+  async install(directory, tools) {
+    await pythonInstall(directory, tools, []);
+    await tools.run('tar', ['-xzf', tools.tarball, '-C', besidePython(directory)]);
+  },
   async build(directory, { run }) {
-    copyScript(directory, '_static');
-    for (const theme of THEMES) {
+    mkdirSync(join(directory, '_static'), { recursive: true });
+    for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) {
+      copyFileSync(join(besidePython(directory), 'package/dist', name), join(directory, '_static', name));
+    }
+    for (const theme of names) {
       const options = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];
       await run(pythonProgram(directory, 'sphinx-build'), [...options, '.', `_build/${theme}`]);
     }
   },
-  servings: THEMES.map((theme) => ({ name: theme, serve: files(`_build/${theme}`, '/a/book/'), dark: SWITCHES[theme] })),
+  servings: names.map((theme) => ({ name: theme, serve: files(`_build/${theme}`, '/a/book/'), dark: THEMES[theme] })),
   pages: { first: 'index.html', second: 'map.html' },
-  go: follow,
-  wholePages: true,
-  movesItself: true,
-  expected,
+  go: (page, path) => page.locator(`a[href$="${path}"]`).filter({ visible: true }).first().click(),
+  expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
   allowed: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme says so to readers who have chosen none' }],
 };

@@ -1,2 +1,0 @@
-import 'motion-widgets';
-import 'motion-widgets/motion-widgets.css';

@@ -1,2 +1,0 @@
-import 'motion-widgets';
-import './index.html';

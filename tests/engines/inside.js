@@ -5,7 +5,6 @@
  */
 
 import { digest, hashOf } from '../digest/digest.js';
-import { cloudPixels } from '../embeddings/looking.mjs';
 
 /**
  * @typedef {{ x: number, y: number }} Point
@@ -25,19 +24,23 @@ const STILL = 10;
  * Brings a figure into sight and waits until its cloud is complete and its picture rests.
  *
  * @param {string} tag
- * @returns {Promise<{ drawn: number, stats: number, samples: number }>} see cloudPixels
+ * @returns {Promise<{ stats: number, samples: number }>} how many samples the statistics are of, and how many were asked for
  */
 export async function settled(tag) {
   const end = performance.now() + 60_000;
+  const figure = /** @type {any} */ (figureOf(tag));
   // Out of sight it does not start.
-  figureOf(tag).scrollIntoView({ block: 'start' });
-  while (!(figureOf(tag).shadowRoot && canvasOf(tag))) {
+  figure.scrollIntoView({ block: 'start' });
+  while (!(figure.shadowRoot && canvasOf(tag))) {
     if (performance.now() > end) throw new Error(`<${tag}> has no picture.`);
     await frame();
   }
   canvasOf(tag).scrollIntoView({ block: 'center' });
-  const seen = await cloudPixels(canvasOf(tag));
-  const look = () => JSON.stringify([figureOf(tag).pictures.map(({ view }) => view.extent), canvasOf(tag).getBoundingClientRect()]);
+  // Statistics of some figures count attempts, and others have no samples.
+  const samples = figure.samples ?? 0;
+  const counted = () => figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0;
+  while (counted() !== samples && performance.now() < end) await frame();
+  const look = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), canvasOf(tag).getBoundingClientRect()]);
   let before = look();
   for (let still = 0; still < STILL && performance.now() < end; still++) {
     await frame();
@@ -45,24 +48,11 @@ export async function settled(tag) {
     if (now !== before) still = 0;
     before = now;
   }
-  return seen;
+  return { stats: counted(), samples };
 }
 
 /** @param {string} tag */
 export const stateOf = (tag) => machineState(figureOf(tag).machine);
-
-/**
- * @param {{ tag: string, hash: string }} given
- * @returns {Promise<string>} the hash of the figure's state, as soon as it is another one
- */
-export async function changed({ tag, hash }) {
-  const end = performance.now() + 20_000;
-  for (;;) {
-    const { hash: now } = await stateOf(tag);
-    if (now !== hash || performance.now() > end) return now;
-    await frame();
-  }
-}
 
 /**
  * @param {any} machine of whatever widget
@@ -131,31 +121,6 @@ export function slidersOf(tag) {
       const { id, value, step, max } = /** @type {HTMLInputElement} */ (slider);
       return { key: id, value: figure[id] ?? figure.getState()[id], shown: Number(value), step: Number(step), end: Number(max) };
     });
-}
-
-/**
- * Drops files on the picture of a figure. No protocol can drop what comes from outside of the page.
- *
- * @param {{ tag: string, files: { name: string, bytes: number[] }[] }} given
- */
-export function drop({ tag, files }) {
-  const dataTransfer = new DataTransfer();
-  for (const { name, bytes } of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
-  const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
-  const [over, dropped] = [event('dragover'), event('drop')];
-  canvasOf(tag).dispatchEvent(over);
-  canvasOf(tag).dispatchEvent(dropped);
-  return over.defaultPrevented && dropped.defaultPrevented;
-}
-
-/** @param {string} tag @returns {Promise<string>} what a figure says of files that it has refused, as soon as it does */
-export async function refusalOf(tag) {
-  const end = performance.now() + 20_000;
-  for (;;) {
-    const said = rootOf(tag).querySelector('.own-map .note')?.textContent?.trim();
-    if (said || performance.now() > end) return said ?? '';
-    await frame();
-  }
 }
 
 /** The digest of all configurations, by the core that ships. */

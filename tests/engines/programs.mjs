@@ -2,29 +2,39 @@
 
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { Missing, findProgram, isProgram, run } from './process.mjs';
-import { aptInstall } from './toolchain.mjs';
+import { Missing, findProgram, isProgram, mustRun, progress, run } from '../../scripts/process.mjs';
+import { CACHE, aptInstall, nativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
 const FIREFOX_SENTENCE =
-  'Firefox is missing: install it (on Debian `sudo apt-get install firefox-esr`), or set FIREFOX to its path.';
+  'Firefox or its geckodriver is missing: install them (on Debian `sudo apt-get install firefox-esr`), or set FIREFOX to its path.';
 const WEBKIT_SENTENCE =
   'WebKit is missing, or what shows and drives it: on Debian and Ubuntu `sudo apt-get install webkit2gtk-driver xvfb`.';
 
 /** Where distributions keep MiniBrowser: by architecture, and by the version of its interface. */
 const LIBRARIES = ['/usr/lib', '/usr/libexec', '/usr/lib64'];
 
-/** @returns {Promise<string>} the program */
+/** @returns {Promise<{ firefox: string, driver: string }>} its programs */
 export async function ensureFirefox() {
-  const { FIREFOX } = process.env;
-  const find = () => FIREFOX ?? FIREFOX_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined);
+  const find = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined);
+  if (find() === undefined) await aptInstall(['firefox-esr'], FIREFOX_SENTENCE);
+  const firefox = find();
+  if (firefox === undefined || !(await run(firefox, ['--version'], { quiet: true, seconds: 60 })).ok) throw new Missing(FIREFOX_SENTENCE);
+  return { firefox, driver: await ensureGeckodriver() };
+}
+
+/** Looks for Firefox's driver, which no distribution has in a package of its own, and compiles it once where there is none. */
+async function ensureGeckodriver() {
+  const { GECKOWEBDRIVER } = process.env;
+  const bin = join(CACHE, 'geckodriver/bin');
+  const find = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), bin]);
   const present = find();
-  if (present !== undefined && (await runs(present))) return present;
-  if (FIREFOX !== undefined) throw new Missing(FIREFOX_SENTENCE);
-  await aptInstall(['firefox-esr'], FIREFOX_SENTENCE);
-  const installed = find();
-  if (installed === undefined || !(await runs(installed))) throw new Missing(FIREFOX_SENTENCE);
-  return installed;
+  if (present !== undefined) return present;
+  const rust = await nativeRust();
+  progress('Compiling geckodriver, once');
+  const options = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE, 'geckodriver')];
+  await mustRun(FIREFOX_SENTENCE, join(rust.bin, 'cargo'), options, { env: rust.env, seconds: 1200 });
+  return join(bin, 'geckodriver');
 }
 
 /** @typedef {{ driver: string, browser: string, display: string }} WebKit its programs; the last shows windows to nobody */
@@ -52,9 +62,4 @@ function findMiniBrowser() {
   const libraries = LIBRARIES.flatMap((directory) => [directory, ...subdirectories(directory).filter((path) => /-linux-gnu/.test(path))]);
   const candidates = libraries.flatMap(subdirectories).filter((path) => /\/webkit(2gtk|gtk)-[\d.]+$/.test(path));
   return candidates.sort().reverse().map((path) => join(path, 'MiniBrowser')).find(isProgram);
-}
-
-/** @param {string} program */
-async function runs(program) {
-  return (await run(program, ['--version'], { quiet: true, seconds: 60 })).ok;
 }

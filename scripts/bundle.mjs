@@ -223,7 +223,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   chmodSync(at('dist/cli.js'), 0o755);
   write(at('dist/classroom.html'), inOneFile('index.html'));
   write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);
-  // What weighs how much: read by scripts/sizes.mjs.
+  // Sizes of products: read by tests/package/sizes.mjs.
   const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
   write(at('build/outputs.json'), JSON.stringify(outputs));
   const crates = JSON.parse(readFileSync(at('build/crates.json'), 'utf8'));

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
-import { launch } from './support.js';
+import { launch, listen } from './support.js';
 
 /** @type {import('@playwright/test').Browser} */
 let browser;
@@ -31,12 +31,7 @@ after(async () => {
  */
 async function shown(state, kind) {
   const page = await browser.newPage();
-  /** @type {string[]} */
-  const complaints = [];
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
-  });
+  const complaints = listen(page);
   const body = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
   await page.goto(`${server.address}page.html`);
@@ -146,20 +141,6 @@ test('a trait with the underscore of a Python keyword sets the property of that 
   await page.close();
 });
 
-test('statistics come as JSON has it', async () => {
-  // Without noise no skew is defined.
-  const { page } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 10, alphas: [0, 0, 0, 0, 0, 0] }, 'notebook');
-  await complete(page);
-  const stats = await page.evaluate(() => /** @type {any} */ (globalThis).view.state.stats);
-  assert.equal(stats.n, 10);
-  assert.equal(stats.cartesian.mean.length, 3);
-  assert.equal(stats.crossTrackSkew, null);
-  assert.deepEqual(JSON.parse(JSON.stringify(stats)), stats);
-  const saved = await page.evaluate(() => /** @type {any} */ (globalThis).view.log.at(-1));
-  assert.equal(saved, 'saved');
-  await page.close();
-});
-
 test('a change of the model reaches the figure, what follows of it the model, and an equal value nobody', async () => {
   const { page, complaints } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
   await complete(page);
@@ -199,21 +180,6 @@ test('what is refused is said by the trait error, and the trait has the last goo
   await change(page, { samples: 200 });
   assert.deepEqual((await saidOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
   assert.deepEqual(complaints, []);
-  await page.close();
-});
-
-test('what the reader changes comes back', async () => {
-  const { page } = await shown({ ...KERNEL, widget: 'map-squeeze', samples: 100, sampler: null, clearance: null }, 'notebook');
-  await complete(page);
-  await page.evaluate(() => (/** @type {any} */ (globalThis).view.log.length = 0));
-  const slider = page.getByRole('slider', { name: /clearance/ });
-  await slider.focus();
-  await page.keyboard.press('ArrowRight');
-  await page.keyboard.press('Tab');
-  await page.waitForFunction(() => /** @type {any} */ (globalThis).view.state.clearance === 0.14);
-  /** @type {[string, unknown][]} */
-  const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log.filter((/** @type {any} */ entry) => entry !== 'saved' && entry[0] !== 'stats'));
-  assert.deepEqual(log.filter(([name]) => name !== '_shown'), [['clearance', 0.14]]);
   await page.close();
 });
 

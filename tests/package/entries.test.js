@@ -2,31 +2,13 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { cpSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
-import { serve } from '../../scripts/serve.mjs';
-import { installed, launch } from './support.js';
+import { listen, served } from './support.js';
 
-/** @type {ReturnType<typeof installed>} */
-let project;
-/** @type {import('@playwright/test').Browser} */
-let browser;
-/** @type {Awaited<ReturnType<typeof serve>>} */
-let server;
-
-before(async () => {
-  project = installed();
-  browser = await launch();
-  server = await serve(project.directory, { port: 0 });
-});
-
-after(async () => {
-  server?.close();
-  await browser?.close();
-  project?.remove();
-});
+const project = served();
 
 /**
  * @param {string} source of a module that stands beside the installed package
@@ -81,7 +63,45 @@ test('a server component is told that no browser would get the elements', () => 
   assert.equal(execFileSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' }), 'function\n');
 });
 
-test('TypeScript knows the elements and the core, however it resolves', () => {
+/** Components, their events, and the tags in JSX. */
+const REACT = `
+    import { useRef } from 'react';
+    import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
+    import type { BananaMachineElement } from 'motion-widgets';
+
+    export function Page() {
+      const figure = useRef<BananaMachineElement>(null);
+      const skew: number | undefined = figure.current?.stats?.crossTrackSkew;
+      return (
+        <>
+          <BananaMachine ref={figure} omega="0.8" samples={20000} alphas={[0.1, 0.1, 0.1, 0.1, 0, 0]} className="wide" id="first" lang="de"
+            style={{ margin: 0 }} share overlays={['command']} headingLevel="3"
+            onStats={({ detail, currentTarget }) => console.log(detail.crossTrackSkew.toFixed(2), currentTarget.omega)}
+            onError={({ message }) => console.log(message.length)} onChange={({ currentTarget }) => currentTarget.getState()}>
+            <span slot="title">Figure 1</span>
+          </BananaMachine>
+          <MapSqueeze sampler="whole-arc" start={{ x: 0, y: 0, theta: 0 }} onStats={({ detail }) => detail.accepted} key="map" />
+          <banana-machine omega="0.8" samples={20000} heading-level="3" class="wide" onstats={({ detail }) => detail.n} />
+          <map-squeeze share conditioned="false" />
+          <p>{skew}</p>
+          {/* @ts-expect-error */}
+          <BananaMachine omega="fast" />
+          {/* @ts-expect-error */}
+          <BananaMachine omga={1} />
+          {/* @ts-expect-error */}
+          <BananaMachine onStats={({ detail }) => detail.accepted} />
+          {/* @ts-expect-error */}
+          <MapSqueeze sampler="half-arc" />
+          {/* @ts-expect-error */}
+          <banana-machine model="walking" />
+          {/* @ts-expect-error */}
+          <banana-machine alphas={[0.1, 0.1, 0.1, 0.1, 0, 0]} />
+        </>
+      );
+    }
+`;
+
+test('TypeScript knows the elements, the components of React and the core, however it resolves', () => {
   writeFileSync(
     join(project.directory, 'typed.ts'),
     `import 'motion-widgets';
@@ -99,15 +119,16 @@ test('TypeScript knows the elements and the core, however it resolves', () => {
      document.createElement('banana-machine').omega = 'fast';
      export { omega, stats };`,
   );
-  for (const [module, moduleResolution] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
-    const options = ['--noEmit', '--strict', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable'];
-    const resolution = ['--module', module, '--moduleResolution', moduleResolution, '--types', ''];
-    const tsc = join(ROOT, 'node_modules/typescript/bin/tsc');
-    // In the directory of a module, or top-level await is refused.
-    writeFileSync(join(project.directory, 'package.json'), '{ "private": true, "type": "module" }');
-    const run = () =>
-      execFileSync(process.execPath, [tsc, ...options, ...resolution, 'typed.ts'], { cwd: project.directory, encoding: 'utf8' });
-    assert.doesNotThrow(run, (error) => assert.fail(/** @type {{ stdout: string }} */ (error).stdout));
+  writeFileSync(join(project.directory, 'typed.tsx'), REACT);
+  for (const name of ['@types/react', 'csstype']) cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
+  // In the directory of a module, or top-level await is refused.
+  writeFileSync(join(project.directory, 'package.json'), '{ "private": true, "type": "module" }');
+  for (const [module, resolution] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
+    const options = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
+    const files = ['typed.ts', 'typed.tsx'];
+    const args = [join(ROOT, 'node_modules/typescript/bin/tsc'), ...options, '--module', module, '--moduleResolution', resolution, ...files];
+    const { status, stdout } = spawnSync(process.execPath, args, { cwd: project.directory, encoding: 'utf8' });
+    assert.equal(status, 0, stdout);
   }
 });
 
@@ -115,63 +136,35 @@ test('TypeScript knows the elements and the core, however it resolves', () => {
  * A page with three elements and some of the package's scripts.
  *
  * @param {string} scripts
- * @returns {Promise<{ compiled: number, complaints: string[], requests: string[] }>}
+ * @returns {Promise<{ complaints: string[], modules: string[] }>} `modules` are the addresses of WebAssembly that it asked for
  */
 async function pageWith(scripts) {
   const elements = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
-  const page = await browser.newPage();
-  /** @type {string[]} */
-  const complaints = [];
+  const page = await project.browser.newPage();
+  const complaints = listen(page);
   /** @type {string[]} */
   const requests = [];
-  page.on('pageerror', (error) => complaints.push(String(error)));
   page.on('request', (request) => requests.push(request.url()));
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
-  });
-  await page.addInitScript(countCompilations);
   await page.route('**/page.html', (route) => {
     route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scripts}${elements}` });
   });
-  await page.goto(`${server.address}page.html`);
+  await page.goto(`${project.address}page.html`);
   for (const element of await page.locator('banana-machine, map-squeeze').all()) {
     await element.scrollIntoViewIfNeeded();
     await element.locator('canvas').first().waitFor({ timeout: 10_000 });
   }
-  const compiled = await page.evaluate(() => /** @type {any} */ (globalThis).compiled);
   await page.close();
-  return { compiled, complaints, requests };
-}
-
-/** Runs in the page. */
-function countCompilations() {
-  const counter = Object.assign(globalThis, { compiled: 0 });
-  for (const name of /** @type {const} */ (['compile', 'compileStreaming', 'instantiateStreaming'])) {
-    const original = /** @type {Function} */ (WebAssembly[name]);
-    Object.assign(WebAssembly, {
-      [name](/** @type {unknown[]} */ ...args) {
-        counter.compiled++;
-        return original.apply(WebAssembly, args);
-      },
-    });
-  }
-  const { instantiate } = WebAssembly;
-  Object.assign(WebAssembly, {
-    instantiate(/** @type {any} */ source, /** @type {any} */ imports) {
-      if (!(source instanceof WebAssembly.Module)) counter.compiled++;
-      return instantiate(source, imports);
-    },
-  });
+  return { complaints, modules: requests.filter((url) => url.includes('.wasm')) };
 }
 
 const DIST = '/node_modules/motion-widgets/dist/';
 const script = (/** @type {string} */ name) => `<script type="module" src="${DIST}${name}"></script>`;
 
-test('all elements of a page share one compiled module', async () => {
-  for (const name of ['motion-widgets.js', 'external.js']) {
-    const { compiled, complaints } = await pageWith(script(name));
+test('all elements of a page share one module', async () => {
+  for (const [name, count] of /** @type {const} */ ([['motion-widgets.js', 0], ['external.js', 1]])) {
+    const { complaints, modules } = await pageWith(script(name));
     assert.deepEqual(complaints, []);
-    assert.equal(compiled, 1, name);
+    assert.equal(modules.length, count, name);
   }
 });
 
@@ -181,8 +174,8 @@ test('custom-elements.json says what the elements have', async () => {
   /** @type {any[]} */
   const declared = modules[0].declarations;
   assert.deepEqual(declared.map(({ tagName }) => tagName).sort(), ['alpha-calibrator', 'arc-anatomy', 'banana-machine', 'dead-reckoning', 'map-squeeze', 'odometry-decomposer']);
-  const page = await browser.newPage();
-  await page.goto(`${server.address}plain/`);
+  const page = await project.browser.newPage();
+  await page.goto(`${project.address}plain/`);
   for (const { tagName, attributes, members, events, cssParts, cssProperties } of declared) {
     const live = await page.evaluate(async (tag) => {
       const Class = /** @type {any} */ (await customElements.whenDefined(tag));
@@ -216,15 +209,8 @@ test('custom-elements.json says what the elements have', async () => {
   await page.close();
 });
 
-test('the types say of every property, and of every field of a state, what it is', () => {
-  const lines = readFileSync(join(project.directory, 'node_modules/motion-widgets/dist/elements.d.ts'), 'utf8').split('\n');
-  const unsaid = lines.filter((line, i) => /^ {2}(readonly )?\w+: /.test(line) && !lines[i - 1].endsWith('*/'));
-  const tags = ['banana-machine', 'map-squeeze', 'arc-anatomy', 'odometry-decomposer', 'dead-reckoning', 'alpha-calibrator'];
-  assert.deepEqual(unsaid, tags.map((tag) => `  widget: '${tag}';`));
-});
-
 test('external.js loads a widget when its tag is met, with the words that the page gave it before', async () => {
-  const page = await browser.newPage();
+  const page = await project.browser.newPage();
   /** @type {string[]} */
   const requests = [];
   page.on('request', (request) => requests.push(new URL(request.url()).pathname));
@@ -232,7 +218,7 @@ test('external.js loads a widget when its tag is met, with the words that the pa
     setMessages('fr', { step: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
   const body = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${module}<banana-machine></banana-machine><x-late></x-late>`;
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
-  await page.goto(`${server.address}page.html`);
+  await page.goto(`${project.address}page.html`);
   await page.locator('banana-machine canvas').first().waitFor();
   const ofSqueeze = () => requests.filter((path) => path.includes('/map-squeeze-'));
   assert.deepEqual(ofSqueeze(), []);
@@ -251,22 +237,6 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.close();
 });
 
-test('words that were given before a widget came, and are of another shape, are reported; it speaks English', async () => {
-  const page = await browser.newPage();
-  /** @type {string[]} */
-  const complaints = [];
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  const module = `<script type="module">import { setMessages } from '${DIST}external.js';
-    setMessages('fr', { step: 'Un pas', banana: { alphaIsSilent: 'silence', presets: { straight: 'Tout droit' } } });</script>`;
-  const body = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${module}<banana-machine></banana-machine>`;
-  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
-  await page.goto(`${server.address}page.html`);
-  await page.getByRole('button', { name: 'Straight' }).waitFor();
-  await page.getByRole('button', { name: 'Un pas' }).waitFor();
-  assert.deepEqual(complaints, ['TypeError: messages: fr.banana.alphaIsSilent is a string; allowed is a function of 4 values.']);
-  await page.close();
-});
-
 test('two copies of the bundle on a page get along', async () => {
   for (const [first, second] of [['motion-widgets.js', 'external.js'], ['external.js', 'motion-widgets.iife.js'], ['motion-widgets.js', 'motion-widgets.js?copy']]) {
     const { complaints } = await pageWith(script(first) + script(second));
@@ -276,23 +246,23 @@ test('two copies of the bundle on a page get along', async () => {
 
 test('the address of the external module can be set by the script that imports it', async () => {
   const address = `${DIST}motion.wasm?mine`;
-  const { complaints, requests } = await pageWith(
+  const { complaints, modules } = await pageWith(
     `<script type="module">import { load } from '${DIST}external.js'; load('${address}');</script>`,
   );
   assert.deepEqual(complaints, []);
-  assert.deepEqual(requests.filter((url) => url.includes('.wasm')), [new URL(address, server.address).href]);
+  assert.deepEqual(modules, [new URL(address, project.address).href]);
 });
 
 /** A page with a figure whose modules are answered by a page, as servers do that send their own for whatever they do not have. @param {string} script */
 async function withoutModules(script) {
-  const page = await browser.newPage();
+  const page = await project.browser.newPage();
   /** @type {string[]} */
   const warnings = [];
   page.on('console', (message) => void (message.type() === 'warning' && warnings.push(message.text())));
   await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
   const body = `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`;
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
-  await page.goto(`${server.address}page.html`);
+  await page.goto(`${project.address}page.html`);
   return { page, warnings };
 }
 
@@ -302,7 +272,7 @@ test('where the file of a module cannot be had, the embedded one is used, and a 
   const { page, warnings } = await withoutModules(script('external.js'));
   await page.locator('banana-machine canvas').first().waitFor();
   assert.equal(warnings.length, 1);
-  assert.match(warnings[0], new RegExp(`${server.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
+  assert.match(warnings[0], new RegExp(`${project.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
   assert.ok(warnings[0].includes(CURE));
   await page.close();
 });

@@ -1,47 +1,25 @@
-// Each way to embed, as a stranger would have it: the packed package, the examples, and their own tools.
+// Ways to embed the packed package: plain pages, and production builds of bundlers.
 
 import assert from 'node:assert/strict';
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { build as viteBuild, createServer as viteServer } from 'vite';
-import webpack from 'webpack';
-import { serve } from '../../scripts/serve.mjs';
-import { MOST_SHIFT, comeLate } from '../embeddings/checks.mjs';
-import { shifts, textOf, watchShifts } from '../embeddings/looking.mjs';
-import { installed, launch, openWithCloud } from './support.js';
+import { build } from 'esbuild';
+import { rollup } from 'rollup';
+import { openWithCloud, served } from './support.js';
 
-/** @type {ReturnType<typeof installed>} */
-let project;
-/** @type {import('@playwright/test').Browser} */
-let browser;
-/** @type {Awaited<ReturnType<typeof serve>>} */
-let server;
-
-before(async () => {
-  project = installed();
-  browser = await launch();
-  server = await serve(project.directory, { port: 0 });
-});
-
-after(async () => {
-  server?.close();
-  await browser?.close();
-  project?.remove();
-});
-
-/** @param {string[]} requests */
-const wasmIn = (requests) => requests.filter((address) => address.includes('.wasm'));
+const project = served(() => writeFileSync(join(project.directory, 'main.js'), "import 'motion-widgets';\n"));
 
 test('a page with a module script', async () => {
-  const { page, requests } = await openWithCloud(browser, `${server.address}plain/`);
+  const { page, requests } = await openWithCloud(project.browser, `${project.address}plain/`);
   // Everything is inside: the page, a stylesheet and one script.
   assert.equal(requests.length, 3, requests.join(' '));
   await page.close();
 });
 
 test('a frame that takes the height of its widget', async () => {
-  const { page } = await openWithCloud(browser, `${server.address}iframe/`);
+  const { page } = await openWithCloud(project.browser, `${project.address}iframe/`);
   const heightOf = () =>
     page.evaluate(() => {
       const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
@@ -63,14 +41,14 @@ test('a frame that takes the height of its widget', async () => {
 });
 
 test('a frame names what is wrong with its address', async () => {
-  const page = await browser.newPage();
+  const page = await project.browser.newPage();
   for (const [query, sentence] of [
     ['', /widget is missing; allowed is banana-machine or map-squeeze/],
     ['?widget=banana', /widget is "banana"; allowed is/],
     ['?widget=banana-machine&omga=1', /omga is an unknown parameter of banana-machine; allowed are .*\bomega\b/],
     ['?widget=map-squeeze&v=1&v=2', /v is given more than once/],
   ]) {
-    await page.goto(`${server.address}iframe/node_modules/motion-widgets/dist/embed.html${query}`);
+    await page.goto(`${project.address}iframe/node_modules/motion-widgets/dist/embed.html${query}`);
     assert.match(await page.getByRole('alert').innerText(), /** @type {RegExp} */ (sentence));
   }
   await page.close();
@@ -78,69 +56,51 @@ test('a frame names what is wrong with its address', async () => {
 
 test('a classic script, from a server and from a disk', async () => {
   const fromDisk = pathToFileURL(join(project.directory, 'classic-script/index.html')).href;
-  for (const address of [`${server.address}classic-script/`, fromDisk]) {
-    const { page, requests } = await openWithCloud(browser, address);
+  for (const address of [`${project.address}classic-script/`, fromDisk]) {
+    const { page, requests } = await openWithCloud(project.browser, address);
     assert.equal(requests.length, 3, requests.join(' '));
     await page.close();
   }
 });
 
-test('nothing on a page moves when its figure comes, and the figure has its letters', async () => {
-  for (const example of ['plain', 'classic-script', 'iframe']) {
-    for (const viewport of [{ width: 1280, height: 800 }, { width: 375, height: 812 }]) {
-      const { page } = await openWithCloud(browser, `${server.address}${example}/`, async (page) => {
-        await page.setViewportSize(viewport);
-        await page.addInitScript(watchShifts);
-        await comeLate(page);
-      });
-      const { total, sources } = await page.evaluate(shifts, false);
-      assert.ok(total < MOST_SHIFT, `${example} at ${viewport.width} px: things moved by ${total}: ${sources.join('; ')}`);
-      if (example !== 'iframe') {
-        const { page: around, figure } = await page.locator('banana-machine').evaluate(textOf);
-        assert.deepEqual(figure, around, example);
-      }
-      await page.close();
-    }
-  }
-});
-
 test('the one file of a classroom, from a disk', async () => {
   const page = join(project.directory, 'node_modules/motion-widgets/dist/classroom.html');
-  const opened = await openWithCloud(browser, pathToFileURL(page).href);
+  const opened = await openWithCloud(project.browser, pathToFileURL(page).href);
   assert.deepEqual(opened.requests, [pathToFileURL(page).href]);
   await opened.page.close();
 });
 
-test('Vite, building and developing', async () => {
-  const root = join(project.directory, 'vite');
-  const configFile = join(root, 'vite.config.js');
-  await viteBuild({ root, configFile, logLevel: 'warn' });
-  const built = await openWithCloud(browser, `${server.address}vite/dist/`);
-  assert.equal(wasmIn(built.requests).length, 1, built.requests.join(' '));
-  await built.page.close();
+// Bundlers that leave the WebAssembly modules behind, as they do not know `new URL(…, import.meta.url)`.
 
-  const developing = await viteServer({ root, configFile, logLevel: 'warn', server: { port: 0, host: 'localhost' } });
-  try {
-    await developing.listen();
-    const address = developing.resolvedUrls?.local[0];
-    assert.ok(address);
-    const { page, requests } = await openWithCloud(browser, address);
-    assert.equal(wasmIn(requests).length, 1, requests.join(' '));
+/** @param {import('esbuild').BuildOptions} options */
+const byEsbuild = (options) => async (/** @type {string} */ outdir) => {
+  const entryPoints = [join(project.directory, 'main.js')];
+  const { warnings } = await build({ entryPoints, outdir, bundle: true, minify: true, logLevel: 'silent', ...options });
+  assert.deepEqual(warnings, []);
+};
+
+/** Each writes main.js into a directory. @type {Record<string, (outdir: string) => Promise<void>>} */
+const BUILDS = {
+  'esbuild with chunks': byEsbuild({ format: 'esm', splitting: true }),
+  "esbuild in one file, as Hugo's js.Build": byEsbuild({ format: 'esm' }),
+  'esbuild as a classic script': byEsbuild({ format: 'iife' }),
+  async Rollup(dir) {
+    // It finds packages by a plugin alone.
+    const bundle = await rollup({ input: { main: join(project.directory, 'node_modules/motion-widgets/dist/external.js') } });
+    await bundle.write({ dir });
+  },
+};
+
+for (const [name, bundle] of Object.entries(BUILDS)) {
+  test(`${name}: a figure is live from the embedded module, and no file is asked for in vain`, async () => {
+    const path = name.replaceAll(/\W+/g, '-');
+    const directory = join(project.directory, path);
+    mkdirSync(directory);
+    await bundle(directory);
+    const script = `<script ${name.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
+    writeFileSync(join(directory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`);
+    const { page, requests } = await openWithCloud(project.browser, `${project.address}${path}/`);
+    assert.deepEqual(requests.filter((address) => address.includes('.wasm')), []);
     await page.close();
-  } finally {
-    await developing.close();
-  }
-});
-
-test('webpack', async () => {
-  const context = join(project.directory, 'webpack');
-  const { default: config } = await import(pathToFileURL(join(context, 'webpack.config.js')).href);
-  const stats = await new Promise((resolve, reject) => {
-    const output = { ...config.output, path: join(context, 'dist') };
-    webpack({ ...config, context, output }, (error, result) => (error ? reject(error) : resolve(result)));
   });
-  assert.deepEqual(stats.toJson({ all: false, errors: true }).errors, []);
-  const { page, requests } = await openWithCloud(browser, `${server.address}webpack/dist/`);
-  assert.equal(wasmIn(requests).length, 1, requests.join(' '));
-  await page.close();
-});
+}

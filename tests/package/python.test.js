@@ -7,6 +7,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync 
 import { tmpdir } from 'node:os';
 import { delimiter, join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { pythonName, scriptName } from '../../scripts/names.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { CACHE, ensurePip } from '../../scripts/toolchain.mjs';
 
@@ -82,4 +83,11 @@ test('no trait hides what every widget has', () => {
 test('a value out of its range is refused with what is allowed', () => {
   const lines = ['import motion_widgets as m, traitlets', 'try: m.MapSqueeze(steps=0)', 'except traitlets.TraitError as error: print(error)'];
   assert.equal(python(['-c', lines.join('\n')], path).trim(), 'steps is 0; allowed is a whole number from 1 to 1000, or None');
+});
+
+test('names of generated code are those that its language allows', () => {
+  assert.deepEqual(['reverseAware', 'lambda', 'log'].map(pythonName), ['reverse_aware', 'lambda_', 'log_']);
+  assert.throws(() => pythonName('2d'), /2d cannot be the name of a trait/);
+  assert.equal(scriptName('From'), 'From');
+  for (const name of ['Map', 'class', '2d']) assert.throws(() => scriptName(name), { message: new RegExp(`^${name} `) });
 });

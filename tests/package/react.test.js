@@ -4,18 +4,14 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { cpSync, mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, beforeEach, afterEach, test } from 'node:test';
-import { build } from 'vite';
+import { afterEach, beforeEach, test } from 'node:test';
+import { buildSync } from 'esbuild';
 import { ROOT } from '../../scripts/process.mjs';
-import { serve } from '../../scripts/serve.mjs';
-import { installed, launch } from './support.js';
+import { listen, served } from './support.js';
 
-/** @type {ReturnType<typeof installed>} */
-let project;
-/** @type {import('@playwright/test').Browser} */
-let browser;
-/** @type {Awaited<ReturnType<typeof serve>>} */
-let server;
+const project = served(prepare);
+/** Address of the pages. */
+const at = (/** @type {string} */ name) => new URL(`react/${name}`, project.address).href;
 /** @type {import('@playwright/test').Page} */
 let page;
 /** What the console said. @type {string[]} */
@@ -66,45 +62,25 @@ const CLIENT = `
   });
 `;
 
-before(async () => {
-  project = installed();
-  for (const name of ['react-dom', 'scheduler', 'csstype', '@types/react', '@types/react-dom']) {
+function prepare() {
+  for (const name of ['react-dom', 'scheduler']) {
     cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
   }
   mkdirSync(join(project.directory, 'react'));
   write('application.js', APPLICATION);
   write('client.js', CLIENT);
-  const html = (/** @type {string} */ sent) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${sent}</div><script type="module" src="./client.js"></script>`;
+  const html = (/** @type {string} */ sent) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${sent}</div><script type="module" src="./bundle.js"></script>`;
   write('index.html', html(''));
   write('sent.html', html(sent({ omega: 0.8 })));
-  write('refused.html', html(sent({ omega: NaN })));
-  const root = join(project.directory, 'react');
-  await build({
-    root,
-    base: './',
-    // What is not bundled for a server needs no "use client", which a plugin for React would say.
-    logLevel: 'error',
-    // React says what is wrong while one develops.
-    define: { 'process.env.NODE_ENV': '"development"' },
-    build: { minify: false, rolldownOptions: { input: ['index.html', 'sent.html', 'refused.html'].map((name) => join(root, name)) } },
-  });
-  server = await serve(join(root, 'dist'), { port: 0 });
-  browser = await launch();
-});
-
-after(async () => {
-  server?.close();
-  await browser?.close();
-  project?.remove();
-});
+  const directory = join(project.directory, 'react');
+  // React says what is wrong while one develops.
+  const define = { 'process.env.NODE_ENV': '"development"' };
+  buildSync({ entryPoints: [join(directory, 'client.js')], bundle: true, format: 'esm', define, outfile: join(directory, 'bundle.js'), logLevel: 'silent' });
+}
 
 beforeEach(async () => {
-  complaints = [];
-  page = await browser.newPage();
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
-  });
-  page.on('pageerror', (error) => complaints.push(String(error)));
+  page = await project.browser.newPage();
+  complaints = listen(page);
 });
 
 afterEach(() => page.close());
@@ -137,12 +113,9 @@ function sent(props) {
 /** Waits until the page has heard of all samples of the first figure. */
 const whole = () => page.getByText('of 2000').waitFor();
 
-/** Waits for all samples of the first figure, which React does not know yet. */
-const drawn = () => page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).stats?.n === 2000);
-
 /** @param {string} name of the file */
 async function open(name) {
-  await page.goto(new URL(name, server.address).href);
+  await page.goto(at(name));
   await page.waitForFunction(() => 'hydrate' in globalThis);
 }
 
@@ -154,52 +127,6 @@ const property = (name) => page.evaluate((key) => /** @type {any} */ (document.q
 
 /** @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
 const heard = () => page.evaluate(() => /** @type {any} */ (globalThis).heard);
-
-test('TypeScript knows components, their events, and the tags', () => {
-  const lines = `
-    import { useRef } from 'react';
-    import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
-    import type { BananaMachineElement } from 'motion-widgets';
-
-    export function Page() {
-      const figure = useRef<BananaMachineElement>(null);
-      const skew: number | undefined = figure.current?.stats?.crossTrackSkew;
-      return (
-        <>
-          <BananaMachine ref={figure} omega="0.8" samples={20000} alphas={[0.1, 0.1, 0.1, 0.1, 0, 0]} className="wide" id="first" lang="de"
-            style={{ margin: 0 }} share overlays={['command']} headingLevel="3"
-            onStats={({ detail, currentTarget }) => console.log(detail.crossTrackSkew.toFixed(2), currentTarget.omega)}
-            onError={({ message }) => console.log(message.length)} onChange={({ currentTarget }) => currentTarget.getState()}>
-            <span slot="title">Figure 1</span>
-          </BananaMachine>
-          <MapSqueeze sampler="whole-arc" start={{ x: 0, y: 0, theta: 0 }} onStats={({ detail }) => detail.accepted} key="map" />
-          <banana-machine omega="0.8" samples={20000} heading-level="3" class="wide" onstats={({ detail }) => detail.n} />
-          <map-squeeze share conditioned="false" />
-          <p>{skew}</p>
-          {/* @ts-expect-error */}
-          <BananaMachine omega="fast" />
-          {/* @ts-expect-error */}
-          <BananaMachine omga={1} />
-          {/* @ts-expect-error */}
-          <BananaMachine onStats={({ detail }) => detail.accepted} />
-          {/* @ts-expect-error */}
-          <MapSqueeze sampler="half-arc" />
-          {/* @ts-expect-error */}
-          <banana-machine model="walking" />
-          {/* @ts-expect-error */}
-          <banana-machine alphas={[0.1, 0.1, 0.1, 0.1, 0, 0]} />
-        </>
-      );
-    }
-  `;
-  writeFileSync(join(project.directory, 'typed.tsx'), lines);
-  const options = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
-  for (const [module, resolution] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
-    const args = [join(ROOT, 'node_modules/typescript/bin/tsc'), ...options, '--module', module, '--moduleResolution', resolution, 'typed.tsx'];
-    const run = () => execFileSync(process.execPath, args, { cwd: project.directory, encoding: 'utf8' });
-    assert.doesNotThrow(run, (error) => assert.fail(/** @type {{ stdout: string }} */ (error).stdout));
-  }
-});
 
 test('a server sends what attributes say', () => {
   const html = sent({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
@@ -218,29 +145,6 @@ test('what the server has sent is taken over, before its elements are there', as
   assert.equal(await property('omega'), 0.8);
   assert.deepEqual(await property('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
   assert.deepEqual((await heard())[0], ['onLoad', true]);
-  assert.deepEqual(complaints, []);
-});
-
-test('an element that the reader has used before React came stays as it is, and React hears of it', async () => {
-  await open('sent.html');
-  await drawn();
-  await page.getByRole('slider', { name: /^v,/ }).first().press('ArrowRight');
-  const v = await property('v');
-  assert.notEqual(v, 1);
-  await page.evaluate(() => /** @type {any} */ (globalThis).hydrate({ omega: 0.8 }));
-  await page.getByText('of 2000').waitFor();
-  assert.equal(await property('v'), v);
-  assert.deepEqual((await heard())[0], ['onLoad', true]);
-  assert.deepEqual(complaints, []);
-});
-
-test('what an element has refused before React came, React hears of', async () => {
-  await open('refused.html');
-  await drawn();
-  assert.match(complaints.splice(0).join(), /omega is "NaN"/);
-  await page.evaluate(() => /** @type {any} */ (globalThis).hydrate({ omega: NaN }));
-  await page.getByText('of 2000').waitFor();
-  assert.match((await heard()).join(), /onError,true,.*omega is NaN; allowed/);
   assert.deepEqual(complaints, []);
 });
 
@@ -278,25 +182,5 @@ test('a prop that is refused is told, one that goes leaves the element as it ope
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.5);
   assert.deepEqual(await property('alphas'), [0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
   assert.equal(await property('marked'), null);
-  assert.deepEqual(complaints, []);
-});
-
-test('a component that goes leaves nothing', async () => {
-  await open('index.html');
-  await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
-  await whole();
-  await page.evaluate(() => Object.assign(globalThis, { left: document.querySelector('banana-machine') }));
-  await set(null);
-  await page.getByText('It has gone.').waitFor();
-  const { elements, more } = await page.evaluate(() => {
-    const { left, heard } = /** @type {any} */ (globalThis);
-    const before = heard.length;
-    for (const type of ['load', 'error', 'input', 'change']) left.dispatchEvent(new Event(type));
-    return { elements: document.querySelectorAll('banana-machine, map-squeeze').length, more: heard.length - before };
-  });
-  assert.deepEqual({ elements, more }, { elements: 0, more: 0 });
-  await set({ omega: 0.2 });
-  await whole();
-  assert.equal(await property('omega'), 0.2);
   assert.deepEqual(complaints, []);
 });

@@ -9,9 +9,11 @@ import { execFileSync } from 'node:child_process';
 import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { after, before } from 'node:test';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
+import { serve } from '../../scripts/serve.mjs';
 
 /**
  * @returns {{ directory: string, remove: () => void }} a copy of each example, with the packed and
@@ -38,8 +40,41 @@ export function installed() {
   return { directory, remove: () => rmSync(directory, { recursive: true, force: true }) };
 }
 
+/** Directory of the project, its server, and a browser, for all tests of a file. @param {() => unknown} [prepare] the directory */
+export function served(prepare) {
+  const here = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
+  /** @type {(() => void)[]} */
+  const ends = [];
+  before(async () => {
+    // The file that calls this is evaluated to its end first.
+    await null;
+    const { directory, remove } = installed();
+    ends.push(remove);
+    here.directory = directory;
+    prepare?.();
+    const { address, close } = await serve(directory, { port: 0 });
+    ends.push(close);
+    Object.assign(here, { address, browser: await launch() });
+  });
+  after(async () => {
+    await here.browser?.close();
+    for (const end of ends.reverse()) end();
+  });
+  return here;
+}
+
 export function launch() {
   return chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
+}
+
+/** Collects the errors and warnings of a page. @param {import('@playwright/test').Page} page @returns {string[]} */
+export function listen(page) {
+  /** @type {string[]} */
+  const complaints = [];
+  page.on('console', (message) => void (['error', 'warning'].includes(message.type()) && complaints.push(message.text())));
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('requestfailed', (request) => complaints.push(`${request.url()} ${request.failure()?.errorText}`));
+  return complaints;
 }
 
 /**
@@ -53,15 +88,9 @@ export function launch() {
 export async function openWithCloud(browser, address, prepare) {
   const page = await browser.newPage();
   await prepare?.(page);
-  /** @type {string[]} */
-  const complaints = [];
+  const complaints = listen(page);
   /** @type {string[]} */
   const requests = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
-  });
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('requestfailed', (request) => complaints.push(`${request.url()} ${request.failure()?.errorText}`));
   page.on('request', (request) => requests.push(request.url()));
   await page.goto(address);
   const frame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;

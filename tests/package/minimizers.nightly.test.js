@@ -7,7 +7,6 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { rspack } from '@rspack/core';
-import { transform } from 'esbuild';
 import { minify as terser } from 'terser';
 import { ROOT } from '../../scripts/process.mjs';
 
@@ -29,9 +28,7 @@ async function firstPoses(address) {
 /** @type {Record<string, (options: { output: string }) => Promise<string | undefined>>} */
 const MINIMIZERS = {
   terser: async () => (await terser(script, { module: true })).code,
-  esbuild: async () => (await transform(script, { minify: true })).code,
-  swc: async () => (await rspack.experiments.swc.minify(script, { module: true, compress: true, mangle: true })).code,
-  // It also resolves and rewrites what the script imports and names.
+  // It minifies by SWC, and rewrites what the script imports and names.
   async Rspack({ output }) {
     const entry = { mode: 'production', context: ROOT, entry: path, devtool: false, target: ['web', 'es2020'] };
     const library = { library: { type: 'module' }, path: output, filename: 'bundle.js' };

@@ -2,11 +2,8 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
 import { test } from 'node:test';
-import { brotliCompressSync } from 'node:zlib';
-import { ROOT } from '../../scripts/process.mjs';
-import { compressed, libraries, loadedByAll, loadedByWidgets } from '../../scripts/sizes.mjs';
+import { compressed, loadedByAll, loadedByWidgets } from './sizes.mjs';
 
 /**
  * @param {string} name
@@ -44,24 +41,8 @@ test('what a page loads does not grow', () => {
   within('classic script', ['dist/motion-widgets.iife.js'], 1000 * LIMITS.classicScript);
 });
 
-test('inlined, the module is a few hundredths longer, where base64 would be three tenths longer: so says doc/embedding.md', () => {
-  const module = compressed('dist/motion.wasm');
-  const [text] = readFileSync(join(ROOT, 'dist/motion-widgets.js'), 'utf8').match(/(?<=")[^"]{100000,}(?=")/) ?? [''];
-  const base64 = readFileSync(join(ROOT, 'dist/motion.wasm')).toString('base64');
-  const [inlined, coded] = [text, base64].map((each) => brotliCompressSync(each).length / module);
-  assert.ok(inlined > 1.02 && inlined < 1.1, `${inlined}`);
-  assert.ok(coded > 1.25 && coded < 1.35, `${coded}`);
-});
-
 test('doc/embedding.md says these limits', () => {
   const document = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
   const said = document.slice(document.indexOf('## What it weighs')).match(/(?<=^\|.*)\d+(?= kB)/gm);
   assert.deepEqual(said?.map(Number), Object.values(LIMITS));
-});
-
-test('doc/implementation-notes.md says what each library costs, to a kilobyte', () => {
-  const notes = readFileSync(new URL('../../doc/implementation-notes.md', import.meta.url), 'utf8');
-  const said = [...notes.matchAll(/^\| (\S+) \| .* \| (\d+) kB \|$/gm)].map(([, name, size]) => [name, Number(size)]);
-  const measured = Object.entries(libraries()).map(([name, bytes]) => [name, Math.round(bytes / 1000)]);
-  assert.deepEqual(said.sort(), measured.sort());
 });

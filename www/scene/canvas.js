@@ -28,9 +28,6 @@ export const length = (pixels) => `${pixels / 16}em`;
 /** A size in pixels of a view, in CSS pixels. @param {{ width: number, height: number }} size @param {Element} canvas with letters in its style */
 export const inCss = ({ width, height }, canvas) => [width, height].map((each) => (each * parseFloat(getComputedStyle(canvas).fontSize)) / LETTERS);
 
-/** Longest side of a canvas in every browser. */
-export const LONGEST_SIDE = 16_384;
-
 /**
  * A point of the window in the pixels of a view, which what is around it may enlarge.
  *

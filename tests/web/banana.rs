@@ -209,105 +209,73 @@ fn a_cloud_grows_and_a_change_in_slices_ends_where_a_change_at_once_does() {
 #[wasm_bindgen_test]
 fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
     let it = Object::new("new motion.BananaMachine({ samples: 30, seed: 11 })");
-    let keys = "model, noise, command, alphas, reverseAware, isolate, samples, seed";
-    it.assert_refused("[it.config, it.stats, [...it.poses]]", &[
-        // What comes along with a bad value is not taken over.
-        (
-            "it.configure({ seed: 1, alphas: [1, 2, 3, NaN, 5, 6], model: 'velocity' })",
-            "RangeError: alphas[3] is NaN; allowed is a number from 0 to 1000000",
-        ),
-        (
-            "it.configure({ alphas: [1, 2, 3, 4] })",
-            "RangeError: alphas has length 4; allowed is an array of 6 numbers",
-        ),
-        (
-            "it.configure({ alphas: [1, 2, 3, 4, 5, '6'] })",
-            "TypeError: alphas[5] is \"6\"; allowed is a number",
-        ),
-        (
-            "it.configure({ command: { v: Infinity, omega: 0, dt: 1 } })",
-            "RangeError: command.v is Infinity; allowed is a number from -1000000 to 1000000",
-        ),
-        (
-            "it.configure({ command: { v: 1, omega: 0, dt: 0 } })",
-            "RangeError: command.dt is 0; allowed is a number from 0.000001 to 1000000",
-        ),
-        (
-            "it.configure({ command: { v: 1, omega: 0 } })",
-            "TypeError: command.dt is undefined; allowed is a number",
-        ),
-        (
-            "it.configure({ command: { v: 1, omega: 0, dt: 1, w: 1 } })",
-            "TypeError: command.w is an unknown key; allowed are v, omega, dt",
-        ),
-        (
-            "it.configure({ command: null })",
-            "TypeError: command is null; allowed is an object with keys from v, omega, dt",
-        ),
-        (
-            "it.configure({ samples: 0 })",
-            "RangeError: samples is 0; allowed is a whole number from 1 to 10000000",
-        ),
-        (
-            "it.configure({ samples: 1.5 })",
-            "RangeError: samples is 1.5; allowed is a whole number from 1 to 10000000",
-        ),
-        ("it.configure({ samples: 7n })", "TypeError: samples is a bigint; allowed is a number"),
-        (
-            "it.configure({ seed: -1 })",
-            "RangeError: seed is -1; allowed is a whole number from 0 to 9007199254740991",
-        ),
-        ("it.configure({ isolate: 7 })", "RangeError: isolate is 7; allowed is a whole number from 1 to 6"),
-        (
-            "it.configure({ model: 'Velocity' })",
-            "RangeError: model is \"Velocity\"; allowed is \"velocity\" or \"odometry\"",
-        ),
-        ("it.configure({ noise: 1 })", "TypeError: noise is 1; allowed is \"normal\" or \"triangular\""),
-        (
-            "it.configure({ reverseAware: 'yes' })",
-            "TypeError: reverseAware is \"yes\"; allowed is true or false",
-        ),
-        ("it.configure({ Seed: 1 })", &format!("TypeError: Seed is an unknown key; allowed are {keys}")),
-        ("it.configure()", &format!("TypeError: options is undefined; allowed is an object with keys from {keys}")),
-        ("new motion.BananaMachine(7)", &format!("TypeError: options is 7; allowed is an object with keys from {keys}")),
-        (
-            "new motion.BananaMachine({ model: 'x'.repeat(50) })",
-            &format!("RangeError: model is \"{}…\"; allowed is \"velocity\" or \"odometry\"", "x".repeat(40)),
-        ),
-        (
-            "it.begin({ samples: 0 })",
-            "RangeError: samples is 0; allowed is a whole number from 1 to 10000000",
-        ),
-        ("it.advance(0)", "RangeError: poses is 0; allowed is a whole number from 1 to 9007199254740991"),
-        ("it.grow(-1)", "RangeError: count is -1; allowed is a whole number from 0 to 10000000"),
-        (
-            "it.inspect(30)",
-            "RangeError: index is 30; allowed is one of the 30 samples shown, counted from 0",
-        ),
-        ("it.heading()", "RangeError: index is NaN; allowed is a whole number from 0 to 10000000"),
-        (
-            "it.skewCurve(NaN, 1, 5)",
-            "RangeError: omegaMin is NaN; allowed is a number from -1000000 to 1000000",
-        ),
-        (
-            "it.nearest('side', 0, 0, 1, 1)",
-            "RangeError: view is \"side\"; allowed is \"plane\" or \"twist\"",
-        ),
-        (
-            "it.nearest('plane', 0, 0, -1, 1)",
-            "RangeError: radiusX is -1; allowed is a number from 0 to Infinity",
-        ),
-        (
-            "it.density('plane', 0, 0, -1, 1, 9, 9)",
-            "RangeError: xMax is -1; allowed is a number from 0 to 1000000000000000000",
-        ),
-        (
-            "it.density('plane', 0, 0, 1, 1, 2 ** 14, 2 ** 10 + 1)",
-            "RangeError: rows is 1025; allowed is a whole number from 1 to 1024",
-        ),
-        (
-            "it.picture('plane', 0, 0, 1, 1, 9, 9, new Uint8Array(1023))",
-            "RangeError: ramp has length 1023; allowed is a Uint8Array of 1024 bytes, 256 colours of four",
-        ),
-    ]);
+    it.assert_refused(
+        "[it.config, it.stats, [...it.poses]]",
+        r#"
+        it.configure({ seed: 1, alphas: [1, 2, 3, NaN, 5, 6], model: 'velocity' })
+        RangeError: alphas[3] is NaN; allowed is a number from 0 to 1000000
+        it.configure({ alphas: [1, 2, 3, 4] })
+        RangeError: alphas has length 4; allowed is an array of 6 numbers
+        it.configure({ alphas: [1, 2, 3, 4, 5, '6'] })
+        TypeError: alphas[5] is "6"; allowed is a number
+        it.configure({ command: { v: Infinity, omega: 0, dt: 1 } })
+        RangeError: command.v is Infinity; allowed is a number from -1000000 to 1000000
+        it.configure({ command: { v: 1, omega: 0, dt: 0 } })
+        RangeError: command.dt is 0; allowed is a number from 0.000001 to 1000000
+        it.configure({ command: { v: 1, omega: 0 } })
+        TypeError: command.dt is undefined; allowed is a number
+        it.configure({ command: { v: 1, omega: 0, dt: 1, w: 1 } })
+        TypeError: command.w is an unknown key; allowed are v, omega, dt
+        it.configure({ command: null })
+        TypeError: command is null; allowed is an object with keys from v, omega, dt
+        it.configure({ samples: 0 })
+        RangeError: samples is 0; allowed is a whole number from 1 to 10000000
+        it.configure({ samples: 1.5 })
+        RangeError: samples is 1.5; allowed is a whole number from 1 to 10000000
+        it.configure({ samples: 7n })
+        TypeError: samples is a bigint; allowed is a number
+        it.configure({ seed: -1 })
+        RangeError: seed is -1; allowed is a whole number from 0 to 9007199254740991
+        it.configure({ isolate: 7 })
+        RangeError: isolate is 7; allowed is a whole number from 1 to 6
+        it.configure({ model: 'Velocity' })
+        RangeError: model is "Velocity"; allowed is "velocity" or "odometry"
+        it.configure({ noise: 1 })
+        TypeError: noise is 1; allowed is "normal" or "triangular"
+        it.configure({ reverseAware: 'yes' })
+        TypeError: reverseAware is "yes"; allowed is true or false
+        it.configure({ Seed: 1 })
+        TypeError: Seed is an unknown key; allowed are model, noise, command, alphas, reverseAware, isolate, samples, seed
+        it.configure()
+        TypeError: options is undefined; allowed is an object with keys from model, noise, command, alphas, reverseAware,
+            isolate, samples, seed
+        new motion.BananaMachine(7)
+        TypeError: options is 7; allowed is an object with keys from model, noise, command, alphas, reverseAware, isolate,
+            samples, seed
+        new motion.BananaMachine({ model: 'x'.repeat(50) })
+        RangeError: model is "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…"; allowed is "velocity" or "odometry"
+        it.begin({ samples: 0 })
+        RangeError: samples is 0; allowed is a whole number from 1 to 10000000
+        it.advance(0)
+        RangeError: poses is 0; allowed is a whole number from 1 to 9007199254740991
+        it.grow(-1)
+        RangeError: count is -1; allowed is a whole number from 0 to 10000000
+        it.inspect(30)
+        RangeError: index is 30; allowed is one of the 30 samples shown, counted from 0
+        it.heading()
+        RangeError: index is NaN; allowed is a whole number from 0 to 10000000
+        it.skewCurve(NaN, 1, 5)
+        RangeError: omegaMin is NaN; allowed is a number from -1000000 to 1000000
+        it.nearest('side', 0, 0, 1, 1)
+        RangeError: view is "side"; allowed is "plane" or "twist"
+        it.nearest('plane', 0, 0, -1, 1)
+        RangeError: radiusX is -1; allowed is a number from 0 to Infinity
+        it.density('plane', 0, 0, -1, 1, 9, 9)
+        RangeError: xMax is -1; allowed is a number from 0 to 1000000000000000000
+        it.density('plane', 0, 0, 1, 1, 2 ** 14, 2 ** 10 + 1)
+        RangeError: rows is 1025; allowed is a whole number from 1 to 1024
+        it.picture('plane', 0, 0, 1, 1, 9, 9, new Uint8Array(1023))
+        RangeError: ramp has length 1023; allowed is a Uint8Array of 1024 bytes, 256 colours of four
+        "#,
+    );
 }

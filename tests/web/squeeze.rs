@@ -225,54 +225,35 @@ fn work_in_slices_ends_where_work_at_once_does_or_is_given_up() {
 #[wasm_bindgen_test]
 fn a_refused_setting_changes_nothing() {
     let it = Object::new(MAP);
-    it.assert_refused(STATE, &[
-        (
-            "it.machine.configure({ seed: 9, clearance: -1 })",
-            "RangeError: clearance is -1; allowed is a number from 0 to 10",
-        ),
-        (
-            "it.machine.configure({ sampler: 'Endpoint' })",
-            "RangeError: sampler is \"Endpoint\"; \
-             allowed is \"endpoint\" or \"whole-arc\" or \"sub-stepped\"",
-        ),
-        (
-            "it.machine.configure({ conditioned: 'true' })",
-            "TypeError: conditioned is \"true\"; allowed is true or false",
-        ),
-        (
-            "it.machine.configure({ steps: 2.5 })",
-            "RangeError: steps is 2.5; allowed is a whole number from 1 to 1000",
-        ),
-        (
-            "it.machine.configure({ start: { x: 1, y: 1 } })",
-            "TypeError: start.theta is undefined; allowed is a number",
-        ),
-        (
-            "it.machine.configure({ noise: 0.1, alphas: Array(6).fill(0.1) })",
-            "TypeError: noise is given beside alphas; allowed is one of the two",
-        ),
-        (
-            "it.machine.configure({ unknown: 'maybe' })",
-            "RangeError: unknown is \"maybe\"; allowed is \"free\" or \"blocked\"",
-        ),
-        (
-            "motion.MapSqueeze.alphasOfNoise(-1)",
-            "RangeError: n is -1; allowed is a number from 0 to 1000000",
-        ),
-        ("it.machine.path(NaN)", "RangeError: index is NaN; allowed is a whole number from 0 to 1000000"),
-        (
-            "it.machine.nearest(0, 0, -1)",
-            "RangeError: radius is -1; allowed is a number from 0 to Infinity",
-        ),
-        (
-            "it.machine.trial('endpoint', 1, 0)",
-            "RangeError: count is 0; allowed is a whole number from 1 to 100000",
-        ),
-        (
-            "it.machine.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))",
-            "RangeError: ramps has length 1024; allowed is a Uint8Array of 3072 bytes, 768 colours of four",
-        ),
-    ]);
+    it.assert_refused(
+        STATE,
+        r#"
+        it.machine.configure({ seed: 9, clearance: -1 })
+        RangeError: clearance is -1; allowed is a number from 0 to 10
+        it.machine.configure({ sampler: 'Endpoint' })
+        RangeError: sampler is "Endpoint"; allowed is "endpoint" or "whole-arc" or "sub-stepped"
+        it.machine.configure({ conditioned: 'true' })
+        TypeError: conditioned is "true"; allowed is true or false
+        it.machine.configure({ steps: 2.5 })
+        RangeError: steps is 2.5; allowed is a whole number from 1 to 1000
+        it.machine.configure({ start: { x: 1, y: 1 } })
+        TypeError: start.theta is undefined; allowed is a number
+        it.machine.configure({ noise: 0.1, alphas: Array(6).fill(0.1) })
+        TypeError: noise is given beside alphas; allowed is one of the two
+        it.machine.configure({ unknown: 'maybe' })
+        RangeError: unknown is "maybe"; allowed is "free" or "blocked"
+        motion.MapSqueeze.alphasOfNoise(-1)
+        RangeError: n is -1; allowed is a number from 0 to 1000000
+        it.machine.path(NaN)
+        RangeError: index is NaN; allowed is a whole number from 0 to 1000000
+        it.machine.nearest(0, 0, -1)
+        RangeError: radius is -1; allowed is a number from 0 to Infinity
+        it.machine.trial('endpoint', 1, 0)
+        RangeError: count is 0; allowed is a whole number from 1 to 100000
+        it.machine.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))
+        RangeError: ramps has length 1024; allowed is a Uint8Array of 3072 bytes, 768 colours of four
+        "#,
+    );
 }
 
 #[wasm_bindgen_test]
@@ -280,76 +261,44 @@ fn a_malformed_plan_or_map_is_explained_and_the_present_one_stays() {
     let it = Object::new(MAP);
     it.assert_refused(
         STATE,
-        &[
-            (
-                "it.machine.setPlan('apartment')",
-                "TypeError: plan is \"apartment\"; allowed is an object with keys from bounds, walls",
-            ),
-            (
-                "it.machine.setPlan({ bounds: [0, 0, 1], walls: [] })",
-                "RangeError: bounds has length 3; allowed is an array of 4 numbers",
-            ),
-            (
-                "it.machine.setPlan({ bounds: [1, 0, 0, 1], walls: [] })",
-                "RangeError: bounds is [1, 0, 0, 1]; \
-             allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to 1000000, the \
-              sides from 0.01 to 100000",
-            ),
-            (
-                "it.machine.setPlan({ bounds: [0, 0, 1, 1] })",
-                "TypeError: walls is undefined; allowed is an array of walls, each [x, y, x, y]",
-            ),
-            (
-                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 1]] })",
-                "RangeError: walls[0] has length 3; allowed is an array of 4 numbers",
-            ),
-            (
-                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 2, 0]] })",
-                "RangeError: walls[0] ends at [2, 0]; allowed is a point inside the bounds",
-            ),
-            (
-                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: new Float64Array(3) })",
-                "TypeError: walls is an object; \
-             allowed is an array of walls, or a Float64Array of four numbers a wall",
-            ),
-            (
-                "it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [], doors: [] })",
-                "TypeError: doors is an unknown key; allowed are bounds, walls",
-            ),
-            ("it.machine.setGrid(null, it.pgm)", "TypeError: description is null; allowed is an object"),
-            (
-                "it.machine.setGrid({ ...it.yaml, resolution: 0 }, it.pgm)",
-                "RangeError: resolution is 0; allowed is a number from 0.001 to 100",
-            ),
-            (
-                "it.machine.setGrid({ ...it.yaml, origin: [0, '0', 0] }, it.pgm)",
-                "TypeError: origin[1] is \"0\"; allowed is a number",
-            ),
-            (
-                "it.machine.setGrid({ ...it.yaml, negate: 2 }, it.pgm)",
-                "RangeError: negate is 2; allowed is a whole number from 0 to 1",
-            ),
-            (
-                "it.machine.setGrid({ ...it.yaml, free_thresh: 0.7 }, it.pgm)",
-                "RangeError: free_thresh is 0.7; allowed is at most occupied_thresh, 0.65",
-            ),
-            (
-                "it.machine.setGrid({ ...it.yaml, mode: 'Trinary' }, it.pgm)",
-                "RangeError: mode is \"Trinary\"; allowed is \"trinary\" or \"scale\" or \"raw\"",
-            ),
-            ("it.machine.setGrid(it.yaml, undefined)", "TypeError: image is undefined; allowed is an object"),
-            (
-                "it.machine.setGrid(it.yaml, { width: 4, height: 4, data: new Uint8ClampedArray(48) })",
-                "RangeError: image.data has length 48; allowed is 64",
-            ),
-            (
-                "it.machine.setGrid(it.yaml, new TextEncoder().encode('GIF89a'))",
-                "RangeError: line 1: the magic number is \"GIF89a\"; allowed is P5 or P2",
-            ),
-            (
-                "it.machine.setGrid(it.yaml, new TextEncoder().encode('P2 4 3 255 1 2 3'))",
-                "RangeError: line 1: a pixel is missing; allowed is a whole number from 0 to 255",
-            ),
-        ],
+        r#"
+        it.machine.setPlan('apartment')
+        TypeError: plan is "apartment"; allowed is an object with keys from bounds, walls
+        it.machine.setPlan({ bounds: [0, 0, 1], walls: [] })
+        RangeError: bounds has length 3; allowed is an array of 4 numbers
+        it.machine.setPlan({ bounds: [1, 0, 0, 1], walls: [] })
+        RangeError: bounds is [1, 0, 0, 1]; allowed is least x, least y, greatest x,
+            greatest y: numbers from -1000000 to 1000000, the sides from 0.01 to 100000
+        it.machine.setPlan({ bounds: [0, 0, 1, 1] })
+        TypeError: walls is undefined; allowed is an array of walls, each [x, y, x, y]
+        it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 1]] })
+        RangeError: walls[0] has length 3; allowed is an array of 4 numbers
+        it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 2, 0]] })
+        RangeError: walls[0] ends at [2, 0]; allowed is a point inside the bounds
+        it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: new Float64Array(3) })
+        TypeError: walls is an object; allowed is an array of walls, or a Float64Array of four numbers a wall
+        it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [], doors: [] })
+        TypeError: doors is an unknown key; allowed are bounds, walls
+        it.machine.setGrid(null, it.pgm)
+        TypeError: description is null; allowed is an object
+        it.machine.setGrid({ ...it.yaml, resolution: 0 }, it.pgm)
+        RangeError: resolution is 0; allowed is a number from 0.001 to 100
+        it.machine.setGrid({ ...it.yaml, origin: [0, '0', 0] }, it.pgm)
+        TypeError: origin[1] is "0"; allowed is a number
+        it.machine.setGrid({ ...it.yaml, negate: 2 }, it.pgm)
+        RangeError: negate is 2; allowed is a whole number from 0 to 1
+        it.machine.setGrid({ ...it.yaml, free_thresh: 0.7 }, it.pgm)
+        RangeError: free_thresh is 0.7; allowed is at most occupied_thresh, 0.65
+        it.machine.setGrid({ ...it.yaml, mode: 'Trinary' }, it.pgm)
+        RangeError: mode is "Trinary"; allowed is "trinary" or "scale" or "raw"
+        it.machine.setGrid(it.yaml, undefined)
+        TypeError: image is undefined; allowed is an object
+        it.machine.setGrid(it.yaml, { width: 4, height: 4, data: new Uint8ClampedArray(48) })
+        RangeError: image.data has length 48; allowed is 64
+        it.machine.setGrid(it.yaml, new TextEncoder().encode('GIF89a'))
+        RangeError: line 1: the magic number is "GIF89a"; allowed is P5 or P2
+        it.machine.setGrid(it.yaml, new TextEncoder().encode('P2 4 3 255 1 2 3'))
+        RangeError: line 1: a pixel is missing; allowed is a whole number from 0 to 255
+        "#,
     );
 }

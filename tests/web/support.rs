@@ -48,13 +48,23 @@ impl Object {
         }
     }
 
-    /// Asserts that each of the expressions throws this error, and that `state` stays as it was.
-    pub fn assert_refused(&self, state: &str, cases: &[(&str, &str)]) {
+    /// Asserts that each expression throws the error in the line below it, and that `state` stays as it was. A line with
+    /// more indentation than the first continues the line before it.
+    pub fn assert_refused(&self, state: &str, cases: &str) {
+        let indentation = |line: &str| line.len() - line.trim_start().len();
+        let first = cases.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
+        let mut lines: Vec<String> = Vec::new();
+        for line in cases.lines().filter(|line| !line.trim().is_empty()) {
+            match lines.last_mut() {
+                Some(before) if indentation(line) > first => *before += &format!(" {}", line.trim()),
+                _ => lines.push(line.trim().to_owned()),
+            }
+        }
         let state = format!("JSON.stringify({state})");
         let before: String = self.get(&state);
-        for (expression, error) in cases {
-            assert_eq!(self.error(expression), *error, "{expression}");
-            assert_eq!(self.get::<String>(&state), before, "{expression}");
+        for case in lines.chunks(2) {
+            assert_eq!(self.error(&case[0]), case[1], "{}", case[0]);
+            assert_eq!(self.get::<String>(&state), before, "{}", case[0]);
         }
     }
 

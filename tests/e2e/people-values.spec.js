@@ -33,17 +33,14 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   // The thumb stands at its end, and is marked.
   await expect(slider).toHaveValue('0.2');
   await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
-  await expect(widget.locator('.slider.above')).toHaveCount(1);
   await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');
   await expect(help(widget, 'alpha1')).toBeVisible();
   // Back on the slider, it goes on from its end.
   await page.keyboard.press('ArrowLeft');
   expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
-  await expect(widget.locator('.slider.above')).toHaveCount(0);
   // At its end, values beyond can be typed.
   await page.keyboard.press('End');
   await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');
-  await expect(widget.locator('.slider.above')).toHaveCount(0);
   // Below its least value, none is allowed.
   await page.keyboard.press('Home');
   await expect(help(widget, 'alpha1')).not.toContainText('The slider ends');

@@ -103,8 +103,8 @@ export class Link extends Part {
 }
 
 /**
- * The name of an element's part: its id, or where it has none, its place among its kind on the page. In a shadow root or a frame
- * that is its place there, after the name of what that belongs to.
+ * Name of an element's part: its id, or without one, its place among its kind on the page. In a shadow root it is the place there,
+ * after the name of the host.
  *
  * @param {Element} element
  * @returns {string}
@@ -112,8 +112,7 @@ export class Link extends Part {
 function keyOf(element) {
   const { localName, id } = element;
   const root = /** @type {any} */ (element.getRootNode());
-  const around = root === document ? undefined : (root.host ?? root.defaultView?.frameElement);
-  const name = (around ? `${keyOf(around)}/` : '') + encodeURIComponent(localName);
+  const name = (root.host ? `${keyOf(root.host)}/` : '') + encodeURIComponent(localName);
   if (id) return `${name}:${encodeURIComponent(id)}`;
   const kind = [...root.querySelectorAll(CSS.escape(localName))];
   return `${name}.${kind.indexOf(element) + 1}`;

@@ -21,7 +21,7 @@ export class Presentation extends Part {
   }
 
   hostDisconnected() {
-    this.#end();
+    void this.#end();
   }
 
   /** Begins or ends the presentation, as the attribute says. */
@@ -29,7 +29,7 @@ export class Presentation extends Part {
     const { host } = this;
     if (!host.isConnected || host.presentation === (this.#listening !== undefined)) return;
     if (host.presentation) void this.#begin();
-    else this.#end();
+    else void this.#end();
   }
 
   async #begin() {
@@ -44,20 +44,22 @@ export class Presentation extends Part {
     } catch {
       return;
     }
-    if (!this.#listening) this.#exit();
+    if (!this.#listening) await this.#exit();
   }
 
-  #end() {
+  async #end() {
     if (!this.#listening) return;
     this.#listening.abort();
     this.#listening = undefined;
     this.#controls = false;
-    this.#exit();
-    void this.host.updateComplete.then(() => this.#focus('.to-present'));
+    await this.#exit();
+    await this.host.updateComplete;
+    // The page has its layout back, and scrolls to the button.
+    this.#focus('.to-present');
   }
 
-  #exit() {
-    if (this.host.matches(':fullscreen')) void document.exitFullscreen();
+  async #exit() {
+    if (this.host.matches(':fullscreen')) await document.exitFullscreen().catch(() => {});
   }
 
   #left = () => {

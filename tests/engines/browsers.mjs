@@ -102,7 +102,6 @@ async function inSession(url, capabilities, stop) {
   await window.setRect(SIZE);
   const [width, height] = /** @type {number[]} */ (await session.executeScript('return [innerWidth, innerHeight]'));
   await window.setRect({ width: 2 * SIZE.width - width, height: 2 * SIZE.height - height });
-  const mouse = () => session.actions({ async: false });
   return {
     version: (await session.getCapabilities()).get('browserVersion'),
     open: (url) => session.get(url),
@@ -117,9 +116,10 @@ async function inSession(url, capabilities, stop) {
       return result;
     },
     async drag([[x, y], ...way]) {
-      await mouse().move({ x, y, duration: 0 }).press().perform();
-      for (const [x, y] of way) await mouse().move({ x, y, duration: 0 }).perform();
-      await mouse().release().perform();
+      // One chain: a driver may let go of the button between two. Each move takes longer than a frame.
+      const hand = session.actions({ async: false }).move({ x, y, duration: 0 }).press();
+      for (const [x, y] of way) hand.move({ x, y, duration: 40 });
+      await hand.release().perform();
     },
     press: (key) => session.actions().sendKeys(KEYS[key]).perform(),
     screenshot: async () => Buffer.from(await session.takeScreenshot(), 'base64'),

@@ -30,7 +30,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(slider).toBeFocused();
   expect(await property(widget, 'alpha1')).toBe(0.4);
   expect((await heard(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
-  // The thumb stands at its end, and is marked.
+  // The thumb stands at its end.
   await expect(slider).toHaveValue('0.2');
   await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
   await expect(help(widget, 'alpha1')).toHaveText('The slider ends at 0.200; values beyond can be typed.');

@@ -3,7 +3,6 @@
 import { createHash } from 'node:crypto';
 import { appendFileSync, chmodSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
-import { roomBefore } from '../www/figure/page/room.js';
 import * as declared from '../www/settings.js';
 import { widgets } from './declarations.mjs';
 import { licences, packagesOf } from './licences.mjs';
@@ -211,6 +210,8 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   }
   // Before and after: a page that takes all margins away takes this too. Where scripts are off, nothing is to come, and what
   // stands between the tags is shown.
+  // Its styles are Lit's, which a bare clone has not.
+  const { roomBefore } = await import('../www/figure/page/room.js');
   const kept = `@media (scripting:enabled){\n${roomBefore()}\n}`;
   appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${kept}\n`);
   write(at('dist/motion.wasm'), wasm);

@@ -153,13 +153,13 @@ async function shrink(path) {
  * @param {string} path of the module, with the names of its functions
  */
 async function silencePanics(path) {
-  // Not in a bare clone.
-  const { default: binaryen } = await import('binaryen');
+  // Installed for full builds alone: a constant name would have its types looked for in every check.
+  const library = 'binaryen';
+  const { default: binaryen } = await import(library);
   const module = binaryen.readBinary(readFileSync(at(path)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
-  // Its types leave this out.
-  const { Function: functions } = /** @type {any} */ (binaryen);
+  const { Function: functions } = binaryen;
   const panics = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
   for (let i = 0; i < module.getNumFunctions(); i++) {
     const panic = module.getFunctionByIndex(i);

@@ -38,8 +38,11 @@ const ALL = process.argv.includes('--all');
 const LIMIT = ALL ? 3600 : 1200;
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
+/** Workspaces of package.json that the tests need. */
+const PACKAGES = ALL ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
+
 /** The quick tier tests the whole core in all figures; the modules of single figures are built for the nightly one. */
-const built = once(() => together([build({ local: !ALL }), ensurePackages(ALL ? 'tests/package' : undefined), ensurePackages('tests')]));
+const built = once(() => together([build({ local: !ALL }), ...PACKAGES.map(ensurePackages)]));
 
 /** Versions of the tools that the parts ran with. */
 const versions = new Set([`Node ${process.versions.node}`]);
@@ -75,6 +78,9 @@ const program = ([name, ...args], env) => () => run(name, args, { env, seconds: 
  * @param {Record<string, string>} [env]
  */
 const npmProgram = (path, args, env) => program([process.execPath, at(join('node_modules', path)), ...args], env);
+
+/** @param {string} path of a script of this repository */
+const script = (path) => program([process.execPath, at(path)]);
 
 /**
  * @param {import('./toolchain.mjs').Rust} rust
@@ -112,7 +118,8 @@ const PARTS = {
   tsc: {
     async prepare(more) {
       await built();
-      return npmProgram('typescript/bin/tsc', more);
+      // The nightly packages are the engines' and those of tests/package.
+      return npmProgram('typescript/bin/tsc', ['-p', ALL ? 'tests' : '.', ...more]);
     },
   },
   clippy: {
@@ -163,6 +170,9 @@ const PARTS = {
     },
     count: playwrightTally,
   },
+  // Nightly: Firefox and WebKit, and projects that embed the package.
+  engines: { prepare: async () => script('tests/engines/run.mjs') },
+  embeddings: { prepare: async () => script('tests/embeddings/run.mjs') },
 };
 
 /**
@@ -178,7 +188,7 @@ const LANES = [
 ];
 
 /** Alone, for they watch frames and time; they use all cores by themselves. */
-const LAST = 'browser';
+const LAST = ALL ? ['browser', 'engines', 'embeddings'] : ['browser'];
 
 /**
  * @param {string[]} args of the command line
@@ -202,7 +212,7 @@ async function test(args) {
       for (const name of names) outcomes.push(await inOnePiece(() => outcomeOf(name, [])));
     }),
   );
-  outcomes.push(await outcomeOf(LAST, []));
+  for (const name of LAST) outcomes.push(await outcomeOf(name, []));
   return summarize(outcomes);
 }
 

@@ -26,38 +26,19 @@ export async function pack(data) {
 export async function unpack(text) {
   try {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
-    /** @type {BlobPart[]} */
     const parts = [];
     let size = 0;
-    for await (const part of inflated([bytes], 'deflate-raw')) {
-      size += part.length;
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
+    for (const reader = stream.getReader(); ; ) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      size += value.length;
       if (size > MAX_BYTES) throw new RangeError();
-      parts.push(part);
+      parts.push(value);
     }
     return JSON.parse(await new Blob(parts).text());
   } catch {
     throw refusal('state in the address', text, 'what shareLink gives');
-  }
-}
-
-/**
- * What was deflated, piece by piece, so that a reader can stop where it is too much.
- *
- * @param {BlobPart[]} parts
- * @param {CompressionFormat} format
- * @returns {AsyncGenerator<Uint8Array<ArrayBuffer>, void>} rejects where they are damaged
- */
-export async function* inflated(parts, format) {
-  const reader = new Blob(parts).stream().pipeThrough(new DecompressionStream(format)).getReader();
-  try {
-    for (;;) {
-      const { done, value } = await reader.read();
-      if (done) return;
-      yield value;
-    }
-  } finally {
-    // Of what is damaged nothing is left to cancel, and that is told already.
-    reader.cancel().catch(() => {});
   }
 }
 

@@ -38,11 +38,11 @@ const ALL = process.argv.includes('--all');
 const LIMIT = ALL ? 3600 : 1200;
 
 const at = (/** @type {string} */ path) => join(ROOT, path);
-/** Workspaces of package.json that the tests need. */
+/** @type {('tests' | 'tests/package' | 'tests/engines')[]} workspaces of package.json that the tests need */
 const PACKAGES = ALL ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
 
 /** The quick tier tests the whole core in all figures; the modules of single figures are built for the nightly one. */
-const built = once(() => together([build({ local: !ALL }), ...PACKAGES.map(ensurePackages)]));
+const built = once(() => together([build({ local: !ALL }), ...PACKAGES.map((name) => ensurePackages(name))]));
 
 /** Versions of the tools that the parts ran with. */
 const versions = new Set([`Node ${process.versions.node}`]);

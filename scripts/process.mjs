@@ -99,11 +99,11 @@ export async function runAsScript(url, main) {
   }
 }
 
-/** The process groups that are to end with this process. @type {Set<number>} */
+/** Process groups that end with this process. @type {Set<number>} */
 const groups = new Set();
 
-/** @param {number} group */
-function end(group) {
+/** Ends a process group. @param {number} group */
+export function end(group) {
   try {
     process.kill(-group, 'SIGKILL');
   } catch {
@@ -116,14 +116,14 @@ function interrupted() {
   process.exit(130);
 }
 
-/** @param {number} group */
-function endWithUs(group) {
+/** Lets a process group end with this process. @param {number} group */
+export function endWithUs(group) {
   groups.add(group);
   for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted).on(signal, interrupted);
 }
 
-/** @param {number} group */
-function hasEnded(group) {
+/** Forgets a process group that has ended. @param {number} group */
+export function hasEnded(group) {
   groups.delete(group);
   // Who runs nothing keeps the signals' own meaning.
   if (groups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted);
@@ -185,53 +185,6 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     child.on('error', () => finish(false));
     child.on('close', (code) => finish(code === 0));
   });
-}
-
-/**
- * Starts a program that goes on, as servers do, and ends it with all its children at the latest with this process.
- *
- * @param {string} command
- * @param {string[]} args
- * @param {{ env?: Record<string, string>, cwd?: string }} [options]
- * @returns {{ output: () => string, said: (pattern: RegExp) => Promise<string>, ended: Promise<void>, stop: () => Promise<void> }}
- *   `output` is what it has printed so far, `said` the first group of a pattern as soon as there is one in that; both other
- *   promises are resolved when it is no more
- */
-export function start(command, args, { env = {}, cwd = ROOT } = {}) {
-  const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
-  const group = child.pid;
-  if (group !== undefined) endWithUs(group);
-  let output = '';
-  for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8').on('data', (text) => (output += text));
-  /** @type {Promise<void>} */
-  const ended = new Promise((resolve) => {
-    child.on('error', (error) => {
-      output += error.message;
-      resolve();
-    });
-    child.on('close', () => {
-      if (group !== undefined) hasEnded(group);
-      resolve();
-    });
-  });
-  return {
-    output: () => output,
-    said: (pattern) =>
-      new Promise((resolve, reject) => {
-        const look = () => {
-          const found = output.match(pattern);
-          if (found) resolve(found[1]);
-        };
-        for (const stream of [child.stdout, child.stderr]) stream.on('data', look);
-        ended.then(() => reject(new Error(`${command} has ended:\n${output}`)));
-        look();
-      }),
-    ended,
-    stop() {
-      if (group !== undefined) end(group);
-      return ended;
-    },
-  };
 }
 
 /**

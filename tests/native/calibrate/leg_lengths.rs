@@ -2,8 +2,7 @@
 
 use super::simulated::Simulation;
 use motion::calibrate::{
-    AtLength, Calibration, FACTORS, LegLength, Model, Options, ReferenceError, Robust, Systematic,
-    Trajectory, calibrate,
+    AtLength, Calibration, FACTORS, LegLength, Model, Options, Robust, Systematic, Trajectory, calibrate,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -20,52 +19,22 @@ const ROW: f64 = 0.0157;
 const ROWS: [usize; 5] = [4, 8, 16, 32, 64];
 
 fn options() -> Options {
-    Options {
-        model: NAV2,
-        legs: LegLength::AMCL,
-        noise: NoiseKind::Normal,
-        robust: Robust::No,
-        remove: [true; 6],
-        reference_error: ReferenceError::default(),
-        seed: 0,
-        by_length: true,
-    }
+    Options { by_length: true, ..Simulation::of(NAV2, NoiseKind::Normal, 0, 0).options(Robust::No) }
 }
 
-struct Noise(Xoshiro256PlusPlus);
-
-impl Noise {
-    fn of(seed: u64) -> Self {
-        Self(Xoshiro256PlusPlus::seed_from_u64(seed))
-    }
-
-    fn of_variance(&mut self, variance: f64) -> f64 {
-        NoiseKind::Normal.sample(Variance(variance), &mut self.0)
-    }
+fn noise_of(seed: u64) -> impl FnMut(f64) -> f64 {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    move |variance| NoiseKind::Normal.sample(Variance(variance), &mut rng)
 }
 
-/// So many legs as asked for, straight on; a row of the reference is what `step` makes of the one before, and is seen as `seen` has
-/// it.
-fn straight(
-    legs: usize,
-    mut step: impl FnMut(usize, SE2) -> SE2,
-    mut seen: impl FnMut(SE2) -> SE2,
-) -> [Trajectory; 2] {
+/// So many legs as asked for, straight on; a row of the reference is what `step` makes of the one before.
+fn straight(legs: usize, mut step: impl FnMut(SE2) -> SE2) -> [Trajectory; 2] {
     let rows = 16 * legs + 1;
     let time = |row: usize| 0.05 * row as f64;
-    let mut truth = SE2::identity();
-    let reference: Vec<_> = (0..rows)
-        .map(|row| {
-            truth = if row == 0 { truth } else { step(row, truth) };
-            (time(row), seen(truth))
-        })
-        .collect();
+    let poses = std::iter::successors(Some(SE2::identity()), |pose| Some(step(*pose)));
+    let reference = poses.take(rows).enumerate().map(|(row, pose)| (time(row), pose));
     let odometry = (0..rows).map(|row| (time(row), SE2::new(ROW * row as f64, 0.0, 0.0)));
     [Trajectory::new(odometry).expect("times rise"), Trajectory::new(reference).expect("times rise")]
-}
-
-fn ahead(from: SE2, way: f64, turn: f64) -> SE2 {
-    from * SE2::new(way, 0.0, turn)
 }
 
 fn by_length(logs: &[Trajectory; 2], options: &Options) -> Vec<AtLength> {
@@ -74,54 +43,32 @@ fn by_length(logs: &[Trajectory; 2], options: &Options) -> Vec<AtLength> {
     told.by_length
 }
 
-/// Of many logs: each factor's α's over what they should be, the mean of that, and the share of intervals that hold it.
-fn over(
-    logs: impl Iterator<Item = [Trajectory; 2]>,
-    options: &Options,
-    alpha: usize,
-    expected: impl Fn(usize) -> f64,
-) -> [[f64; 2]; 5] {
-    let (mut sums, mut count) = ([[0.0; 2]; 5], 0.0);
-    for log in logs {
-        count += 1.0;
-        for (place, at) in by_length(&log, options).iter().enumerate() {
-            let estimate = at.estimate.as_ref().expect("legs enough");
-            let expected = expected(ROWS[place]);
-            let [from, to] = estimate.intervals[alpha].expect("determined");
-            sums[place][0] += estimate.alphas[alpha] / expected;
-            sums[place][1] += f64::from(u8::from((from..=to).contains(&expected)));
-        }
-    }
-    sums.map(|of| of.map(|sum| sum / count))
-}
-
-const LEGS: usize = 1600;
-
-/// A mean over `logs` may be off by three of its deviations; that of one is √(`spread`/n) of n legs.
-fn is_mean(mean: f64, place: usize, logs: u64, spread: f64) -> bool {
-    let legs = (LEGS * 16 / ROWS[place]) as f64;
-    (mean - 1.0).abs() < 3.0 * (spread / (legs * logs as f64)).sqrt()
-}
-
-/// Of the heading, rad² a metre: of some variance, but too little to bend a leg.
-const STIFF: f64 = 1e-6;
-
 #[test]
 fn alphas_of_a_random_walk_fall_with_the_leg_length() {
-    // m² a metre, as of a robot whose α₃ falls from 0.014 on legs of 0.12 m to 0.0017 on legs of 1 m.
+    // m² a metre, as of a robot whose α₃ falls from 0.014 on legs of 0.12 m to 0.0017 on legs of 1 m; and of the heading, rad² a
+    // metre, some variance, but too little to bend a leg.
     const WALK: f64 = 0.0017;
-    const LOGS: u64 = 10;
-    let logs = (0..LOGS).map(|seed| {
-        let mut noise = Noise::of(seed);
-        let step =
-            move |_, from| ahead(from, ROW + noise.of_variance(WALK * ROW), noise.of_variance(STIFF * ROW));
-        straight(LEGS, step, |pose| pose)
-    });
-    let told = over(logs, &options(), 2, |rows| WALK / (ROW * rows as f64));
-    for (place, [mean, covered]) in told.into_iter().enumerate() {
-        // A residual's square has the variance 2; a share of 0.95 of 10 logs the deviation 0.069.
-        assert!(is_mean(mean, place, LOGS, 2.0), "{place}: {mean}");
-        assert!(covered > 0.95 - 3.0 * 0.069, "{place}: {covered}");
+    const STIFF: f64 = 1e-6;
+    const LOGS: u64 = 5;
+    const LEGS: usize = 1600;
+    let mut sums = [[0.0; 2]; 5];
+    for seed in 0..LOGS {
+        let mut noise = noise_of(seed);
+        let log = straight(LEGS, |from| from * SE2::new(ROW + noise(WALK * ROW), 0.0, noise(STIFF * ROW)));
+        for ((at, sums), rows) in by_length(&log, &options()).iter().zip(&mut sums).zip(ROWS) {
+            let estimate = at.estimate.as_ref().expect("legs enough");
+            let expected = WALK / (ROW * rows as f64);
+            let [from, to] = estimate.intervals[2].expect("determined");
+            sums[0] += estimate.alphas[2] / expected / LOGS as f64;
+            sums[1] += f64::from(u8::from((from..=to).contains(&expected))) / LOGS as f64;
+        }
+    }
+    for ([mean, covered], rows) in sums.into_iter().zip(ROWS) {
+        // A residual's square has the variance 2, and the mean of many three deviations of theirs; a share of 0.95 of 5 logs has
+        // the deviation 0.097.
+        let residuals = (LEGS * 16 / rows) as f64 * LOGS as f64;
+        assert!((mean - 1.0).abs() < 3.0 * (2.0 / residuals).sqrt(), "{rows} rows: {mean}");
+        assert!(covered > 0.95 - 3.0 * 0.097, "{rows} rows: {covered}");
     }
 }
 
@@ -151,9 +98,8 @@ fn the_column_of_the_requested_leg_length_is_the_main_fit() {
 #[test]
 fn too_few_legs_or_rows_give_no_estimate() {
     let told_of = |legs: usize, asked: LegLength| {
-        let mut noise = Noise::of(6);
-        let step = move |_, from| ahead(from, ROW + noise.of_variance(1e-6), noise.of_variance(1e-6));
-        let logs = straight(legs, step, |pose| pose);
+        let mut noise = noise_of(6);
+        let logs = straight(legs, move |from| from * SE2::new(ROW + noise(1e-6), 0.0, noise(1e-6)));
         let told = by_length(&logs, &Options { legs: asked, ..options() });
         told.into_iter().map(|at| (at.legs, at.estimate.is_some())).collect::<Vec<_>>()
     };

@@ -1,8 +1,9 @@
 //! Trajectories of which one has far fewer samples than the other.
 
+use super::simulated::Simulation;
+use crate::laws::doubles::cases;
 use motion::calibrate::{
-    Calibration, Error, LegLength, Model, Options, ReferenceError, Robust, Systematic, Trajectory, calibrate,
-    cut,
+    Calibration, Error, LegLength, Model, Options, Robust, Systematic, Trajectory, calibrate, cut,
 };
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -47,16 +48,8 @@ fn thinned(samples: &[(f64, SE2)], first: usize, every: usize) -> Trajectory {
 }
 
 fn calibrated(odometry: &Trajectory, reference: &Trajectory) -> Calibration {
-    let options = Options {
-        model: Model::Odometry(OdometryRule::Nav2),
-        legs: LegLength::Lasted { duration: 1.0 },
-        noise: NoiseKind::Normal,
-        robust: Robust::No,
-        remove: [true; 6],
-        reference_error: ReferenceError::default(),
-        seed: 0,
-        by_length: false,
-    };
+    let nav2 = Simulation::of(Model::Odometry(OdometryRule::Nav2), NoiseKind::Normal, 0, 0);
+    let options = Options { legs: LegLength::Lasted { duration: 1.0 }, ..nav2.options(Robust::No) };
     calibrate(odometry, reference, &options).expect("legs enough")
 }
 
@@ -133,6 +126,8 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
 }
 
 proptest! {
+    #![proptest_config(cases(100))]
+
     #[test]
     fn the_usual_step_is_the_upper_median(
         steps in prop::collection::vec(

@@ -1,28 +1,17 @@
 //! Alphas that a log does not determine, the reason given, and the drive that determines them.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
+use crate::common::KINDS;
 use motion::NoiseKind;
 use motion::calibrate::Undetermined::{DrivesTooLittle, OneRatio, TurnsTooLittle};
-use motion::calibrate::{
-    Calibration, Estimate, Model, Options, ReferenceError, Robust, Undetermined, calibrate,
-};
+use motion::calibrate::{Calibration, Estimate, Model, Robust, Undetermined, calibrate};
 
 const LEGS: usize = 400;
 
 fn calibrated(model: Model, noise: NoiseKind, drive: fn(usize) -> [f64; 2]) -> Calibration {
     let simulation = Simulation { drive: Some(drive), ..Simulation::of(model, noise, LEGS, 17) };
     let [odometry, reference] = simulation.log();
-    let options = Options {
-        model,
-        legs: simulation.legs,
-        noise,
-        robust: Robust::No,
-        remove: [true; 6],
-        reference_error: ReferenceError::default(),
-        seed: 0,
-        by_length: false,
-    };
-    calibrate(&odometry, &reference, &options).expect("legs enough")
+    calibrate(&odometry, &reference, &simulation.options(Robust::No)).expect("legs enough")
 }
 
 const STRAIGHT: [f64; 2] = [0.3, 0.0];
@@ -80,30 +69,29 @@ const BENDS: Drive = Drive {
 #[test]
 fn each_log_names_the_missing_drive_and_adding_it_determines_all_alphas() {
     let [mut covered, mut intervals] = [0, 0];
-    for model in MODELS {
-        for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
-            for (name, drive) in [("straight", NEVER_TURNS), ("on the spot", NEVER_DRIVES), ("bends", BENDS)]
-            {
-                let by_commands = model == Model::Velocity;
-                let expected: &[_] = if by_commands { &drive.of_velocity } else { &drive.of_odometry };
-                let told = calibrated(model, noise, drive.lacking);
-                assert_eq!(told.undetermined, expected[..model.alphas()], "{model:?} {noise:?} {name}");
-                for (k, reason) in told.undetermined.iter().enumerate() {
-                    let Estimate { alphas, intervals, .. } = &told.estimate;
-                    let told = [!alphas[k].is_nan(), intervals[k].is_some(), told.bootstrap[k].is_some()];
-                    assert_eq!(told, [reason.is_none(); 3], "{model:?} {noise:?} {name}: α{}", k + 1);
-                }
-                let all = calibrated(model, noise, drive.advised[usize::from(by_commands)]);
-                assert!(all.undetermined.iter().all(Option::is_none), "{model:?} {noise:?} {name}: {all:?}");
-                for (interval, real) in all.estimate.intervals.iter().zip(ALPHAS) {
-                    let [from, to] = interval.expect("determined");
-                    covered += u32::from((from..=to).contains(&real));
-                    intervals += 1;
-                }
+    // Three of the rules say the same of such drives.
+    for (i, model) in [MODELS[0], MODELS[3], MODELS[4]].into_iter().enumerate() {
+        let noise = KINDS[i % 2];
+        for (name, drive) in [("straight", NEVER_TURNS), ("on the spot", NEVER_DRIVES), ("bends", BENDS)] {
+            let by_commands = model == Model::Velocity;
+            let expected: &[_] = if by_commands { &drive.of_velocity } else { &drive.of_odometry };
+            let told = calibrated(model, noise, drive.lacking);
+            assert_eq!(told.undetermined, expected[..model.alphas()], "{model:?} {noise:?} {name}");
+            for (k, reason) in told.undetermined.iter().enumerate() {
+                let Estimate { alphas, intervals, .. } = &told.estimate;
+                let told = [!alphas[k].is_nan(), intervals[k].is_some(), told.bootstrap[k].is_some()];
+                assert_eq!(told, [reason.is_none(); 3], "{model:?} {noise:?} {name}: α{}", k + 1);
+            }
+            let all = calibrated(model, noise, drive.advised[usize::from(by_commands)]);
+            assert!(all.undetermined.iter().all(Option::is_none), "{model:?} {noise:?} {name}: {all:?}");
+            for (interval, real) in all.estimate.intervals.iter().zip(ALPHAS) {
+                let [from, to] = interval.expect("determined");
+                covered += u32::from((from..=to).contains(&real));
+                intervals += 1;
             }
         }
     }
-    // Three of the rules say the same of such drives: of 90 intervals a share of 0.95 has the deviation 0.023, and is allowed three.
+    // A share of 0.95 of 45 intervals has the deviation 0.032, and is allowed three.
     let share = f64::from(covered) / f64::from(intervals);
-    assert!(share > 0.95 - 3.0 * 0.023, "{share}");
+    assert!(share > 0.95 - 3.0 * 0.032, "{share}");
 }

@@ -1,7 +1,7 @@
 //! The laws of the mathematics and of the edges, held to any doubles that they are for. Where a law does not hold over all
 //! doubles, its test says for which ones it does, and why.
 
-mod doubles;
+pub mod doubles;
 mod found;
 mod geometry;
 mod maps;

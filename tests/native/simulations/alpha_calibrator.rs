@@ -4,7 +4,7 @@ use motion::OdomDelta;
 use motion::calibrate::{Calibration, Error, Leg, ReferenceError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
-use motion::sim::alpha_calibrator::example::{ALPHAS, example};
+use motion::sim::alpha_calibrator::example::example;
 use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, Log, Model, Settings};
 
 const SEEDS: u64 = 40;
@@ -29,23 +29,6 @@ fn held(machine: &AlphaCalibrator) -> [bool; 10] {
     })
 }
 
-/// Of 40 intervals 38 hold on average, and fewer than 33 once in three hundred times: also of the α's of five hundred legs, of which the
-/// errors were removed that they say themselves.
-#[test]
-#[ignore = "nightly: 40 calibrations"]
-fn intervals_of_simulated_logs_hold_the_true_values() {
-    let mut counts = [0; 10];
-    for seed in 0..SEEDS {
-        let machine = machine(Settings { seed, ..Settings::default() });
-        assert_eq!(machine.truth().expect("a simulated log").alphas, ALPHAS);
-        held(&machine).iter().zip(&mut counts).for_each(|(held, count)| *count += usize::from(*held));
-        // Two or three jumps.
-        let outliers = machine.calibration().estimate.outliers.expect("robust");
-        assert!(outliers > 0.0 && outliers < 0.06, "seed {seed}: {outliers}");
-    }
-    assert!(counts.iter().all(|count| *count >= 33), "{counts:?}");
-}
-
 /// What everybody sees first holds all that is true.
 #[test]
 fn the_opening_intervals_hold_the_true_values() {
@@ -68,25 +51,6 @@ fn legs_end_after_a_duration_where_one_is_set() {
     assert_eq!(machine.legs(), before);
     machine.configure(Settings { distance: 3.0, angle: 2.0, ..Settings::default() }).expect("allowed");
     assert!(machine.legs().len() < before.len() / 2);
-}
-
-/// Of long legs there are few, and the likelihood is no parabola; it falls on both sides of its maximum all the same.
-#[test]
-fn an_interval_extends_to_both_sides_of_its_estimate() {
-    for duration in [1.0, 3.0] {
-        for seed in 0..2 {
-            for robust in [false, true] {
-                let machine = machine(Settings { duration, robust, seed, ..Settings::default() });
-                let estimate = &machine.calibration().estimate;
-                for (alpha, interval) in estimate.alphas.iter().zip(&estimate.intervals) {
-                    let Some([from, to]) = interval else { continue };
-                    let told =
-                        format!("{duration} s, seed {seed}, robust {robust}: {alpha} in {from} to {to}");
-                    assert!(*to > 1.05 * alpha && (*from < 0.97 * alpha || *alpha == 0.0), "{told}");
-                }
-            }
-        }
-    }
 }
 
 /// What is set of the reference's own error counts as if the log had said it, and takes its place where that does.

@@ -5,8 +5,9 @@ pub mod distance;
 pub mod told;
 
 use motion::NoiseKind;
-use motion::geom::se2::SE2;
+use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{PRESETS, Settings};
+use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -38,6 +39,20 @@ pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
 pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     let turn = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
+}
+
+/// The derivative of a pose by three unit noises, by central differences.
+pub fn derivative(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
+    const H: f64 = 1e-5;
+    Matrix3::from_columns(&[0, 1, 2].map(|axis| {
+        let [ahead, behind] = [H, -H].map(|step| {
+            let mut noise = noise;
+            noise[axis] += step;
+            apply(noise)
+        });
+        let turn = wrap_angle(ahead.theta() - behind.theta());
+        Vector3::new(ahead.x() - behind.x(), ahead.y() - behind.y(), turn) / (2.0 * H)
+    }))
 }
 
 /// The Banana Machine as it opens with one of its presets.

@@ -59,6 +59,14 @@ impl Told {
         std::array::from_fn(|i| found[0][i])
     }
 
+    /// Told of what was computed, number by number.
+    pub fn assert<const N: usize>(&self, sentence: &str, computed: [f64; N]) {
+        self.numbers::<N>(sentence)
+            .iter()
+            .zip(computed)
+            .for_each(|(told, computed)| told.assert(computed, 0.0));
+    }
+
     /// The text says so, once.
     pub fn says(&self, sentence: &str) {
         let [] = self.numbers(sentence);

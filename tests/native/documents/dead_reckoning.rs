@@ -1,5 +1,6 @@
 //! Numbers of Dead Reckoning on the page, read there and computed.
 
+use crate::common::SIGMAS;
 use crate::common::told::{Number, Told};
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, PRESETS, Settings, TOLERANCE};
@@ -15,14 +16,14 @@ fn machine(settings: Settings) -> DeadReckoning {
 fn preset(name: &str) -> DeadReckoning {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
     let (command, steps, alphas) = (preset.command, preset.steps, preset.alphas);
-    machine(Settings { command, steps, alphas, ..Settings::default() })
+    machine(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
 }
 
-/// The chapter's ratios against the fourth order, which is right to some thousandths: without the robots' luck.
-fn exact(machine: &DeadReckoning, axis: usize) -> Vec<f64> {
+/// Ratios against the fourth order, which is right to some thousandths: without the robots' luck.
+fn exact(machine: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
     let covs =
         |order| machine.predicted(order).iter().map(move |cov| cov.expect("a covariance")[(axis, axis)]);
-    covs(Compounding::Chapter).zip(covs(Compounding::FourthOrder)).map(|(one, other)| one / other).collect()
+    covs(order).zip(covs(Compounding::FourthOrder)).map(|(one, other)| one / other).collect()
 }
 
 fn off(ratios: &[f64]) -> Vec<usize> {
@@ -36,13 +37,15 @@ fn the_lateral_miss_is_worse_than_the_six_per_cent() {
         page().numbers("what its own loses by the end: # % of the variance along the track");
     let compared = opening.compared(Compounding::Chapter);
     told.assert_percent(-compared.misses[0].end, 0.0);
-    told.assert_percent(1.0 - exact(&opening, 0)[19], 0.0);
+    told.assert_percent(1.0 - exact(&opening, Compounding::Chapter, 0)[19], 0.0);
     page().says("the Gaussian that the chapter predicts is a line, for its R has no lateral noise");
     assert_eq!(compared.ratios[0].y, 0.0);
     assert!(opening.measured()[0].cov[(1, 1)] > 0.0);
     let [second, fifth]: [Number; 2] =
         page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
-    for ratios in [exact(&opening, 1), compared.ratios.iter().map(|ratio| ratio.y).collect()] {
+    for ratios in
+        [exact(&opening, Compounding::Chapter, 1), compared.ratios.iter().map(|ratio| ratio.y).collect()]
+    {
         second.assert(ratios[1], 0.0);
         fifth.assert(ratios[4], 0.0);
     }
@@ -55,18 +58,33 @@ fn the_lateral_miss_is_worse_than_the_six_per_cent() {
     }
 }
 
+/// On the page and in doc/exercises.md. A ratio of variances of n robots has the error √(2/n), more where tails are heavier.
 #[test]
-fn crossings_are_those_of_exercise_7() {
-    let [usual]: [Number; 1] = page().numbers("is off by more than 5 % from step # on. Press");
-    let [doubled]: [Number; 1] =
-        page().numbers("Heading noise doubled: from step # on, which is earlier, but not by half.");
-    for (told, name) in [(usual, "chapter"), (doubled, "doubled")] {
-        let machine = preset(name);
-        let first = machine.compared(Compounding::Chapter).misses[0].first.expect("a miss");
-        told.assert(f64::from(first), 0.0);
-        told.assert(off(&exact(&machine, 0))[0] as f64, 0.0);
+fn ratios_and_crossings_are_those_of_exercise_7() {
+    let document = Told::in_document(include_str!("../../../doc/exercises.md"));
+    let machines = ["chapter", "doubled"].map(preset);
+    for k in [1, 2, 5, 10, 20] {
+        let of = |order| [0, 1, 2].map(|axis| exact(&machines[0], order, axis)[k - 1]);
+        let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(of);
+        document.assert(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
-    assert!(doubled.value > usual.value / 2.0);
+    let crossings = machines.map(|machine| {
+        let error = SIGMAS * (2.3 / machine.settings().samples as f64).sqrt();
+        let fourth = &machine.compared(Compounding::FourthOrder).ratios;
+        assert!(fourth.iter().all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < error)));
+        let first = machine.compared(Compounding::Chapter).misses[0].first.expect("a miss");
+        assert_eq!(first as usize, off(&exact(&machine, Compounding::Chapter, 0))[0]);
+        f64::from(first)
+    });
+    document.assert(
+        "off by more than 5 % from step # on. With the heading's standard deviation doubled (α₃ to α₆ four times as \
+         large) it is from step # on",
+        crossings,
+    );
+    page().assert("is off by more than 5 % from step # on. Press", [crossings[0]]);
+    page()
+        .assert("Heading noise doubled: from step # on, which is earlier, but not by half.", [crossings[1]]);
+    assert!(crossings[1] > crossings[0] / 2.0);
 }
 
 #[test]

@@ -4,6 +4,5 @@ mod arc_anatomy;
 mod banana;
 mod dead_reckoning;
 mod exercises;
-mod model;
 mod odometry_decomposer;
 mod squeeze;

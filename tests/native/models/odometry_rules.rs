@@ -178,18 +178,3 @@ fn exact_spreads_match_samples() {
         }
     }
 }
-
-/// Opposite noises of one size cancel, whatever their size; noises that go together add up.
-#[test]
-fn correlated_rotations_spread_the_heading_from_their_difference_to_their_sum() {
-    let of = |first: f64, second: f64, rho: f64| {
-        let [rot1, rot2] = [first, second].map(|sd| Variance(sd * sd));
-        let none = Variance(0.0);
-        LegVariances { rot1, trans: none, rot2, strafe: none }.heading(rho).sqrt()
-    };
-    for (first, second) in [(0.3, 0.2), (0.1, 0.7), (0.3, 0.3)] {
-        assert!((of(first, second, 1.0) - (first + second)).abs() < 1e-15);
-        assert!((of(first, second, -1.0) - (first - second).abs()).abs() < 1e-15);
-        assert!((of(first, second, 0.0) - first.hypot(second)).abs() < 1e-15);
-    }
-}

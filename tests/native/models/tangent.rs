@@ -36,14 +36,6 @@ fn starts() -> [SE2; 2] {
 }
 
 #[test]
-fn the_twist_of_a_command_is_its_arc() {
-    assert_eq!(
-        TangentNoiseModel::twist(&VelocityCmd { v: 2.0, omega: -0.5, dt: 0.25 }),
-        Vector3::new(0.5, 0.0, -0.125)
-    );
-}
-
-#[test]
 fn log_prob_is_a_gaussian_in_exponential_coordinates() {
     let mut rng = seeded(120);
     for x in starts() {

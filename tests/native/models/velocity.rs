@@ -1,10 +1,10 @@
-//! The velocity model: inversion, scoring, density and sampler.
+//! The velocity model: scoring, density and sampler.
 
 use crate::common::density::Grid;
-use crate::common::{KINDS, SAMPLES, pose_distance, seeded, uniform};
+use crate::common::{KINDS, SAMPLES, derivative, seeded, uniform};
 use motion::geom::se2::SE2;
-use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel, invert_arc};
-use nalgebra::{Matrix3, Vector3};
+use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
+use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
 const CANONICAL: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
@@ -33,29 +33,6 @@ fn commands() -> Vec<VelocityCmd> {
 
 fn starts() -> [SE2; 3] {
     [SE2::identity(), SE2::new(-3.0, 7.0, 2.5), SE2::new(40.0, 0.1, -PI / 2.0)]
-}
-
-#[test]
-fn inversion_at_the_corners() {
-    let origin = SE2::identity();
-    // Straight ahead, straight back, half a circle to the left, and half of one to the right in reverse.
-    let ahead = invert_arc(&origin, &SE2::new(2.0, 0.0, 0.3), 2.0);
-    assert_eq!((ahead.v_hat, ahead.omega_hat, ahead.gamma_hat), (1.0, 0.0, 0.15));
-    let back = invert_arc(&origin, &SE2::new(-2.0, 0.0, 0.0), 2.0);
-    assert_eq!((back.v_hat, back.omega_hat.abs(), back.gamma_hat.abs()), (-1.0, 0.0, 0.0));
-    let left = invert_arc(&origin, &SE2::new(0.0, 2.0, PI), 1.0);
-    assert!((left.v_hat.abs() - PI).abs() < 1e-15 && (left.omega_hat.abs() - PI).abs() < 1e-15);
-    assert!(left.v_hat * left.omega_hat > 0.0, "a centre on the left has v̂ and ω̂ of one sign");
-    let right = invert_arc(&origin, &SE2::new(0.0, -2.0, 0.0), 1.0);
-    assert!(right.v_hat * right.omega_hat < 0.0, "a centre on the right has v̂ and ω̂ of opposite signs");
-    // A robot that stayed where it was, turned or not.
-    for turn in [0.0, 0.7, PI] {
-        let x = SE2::new(1.0, 2.0, 0.4);
-        let stayed = invert_arc(&x, &(x * SE2::new(0.0, 0.0, turn)), 0.5);
-        assert_eq!(stayed.v_hat, 0.0);
-        let turned = SE2::new(0.0, 0.0, (stayed.omega_hat + stayed.gamma_hat) * 0.5);
-        assert!(pose_distance(&turned, &SE2::new(0.0, 0.0, turn)) < 1e-15);
-    }
 }
 
 #[test]
@@ -142,16 +119,7 @@ fn the_pose_density_divides_by_the_jacobian() {
         for x in starts() {
             let unit = [(); 3].map(|()| uniform(&mut rng, -1.5, 1.5));
             let end = model.apply_noise(&u, &x, unit);
-            const H: f64 = 1e-5;
-            let mut derivative = Matrix3::zeros();
-            for (i, mut column) in derivative.column_iter_mut().enumerate() {
-                let (mut ahead, mut behind) = (unit, unit);
-                ahead[i] += H;
-                behind[i] -= H;
-                let (a, b) = (model.apply_noise(&u, &x, ahead), model.apply_noise(&u, &x, behind));
-                let turn = (a.theta() - b.theta()).sin().asin();
-                column.copy_from(&(Vector3::new(a.x() - b.x(), a.y() - b.y(), turn) / (2.0 * H)));
-            }
+            let derivative = derivative(unit, |unit| model.apply_noise(&u, &x, unit));
             let determinant = derivative.determinant().abs() / deviations.iter().product::<f64>();
             let expected = model.prob(&end, &u, &x) / determinant;
             let density = model.pose_density(&end, &u, &x).unwrap();
@@ -223,7 +191,7 @@ fn the_last_turn_leaves_the_density_of_places_alone() {
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     let narrow = VelocityAlphas(OPENING.0.map(|alpha| 0.1 * alpha));
-    let cases = [(OPENING, 1.0, 0.5), (OPENING, -1.0, 0.5), (OPENING, 0.8, -1.1), (narrow, 0.9, 3.6)];
+    let cases = [(OPENING, -1.0, 0.5), (narrow, 0.9, 3.6)];
     for (seed, (alphas, v, omega)) in (60..).zip(cases) {
         let u = command(v, omega, 1.0);
         for kind in KINDS {
@@ -256,17 +224,7 @@ fn cartesian_cov_is_the_linearized_arc() {
         for x in starts() {
             for alphas in [CANONICAL, OPENING] {
                 let model = model(alphas, NoiseKind::Normal);
-                const H: f64 = 1e-5;
-                let mut jacobian = Matrix3::zeros();
-                for (i, mut column) in jacobian.column_iter_mut().enumerate() {
-                    let mut unit = [0.0; 3];
-                    unit[i] = H;
-                    let ahead = model.apply_noise(&u, &x, unit);
-                    let behind = model.apply_noise(&u, &x, unit.map(|z| -z));
-                    let turn = (ahead.theta() - behind.theta()).sin().asin();
-                    let moved = Vector3::new(ahead.x() - behind.x(), ahead.y() - behind.y(), turn);
-                    column.copy_from(&(moved / (2.0 * H)));
-                }
+                let jacobian = derivative([0.0; 3], |unit| model.apply_noise(&u, &x, unit));
                 let expected = jacobian * jacobian.transpose();
                 let cov = model.cartesian_cov(&u, &x);
                 assert!((cov - expected).amax() < 1e-8, "{u:?} from {x:?}\n{cov}{expected}");

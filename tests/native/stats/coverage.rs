@@ -51,29 +51,19 @@ fn shares_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
 
 const FIGURES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"];
 
-fn assert_errors_are_right(what: &str, settings: Settings) {
-    let settings = Settings { samples: ROBOTS, ..settings };
-    for (figure, share) in FIGURES.into_iter().zip(shares_within_errors(settings, REPETITIONS)) {
-        assert_covered(&format!("{figure}, {what}"), share, REPETITIONS);
+#[test]
+#[ignore = "nightly: thousands of clouds"]
+fn errors_of_clouds_of_a_tenth() {
+    for (what, settings) in [
+        ("opening", Settings::default()),
+        ("hard arc", Settings { noise: NoiseKind::Triangular, ..preset("hard") }),
+        ("odometry", Settings { model: ModelKind::Odometry, ..Settings::default() }),
+    ] {
+        let settings = Settings { samples: ROBOTS, ..settings };
+        for (figure, share) in FIGURES.into_iter().zip(shares_within_errors(settings, REPETITIONS)) {
+            assert_covered(&format!("{figure}, {what}"), share, REPETITIONS);
+        }
     }
-}
-
-#[test]
-#[ignore = "nightly: thousands of clouds"]
-fn errors_at_the_opening() {
-    assert_errors_are_right("opening", Settings::default());
-}
-
-#[test]
-#[ignore = "nightly: thousands of clouds"]
-fn errors_of_triangular_noise_in_a_hard_arc() {
-    assert_errors_are_right("hard arc", Settings { noise: NoiseKind::Triangular, ..preset("hard") });
-}
-
-#[test]
-#[ignore = "nightly: thousands of clouds"]
-fn errors_of_the_odometry_model() {
-    assert_errors_are_right("odometry", Settings { model: ModelKind::Odometry, ..Settings::default() });
 }
 
 /// Where a few robots far off have most of the variance.

@@ -31,16 +31,6 @@ fn a_circle_is_one_closed_line() {
 }
 
 #[test]
-fn a_plane_has_one_line_from_rim_to_rim() {
-    let lines = level_set(&field(9, 6, |x, y| 2.0 * x + y), 9, 8.3);
-    let [line] = lines.as_slice() else { panic!("{} lines", lines.len()) };
-    assert!(line.iter().all(|[x, y]| (2.0 * x + y - 8.3).abs() < 1e-12));
-    let on_rim = |[x, y]: [f64; 2]| x == 0.0 || y == 0.0 || x == 8.0 || y == 5.0;
-    let rims = line.iter().filter(|point| on_rim(**point)).count();
-    assert!(on_rim(line[0]) && on_rim(line[line.len() - 1]) && rims == 2, "{line:?}");
-}
-
-#[test]
 fn a_saddle_is_parted_as_the_mean_of_its_corners_says() {
     for (level, joined) in [(0.4, true), (0.6, false)] {
         let lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);

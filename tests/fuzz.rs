@@ -13,7 +13,7 @@ use std::path::Path;
 
 type Target = fn(&[u8]);
 
-/// Tests of the targets, each with its number of mutations: about a quarter of a second each.
+/// Tests of the targets, each with its number of mutations: about a tenth of a second each.
 macro_rules! tests {
     ($($name:ident: $mutations:literal,)+) => {
         const NAMES: &[&str] = &[$(stringify!($name)),+];
@@ -24,16 +24,16 @@ macro_rules! tests {
     };
 }
 tests! {
-    anatomy: 10_000,
-    banana: 4_000,
-    calibrate: 100,
-    decomposer: 10_000,
-    grid: 4_000,
-    pgm: 40_000,
-    plan: 2_000,
-    png: 4_000,
-    reckoning: 500,
-    squeeze: 1_000,
+    anatomy: 5_000,
+    banana: 2_000,
+    calibrate: 50,
+    decomposer: 5_000,
+    grid: 2_000,
+    pgm: 20_000,
+    plan: 1_000,
+    png: 2_000,
+    reckoning: 250,
+    squeeze: 500,
 }
 
 #[test]

@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 const UNITS: f64 = 32.0;
 
 proptest! {
-    #![proptest_config(cases(1000))]
+    #![proptest_config(cases(400))]
 
     /// The remainder towards 0 is exact, and so is a turn taken off it.
     #[test]
@@ -79,12 +79,22 @@ proptest! {
         let sizes = size(&a) + size(&b);
         same_pose(&a.boxplus(b.boxminus(&a)), &b, UNITS, 2.0 * sizes)?;
         prop_assert_eq!(a.boxplus(Vector3::zeros()), a);
+        prop_assert_eq!(a.boxplus(b.log()), a * SE2::exp(&b.log()));
     }
 
     #[test]
     fn adjoints_compose_as_poses_do(a in poses(), b in poses()) {
         close(&(a * b).adjoint(), &(a.adjoint() * b.adjoint()), size(&a) + size(&b))?;
         close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), size(&a))?;
+    }
+
+    /// x · exp(τ) = exp(Ad τ) · x.
+    #[test]
+    fn the_adjoint_moves_a_twist_from_the_right_to_the_left(pose in poses(), twist in twists(PI)) {
+        prop_assume!(size(&pose) < 1e290);
+        let moved = pose.adjoint() * twist;
+        let sizes = size(&pose) + twist.x.abs() + twist.y.abs() + moved.x.abs() + moved.y.abs();
+        same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&moved) * pose), UNITS, sizes)?;
     }
 
     /// The inverse grows without bound towards a whole turn: up to half of one.

@@ -61,7 +61,7 @@ fn normal_tail(z: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(cases(1000))]
+    #![proptest_config(cases(400))]
 
     #[test]
     fn quantiles_are_odd_and_finite_and_rise(kind in kinds(), a in uniforms(), b in uniforms()) {

@@ -15,7 +15,7 @@ fn durations() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(cases(1000))]
+    #![proptest_config(cases(400))]
 
     /// Whatever the two poses are, the controls that an inversion finds lead from the one to the other.
     #[test]

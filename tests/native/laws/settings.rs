@@ -78,7 +78,7 @@ fn number<S: Rules>(place: usize, value: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(cases(1500))]
+    #![proptest_config(cases(1000))]
 
     #[test]
     fn every_number_is_accepted_or_refused_by_name(widget in 0..6usize, place in 0..100usize, value in any_double()) {

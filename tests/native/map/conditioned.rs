@@ -26,18 +26,6 @@ fn preset(name: &str) -> SE2 {
     SE2::new(x, y, theta)
 }
 
-/// The clearance of a point: to the nearest wall, or to the bounds where it is outside of them.
-fn room(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
-    let to_wall = |Segment { from, to }: &Segment| {
-        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-        let t = (((x - from[0]) * dx + (y - from[1]) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-        (from[0] + t * dx - x).hypot(from[1] + t * dy - y)
-    };
-    let [left, bottom, right, top] = plan.bounds();
-    let depth = (x - left).min(right - x).min(y - bottom).min(top - y);
-    plan.walls().iter().map(to_wall).fold(if depth < 0.0 { depth } else { f64::INFINITY }, f64::min)
-}
-
 fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
     std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(rng)))
 }
@@ -97,7 +85,7 @@ fn the_last_turn_is_not_part_of_the_path() {
 
 // --------------------------------------------------------------------------------------------------- the samplers
 
-/// Table 5.7 by hand: draw from the model until a look at every wall finds the end (or the whole path) free. The same
+/// Table 5.7 by hand: draw from the model until a look at the plan finds the end (or the whole path) free. The same
 /// random numbers give the same poses, after the same number of draws.
 #[test]
 fn rejection_is_rejection() {
@@ -116,13 +104,9 @@ fn rejection_is_rejection() {
                     let executed = model().executed(&command, unit_noise(&mut luck));
                     let arc = Arc { start, length: 2.0 * executed.v_hat, turn: 2.0 * executed.omega_hat };
                     draws += 1;
-                    let free = match sampler.sampler {
-                        Sampler::WholeArc => {
-                            room(&plan, [pose.x(), pose.y()]) > 0.13
-                                && plan.walls().iter().all(|wall| wall.distance_to_arc(&arc) > 0.13)
-                        }
-                        _ => room(&plan, [pose.x(), pose.y()]) > 0.13,
-                    };
+                    let end = plan.point_free([pose.x(), pose.y()], 0.13).free;
+                    let free =
+                        end && (sampler.sampler == Sampler::Endpoint || plan.arc_free(&arc, 0.13).free);
                     if free {
                         break pose;
                     }
@@ -134,39 +118,8 @@ fn rejection_is_rejection() {
     }
 }
 
-/// In front of a wall few parts jump it (a part must clear 2 · 0.13 m at once), and many have to turn aside, at the
-/// price of hundreds of draws a motion.
-#[test]
-fn few_substeps_jump_a_wall_and_many_need_more_draws() {
-    let plan = FloorPlan::apartment();
-    let run = |parts: u32, count: usize| {
-        let sub_stepped = conditioned(&plan, Sampler::SubStepped(parts));
-        let mut rng = seeded(11);
-        let (mut accepted, mut through, mut draws) = (0usize, 0usize, 0usize);
-        for _ in 0..count {
-            match sub_stepped.sample(&AHEAD, &preset("wall"), &mut rng) {
-                Ok(done) => {
-                    accepted += 1;
-                    through += usize::from(!done.path_free);
-                    draws += done.cost.draws;
-                }
-                Err(wedged) => draws += wedged.0.draws,
-            }
-        }
-        (through as f64 / accepted as f64, draws as f64 / (accepted * parts as usize) as f64)
-    };
-    for parts in [2, 4, 8] {
-        let (share, draws_per_part) = run(parts, 1000);
-        assert!(share > 0.9, "{parts} parts: {share} jump");
-        assert!(draws_per_part < 3.0, "{parts} parts: {draws_per_part}");
-    }
-    let (share, draws_per_part) = run(64, 60);
-    assert_eq!(share, 0.0);
-    assert!(draws_per_part > 20.0, "{draws_per_part}");
-}
-
 /// A cell of 20 cm, in which the robot of 13 cm fits nowhere.
-fn cell() -> FloorPlan {
+pub fn cell() -> FloorPlan {
     let corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
     let walls = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }).collect();
     FloorPlan::new(walls, [1.9, 1.9, 2.3, 2.3]).expect("a valid plan")

@@ -76,11 +76,11 @@ fn some_arc(rng: &mut impl Rng) -> Arc {
 /// Reference: a loop over all walls.
 #[test]
 fn verdicts_on_hard_plans_are_right() {
-    for (name, walls) in hard_plans(500) {
+    for (name, walls) in hard_plans(300) {
         let plan = FloorPlan::new(walls.clone(), ROOM).expect("allowed");
         let mut rng = seeded(9801);
         let [mut blocked, mut free] = [0; 2];
-        for i in 0..600 {
+        for i in 0..500 {
             let (arc, clearance) = (some_arc(&mut rng), [0.0, 0.13, 0.49][i % 3]);
             let end = [arc.end().x(), arc.end().y()];
             let least =

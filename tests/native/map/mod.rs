@@ -1,6 +1,6 @@
 //! Floor plans, occupancy grids and motion that a map restricts.
 
-mod conditioned;
+pub mod conditioned;
 mod hard_plans;
 mod occupancy;
 mod pixels;

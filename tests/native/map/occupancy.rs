@@ -161,37 +161,6 @@ fn a_grid_that_reaches_too_far_is_refused() {
     }
 }
 
-/// A turned map ends where its image does, not where a box around it does.
-#[test]
-fn the_edge_of_a_turned_map_turns_with_it() {
-    let empty = Cells {
-        width: 100,
-        height: 50,
-        occupied: vec![false; 5000],
-        resolution: 0.1,
-        origin: [1.0, 2.0, 0.6],
-    };
-    let plan = FloorPlan::from_grid(empty.grid()).expect("no walls");
-    let at = |x: f64, y: f64| {
-        let point = SE2::new(1.0, 2.0, 0.6) * SE2::new(x, y, 0.0);
-        [point.x(), point.y()]
-    };
-    for (x, y, inside) in
-        [(5.0, 2.5, true), (0.1, 0.1, true), (9.9, 4.9, true), (-0.1, 2.0, false), (5.0, 5.1, false)]
-    {
-        assert_eq!(plan.point_free(at(x, y), 0.05).free, inside, "({x}, {y})");
-    }
-    let [left, _, _, top] = plan.bounds();
-    assert!(
-        !plan.point_free([left + 0.1, top - 0.1], 0.05).free,
-        "a corner of the box that is no part of the map"
-    );
-    let [x, y] = at(5.0, 4.5);
-    let across = Arc { start: SE2::new(x, y, 0.6), length: 2.0, turn: 2.0 * PI };
-    assert!(!plan.arc_free(&across, 0.05).free, "a circle that leaves and comes back");
-    assert!(plan.arc_free(&Arc { turn: -2.0 * PI, ..across }, 0.05).free);
-}
-
 // -------------------------------------------------------------------------------------------------- what is unknown
 
 /// A grid of ones of `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, cells of 10 cm.

@@ -1,9 +1,7 @@
 //! How pixels become cells: `map_server`'s reading of them, and PGM files good and bad.
 
 use motion::geom::se2::SE2;
-use motion::map::{
-    Cell, FloorPlan, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, Pixel, Shades, read_pgm,
-};
+use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, Pixel, Shades, read_pgm};
 
 const TRINARY: Interpretation =
     Interpretation { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 };
@@ -24,29 +22,20 @@ fn pixels_are_read_as_map_server_reads_them() {
         ("black", TRINARY, pixel(0), Cell::Occupied),
         ("white", TRINARY, pixel(255), Cell::Free),
         ("the grey that maps are saved with where nothing is known", TRINARY, pixel(205), Cell::Unknown),
-        ("which is free by another threshold", free_below(0.25), pixel(205), Cell::Free),
         ("occupancy 0.192", TRINARY, pixel(206), Cell::Free),
         ("occupancy 0.651", TRINARY, pixel(89), Cell::Occupied),
         ("occupancy 0.647", TRINARY, pixel(90), Cell::Unknown),
         ("transparent black", TRINARY, clear(0), Cell::Occupied),
         ("black, negated", negated(0.65), pixel(0), Cell::Free),
         ("white, negated", negated(0.65), pixel(255), Cell::Occupied),
-        ("occupancy 0.651, negated", negated(0.65), pixel(166), Cell::Occupied),
-        ("occupancy 0.647, negated", negated(0.65), pixel(165), Cell::Unknown),
         ("at the threshold", at(0.6), pixel(102), Cell::Unknown),
         ("past it", at(0.6), pixel(101), Cell::Occupied),
-        ("at the threshold of 0.2", at(0.2), pixel(204), Cell::Unknown),
-        ("at the threshold, negated", negated(0.6), pixel(153), Cell::Unknown),
-        ("past it, negated", negated(0.6), pixel(154), Cell::Occupied),
-        ("at the threshold of 0.2, negated", negated(0.2), pixel(51), Cell::Unknown),
         ("nothing is above 1", at(1.0), pixel(0), Cell::Unknown),
         ("at the threshold for free", free_below(0.2), pixel(204), Cell::Unknown),
         ("below the threshold for free", free_below(0.2), pixel(205), Cell::Free),
         ("nothing is below 0", free_below(0.0), pixel(255), Cell::Unknown),
         ("scale, black", scale, pixel(0), Cell::Occupied),
         ("scale, transparent black is unknown", scale, clear(0), Cell::Unknown),
-        ("scale, transparent white is unknown", scale, clear(255), Cell::Unknown),
-        ("scale, white", scale, pixel(255), Cell::Free),
         ("scale, what is between the thresholds is known in degrees", scale, pixel(150), Cell::Free),
         ("raw, 100", raw, pixel(100), Cell::Occupied),
         ("raw, 99", raw, pixel(99), Cell::Free),
@@ -71,61 +60,22 @@ fn shades(image: &Image<Shades>) -> Vec<f32> {
 }
 
 #[test]
-fn pgm_files_are_read() {
-    let expected = [0.0, 1.0, 0.2, 0.4, 0.6, 0.8];
-    let mut wide = b"P5 3 2 65535\n".to_vec();
-    wide.extend([0u16, 65535, 13107, 26214, 39321, 52428].into_iter().flat_map(u16::to_be_bytes));
-    let mut after = b"P5\n# made by hand\n3 2\n255\n\x00\xff\x33\x66\x99\xcc".to_vec();
-    after.extend(b"anything that follows");
-    let files: [&[u8]; 7] = [
-        b"P2\n3 2\n255\n0 255 51\n102 153 204\n",
-        b"P2 3 2 5 0 5 1 2 3 4",
-        b"P2 # plain\n#comment\n 3 # width\n\t2\r\n#\n255\n0 255 #51\n51 102 153 204#end",
-        b"P5 3 2 255\n\x00\xff\x33\x66\x99\xcc",
-        b"P5\n3\n2\n5\n\x00\x05\x01\x02\x03\x04",
-        &after,
-        &wide,
-    ];
-    for file in files {
-        let image = read_pgm(file).expect("a valid file");
-        assert_eq!((image.width, image.height), (3, 2));
-        for (shade, expected) in shades(&image).into_iter().zip(expected) {
-            assert!((shade - expected).abs() < 1e-7, "{file:?}: {:?}", shades(&image));
-        }
-    }
+fn pgm_rasters_may_hold_any_bytes() {
+    let followed = read_pgm(b"P5 2 1 5\n\x00\x05anything that follows").expect("a valid file");
+    assert_eq!(shades(&followed), [0.0, 1.0]);
     // The first byte of the raster may look like white space or a comment.
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
     assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
 }
 
-/// The first row of the file is the top of the map.
-#[test]
-fn the_image_stands_upright() {
-    let image = read_pgm(b"P2 2 3 1  0 1  1 1  1 1").expect("a valid file");
-    let plan = FloorPlan::from_grid(OccupancyGrid::new(&image, &TRINARY, 0.5, SE2::new(10.0, 20.0, 0.0)));
-    let plan = plan.expect("one cell");
-    assert!(!plan.point_free([10.25, 21.25], 0.0).free, "the cell at the upper left");
-    assert!(plan.point_free([10.25, 20.25], 0.7).free && plan.point_free([10.75, 21.25], 0.2).free);
-    assert_eq!((plan.walls().len(), plan.bounds()), (4, [10.0, 20.0, 11.0, 21.5]));
-}
-
 /// A sentence that names the line, the field, its value and what is allowed.
 #[test]
 fn malformed_pgm_files_are_explained() {
-    let cases: [(&[u8], &str); 24] = [
+    let cases: [(&[u8], &str); 13] = [
         (b"", "line 1: the magic number is missing; allowed is P5 or P2"),
-        (b"P6 1 1 255 abc", r#"line 1: the magic number is "P6"; allowed is P5 or P2"#),
         (b"\x89PNG\r\n\x1a\n", r#"line 1: the magic number is "�PNG"; allowed is P5 or P2"#),
-        (b"# only\n# comments", "line 2: the magic number is missing; allowed is P5 or P2"),
-        (b"P5", "line 1: the width is missing; allowed is a whole number from 1 to 33554432"),
         (b"P5\n#384\n", "line 3: the width is missing; allowed is a whole number from 1 to 33554432"),
         (b"P5\n0 3\n255\n", r#"line 2: the width is "0"; allowed is a whole number from 1 to 33554432"#),
-        (b"P5\n-3 3\n255\n", r#"line 2: the width is "-3"; allowed is a whole number from 1 to 33554432"#),
-        (b"P5\n3.5 3\n255\n", r#"line 2: the width is "3.5"; allowed is a whole number from 1 to 33554432"#),
-        (
-            b"P5\nwide 3\n255\n",
-            r#"line 2: the width is "wide"; allowed is a whole number from 1 to 33554432"#,
-        ),
         (b"P5\n\xff\"\0 3\n", r#"line 2: the width is "�"�"; allowed is a whole number from 1 to 33554432"#),
         (
             b"P5\n99999999999999999999999 3\n255\n",
@@ -137,16 +87,6 @@ fn malformed_pgm_files_are_explained() {
             r#"line 3: the height is "8192"; allowed is a whole number from 1 to 4096"#,
         ),
         (b"P5\n3 2\n", "line 3: the greatest value is missing; allowed is a whole number from 1 to 65535"),
-        (b"P5\n3 2\n0\n", r#"line 3: the greatest value is "0"; allowed is a whole number from 1 to 65535"#),
-        (
-            b"P5\n3 2\n65536\n",
-            r#"line 3: the greatest value is "65536"; allowed is a whole number from 1 to 65535"#,
-        ),
-        (b"P5\n3 2\n255", "line 3: the length of the raster in bytes is 0; allowed is 6 for 3 × 2 pixels"),
-        (
-            b"P5\n3 2\n255\n12345",
-            "line 3: the length of the raster in bytes is 5; allowed is 6 for 3 × 2 pixels",
-        ),
         (
             b"P5\n3 2\n256\n12345678901",
             "line 3: the length of the raster in bytes is 11; allowed is 12 for 3 × 2 pixels",
@@ -158,10 +98,6 @@ fn malformed_pgm_files_are_explained() {
         (
             b"P2\n3 2\n255\n1 2 3\n4 256 6\n",
             r#"line 5: a pixel is "256"; allowed is a whole number from 0 to 255"#,
-        ),
-        (
-            b"P2\n3 2\n255\n1 2 3\n4 five 6\n",
-            r#"line 5: a pixel is "five"; allowed is a whole number from 0 to 255"#,
         ),
         (
             b"P2\n3 2\n255\n1 2 3\n4 +5 6\n",

@@ -5,16 +5,18 @@ use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
-    ADDITIVE_DEVIATION, BananaMachine, Executed, MAX_SAMPLES, ModelKind, PRESETS, Preset, Settings,
-    command_reaching,
+    ADDITIVE_DEVIATION, BananaMachine, Executed, ModelKind, PRESETS, Settings, command_reaching,
 };
-use motion::sim::views::Grid;
 use motion::stats::ExponentialMoments;
 use motion::{
-    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd, VelocityModel,
+    MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, VelocityAlphas, VelocityCmd,
+    VelocityModel,
 };
 use nalgebra::{Matrix3, Vector3};
+use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::PI;
+
+const GENTLE: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
 fn machine(settings: Settings) -> BananaMachine {
     BananaMachine::new(settings).expect("a valid setting")
@@ -33,53 +35,32 @@ fn picture(machine: &BananaMachine) -> String {
     format!("{:?} {:?} {:?} {:?}", machine.settings(), poses(machine), machine.figures(), machine.contours())
 }
 
-#[test]
-fn the_opening_state_is_the_gentle_arc() {
-    let opening = machine(Settings::default());
-    let settings = opening.settings();
-    assert_eq!(settings.command, VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 });
-    assert_eq!(settings.velocity_alphas, [0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
-    assert_eq!((settings.model, settings.noise), (ModelKind::Velocity, NoiseKind::Normal));
-    assert_eq!((settings.samples, settings.seed, settings.isolate), (50_000, 3, None));
-    assert_eq!(opening.poses().len(), 50_000, "the cloud is complete");
-    assert!((opening.exact().cross_track_skew - -0.43093).abs() < 5e-6);
-    let presets = PRESETS
-        .map(|Preset { name, command: VelocityCmd { v, omega, dt }, alphas }| (name, [v, omega, dt], alphas));
-    let expected = [
-        ("straight", [1.0, 0.0, 2.0], None),
-        ("gentle", [1.0, 0.5, 1.0], None),
-        ("hard", [1.0, 1.2, 1.4], None),
-        ("pivot", [0.06, 1.5, 1.0], None),
-        ("banana", [1.0, 0.0, 2.0], Some([0.002, 0.002, 0.1, 0.1, 0.002, 0.002])),
-        ("worked", [1.0, 0.5, 1.0], Some([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
-    ];
-    assert_eq!(presets, expected);
-    const { assert!(MAX_SAMPLES >= 100_000) };
-}
-
 /// For robots that get a metre or two away, each factor of a coordinate off by the accuracy of its sine or cosine.
 const POSE_ACCURACY: f64 = 4.0 * ACCURACY;
 
-/// The cloud is the model's own, in the model's own order of draws.
+/// The cloud is the model's own, in the model's own order of draws: forward and in reverse, by either model.
 #[test]
 fn the_cloud_is_what_the_model_samples() {
-    for noise in KINDS {
-        let start = SE2::identity();
-        let settings = Settings { noise, samples: 500, seed: 2005, ..Settings::default() };
+    let start = SE2::identity();
+    let back = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
+    for (noise, command) in KINDS.into_iter().flat_map(|noise| [GENTLE, back].map(|command| (noise, command)))
+    {
+        let settings = Settings { noise, command, samples: 500, seed: 2005, ..Settings::default() };
+        let same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
+            let mut rng = seeded(2005);
+            for pose in machine(settings).poses() {
+                assert!(pose_distance(&pose, &draw(&mut rng)) < POSE_ACCURACY, "{settings:?}");
+            }
+        };
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise };
-        let mut rng = seeded(2005);
-        for pose in machine(settings).poses() {
-            let sample = model.sample(&settings.command, &start, &mut rng);
-            assert!(pose_distance(&pose, &sample) < POSE_ACCURACY);
-        }
-        let settings = Settings { model: ModelKind::Odometry, ..settings };
+        same(settings, &mut |rng| model.sample(&command, &start, rng));
+        let odometry = Settings { model: ModelKind::Odometry, ..settings };
         let model = OdometryModel { alphas: OdomAlphas(settings.odometry_alphas), noise };
-        let end = start.boxplus(nalgebra::Vector3::new(1.0, 0.0, 0.5));
+        let end = start.boxplus(Vector3::new(command.v, 0.0, command.omega));
         let reading = OdomDelta::from_poses(&start, &end);
-        let mut rng = seeded(2005);
-        for pose in machine(settings).poses() {
-            assert!(pose_distance(&pose, &model.sample(&reading, &start, &mut rng)) < POSE_ACCURACY);
-        }
+        same(odometry, &mut |rng| model.sample(&reading, &start, rng));
+        let aware = Settings { reverse_aware: true, ..odometry };
+        same(aware, &mut |rng| ReverseAware(model).sample(&reading, &start, rng));
     }
 }
 
@@ -175,30 +156,23 @@ fn long_turns_stay_on_the_branch_of_the_command() {
 /// The students' exercise: straight ahead, one α at a time.
 #[test]
 fn isolating_an_alpha_silences_the_others() {
-    let straight = Settings { command: PRESETS[0].command, isolate: Some(4), ..Settings::default() };
-    let mut machine = machine(straight);
+    let straight = Settings { command: PRESETS[0].command, samples: 1000, ..Settings::default() };
     let end = SE2::new(2.0, 0.0, 0.0);
-    assert!(machine.poses().all(|pose| pose == end), "α₄ is silent where nothing is turned");
-    assert!(machine.figures().cross_track.skew.is_nan());
-    assert_eq!(machine.figures().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
-    let curved = Settings { isolate: Some(1), ..Settings::default() };
-    machine.configure(curved).unwrap();
-    let cov = machine.figures().cartesian.cov;
-    assert_eq!(cov.column(2), Matrix3::zeros().column(2), "α₁ turns nobody");
-    machine.configure(Settings { isolate: Some(6), ..straight }).unwrap();
-    assert!(machine.poses().all(|pose| pose == end), "and so is α₆");
-    machine.configure(Settings { isolate: Some(5), ..straight }).unwrap();
-    assert!(machine.poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)));
-    assert!(machine.poses().any(|pose| pose.theta().abs() > 0.1), "α₅ turns and moves nothing");
-    machine.configure(Settings { isolate: Some(3), ..straight }).unwrap();
-    assert!(machine.poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14), "α₃ fans arcs of one length");
-    assert_eq!(
-        machine.settings().velocity_alphas,
-        straight.velocity_alphas,
-        "the sliders stay where they are"
-    );
-    machine.configure(Settings { isolate: None, ..straight }).unwrap();
-    assert_eq!(picture(&machine), picture(&self::machine(Settings { isolate: None, ..straight })));
+    let isolated = |alpha| machine(Settings { isolate: Some(alpha), ..straight });
+    for silent in [4, 6] {
+        let machine = isolated(silent);
+        assert!(machine.poses().all(|pose| pose == end), "α₄ and α₆ are silent where nothing is turned");
+        assert!(machine.figures().cross_track.skew.is_nan());
+        assert_eq!(machine.figures().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
+    }
+    assert!(isolated(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)), "α₁ turns nobody");
+    assert!(isolated(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14), "α₃ fans arcs of one length");
+    assert!(isolated(5).poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)), "α₅ moves nothing");
+    assert!(isolated(5).poses().any(|pose| pose.theta().abs() > 0.1), "and turns");
+    let mut again = isolated(3);
+    assert_eq!(again.settings().velocity_alphas, straight.velocity_alphas, "the sliders stay where they are");
+    again.configure(straight).unwrap();
+    assert_eq!(picture(&again), picture(&machine(straight)));
 }
 
 #[test]
@@ -218,24 +192,6 @@ fn a_dragged_end_is_reached() {
     }
     let present = VelocityCmd { v: 1.0, omega: 1.2, dt: 3.0 };
     assert_eq!(command_reaching(0.0, 0.0, &present), VelocityCmd { v: 0.0, omega: 0.0, dt: 3.0 });
-}
-
-/// Where a command ends, dragging begins: without a jump, however far it turns and whichever way it drives.
-#[test]
-fn the_end_of_a_command_gives_the_command_back() {
-    for v in [1.0, -0.7, 0.06] {
-        for omega in [0.0, 0.5, -1.2, 2.0, -2.0] {
-            for dt in [0.1, 1.0, 1.4, 3.0] {
-                let command = VelocityCmd { v, omega, dt };
-                let end = machine(Settings { command, ..Settings::default() }).linearized().mean;
-                let back = command_reaching(end.x, end.y, &command);
-                assert!(
-                    (back.v - v).abs() < 1e-13 && (back.omega - omega).abs() < 1e-13,
-                    "{command:?}, {back:?}"
-                );
-            }
-        }
-    }
 }
 
 /// Exponential coordinates run to infinity where robots turn by a whole circle: the figures in them are then undefined,
@@ -261,7 +217,7 @@ fn without_a_chart_exponential_figures_are_undefined() {
 }
 
 #[test]
-fn both_views_find_the_nearest_sample_and_count_all() {
+fn both_views_find_the_nearest_sample() {
     let machine = machine(Settings { samples: 3000, ..Settings::default() });
     for view in [View::Plane, View::Twist] {
         let points: Vec<[f64; 2]> = machine
@@ -286,20 +242,6 @@ fn both_views_find_the_nearest_sample_and_count_all() {
         let beside = |distance| [points[outermost][0] + distance, points[outermost][1]];
         assert_eq!(machine.nearest(view, beside(0.0099), [0.01, 1e-9]), Some(outermost));
         assert_eq!(machine.nearest(view, beside(0.0101), [0.01, 1e-9]), None);
-        // A grid over the whole cloud counts every sample once, in the cell where it lies, the top row first.
-        let grid = Grid { min: [-4.0, -4.0], max: [4.0, 4.0], columns: 16, rows: 8 };
-        let counts = machine.density(view, &grid);
-        assert_eq!(counts.iter().sum::<u32>(), 3000);
-        for (cell, count) in counts.iter().enumerate() {
-            let (column, row) = (cell % 16, cell / 16);
-            let inside = points.iter().filter(|[x, y]| {
-                (x + 4.0) * 2.0 >= column as f64
-                    && (x + 4.0) * 2.0 < (column + 1) as f64
-                    && 4.0 - y >= row as f64
-                    && 4.0 - y < (row + 1) as f64
-            });
-            assert_eq!(*count as usize, inside.count(), "column {column}, row {row}");
-        }
     }
 }
 
@@ -325,28 +267,20 @@ fn the_executed_motion_leads_to_the_pose() {
     }
 }
 
-/// Forward, the option changes nothing; in reverse the heading keeps what the table charges for two half turns.
+/// In reverse the heading keeps what the table charges for two half turns; with the option it does not.
 #[test]
 fn a_reverse_aware_robot_is_not_charged_for_half_turns() {
-    let odometry = Settings { model: ModelKind::Odometry, samples: 20_000, ..Settings::default() };
-    let aware = Settings { reverse_aware: true, ..odometry };
-    assert_eq!(poses(&machine(odometry)), poses(&machine(aware)));
-
-    let command = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
-    let machines = [odometry, aware].map(|settings| machine(Settings { command, ..settings }));
+    let command = VelocityCmd { v: -1.0, ..GENTLE };
+    let odometry = Settings { model: ModelKind::Odometry, command, samples: 10, ..Settings::default() };
+    let machines = [false, true].map(|reverse_aware| machine(Settings { reverse_aware, ..odometry }));
     let [a1, a2, ..] = odometry.odometry_alphas;
     let reading = machines[0].reading();
-    let trans_squared = reading.trans * reading.trans;
     // Both rotations fall short of a half turn by half the turn, or are that.
     let charged = [reading.rot1.abs(), PI - reading.rot1.abs()];
     for (machine, rotation) in machines.iter().zip(charged) {
-        let variance = 2.0 * (a1 * rotation * rotation + a2 * trans_squared);
+        let variance = 2.0 * (a1 * rotation * rotation + a2 * reading.trans * reading.trans);
         assert!((machine.exact().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
         assert!((machine.linearized().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
-        // The robots themselves turned so: six standard errors of a variance.
-        let turns = machine.executed().map(|[rot1, _, rot2]| rot1 + rot2 - reading.rot1 - reading.rot2);
-        let measured = turns.map(|turn| turn * turn).sum::<f64>() / 20_000.0;
-        assert!((measured / variance - 1.0).abs() < 6.0 * (2.0_f64 / 20_000.0).sqrt());
     }
 }
 
@@ -368,16 +302,11 @@ fn additive_noise_does_not_depend_on_the_motion() {
     assert_eq!(rounded, ADDITIVE_DEVIATION);
 }
 
-/// The opening cloud tells the skew as well as is claimed, and no other of the first ten seeds tells it better.
+/// The opening cloud tells the skew as well as is claimed.
 #[test]
 fn the_opening_cloud_shows_the_exact_skew() {
-    let off = |seed: u64| {
-        let machine = machine(Settings { seed, ..Settings::default() });
-        let track = machine.figures().cross_track;
-        assert!((track.skew_error - 0.013).abs() < 0.0015);
-        (track.skew - machine.exact().cross_track_skew).abs()
-    };
-    let present = off(Settings::default().seed);
-    assert!(present < 0.005);
-    assert!((0..10).all(|seed| off(seed) >= present));
+    let machine = machine(Settings::default());
+    let track = machine.figures().cross_track;
+    assert!((track.skew_error - 0.013).abs() < 0.0015);
+    assert!((track.skew - machine.exact().cross_track_skew).abs() < 0.005);
 }

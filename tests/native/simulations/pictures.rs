@@ -35,21 +35,25 @@ fn step(count: u32, most: u32) -> u8 {
 fn a_cloud_is_painted_as_it_is_dense() {
     let settings = Settings { samples: 3000, ..Settings::default() };
     let mut machine = BananaMachine::new(settings).expect("a valid setting");
-    for grid in grids([0.75, -0.2], [1.2, 0.4]) {
-        let points: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
+    let plane: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
+    let twists: Vec<[f64; 2]> = machine.twists().map(|twist| [twist.x, twist.z]).collect();
+    let of = |view, points| move |grid| (view, points, grid);
+    let in_plane = grids([0.75, -0.2], [1.2, 0.4]).map(of(View::Plane, &plane));
+    let of_twists = grids([0.75, 0.1], [1.2, 0.7]).map(of(View::Twist, &twists));
+    for (view, points, grid) in in_plane.into_iter().chain(of_twists) {
         let mut counts = vec![0u32; grid.columns * grid.rows];
         points.iter().filter_map(|point| cell(&grid, *point)).for_each(|cell| counts[cell] += 1);
         let most = *counts.iter().max().expect("there are cells");
         assert!((1..3000).contains(&counts.iter().sum::<u32>()), "some are outside");
         // Once more: nothing of an image is left for the next.
         for time in ["first", "second"] {
-            let pixels = machine.paint(View::Plane, &grid, &ramp(3));
+            let pixels = machine.paint(view, &grid, &ramp(3));
             assert_eq!(pixels.len(), counts.len());
             for (i, (pixel, count)) in pixels.iter().zip(&counts).enumerate() {
                 let expected = if *count == 0 { [0; 4] } else { [step(*count, most), 3, 7, 255] };
                 assert_eq!(*pixel, expected, "{time}, cell {i} of {grid:?}");
             }
-            assert_eq!(machine.density(View::Plane, &grid), counts, "{time}");
+            assert_eq!(machine.density(view, &grid), counts, "{time}");
         }
     }
 }

@@ -1,21 +1,14 @@
 //! The machine of Map Squeeze: common random numbers, draw budget, tally and its interval.
 
 use crate::common::seeded;
+use crate::map::conditioned::cell;
 use motion::geom::se2::SE2;
-use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
-use motion::sim::squeeze::{Attempt, MapSqueeze, PRESETS, Settings, Tally};
+use motion::sim::squeeze::{Attempt, MapSqueeze, Settings, Tally};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
 const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];
 const AHEAD: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
-
-/// A cell of 20 cm, in which the robot of 13 cm fits nowhere.
-fn cell() -> FloorPlan {
-    let corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
-    let walls = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }).collect();
-    FloorPlan::new(walls, [1.9, 1.9, 2.3, 2.3]).expect("a valid plan")
-}
 
 fn machine(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("a valid setting")
@@ -33,19 +26,6 @@ fn picture(machine: &MapSqueeze) -> String {
         machine.gave_up(),
         machine.plan().walls()
     )
-}
-
-#[test]
-fn the_opening_state_faces_a_doorway() {
-    let opening = machine(Settings::default());
-    let settings = opening.settings();
-    assert_eq!((settings.start, settings.command), ([2.05, 2.6, std::f64::consts::FRAC_PI_2], AHEAD));
-    assert_eq!(settings.alphas, [0.12, 0.12, 0.12, 0.12, 0.03, 0.03]);
-    assert_eq!((settings.clearance, settings.conditioned, settings.sampler), (0.13, true, Sampler::Endpoint));
-    assert_eq!(opening.attempts().len(), settings.samples);
-    let starts = PRESETS.map(|(name, [x, y, _])| (name, x, y));
-    assert_eq!(starts, [("doorway", 2.05, 2.6), ("wall", 3.3, 2.6), ("corridor", 1.4, 4.4)]);
-    assert_eq!(PRESETS.map(|(_, [_, _, theta])| theta), [settings.start[2], settings.start[2], 0.0]);
 }
 
 /// Conditioning, and judging by the whole arc, change verdicts and no draw; so does another map.

@@ -210,7 +210,7 @@ fn sampler_and_density_agree() {
 fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
     let (u, x) = (command(1.0, 0.5, 1.0), SE2::identity());
     let model = model(OPENING, NoiseKind::Normal);
-    let grid = box_around(&model, &u, &x, [16; 3]);
+    let grid = box_around(&model, &u, &x, [8; 3]);
     let density = grid.masses(|pose| model.pose_density(pose, &u, &x).unwrap());
     let scores = grid.masses(|pose| model.prob(pose, &u, &x));
     let total: f64 = scores.iter().sum();

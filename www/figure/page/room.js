@@ -3,31 +3,37 @@
 import { css, unsafeCSS } from 'lit';
 import { likedWidth } from '../../ui/width.js';
 
+/** Least widths of the width classes, em: at these figures put their pictures side by side, or their controls. */
+const WIDTHS = [0, 30, 38, 56];
+
 /**
- * Heights by the tag, em: below a width of 30 em, from there on, and from 56 em on. They are measured as the figures open,
- * in a usual font.
+ * Heights by the tag and the width class, em: in the middle of those measured as the figures open, up to a width of 80 em, in a usual
+ * font.
  *
- * @type {Record<string, [narrow: number, middle: number, wide: number]>}
+ * @type {Record<string, number[]>}
  */
 const HEIGHTS = {
-  'banana-machine': [84, 40.5, 38],
-  'map-squeeze': [63, 39.5, 37],
-  'arc-anatomy': [60, 48, 46],
-  'odometry-decomposer': [78, 37.5, 37.5],
-  'dead-reckoning': [90, 42, 33],
-  'alpha-calibrator': [90, 42.5, 35],
+  'banana-machine': [86, 55.5, 42, 40],
+  'map-squeeze': [64.5, 69, 40, 39],
+  'arc-anatomy': [67, 66, 49, 49],
+  'odometry-decomposer': [78, 75, 39, 39],
+  'dead-reckoning': [91, 46, 42, 35],
+  'alpha-calibrator': [89, 98, 42.5, 35.5],
 };
 
 /**
- * Height for whatever width: a million times the excess is subtracted from the height of a narrower class.
+ * Height for whatever width. Outside of its class a height loses a million times the distance to it, so that the class decides.
  *
  * @param {string} tag
  * @param {'%' | 'cqi'} unit a hundredth of the figure's width
  */
 function heightOf(tag, unit) {
-  const [narrow, middle, wide] = HEIGHTS[tag];
-  const below = (/** @type {number} */ height, /** @type {number} */ width) => `${height}em - 1e6*max(0em,100${unit} - ${width - 0.001}em)`;
-  return `max(${wide}em,${below(middle, 56)},${below(narrow, 30)})`;
+  const heights = HEIGHTS[tag].map((height, i) => {
+    const [least, next] = [WIDTHS[i], WIDTHS[i + 1]];
+    const above = next ? ` - 1e6*max(0em,100${unit} - ${next - 0.001}em)` : '';
+    return `${height}em - 1e6*max(0em,${least}em - 100${unit})${above}`;
+  });
+  return `max(${heights})`;
 }
 
 /** Style of a figure: it is as high as the room that was kept for it. @param {string} tag */

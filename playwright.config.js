@@ -6,7 +6,8 @@ export default defineConfig({
   outputDir: 'test-results/e2e',
   forbidOnly: true,
   fullyParallel: true,
-  workers: '100%',
+  // Tests wait for frames and timers: three at a time keep two cores busy.
+  workers: '150%',
   reporter: [['list'], ['json', { outputFile: 'test-results/e2e.json' }]],
   use: {
     baseURL: process.env.SERVED_AT,

@@ -106,12 +106,17 @@ async function inSession(url, capabilities, stop) {
     version: (await session.getCapabilities()).get('browserVersion'),
     open: (url) => session.get(url),
     async ask(work, given) {
-      const [result, error] = /** @type {[any, string?]} */ (
-        await session.executeAsyncScript(
-          `const [given, done] = arguments; (async () => (${work})(given))().then((result) => done([result]), (error) => done([null, String(error.stack || error)]));`,
-          given,
-        )
+      // By a script of the page: Firefox runs those of WebDriver in a sandbox, whose arrays are not the page's.
+      const run = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
+      const answer = await session.executeAsyncScript(
+        `const [run, done] = arguments;
+        const script = document.createElement('script');
+        script.textContent = run;
+        addEventListener('answer', () => done(script.dataset.answer), { once: true });
+        document.head.append(script);`,
+        `{ const script = document.currentScript; ${run}.then((answer) => { script.dataset.answer = JSON.stringify(answer); script.remove(); dispatchEvent(new Event('answer')); }); }`,
       );
+      const [result, error] = /** @type {[any, string?]} */ (JSON.parse(answer));
       if (error) throw new Error(error);
       return result;
     },

@@ -42,6 +42,8 @@ async function run(page, site) {
     const sessions = await (await fetch('/api/sessions')).json();
     return sessions.some((/** @type {any} */ { kernel }) => kernel.connections > 0 && kernel.execution_state === 'idle');
   });
+  // JupyterLab itself connects later than its server says.
+  await page.getByText('Python 3 (ipykernel) | Idle').waitFor();
   await choose(page, 'Kernel', 'Restart Kernel and Run All Cells…');
   await page.locator('.jp-Dialog .jp-mod-accept').click();
   // It is numbered when it is done.

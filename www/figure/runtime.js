@@ -8,9 +8,6 @@ import { look, unwatch, watch } from './page/sight.js';
 import { Part } from './part.js';
 import { isTrap } from './trap.js';
 
-/** Cores that may trap one after the other, without a picture between, until the figure gives up. */
-const MAX_CRASHES = 3;
-
 export class Runtime extends Part {
   /** The core, once it runs. @type {import('../types.d.ts').Motion | undefined} */
   motion;
@@ -24,7 +21,8 @@ export class Runtime extends Part {
   #near;
   /** @type {Promise<void> | undefined} */
   #starting;
-  #crashes = 0;
+  /** True if a core has trapped and no picture was drawn since. */
+  #hasTrapped = false;
 
   hostConnected() {
     watch(this.host, {
@@ -99,7 +97,7 @@ export class Runtime extends Part {
 
   /** A picture was drawn, so that the present core is taken for a sound one. */
   prove() {
-    this.#crashes = 0;
+    this.#hasTrapped = false;
   }
 
   /** Tells the page of what went wrong; the console too, where no listener takes care of it. @param {unknown} error */
@@ -119,13 +117,14 @@ export class Runtime extends Part {
 
   /**
    * After a trap, takes a new core and the last good state: the old core's memory may be damaged, and
-   * nothing of it is used again. What is shown stays until then.
+   * nothing of it is used again. What is shown stays until then. A second trap before a picture is not mended.
    *
    * @param {unknown} error
    * @returns {boolean} whether it was one that this mends
    */
   #mend(error) {
-    if (!isTrap(error) || ++this.#crashes > MAX_CRASHES) return false;
+    if (!isTrap(error) || this.#hasTrapped) return false;
+    this.#hasTrapped = true;
     this.#abandon();
     this.report(error);
     this.#start();
@@ -174,7 +173,7 @@ export class Runtime extends Part {
 
   #stop() {
     this.#loaded = false;
-    this.#crashes = 0;
+    this.#hasTrapped = false;
     this.host.stage.clear();
     this.attempt(() => {
       this.host.settings.settle();

@@ -163,7 +163,10 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
               contents: withoutEffects(readFileSync(path, 'utf8')),
               loader: 'js',
             }));
-            onLoad({ filter: /[/\\]zstddec\.mjs$/ }, ({ path }) => ({ contents: withoutFetch(readFileSync(path, 'utf8')), loader: 'js' }));
+            onLoad({ filter: /[/\\](?:zstddec\.mjs|lit-html\.js)$/ }, ({ path }) => ({
+              contents: withReplaced(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED} */ (basename(path))),
+              loader: 'js',
+            }));
             onLoad({ filter: /[/\\]www[/\\].+\.js$/ }, ({ path }) => ({
               contents: changed(path, withShortStyles(readFileSync(path, 'utf8'), transformSync)),
               loader: 'js',
@@ -301,19 +304,35 @@ function withoutEffects(library) {
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
 }
 
-/**
- * A library whose module is a text in it, and that has the browser fetch this text: strict security policies forbid that.
- *
- * @param {string} library
- */
-function withoutFetch(library) {
-  const changes = /** @type {const} */ ([
+/** Passages of libraries that are replaced, by the names of the libraries' files. */
+const REPLACED = {
+  // The module is a text in the library. Strict security policies forbid the fetch that reads it.
+  'zstddec.mjs': [
     ['typeof fetch !== "undefined"', 'false'],
     ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (each) => each.charCodeAt(0))'],
-  ]);
-  return changes.reduce((text, [is, instead]) => {
-    if (!text.includes(is)) throw new Error(`zstddec has no ${is}, as scripts/bundle.mjs takes it to have.`);
-    return text.replace(is, instead);
+  ],
+  'lit-html.js': [
+    // A policy has a name of its own: the page may have a Lit that needs the other. Without a policy only rendering fails.
+    [
+      's.createPolicy("lit-html",{createHTML:t=>t})',
+      '((...names)=>{for(const name of names)try{return s.createPolicy(name,{createHTML:t=>t})}catch{}})("motion-widgets","lit-html")',
+    ],
+    // Page translators replace text nodes. No part ends at a text of its template, and a text that is gone is made again.
+    ['r=`<${n}>`', 'r=`<${n}><!---->`'],
+    ['a(this._$AH)?', 'a(this._$AH)&&3===this._$AA.nextSibling?.nodeType?'],
+  ],
+};
+
+/**
+ * A library with some passages replaced.
+ *
+ * @param {string} library
+ * @param {keyof typeof REPLACED} name of its file
+ */
+function withReplaced(library, name) {
+  return REPLACED[name].reduce((text, [is, instead]) => {
+    if (text.split(is).length !== 2) throw new Error(`${name} does not have ${is} once, as scripts/bundle.mjs takes it to have.`);
+    return text.replace(is, () => instead);
   }, library);
 }
 

@@ -49,7 +49,32 @@ test('a figure asks for nothing that a strict policy forbids', async ({ page, fi
   expect(await violations()).toEqual([]);
 });
 
+/** Policy of a page that names the Trusted Types policies which may be made. @param {string} names */
+const trusting = (names) => `${STRICT}; require-trusted-types-for 'script'; trusted-types ${names}`;
+
+test('a figure has a Trusted Types policy of its own beside that of the page\'s Lit', async ({ page, figure }) => {
+  // As a copy of Lit does that comes before the figures.
+  await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
+  const violations = await openUnder(page, trusting('lit-html motion-widgets'), `embed.html?widget=${figure}`);
+  await ready(page.locator(figure));
+  await unfold(page.locator(figure));
+  expect(await violations()).toEqual([]);
+});
+
 // What the browser says of the policy in the console is what these are about.
+anyway('a Trusted Types policy that is named as that of Lit is enough', async ({ page }) => {
+  await openUnder(page, trusting('lit-html'), 'embed.html?widget=banana-machine');
+  await expect(page.locator('banana-machine canvas').first()).toBeVisible();
+});
+
+anyway('where no Trusted Types policy may be made, a sentence names the one that is missing', async ({ page }) => {
+  const warned = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
+  await openUnder(page, trusting("'none'"), 'embed.html?widget=banana-machine');
+  const sentence = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
+  await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${sentence}`);
+  expect((await warned).text()).toContain(sentence);
+});
+
 anyway('where WebAssembly is forbidden, a sentence names the directive that is missing', async ({ page }) => {
   await openUnder(page, "script-src 'self'", 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine').getByRole('alert')).toContainText("lacks 'wasm-unsafe-eval'");

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { ALL } from './figures.js';
+import { ALL, KNOWN } from './figures.js';
 import { STILL, frames, numberIn, open, pictureOf, readout, ready, show, state, test, unfold } from './support.js';
 
 test.use(STILL);
@@ -161,4 +161,36 @@ test('a page from right to left has the same picture, and nothing beside its fig
   const value = Number(await slider.inputValue());
   await slider.press('ArrowUp');
   expect(Number(await slider.inputValue())).toBeGreaterThan(value);
+});
+
+test('a page translator that replaces every text freezes none', async ({ page, figure }) => {
+  await show(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
+  const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));
+  const { slider, values } = KNOWN[figure];
+  const texts = async () => {
+    await frames(page);
+    return Promise.all([translated, other].map((widget) => widget.locator('.machine').evaluate((machine) => machine.textContent)));
+  };
+  for (const widget of [translated, other]) {
+    await widget.scrollIntoViewIfNeeded();
+    await ready(widget);
+    await unfold(widget);
+  }
+  await translated.evaluate(({ shadowRoot }) => {
+    const walker = document.createTreeWalker(/** @type {ShadowRoot} */ (shadowRoot), NodeFilter.SHOW_TEXT);
+    const found = /** @type {Text[]} */ ([]);
+    while (walker.nextNode()) found.push(/** @type {Text} */ (walker.currentNode));
+    for (const text of found) {
+      const font = document.createElement('font');
+      font.append(text.data);
+      text.replaceWith(font);
+    }
+  });
+  for (const value of values) {
+    const before = await texts();
+    for (const widget of [translated, other]) await widget.locator(`#${slider}`).fill(String(value));
+    await expect.poll(async () => (await texts())[1]).not.toBe(before[1]);
+    const [one, two] = await texts();
+    expect(one).toBe(two);
+  }
 });

@@ -5,7 +5,7 @@
 
 import { LitElement, nothing } from 'lit';
 import { en } from '../messages/en.js';
-import { addEnglish, speak } from '../messages/registry.js';
+import { addEnglish, speak, words } from '../messages/registry.js';
 import { presentationStyles } from '../ui/presentation.js';
 import { theme } from '../ui/theme.js';
 import { Announcer } from './announcer.js';
@@ -438,6 +438,10 @@ export class FigureElement extends LitElement {
     try {
       // At once: what was shown before a trap stays, and in the place of what failed comes the sentence.
       this.runtime.attemptOrFail(rendered) ?? rendered();
+    } catch {
+      // No template can be rendered here, now or later.
+      this.shouldUpdate = () => false;
+      this.renderRoot.textContent = words.failure(this.runtime.failure ?? '');
     } finally {
       this.#updating = false;
     }

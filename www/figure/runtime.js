@@ -202,5 +202,11 @@ export function orFree(machine, work) {
   }
 }
 
+/** Remedy where Trusted Types refuse the figure's templates. */
+const NO_POLICY = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
+
 /** @param {unknown} error */
-const messageOf = (error) => (error instanceof Error ? error.message : String(error));
+function messageOf(error) {
+  const message = error instanceof Error ? error.message : String(error);
+  return message.includes('TrustedHTML') ? NO_POLICY : message;
+}

@@ -44,6 +44,7 @@ async function coloursOf(widget, roles) {
     return names.map((name) => {
       const swatch = document.createElement('span');
       swatch.style.color = `var(--${name})`;
+      swatch.style.forcedColorAdjust = 'none';
       element.shadowRoot?.querySelector('.surface')?.append(swatch);
       context.fillStyle = getComputedStyle(swatch).color;
       swatch.remove();
@@ -176,6 +177,30 @@ test('a light text on an image of the page asks for dark paper', async ({ page }
   await ready(widget);
   expect((await coloursOf(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
+
+/** Pages with black text on a dark ground: by the system's forced colours, and by a scheme of theirs. */
+const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').Page['emulateMedia']>[0], string][]} */ ([
+  ['black text in forced dark colours', { forcedColors: 'active', colorScheme: 'dark' }, 'body { background: white; color: black }'],
+  ['black text in a dark scheme', { colorScheme: 'dark' }, ':root { color-scheme: light dark } body { color: #000 }'],
+]);
+
+for (const [what, media, style] of BLACK_ON_DARK) {
+  test(`a figure on a page with ${what} is legible`, async ({ page, figure }) => {
+    await page.emulateMedia(media);
+    await show(page, `<${figure} theme="auto"></${figure}>`, { head: `<style>${style}</style>` });
+    const widget = page.locator(figure);
+    await ready(widget);
+    const theme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
+    for (const name of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
+      await theme(name);
+      const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(CONTRAST)]);
+      for (const [i, [role, least]] of Object.entries(CONTRAST).entries()) {
+        expect.soft(contrast(colours[i], paper), `${role} in ${name}`).toBeGreaterThanOrEqual(least);
+      }
+    }
+    expect(await pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+  });
+}
 
 test('a theme other than that of the page gives a figure its own paper and ink', async ({ page }) => {
   const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';

@@ -258,7 +258,8 @@ export class Stage extends Part {
     const style = this.#probe('.surface')?.style;
     if (!style) return;
     const { scheme, ...around } = surroundings(this.#probe('.scheme-probe'));
-    const { theme } = this.host;
+    // Forced colours are those of every theme.
+    const theme = matchMedia('(forced-colors: active)').matches ? 'auto' : this.host.theme;
     style.colorScheme = this.#printing ? 'light' : theme === 'auto' ? scheme : theme;
     const own = this.#printing || style.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, own ? '' : colour);

@@ -87,6 +87,15 @@ export const theme = css`
     color: var(--ink);
   }
 
+  /* The probe and the surface have no colour of the page then: some of those would be forced, and others not. */
+  @media (forced-colors: active) {
+    .scheme-probe,
+    .surface {
+      background: Canvas;
+      color: CanvasText;
+    }
+  }
+
   .title-slot {
     margin: 0 0 0.27em;
     font-size: 1.1em;

@@ -6,7 +6,7 @@ import { channels } from '../../ui/theme.js';
 /**
  * @typedef {{ ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' }} Surroundings `shade` is
  *   the share of black that colours for white paper need on the ground: on a darker one they stand out as far as on white;
- *   `strength` is the share of the text's colour that what is muted needs to be legible
+ *   `strength` is the share of the text's colour that what is muted needs to be legible; without `text` it is the figure's own
  */
 
 export const THEMES = /** @type {const} */ (['auto', 'light', 'dark']);
@@ -44,24 +44,25 @@ export function ancestors(node) {
 
 /**
  * The ground on which the figure stands, with the text there. They are dark where the ground is darker than the text:
- * so it is also with a page whose own switch changes colours alone.
+ * so it is also with a page whose own switch changes colours alone. Text that is illegible on the ground is not taken.
  *
  * @param {Element} probe
  * @returns {Surroundings}
  */
 export function surroundings(probe) {
-  const { color: text, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
-  const unsaid = colorScheme === 'normal' && lightness(channels(text)) > 0.5;
+  const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
+  const ink = channels(color);
+  const unsaid = colorScheme === 'normal' && lightness(ink) > 0.5;
   const grounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
   const ground = channels(...[...grounds, unsaid ? DARK : canvas].reverse());
   const light = lightness(ground);
-  const ink = channels(text);
-  const scheme = light < lightness(ink) ? 'dark' : 'light';
+  const isLegible = contrast(ink, ground) >= LEGIBLE;
+  const scheme = light < (isLegible ? lightness(ink) : 0.5) ? 'dark' : 'light';
   // By luminance, of which a light of 0.5 has some 0.5 ** 2.2. What is nearly white needs none.
   const shade = scheme === 'light' && light < 0.97 ? `${100 * (1 - light ** 2.2)}%` : '';
   const muted = (/** @type {number} */ share) => ground.map((channel, i) => channel + (share / 100) * (ink[i] - channel));
-  const strength = `${STRENGTHS.find((share) => contrast(muted(share), ground) >= LEGIBLE) ?? 100}%`;
-  return { ground: `rgb(${ground})`, text, shade, strength, scheme };
+  const strength = isLegible ? `${STRENGTHS.find((share) => contrast(muted(share), ground) >= LEGIBLE) ?? 100}%` : '';
+  return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade, strength, scheme };
 }
 
 /**

@@ -100,6 +100,50 @@ test('the end of the arc can be dragged', async ({ page }) => {
   await expect(widget.locator('p[role=status]')).toContainText(`v = ${v.toFixed(2)} m/s`);
 });
 
+test('a drag keeps the scale, and the view zooms out after it', async ({ page }) => {
+  const widget = await open(page, 'preset="banana"');
+  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const extent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
+  const from = await centreOf(handle);
+  const before = await extent();
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (const [dx, dy] of [[-40, 60], [-90, 120]]) {
+    await page.mouse.move(from.x + dx, from.y + dy, { steps: 8 });
+    await frames(page);
+    const { x, y } = await centreOf(handle);
+    expect(Math.hypot(x - from.x - dx, y - from.y - dy)).toBeLessThan(2);
+    expect(await extent()).toEqual(before);
+  }
+  await page.mouse.up();
+  await expect.poll(extent).not.toEqual(before);
+  await frames(page);
+  const after = await extent();
+  expect(after.xMin).toBeLessThanOrEqual(before.xMin);
+  expect(after.yMin).toBeLessThanOrEqual(before.yMin);
+  expect(after.xMax).toBeGreaterThanOrEqual(before.xMax);
+  expect(after.yMax).toBeGreaterThanOrEqual(before.yMax);
+  // A small cloud does not bring the view closer, a preset does.
+  await dragSlider(widget.locator('#dt'), 0.05);
+  await frames(page);
+  expect(await extent()).toEqual(after);
+  await widget.getByRole('button', { name: 'Straight' }).click();
+  await expect.poll(async () => (await extent()).xMax - (await extent()).xMin).toBeLessThan(after.xMax - after.xMin);
+});
+
+test('Home and End move the end of the arc to the ends of v, and no key scrolls the page', async ({ page }) => {
+  const widget = await open(page, 'style="margin-bottom: 3000px"');
+  const handle = widget.locator('.handle');
+  await handle.focus();
+  await page.evaluate(() => scrollTo(0, 100));
+  for (const [key, v] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
+    await page.keyboard.press(key);
+    const { command } = (await state(widget)).config;
+    if (v) expect(command.v).toBeCloseTo(v, 1);
+  }
+  expect(await page.evaluate(() => scrollY)).toBe(100);
+});
+
 test('the end of the arc can be moved from the keyboard', async ({ page }) => {
   const widget = await open(page);
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
@@ -109,6 +153,8 @@ test('the end of the arc can be moved from the keyboard', async ({ page }) => {
     ['ArrowRight', 0.02, 0],
     ['Shift+ArrowDown', 0, -0.1],
     ['Shift+ArrowLeft', -0.1, 0],
+    ['PageUp', 0, 0.2],
+    ['PageDown', 0, -0.2],
   ]);
   let { end } = await state(widget);
   for (const [key, dx, dy] of ways) {

@@ -107,9 +107,12 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
     [body, 'ArrowDown', 0, -0.05, 0],
     [body, '[', 0, 0, degrees5],
     [body, ']', 0, 0, -degrees5],
-    [body, 'Shift+ArrowLeft', 0, 0, degrees5],
-    [body, 'Shift+ArrowRight', 0, 0, -degrees5],
+    [body, 'Shift+ArrowLeft', -0.25, 0, 0],
+    [body, 'PageDown', 0, -0.5, 0],
+    [body, 'PageUp', 0, 0.5, 0],
     [turn, 'ArrowUp', 0, 0, degrees5],
+    [turn, 'Shift+ArrowUp', 0, 0, 5 * degrees5],
+    [turn, 'PageDown', 0, 0, -10 * degrees5],
     [turn, 'ArrowRight', 0, 0, -degrees5],
   ]);
   for (const [part, key, dx, dy, dTheta] of keys) {

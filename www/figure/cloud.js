@@ -132,9 +132,9 @@ export class Cloud extends Part {
    */
   point(picture, event) {
     this.host.runtime.attempt(() => {
-      const { machine, held } = this.host;
+      const { machine, gesture } = this.host;
       // A finger that moves scrolls the page; one that taps comes as a click.
-      if (!machine || held || (event.pointerType === 'touch' && event.type !== 'click')) return;
+      if (!machine || gesture.pressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
       const [x, y] = pointOn(/** @type {Element} */ (event.currentTarget), picture.view, event);
       const index = picture.nearest(machine, x, y);
       if (index >= 0 || event.type === 'click') this.mark(index);

@@ -199,11 +199,6 @@ export class FigureElement extends LitElement {
   /** Another machine has taken its place, and nothing of it is shown yet. */
   machineChanged() {}
 
-  /** Whether a handle is held: the views keep still under it. */
-  get held() {
-    return false;
-  }
-
   /** Puts the handles where the pictures have them now. @param {any} _scene */
   placeHandles(_scene) {}
 

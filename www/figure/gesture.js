@@ -14,14 +14,40 @@ export class Gesture extends Part {
   #end;
   /** Whether a step was told without its end. */
   #open = false;
+  /** Ends listening for the end of a press. @type {AbortController | undefined} */
+  #press;
+  /** Reading before the present gesture, or the last. @type {any} */
+  former;
+
+  /** Whether a pointer is down on the figure: the views keep still under it. */
+  get pressed() {
+    return this.#press !== undefined;
+  }
+
+  /** A pointer comes down on the figure. @param {PointerEvent} event */
+  press({ button }) {
+    if (button !== 0) return;
+    this.#release();
+    this.#press = new AbortController();
+    const { signal } = this.#press;
+    for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => this.#release(), { capture: true, signal });
+  }
+
+  #release() {
+    this.#press?.abort();
+    this.#press = undefined;
+    this.host.stage.wake();
+  }
 
   /** What leaves the page is let go of. */
   hostDisconnected() {
+    this.#release();
     if (this.#open || this.#step) this.commit();
   }
 
   /** Something has changed, and it may go on. */
   step() {
+    if (!this.#open && !this.#step) this.former = this.host.reading;
     this.#step = true;
     this.#end = false;
     this.#queue();

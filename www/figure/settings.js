@@ -131,6 +131,7 @@ export class Settings extends Part {
       this.#begin(values);
       this.#proceed(LONGEST_WORK);
       this.host.reflection.tell();
+      this.host.stage.release();
       this.show();
     });
   }

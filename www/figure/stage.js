@@ -123,6 +123,11 @@ export class Stage extends Part {
     if (inSight) this.recolour();
   }
 
+  /** Lets the views close in and recenter: the reader, or the page, has chosen to see something else. */
+  release() {
+    for (const { view } of this.host.pictures) view.release();
+  }
+
   /** Asks for one drawing in the next frame, when there is somebody to see it. */
   wake() {
     this.#due = true;
@@ -190,7 +195,8 @@ export class Stage extends Part {
       return;
     }
     const { scene } = host;
-    const how = { elapsed, still: host.held, atOnce: isCalm() };
+    const { pressed: still, former } = host.gesture;
+    const how = { elapsed, still, atOnce: isCalm(), former };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();

@@ -118,6 +118,7 @@ export class State extends Part {
   /** @param {Values} [state] that the machine is in, if it is not the opening */
   #introduce(state) {
     const { host } = this;
+    host.stage.release();
     host.cloud?.introduce(state);
     host.refresh();
     host.reflection.tell();

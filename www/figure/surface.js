@@ -9,11 +9,11 @@ import { placeholder } from './placeholder.js';
 /** @param {Figure} figure */
 export function surface(figure) {
   speak(figure);
-  const { lettering, presenting, progress, stage } = figure;
+  const { gesture, lettering, presenting, progress, stage } = figure;
   const recolour = () => stage.recolour();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
-    <div class="surface ${presenting.className}" @input=${stop} @change=${stop} @keydown=${keepUsed}>
+    <div class="surface ${presenting.className}" @pointerdown=${(/** @type {PointerEvent} */ event) => gesture.press(event)} @input=${stop} @change=${stop} @keydown=${keepUsed}>
       ${lettering.title()} ${contentOf(figure)} ${progress.render()} ${lettering.caption()} ${presenting.render()}
     </div>
   `;

@@ -17,7 +17,10 @@ export const de = {
     omega: { name: 'ω, befohlene Drehrate' },
     dt: { name: 'Δt, Dauer' },
   },
-  pose: { keys: 'Die Pfeiltasten bewegen ihn; [ und ] oder Umschalt mit einer Pfeiltaste drehen ihn', headingKeys: 'Die Pfeiltasten drehen ihn' },
+  pose: {
+    keys: 'Die Pfeiltasten bewegen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab bewegen ihn weit in y, Pos1 und Ende an die Enden in x; [ und ] drehen ihn',
+    headingKeys: 'Die Pfeiltasten drehen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab drehen ihn weit, Pos1 und Ende nach hinten',
+  },
   sliderEnds: (end) => `Der Regler endet bei ${end}; Werte darüber hinaus kann man eintippen.`,
   refused: (name, given, least, most, whole) =>
     `${name} ist ${given}; erlaubt ist ${whole ? 'eine ganze Zahl von ' : ''}${least} bis ${most}.`,

@@ -26,7 +26,10 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     omega: { name: 'ω, commanded turn rate' },
     dt: { name: 'Δt, duration' },
   },
-  pose: { keys: 'Arrow keys move it; [ and ], or Shift with an arrow key, turn it', headingKeys: 'Arrow keys turn it' },
+  pose: {
+    keys: 'Arrow keys move it, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x; [ and ] turn it',
+    headingKeys: 'Arrow keys turn it, with Shift by larger steps; Page Up and Page Down turn it far, Home and End to the back',
+  },
   sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
   refused: (name, given, least, most, whole) =>
     `${name} is ${given}; allowed is ${whole ? 'a whole number from ' : ''}${least} to ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''}.`,

@@ -17,6 +17,8 @@
  * @property {import('../ui/theme.js').Palette} palette
  * @property {number} ratio device pixels a pixel of the view
  * @property {string} font of the canvas's style
+ * @property {boolean} [exported] whether a file is drawn: a picture on the page has its key beside it
+ * @property {any} [former] earlier reading whose outlines stay as a ghost
  */
 
 /** Height of a picture's letters, pixels of its view; those of the figure have 16: see the style of canvases. */
@@ -65,5 +67,7 @@ export function brushOn(canvas, view, palette) {
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
+  // Numbers with signs, in whatever language the page is.
+  context.direction = 'ltr';
   return { context, view, palette, ratio, font: `${LETTERS}px ${fontFamily}` };
 }

@@ -136,7 +136,8 @@ export function drawPixels({ context, view }, grid, pixels, columns) {
   const inked = inkedPart(pixels, columns, rows);
   if (!inked) return;
   const [x, y, width, height] = inked;
-  hiddenContext(grid).putImageData(new ImageData(pixels, columns, rows), 0, 0, x, y, width, height);
+  // All of them: where they are stretched, those around the part shine through its edges.
+  hiddenContext(grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
   const { left, right, top, bottom } = view.frame;
   const [across, down] = [(right - left) / columns, (bottom - top) / rows];
   context.imageSmoothingEnabled = true;
@@ -234,6 +235,30 @@ export function drawOutlines(brush, outlines) {
     context.stroke();
   }
   context.setLineDash([]);
+}
+
+/** Opacity of outlines as they were. */
+const GHOST = 0.35;
+
+/**
+ * Draws outlines as they were before what is seen now.
+ *
+ * @param {Brush} brush
+ * @param {Outline[]} outlines
+ */
+export function drawGhosts(brush, outlines) {
+  const { context } = brush;
+  context.globalAlpha = GHOST;
+  for (const { points, colour, width, dash } of outlines.filter((outline) => hasLength(outline.points))) {
+    context.beginPath();
+    trace(brush, points);
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.setLineDash(dash);
+    context.stroke();
+  }
+  context.setLineDash([]);
+  context.globalAlpha = 1;
 }
 
 /**

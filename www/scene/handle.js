@@ -22,8 +22,32 @@ import { length, pointOn } from './canvas.js';
  * @property {string | false} [stop] a few words on what it has come up against, if it has
  */
 
-/** Where the arrow keys go, y up. */
-export const WAYS = new Map(Object.entries({ ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }));
+/** Steps of keys, x and y up: Home and End go to the ends of the range along x. @type {Record<string, [number, number]>} */
+const STEPS = {
+  ArrowRight: [1, 0],
+  ArrowLeft: [-1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+  PageUp: [0, 10],
+  PageDown: [0, -10],
+  Home: [-Infinity, 0],
+  End: [Infinity, 0],
+};
+
+/** Steps of an arrow key with Shift. */
+const LONG_STEP = 5;
+
+/**
+ * Returns the steps along x and y that a key moves something by; undefined for other keys and those of the browser.
+ *
+ * @param {KeyboardEvent} event
+ * @returns {[number, number] | undefined}
+ */
+export function stepsOf({ key, shiftKey, ctrlKey, metaKey, altKey }) {
+  const steps = ctrlKey || metaKey || altKey ? undefined : STEPS[key];
+  if (!steps || !shiftKey || !key.startsWith('Arrow')) return steps;
+  return [LONG_STEP * steps[0], LONG_STEP * steps[1]];
+}
 
 export class Handle {
   #part;

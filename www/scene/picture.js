@@ -7,10 +7,12 @@ import { brushOn } from './canvas.js';
  * @import { View } from './view.js'
  * @import { Palette } from '../ui/theme.js'
  *
- * @typedef {object} Easing
+ * @typedef {object} How
  * @property {number} [elapsed] milliseconds since the frame before
  * @property {boolean} [still] whether the view stays aimed at what it is aimed at
  * @property {boolean} [atOnce] whether the view goes there without easing
+ * @property {any} [former] reading before the present gesture: a view that zooms out after it shows its outlines too
+ * @property {boolean} [exported] whether it is drawn for a file, which has no page around it
  */
 
 /**
@@ -18,6 +20,9 @@ import { brushOn } from './canvas.js';
  * @template {string} [Name=string]
  */
 export class Picture {
+  /** Reading before the gesture that the view last zoomed out after, or may yet. @type {any} */
+  #former;
+
   /**
    * @param {Name} name class of its canvas
    * @param {View} view
@@ -40,14 +45,19 @@ export class Picture {
    * @param {HTMLCanvasElement | Surface} surface
    * @param {Scene} scene
    * @param {Palette} palette
-   * @param {Easing} [easing]
+   * @param {How} [how]
    * @returns {boolean} whether the view is still moving
    */
-  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false } = {}) {
-    const brush = brushOn(surface, this.view, palette);
-    if (!still || !this.view.aimed) this.fit(scene);
-    const moving = this.view.ease(elapsed, atOnce);
-    this.paint(brush, scene);
+  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false, former, exported = false } = {}) {
+    const { view } = this;
+    const brush = brushOn(surface, view, palette);
+    if (former !== this.#former && !exported) {
+      this.#former = former;
+      view.widened = false;
+    }
+    if (!still || !view.aimed) this.fit(scene);
+    const moving = view.ease(elapsed, atOnce);
+    this.paint({ ...brush, exported, former: view.widened && !exported ? former : undefined }, scene);
     return moving;
   }
 

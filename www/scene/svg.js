@@ -29,6 +29,7 @@ export class SvgContext {
   font = '';
   textAlign = 'left';
   textBaseline = 'alphabetic';
+  direction = 'ltr';
   imageSmoothingEnabled = true;
   #path = '';
   /** @type {number[]} */

@@ -5,10 +5,7 @@
 
 /** @typedef {{ xMin: number, yMin: number, xMax: number, yMax: number }} Extent axis-aligned part of a view's world */
 
-/**
- * Share of the view that what is shown may shrink to before the view closes in on it. Larger makes
- * the picture jump more often while a slider is dragged, smaller leaves it swimming in paper.
- */
+/** Share of a released view that what is shown has to fill: a view that suits stays where it is. */
 const LOOSEST_FIT = 0.45;
 
 /** Room left around what is shown when a view is chosen, as a share of its size. */
@@ -26,6 +23,12 @@ export class View {
   extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
   /** @type {Extent | undefined} */
   #target;
+  /** Part of the world that the view covers in whatever size it has. @type {Extent | undefined} */
+  #room;
+  /** Whether the next fit may also close in and recenter. */
+  #released = false;
+  /** Whether the view has zoomed out since this was last set to false. */
+  widened = false;
   /** Whether a metre is as long in y as in x. */
   #equal;
   /** Canvas size, CSS pixels. */
@@ -51,12 +54,22 @@ export class View {
     this.height = height;
     const { left, right, top, bottom } = this.#inset;
     this.frame = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
-    this.#target = undefined;
+    if (this.#room) this.extent = this.#target = this.#cover(this.#room);
   }
 
-  /** Whether it knows for its present size what to show. */
+  /** Whether it knows what to show. */
   get aimed() {
     return this.#target !== undefined;
+  }
+
+  /** Lets the next fit close in and recenter. */
+  release() {
+    this.#released = true;
+  }
+
+  /** Forgets what is shown: the next fit takes effect without easing. */
+  forget() {
+    this.#target = this.#room = undefined;
   }
 
   /** Pixels a unit of x; with equal aspect also of y. */
@@ -97,16 +110,20 @@ export class View {
   }
 
   /**
-   * Aims the view at `needed`. It stays where it is while that fits and does not look lost in it, so
-   * that the picture holds still under a slider.
+   * Aims the view at what has to be seen. The view stays while that is inside, and only zooms out otherwise; a released view may
+   * also close in and recenter.
    *
    * @param {Extent} needed
    */
   fit(needed) {
-    if (this.#target && this.#suits(this.#target, needed)) return;
-    const first = this.#target === undefined;
-    this.#target = this.#around(needed);
-    if (first) this.extent = this.#target;
+    const [kept, released] = [this.#target, this.#released];
+    this.#released = false;
+    if (kept && (released ? this.#suits(kept, needed) : isInside(needed, kept))) return;
+    this.widened = kept !== undefined && !released;
+    const room = withMargin(needed);
+    this.#room = kept && this.widened ? extentAround([room.xMin, room.yMin, room.xMax, room.yMax], 2, kept) : room;
+    this.#target = this.#cover(this.#room);
+    if (!kept) this.extent = this.#target;
   }
 
   /**
@@ -135,22 +152,16 @@ export class View {
    * @param {Extent} needed
    */
   #suits(shown, needed) {
-    const inside =
-      needed.xMin >= shown.xMin &&
-      needed.xMax <= shown.xMax &&
-      needed.yMin >= shown.yMin &&
-      needed.yMax <= shown.yMax;
     const fillX = (needed.xMax - needed.xMin) / (shown.xMax - shown.xMin);
     const fillY = (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin);
     const fill = this.#equal ? Math.max(fillX, fillY) : Math.min(fillX, fillY);
-    return inside && fill >= LOOSEST_FIT;
+    return isInside(needed, shown) && fill >= LOOSEST_FIT;
   }
 
-  /** @param {Extent} needed */
-  #around(needed) {
+  /** Returns the extent of the view's shape around some room. @param {Extent} room */
+  #cover(room) {
     const { left, right, top, bottom } = this.frame;
-    let width = (needed.xMax - needed.xMin) * (1 + 2 * MARGIN);
-    let height = (needed.yMax - needed.yMin) * (1 + 2 * MARGIN);
+    let [width, height] = [room.xMax - room.xMin, room.yMax - room.yMin];
     if (this.#equal) {
       const aspect = (bottom - top) / (right - left);
       width = niceSize(Math.max(width, height / aspect));
@@ -159,10 +170,23 @@ export class View {
       width = niceSize(width);
       height = niceSize(height);
     }
-    const x = (needed.xMin + needed.xMax) / 2;
-    const y = (needed.yMin + needed.yMax) / 2;
+    const x = (room.xMin + room.xMax) / 2;
+    const y = (room.yMin + room.yMax) / 2;
     return extentAround([x - width / 2, y - height / 2, x + width / 2, y + height / 2], 2);
   }
+}
+
+/**
+ * @param {Extent} inner
+ * @param {Extent} outer
+ */
+const isInside = (inner, outer) =>
+  inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
+
+/** @param {Extent} needed @returns {Extent} */
+function withMargin({ xMin, xMax, yMin, yMax }) {
+  const [x, y] = [MARGIN * (xMax - xMin), MARGIN * (yMax - yMin)];
+  return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
 }
 
 /**

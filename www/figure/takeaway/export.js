@@ -40,7 +40,7 @@ function drawOn({ scene, pictures: [first], plate, stage }, ratio, makeContext) 
   const size = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const context = /** @type {CanvasRenderingContext2D} */ (makeContext(size));
   const surface = { ...size, clientWidth, letters: getComputedStyle(canvas), getContext: () => context };
-  picture.draw(surface, scene, stage.palette, { atOnce: true });
+  picture.draw(surface, scene, stage.palette, { still: true, atOnce: true, exported: true });
   return { context, view: picture.view, ...size };
 }
 
@@ -77,7 +77,7 @@ export function svgOf(element) {
   const name = `figure-${hash(JSON.stringify(settings))}`;
   const svg = new SvgContext(name);
   const { view, width, height } = drawOn(element, 1, () => svg);
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" role="img" aria-labelledby="${name}-title ${name}-text">
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${short(view.width)} ${short(view.height)}" direction="ltr" role="img" aria-labelledby="${name}-title ${name}-text">
 <title id="${name}-title">${escaped(title)}</title>
 <desc id="${name}-text">${escaped(description)}</desc>
 <rect width="100%" height="100%" fill="${element.stage.palette.paper}"/>

@@ -36,6 +36,7 @@ export class WayPicture extends SamplesPicture {
   /** @param {Scene} scene */
   fit({ legs: { reference } }) {
     const box = extentAround(reference, 3);
+    this.view.release();
     this.view.fit(extentOf(reference.length > 0 ? [box.xMin, box.yMin, box.xMax, box.yMax] : [0, 0], 1));
   }
 
@@ -77,6 +78,7 @@ export class LegPicture extends Picture {
   fit({ leg }) {
     if (!leg) return;
     const { outline, read, ended } = leg;
+    this.view.release();
     this.view.fit(extentOf([...outline, read[0], read[1], ended[0], ended[1]], 0.05));
   }
 

@@ -98,10 +98,6 @@ export class ArcAnatomyElement extends FigureElement {
 
   announcement = verdictOf;
 
-  get held() {
-    return this.#handles.some(({ held }) => held);
-  }
-
   /** The robot goes by whole per cents, each of which is a step that a page hears of. @param {number} at per cent of the way */
   #drive(at) {
     const { own } = this.state;

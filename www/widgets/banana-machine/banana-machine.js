@@ -129,10 +129,6 @@ export class BananaMachineElement extends FigureElement {
     return { ...super.completed(present, given), alphas: { ...present.alphas, ...alphas } };
   }
 
-  get held() {
-    return this.#handle.held;
-  }
-
   /** @param {Reading} scene */
   placeHandles({ end: [x, y] }) {
     const { view } = this.#plane;

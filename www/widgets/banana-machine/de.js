@@ -121,7 +121,7 @@ export const de = {
   axisAlong: 'ξ längs (m)',
   axisHeading: 'ξ Richtung (rad)',
   handle: 'Ende des befohlenen Bogens',
-  handleKeys: 'Die Pfeiltasten bewegen es über den Boden',
+  handleKeys: 'Die Pfeiltasten bewegen es über den Boden, mit Umschalt in größeren Schritten; Bild auf und Bild ab bewegen es weit in y, Pos1 und Ende an die Enden in x',
   handleTitle: 'Zieh am Ende des Bogens',
   slidersEnd: 'Hier enden die Regler',
   chart: 'Exakte Schiefe quer zur Fahrt über dem befohlenen ω, beim jetzigen Rauschen',

@@ -126,7 +126,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   axisAlong: 'ξ along (m)',
   axisHeading: 'ξ heading (rad)',
   handle: 'End of the commanded arc',
-  handleKeys: 'Arrow keys move it over the floor',
+  handleKeys: 'Arrow keys move it over the floor, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x',
   handleTitle: 'Drag the end of the arc',
   slidersEnd: 'The sliders end here',
   chart: 'Exact cross-track skew against commanded ω, for the present noise',

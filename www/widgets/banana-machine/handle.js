@@ -1,13 +1,13 @@
 /** The ring at the end of the commanded arc, dragged by pointer or moved from the keyboard. */
 
 import { words } from '../../messages/registry.js';
-import { Handle, WAYS } from '../../scene/handle.js';
+import { Handle, stepsOf } from '../../scene/handle.js';
+import { clamp } from '../../ui/clamp.js';
 import { fixed } from '../../ui/format.js';
 import { looks } from './settings.js';
 
-/** What an arrow key moves the end of the arc by, metres; with Shift the longer way. */
+/** Distance that an arrow key moves the end of the arc by, metres. */
 const KEY_STEP = 0.02;
-const LONG_KEY_STEP = 0.1;
 
 export class ArcHandle extends Handle {
   /** @param {import('./banana-machine.js').BananaMachineElement} figure */
@@ -15,12 +15,13 @@ export class ArcHandle extends Handle {
     super('end', {
       view: () => figure.pictures[0].view,
       drag: (x, y) => figure.reach(x, y),
-      key: ({ key, shiftKey }) => {
-        const way = WAYS.get(key);
-        if (!way) return false;
-        const step = shiftKey ? LONG_KEY_STEP : KEY_STEP;
+      key: (event) => {
+        const steps = stepsOf(event);
+        if (!steps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.fresh.end) ?? [0, 0];
-        figure.reach(x + step * way[0], y + step * way[1]);
+        // No arc ends farther away than the straight one.
+        const farthest = looks.v.max * figure.settings.wanted.command.dt;
+        figure.reach(clamp(x + KEY_STEP * steps[0], -farthest, farthest), y + KEY_STEP * steps[1]);
         return true;
       },
       commit: () => figure.gesture.commit(),

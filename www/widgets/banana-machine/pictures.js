@@ -6,6 +6,7 @@ import {
   densityRamp,
   drawDensity,
   drawDots,
+  drawGhosts,
   drawHeap,
   drawMark,
   drawOutline,
@@ -145,7 +146,9 @@ export class PlanePicture extends CloudPicture {
         this.paintCloud(brush, machine, area);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      drawOutlines(brush, PAINTED.filter(drawn).map((name) => ({ points: contours[name], ...styles[name] })));
+      const outlines = (/** @type {Scene['contours']} */ of) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
+      if (brush.former) drawGhosts(brush, outlines(brush.former.contours));
+      drawOutlines(brush, outlines(contours));
       if (overlays.command && scene.reading) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
       if (marked) {
@@ -268,6 +271,7 @@ export class TwistPicture extends CloudPicture {
       const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;
       this.paintCloud(brush, machine, area);
       if (overlays.exponential) {
+        if (brush.former) drawGhosts(brush, [{ points: brush.former.contours.twistEllipse, ...exponential }]);
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {

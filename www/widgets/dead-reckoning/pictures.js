@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { drawDots, drawMark, drawOutlines, drawRobot, trace } from '../../scene/draw.js';
+import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, trace } from '../../scene/draw.js';
 import { Picture, SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { COMMAND_DASH } from '../shared/command.js';
@@ -75,7 +75,9 @@ export class PathPicture extends SamplesPicture {
           { points: passed.exponential, ...exponential, width: 1 },
         ]),
       ]);
-      drawOutlines(brush, [{ points: outlines.ellipse, ...ellipse }, { points: outlines.exponential, ...exponential }]);
+      const styled = (/** @type {Scene['outlines']} */ of) => [{ points: of.ellipse, ...ellipse }, { points: of.exponential, ...exponential }];
+      if (brush.former) drawGhosts(brush, styled(brush.former.outlines));
+      drawOutlines(brush, styled(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawPlace(brush, pose);
       if (!marked) return;
@@ -159,6 +161,7 @@ export class StepPicture extends Picture {
     drawAxes(brush, { x: axisAlong, y: axisLateral }, key.map((name) => keyEntry(brush, name)));
     clipped(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
+      if (brush.former) drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.predicted }]);
       drawOutlines(brush, [{ points: predicted, ...styles.predicted }, { points: measured, ...styles.measured }]);
     });
   };

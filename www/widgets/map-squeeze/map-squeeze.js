@@ -113,7 +113,7 @@ export class MapSqueezeElement extends FigureElement {
   read(machine) {
     const reading = readingOf(machine);
     if (reading.config.unknown !== this.#unknown && this.picture.hasUnknown) this.machineChanged();
-    this.#meter.heed(reading.config, !this.cloud.playing && !this.held);
+    this.#meter.heed(reading.config, !this.cloud.playing && !this.gesture.pressed);
     return reading;
   }
 
@@ -142,10 +142,6 @@ export class MapSqueezeElement extends FigureElement {
   }
 
   announcement = verdictOf;
-
-  get held() {
-    return this.#handles.held;
-  }
 
   /** @param {Reading} scene */
   placeHandles({ config: { start, clearance } }) {
@@ -212,6 +208,7 @@ export class MapSqueezeElement extends FigureElement {
 
   /** The reader wants the robot at a place in the present map, or in the apartment. @param {Pose} start */
   go(start) {
+    this.stage.release();
     this.gesture.decide({ start });
   }
 

@@ -83,7 +83,9 @@ export class FloorPicture extends SamplesPicture {
   }
 
   set close(close) {
+    if (close === this.close) return;
     this.view = close ? this.#near : this.#whole;
+    this.view.forget();
   }
 
   /** @param {Scene} scene */

@@ -123,10 +123,6 @@ export class OdometryDecomposerElement extends FigureElement {
 
   announcement = captionOf;
 
-  get held() {
-    return this.#handles.some(({ held }) => held);
-  }
-
   /** @param {Reading} scene */
   placeHandles({ config: { from, to } }) {
     const [before, after] = this.#handles;

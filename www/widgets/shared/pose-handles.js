@@ -2,7 +2,7 @@
 
 import { Part } from '../../figure/part.js';
 import { words } from '../../messages/registry.js';
-import { Handle, WAYS } from '../../scene/handle.js';
+import { Handle, stepsOf } from '../../scene/handle.js';
 import { clamp } from '../../ui/clamp.js';
 import { fixed } from '../../ui/format.js';
 import { turnDistance } from './robot.js';
@@ -27,8 +27,11 @@ import { turnDistance } from './robot.js';
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
-/** Which way a key turns it: to the left is counter-clockwise, as for a driver. */
-const TURNS = new Map(Object.entries({ '[': 1, ']': -1, ArrowLeft: 1, ArrowUp: 1, ArrowRight: -1, ArrowDown: -1 }));
+/** Turns by keys at the robot itself, counter-clockwise. @type {Record<string, number>} */
+const TURNS = { '[': 1, ']': -1 };
+
+/** @param {KeyboardEvent} event */
+const turnsOf = ({ key, metaKey }) => (metaKey ? undefined : TURNS[key]);
 
 /** Least size of the body's handle, CSS pixels. */
 const MIN_BODY = 32;
@@ -57,23 +60,23 @@ export class PoseHandles extends Part {
       ...hooks,
       at: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
-      key: (event) => this.#key(event, !event.shiftKey),
+      key: (event) => this.#moveBy(stepsOf(event)) || this.#turnBy(turnsOf(event)),
     });
     this.#turn = new Handle(`turn ${setting}`, {
       ...hooks,
       at: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
-      key: (event) => this.#key(event, false),
+      key: (event) => {
+        const steps = stepsOf(event);
+        // To the left is counter-clockwise, as for a driver.
+        return this.#turnBy(turnsOf(event) ?? (steps && steps[1] - steps[0]));
+      },
     });
   }
 
   /** As it is wanted so far. @returns {Pose} */
   get #pose() {
     return this.host.settings.wanted[this.#setting];
-  }
-
-  get held() {
-    return this.#body.held || this.#turn.held;
   }
 
   render() {
@@ -118,16 +121,18 @@ export class PoseHandles extends Part {
     this.#turn.place(root, inside(x + distance * ahead.x, view.width), inside(y + distance * ahead.y, view.height));
   }
 
-  /**
-   * @param {KeyboardEvent} event
-   * @param {boolean} moves whether arrow keys move the robot rather than turn it
-   */
-  #key({ key, ctrlKey, metaKey, altKey }, moves) {
-    const [way, turn] = [moves ? WAYS.get(key) : undefined, TURNS.get(key)];
-    if (ctrlKey || metaKey || altKey || !(way || turn)) return false;
-    const { x, y, theta } = this.#pose;
-    if (way) this.#moveTo(x + KEY_STEP * way[0], y + KEY_STEP * way[1]);
-    else if (turn) this.#turnTo(theta + KEY_TURN * turn);
+  /** @param {[number, number]} [steps] along x and y @returns {boolean} whether there are any */
+  #moveBy(steps) {
+    if (!steps) return false;
+    const { x, y } = this.#pose;
+    this.#moveTo(x + KEY_STEP * steps[0], y + KEY_STEP * steps[1]);
+    return true;
+  }
+
+  /** @param {number} [steps] counter-clockwise; infinitely many for half a turn from 0 @returns {boolean} whether there are any */
+  #turnBy(steps) {
+    if (!steps) return false;
+    this.#turnTo(Number.isFinite(steps) ? this.#pose.theta + KEY_TURN * steps : Math.sign(steps) * Math.PI);
     return true;
   }
 

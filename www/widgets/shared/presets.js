@@ -12,8 +12,12 @@ import { button } from '../../ui/controls.js';
  * @param {(name: string) => Parameters<import('../../figure/gesture.js').Gesture['decide']>[0]} presets.settings to make for one
  * @param {Record<string, string | undefined>} [presets.titles] what one does that its name does not say
  */
-export function presetButtons({ gesture }, { names, present, settings, titles = {} }) {
+export function presetButtons({ gesture, stage }, { names, present, settings, titles = {} }) {
+  const begin = (/** @type {string} */ name) => {
+    stage.release();
+    gesture.decide(settings(name));
+  };
   return html`<div class="buttons presets" role="group" aria-label=${words.beginWith}>
-    ${Object.entries(names).map(([name, label]) => button(label, () => gesture.decide(settings(name)), { pressed: name === present, title: titles[name] }))}
+    ${Object.entries(names).map(([name, label]) => button(label, () => begin(name), { pressed: name === present, title: titles[name] }))}
   </div>`;
 }

@@ -7,7 +7,7 @@
 /** @typedef {import('../www/types.d.ts').BananaMachine} BananaMachine */
 /** @typedef {import('../www/types.d.ts').Command} Command */
 
-/** The widget's opening α's: none of the six is 0. */
+/** α's of the preset Gentle arc: none of the six is 0. */
 export const ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /** 400 pixels a metre around the whole cloud. */

@@ -27,19 +27,19 @@ export const settings = {
     { key: 'noise', type: 'word', words: ['normal', 'triangular'], default: 'normal', sentence: 'Distribution of the noise; the variances are the same.' },
     { key: 'command', type: 'group', fields: ['v', 'omega', 'dt'], sentence: 'The same for every robot.' },
     { key: 'v', in: 'command', type: 'number', unit: 'm/s', min: -1000000, max: 1000000, default: 1, sentence: 'Commanded speed; negative in reverse.' },
-    { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0.5, sentence: 'Commanded turn rate; positive to the left.' },
-    { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 1, sentence: 'Duration of the command.' },
-    { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], sentence: 'Noise parameters of the present model: six of the velocity model, four of the odometry model.' },
-    { key: 'alpha1', in: 'alphas', index: 0, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the present model.' },
-    { key: 'alpha2', in: 'alphas', index: 1, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the present model.' },
-    { key: 'alpha3', in: 'alphas', index: 2, type: 'number', min: 0, max: 1000000, default: 0.05, sentence: 'Noise parameter of the present model.' },
-    { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.09, sentence: 'Noise parameter of the present model.' },
-    { key: 'alpha5', in: 'alphas', index: 4, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
-    { key: 'alpha6', in: 'alphas', index: 5, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.01, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'omega', in: 'command', type: 'number', unit: 'rad/s', min: -1000000, max: 1000000, default: 0, sentence: 'Commanded turn rate; positive to the left.' },
+    { key: 'dt', in: 'command', type: 'number', unit: 's', min: 0.000001, max: 1000000, default: 2, sentence: 'Duration of the command.' },
+    { key: 'alphas', type: 'numbers', min: 0, max: 1000000, default: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], sentence: 'Noise parameters of the present model: six of the velocity model, four of the odometry model.' },
+    { key: 'alpha1', in: 'alphas', index: 0, type: 'number', min: 0, max: 1000000, default: 0.002, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha2', in: 'alphas', index: 1, type: 'number', min: 0, max: 1000000, default: 0.002, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha3', in: 'alphas', index: 2, type: 'number', min: 0, max: 1000000, default: 0.1, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha4', in: 'alphas', index: 3, type: 'number', min: 0, max: 1000000, default: 0.1, sentence: 'Noise parameter of the present model.' },
+    { key: 'alpha5', in: 'alphas', index: 4, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.002, sentence: 'Noise parameter of the velocity model.' },
+    { key: 'alpha6', in: 'alphas', index: 5, type: 'number', nullable: true, min: 0, max: 1000000, default: 0.002, sentence: 'Noise parameter of the velocity model.' },
     { key: 'reverseAware', type: 'boolean', default: false, sentence: 'Whether the odometry model charges a robot that backs up for the turns it made instead of two half turns more.' },
     { key: 'isolate', type: 'whole', nullable: true, min: 1, max: 6, default: null, sentence: 'Number of the only noise parameter in effect; null for all of them.' },
     { key: 'samples', type: 'whole', min: 1, max: 10000000, default: 50000, sentence: 'Robots in the whole cloud.' },
-    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 3, sentence: 'The same seed is the same robots.' },
+    { key: 'seed', type: 'whole', min: 0, max: 9007199254740991, default: 87, sentence: 'The same seed is the same robots.' },
   ],
   'map-squeeze': [
     { key: 'start', type: 'group', fields: ['x', 'y', 'theta'], sentence: 'The pose that the robot starts from.' },
@@ -151,10 +151,10 @@ export const settings = {
 /** What the widgets may open with, by their tags. */
 export const presets = {
   'banana-machine': [
-    { name: 'straight', v: 1, omega: 0, dt: 2, alphas: null },
-    { name: 'gentle', v: 1, omega: 0.5, dt: 1, alphas: null },
-    { name: 'hard', v: 1, omega: 1.2, dt: 1.4, alphas: null },
-    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1, alphas: null },
+    { name: 'straight', v: 1, omega: 0, dt: 2, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] },
+    { name: 'gentle', v: 1, omega: 0.5, dt: 1, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] },
+    { name: 'hard', v: 1, omega: 1.2, dt: 1.4, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] },
+    { name: 'pivot', v: 0.06, omega: 1.5, dt: 1, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01] },
     { name: 'banana', v: 1, omega: 0, dt: 2, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002] },
     { name: 'worked', v: 1, omega: 0.5, dt: 1, alphas: [0.02, 0.02, 0.02, 0.02, 0.0, 0.0] },
   ],
@@ -187,7 +187,7 @@ export const presets = {
 };
 
 /** The noise parameters that each model opens with. */
-export const openingAlphas = { velocity: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], odometry: [0.05, 0.05, 0.05, 0.05] };
+export const openingAlphas = { velocity: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], odometry: [0.05, 0.05, 0.05, 0.05] };
 
 /**
  * What the core takes at most: `cells` of a grid or pixels of an image, `bytes` of its file, `trial` samples times parts in

@@ -147,7 +147,7 @@ impl JsBananaMachine {
                 ("v", v.into()),
                 ("omega", omega.into()),
                 ("dt", dt.into()),
-                ("alphas", alphas.map_or(JsValue::NULL, |alphas| list(&alphas))),
+                ("alphas", list(&alphas)),
             ])
         };
         PRESETS.into_iter().map(preset).collect()

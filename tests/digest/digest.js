@@ -178,8 +178,8 @@ const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped'])
 function commandOf(presets, wanted) {
   const preset = presets.find(({ name }) => name === wanted);
   if (preset === undefined) return {};
-  const { v, omega, dt, alphas } = preset;
-  return { command: { v, omega, dt }, ...(alphas && { alphas }) };
+  const { v, omega, dt } = preset;
+  return { command: { v, omega, dt } };
 }
 
 /** @type {(count: number, step: number) => number[]} */

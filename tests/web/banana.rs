@@ -10,17 +10,18 @@ fn it_opens_as_the_figure_does() {
     let it = Object::new("new motion.BananaMachine()");
     assert_eq!(
         it.get::<String>("JSON.stringify(it.config)"),
-        r#"{"model":"velocity","noise":"normal","command":{"v":1,"omega":0.5,"dt":1},"#.to_owned()
-            + r#""alphas":[0.05,0.05,0.05,0.09,0.01,0.01],"reverseAware":false,"isolate":null,"samples":50000,"seed":3}"#
+        r#"{"model":"velocity","noise":"normal","command":{"v":1,"omega":0,"dt":2},"#.to_owned()
+            + r#""alphas":[0.002,0.002,0.1,0.1,0.002,0.002],"reverseAware":false,"isolate":null,"samples":50000,"seed":87}"#
     );
     assert_eq!(
         it.get::<[f64; 3]>("[it.shown, it.stats.n, motion.BananaMachine.maxSamples]"),
         [5e4, 5e4, 1e7]
     );
-    assert_near([it.get("it.table.exact.crossTrackSkew")], [-0.43093], 5e-6);
+    assert_near([it.get("it.table.exact.areaRatio")], [1.967], 5e-4);
     let names: Vec<String> = get("motion.BananaMachine.presets.map(({ name }) => name)");
     assert_eq!(names, ["straight", "gentle", "hard", "pivot", "banana", "worked"]);
-    assert_eq!(get::<Option<()>>("motion.BananaMachine.presets[2].alphas"), None);
+    let alphas: [f64; 6] = get("motion.BananaMachine.presets[2].alphas");
+    assert_eq!(alphas, [0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
     assert_eq!(get::<[f64; 3]>("pick(motion.BananaMachine.presets[2], 'v', 'omega', 'dt')"), [1.0, 1.2, 1.4]);
 }
 
@@ -69,7 +70,7 @@ fn gains_and_area_ratios_are_the_published_ones() {
     for (preset, gain, ratio) in cases {
         let it = Object::new(&format!(
             "(({{ v, omega, dt, alphas }}) =>
-                new motion.BananaMachine({{ command: {{ v, omega, dt }}, alphas: alphas ?? undefined, samples: 50_000 }}))
+                new motion.BananaMachine({{ command: {{ v, omega, dt }}, alphas, samples: 50_000 }}))
             (motion.BananaMachine.presets.find(({{ name }}) => name === '{preset}'))"
         ));
         let exact: [f64; 2] = it.get("[it.table.exact.likelihoodGain.pose, it.table.exact.areaRatio]");
@@ -111,7 +112,7 @@ fn each_model_keeps_its_alphas_and_a_seed_its_cloud() {
     it.run("it.configure({ alphas: new Float64Array([4, 3, 2, 1]), isolate: 2 })");
     it.run("it.configure({ model: 'velocity', isolate: null, samples: undefined })");
     assert_eq!(it.get::<[f64; 4]>("it.alphasOfModels.odometry"), [4.0, 3.0, 2.0, 1.0]);
-    assert_eq!(it.get::<Vec<f64>>("it.alphasOfModels.velocity"), [0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+    assert_eq!(it.get::<Vec<f64>>("it.alphasOfModels.velocity"), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
     assert_eq!(it.get::<Vec<f64>>("it.poses.slice(0, 1500)"), cloud);
     assert_eq!(it.get::<[f64; 2]>("[it.poses.length, it.config.samples]"), [2100.0, 700.0]);
 }
@@ -154,7 +155,11 @@ fn samples_are_inspected_found_and_counted() {
 
 #[wasm_bindgen_test]
 fn outlines_and_curves_are_arrays_of_points() {
-    let it = Object::new("new motion.BananaMachine({ samples: 4000 })");
+    let it = Object::new(
+        "new motion.BananaMachine({
+            command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], samples: 4000,
+        })",
+    );
     let closed = "(({ command, ...outlines }) => Object.entries(outlines)
         .filter(([, at]) => at instanceof Float64Array && at.length > 60 && at[0] === at.at(-2) && at[1] === at.at(-1))
         .map(([name]) => name))(it.contours)";

@@ -131,8 +131,8 @@ const CHART_SIGMAS: f64 = 4.0;
 /// Points of a skew curve at most; each costs some ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Standard deviation of noise that is added to the pose, m: that of a robot of the opening command, √(½ tr Σ) of x and y,
-/// rounded. Tuned there, it suits no other distance.
+/// Standard deviation of noise that is added to the pose, m: √(½ tr Σ) of x and y on the gentle arc, rounded. Tuned there, it
+/// suits no other distance.
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.

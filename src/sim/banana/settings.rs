@@ -26,12 +26,12 @@ impl Words for NoiseKind {
 pub const MAX_SAMPLES: usize = 10_000_000;
 
 /// As many as are still moved in slices of a single frame on a device four times slower than a laptop, with room for the
-/// pictures. At the opening command they tell the skew to ±0.013; 2000, to ±0.06, may well read −0.50 for −0.43.
+/// pictures. As the figure opens they tell the skew to ±0.007.
 const OPENING_SAMPLES: usize = 50_000;
 
-/// Of the seeds 0 to 9, the one whose cloud has a skew nearest to the exact one at the opening command: what everybody
-/// sees first should not be a stroke of luck.
-const OPENING_SEED: u64 = 3;
+/// Seed, of 0 to 99, whose opening cloud has the area ratio and the gain nearest to the exact ones: the first sight should not be
+/// a stroke of luck.
+const OPENING_SEED: u64 = 87;
 
 settings! {
     /// Everything that a user sets.
@@ -41,7 +41,7 @@ settings! {
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
         /// The same for every robot.
-        command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+        command: VelocityCmd = BANANA.command;
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
         alphas, by alphas_mut, in ALPHA;
         /// Whether the odometry model charges a robot that backs up for the turns it made instead of two half turns more.
@@ -54,7 +54,7 @@ settings! {
         seed: u64 = OPENING_SEED, in 0..=MAX_SEED;
         kept {
             /// Each model keeps its own α's, so that switching back and forth loses nothing.
-            velocity_alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+            velocity_alphas: [f64; 6] = BANANA.alphas;
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];
             /// The setting `reverseAware`.
             reverse_aware: bool = false;
@@ -111,26 +111,32 @@ impl Rules for Settings {
     }
 }
 
-/// A setting worth starting from.
+/// A command worth starting from, with its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     pub name: &'static str,
     pub command: VelocityCmd,
-    /// Of the velocity model, for presets whose point they are; the others leave the noise as it is set.
-    pub alphas: Option<[f64; 6]>,
+    /// Noise parameters of the velocity model.
+    pub alphas: [f64; 6],
 }
 
-const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], alphas: Option<[f64; 6]>) -> Preset {
+const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], alphas: [f64; 6]) -> Preset {
     Preset { name, command: VelocityCmd { v, omega, dt }, alphas }
 }
 
-/// The chapter's four commands, the finest banana, and the chapter's example to check by hand.
+/// Noise parameters of the presets whose point is the command.
+const USUAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+
+/// Straight drive with much noise in the turn and little along the way. By symmetry its cloud has no skew, and yet no ellipse
+/// fits: the most visible banana.
+const BANANA: Preset = preset("banana", [1.0, 0.0, 2.0], [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
+
+/// The chapter's four commands, the most visible banana, and the chapter's example to check by hand.
 pub const PRESETS: [Preset; 6] = [
-    preset("straight", [1.0, 0.0, 2.0], None),
-    preset("gentle", [1.0, 0.5, 1.0], None),
-    preset("hard", [1.0, 1.2, 1.4], None),
-    preset("pivot", [0.06, 1.5, 1.0], None),
-    // Much noise in the turn and little along the way, symmetric about a straight line: no skew, and yet the finest banana.
-    preset("banana", [1.0, 0.0, 2.0], Some([0.002, 0.002, 0.1, 0.1, 0.002, 0.002])),
-    preset("worked", [1.0, 0.5, 1.0], Some([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
+    preset("straight", [1.0, 0.0, 2.0], USUAL_ALPHAS),
+    preset("gentle", [1.0, 0.5, 1.0], USUAL_ALPHAS),
+    preset("hard", [1.0, 1.2, 1.4], USUAL_ALPHAS),
+    preset("pivot", [0.06, 1.5, 1.0], USUAL_ALPHAS),
+    BANANA,
+    preset("worked", [1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0]),
 ];

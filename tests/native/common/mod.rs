@@ -58,12 +58,7 @@ pub fn derivative(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f
 /// The Banana Machine as it opens with one of its presets.
 pub fn preset(name: &str) -> Settings {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    let opening = Settings::default();
-    Settings {
-        command: preset.command,
-        velocity_alphas: preset.alphas.unwrap_or(opening.velocity_alphas),
-        ..opening
-    }
+    Settings { command: preset.command, velocity_alphas: preset.alphas, ..Settings::default() }
 }
 
 /// Whether a closed outline winds around a point.

@@ -59,16 +59,12 @@ pub fn parts(configuration: &Configuration) -> Vec<Part> {
     ]
 }
 
-/// As the widget opens, with the preset that is named.
+/// Returns the default settings with the command of the configuration's preset.
 fn opening(configuration: &Configuration) -> Settings {
     let opening = Settings::default();
     let Some(name) = configuration.value.get("preset") else { return opening };
     let preset = PRESETS.iter().find(|preset| name == preset.name).expect("a preset of that name");
-    Settings {
-        command: preset.command,
-        velocity_alphas: preset.alphas.unwrap_or(opening.velocity_alphas),
-        ..opening
-    }
+    Settings { command: preset.command, ..opening }
 }
 
 /// Numbers of an object, which has no length.

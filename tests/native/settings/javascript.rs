@@ -82,8 +82,7 @@ export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: 
         declarations(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
         declarations(alpha_calibrator::Settings::default(), &[]),
         lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
-            let alphas = alphas.map_or("null".to_owned(), |alphas| format!("{alphas:?}"));
-            format!("name: '{name}', {}, alphas: {alphas}", group(command))
+            format!("name: '{name}', {}, alphas: {alphas:?}", group(command))
         })),
         lines(squeeze::PRESETS.map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group(start)))),
         lines(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {

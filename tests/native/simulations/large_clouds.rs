@@ -1,5 +1,6 @@
 //! Statistics of up to ten million robots, against sums in twice the precision.
 
+use crate::common::preset;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Figures, MAX_SAMPLES, ModelKind, Settings};
 use motion::stats::Ellipse;
@@ -109,7 +110,7 @@ fn check(machine: &BananaMachine) {
 fn ten_million_agree_with_exact_sums() {
     const { assert!(MAX_SAMPLES == 10_000_000) };
     let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
-    check(&machine(Settings { command, samples: MAX_SAMPLES, ..Settings::default() }));
+    check(&machine(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
 }
 
 /// Clouds of every shape, among them such as turn beyond the circle or lie far from where noise-free robots end.
@@ -130,7 +131,7 @@ fn small_and_odd_clouds_agree_with_exact_sums() {
                         command,
                         odometry_alphas,
                         samples,
-                        ..Settings::default()
+                        ..preset("gentle")
                     }));
                 }
             }

@@ -1,5 +1,6 @@
 //! Densities as images: every pixel has the colour of the samples in its cell.
 
+use crate::common::preset;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::sim::picture::{RAMP, Ramp};
@@ -33,7 +34,7 @@ fn step(count: u32, most: u32) -> u8 {
 
 #[test]
 fn a_cloud_is_painted_as_it_is_dense() {
-    let settings = Settings { samples: 3000, ..Settings::default() };
+    let settings = Settings { samples: 3000, ..preset("gentle") };
     let mut machine = BananaMachine::new(settings).expect("a valid setting");
     let plane: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twists: Vec<[f64; 2]> = machine.twists().map(|twist| [twist.x, twist.z]).collect();

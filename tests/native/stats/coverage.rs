@@ -55,9 +55,9 @@ const FIGURES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"];
 #[ignore = "nightly: thousands of clouds"]
 fn errors_of_clouds_of_a_tenth() {
     for (what, settings) in [
-        ("opening", Settings::default()),
+        ("gentle arc", preset("gentle")),
         ("hard arc", Settings { noise: NoiseKind::Triangular, ..preset("hard") }),
-        ("odometry", Settings { model: ModelKind::Odometry, ..Settings::default() }),
+        ("odometry", Settings { model: ModelKind::Odometry, ..preset("gentle") }),
     ] {
         let settings = Settings { samples: ROBOTS, ..settings };
         for (figure, share) in FIGURES.into_iter().zip(shares_within_errors(settings, REPETITIONS)) {
@@ -93,7 +93,7 @@ fn small_clouds_hold_the_exact_skew_as_often_as_told() {
         "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
     );
     for (held, robots) in [(few_held, few), (more_held, more)] {
-        let settings = Settings { samples: robots.value as usize, ..Settings::default() };
+        let settings = Settings { samples: robots.value as usize, ..preset("gentle") };
         let [skew, ..] = shares_within_errors(settings, REPETITIONS);
         held.assert_percent(skew, 0.0);
     }

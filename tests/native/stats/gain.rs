@@ -1,6 +1,6 @@
 //! Likelihood gains and ratios of areas: against their definitions, references and degenerate clouds.
 
-use crate::common::{KINDS, Table, mean, variance};
+use crate::common::{KINDS, Table, mean, preset, variance};
 use motion::geom::arc::{arc_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Figures, ModelKind, PRESETS, Preset, Settings};
@@ -126,7 +126,7 @@ fn the_machine_has_the_gain_of_its_poses() {
                     let command = VelocityCmd { v, omega, dt };
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
                     let settings =
-                        Settings { model, noise, command, odometry_alphas, samples, ..Settings::default() };
+                        Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
                     let machine = BananaMachine::new(settings).expect("a valid setting");
                     let (found, cloud) = (gains(&machine.figures().gain), poses(&machine));
                     let expected = gains(&MeasuredGain::from_poses(&cloud, &SE2::identity(), omega * dt));

@@ -58,7 +58,7 @@ function settingTypes(tag) {
  * @param {Record<string, unknown>[]} presets
  */
 function presetType(name, value, presets) {
-  if (presets.some((preset) => Array.isArray(preset[name]))) return 'number[] | null';
+  if (presets.some((preset) => Array.isArray(preset[name]))) return 'number[]';
   return typeof value === 'object' ? pascal(name) : typeof value;
 }
 

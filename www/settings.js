@@ -178,10 +178,10 @@ export const presets = {
     { name: 'rest', from: { x: 0, y: 0, theta: 0 }, to: { x: -0.004, y: 0.003, theta: 0.001 } },
   ],
   'dead-reckoning': [
-    { name: 'chapter', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
-    { name: 'doubled', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, alphas: [0.02, 0.02, 0.08, 0.08, 0.02, 0.02] },
-    { name: 'fine', command: { v: 1, omega: 0.5, dt: 0.02 }, steps: 200, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
-    { name: 'straight', command: { v: 1, omega: 0, dt: 0.2 }, steps: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'chapter', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'doubled', command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.08, 0.08, 0.02, 0.02] },
+    { name: 'fine', command: { v: 1, omega: 0.5, dt: 0.02 }, steps: 200, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
+    { name: 'straight', command: { v: 1, omega: 0, dt: 0.2 }, steps: 20, step: 2, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005] },
   ],
   'alpha-calibrator': [],
 };

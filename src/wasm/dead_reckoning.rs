@@ -94,11 +94,12 @@ cloud!(JsDeadReckoning, "DeadReckoning", MAX_SAMPLES);
 impl JsDeadReckoning {
     #[wasm_bindgen(getter, unchecked_return_type = "DeadReckoningPreset[]")]
     pub fn presets() -> Array {
-        let preset = |Preset { name, mut command, steps, alphas }| {
+        let preset = |Preset { name, mut command, steps, step, alphas }| {
             object(&[
                 ("name", name.into()),
                 ("command", group_to_js(&mut command)),
                 ("steps", steps.into()),
+                ("step", step.into()),
                 ("alphas", list(&alphas)),
             ])
         };

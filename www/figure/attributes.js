@@ -129,19 +129,47 @@ function settingOf({ key, in: group, field = key, index, of, type }) {
   };
 }
 
+/** Settings that presets leave as they are. */
+const KEPT_BY_PRESETS = ['samples', 'seed'];
+
 /**
- * Presets of a figure: the name of the one that the settings are, the settings of a named one, and the attribute.
+ * Returns the configuration that a figure opens with: the defaults of its settings.
  *
- * @template {{ name: string }} Preset
- * @param {readonly Preset[]} presets
- * @param {string[]} covers attributes of the settings that a preset makes
- * @param {(preset: Preset) => Record<string, unknown>} [settingsOf] settings that a preset makes; by default all that it has
+ * @param {Declaration[]} declared
  */
-export function presetsOf(presets, covers, settingsOf = ({ name: _, ...settings }) => settings) {
+function openingConfig(declared) {
+  /** @type {Record<string, any>} */
+  const config = {};
+  for (const { key, in: group, field = key, index, of, type, default: value } of declared) {
+    if (group && index === undefined) config[group][field] = value;
+    else if (!group && !of) config[key] = type === 'group' ? {} : value;
+  }
+  return config;
+}
+
+/**
+ * Returns the attribute of a figure's presets. A preset sets every setting but the samples and the seed: what it does not list gets its default.
+ *
+ * @param {readonly ({ name: string } & Record<string, any>)[]} presets each with a name and some settings, by keys of the declarations
+ * @param {Declaration[]} declared
+ * @returns {Attribute & Setting}
+ */
+export function presetsOf(presets, declared) {
   const words = presets.map(({ name }) => name);
-  const presetIn = (/** @type {object} */ config) => presets.find((preset) => has(config, settingsOf(preset)))?.name ?? null;
-  const presetNamed = (/** @type {unknown} */ name) => settingsOf(presets[words.indexOf(word('preset', name, words))]);
-  /** @type {Attribute & Setting} */
-  const preset = { kind: WORD, covers: () => covers, words, get: ({ config }) => presetIn(config), change: presetNamed };
-  return { presetIn, presetNamed, preset };
+  const settings = presets.map(({ name: _, ...given }) => {
+    const config = openingConfig(declared);
+    for (const [key, value] of Object.entries(given)) {
+      const { in: group, field = key } = /** @type {Declaration} */ (declared.find((setting) => setting.key === key));
+      (group ? config[group] : config)[field] = value;
+    }
+    return Object.fromEntries(Object.entries(config).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
+  });
+  const covered = Object.keys(attributesOf(declared)).filter((key) => !KEPT_BY_PRESETS.includes(key));
+  return {
+    kind: WORD,
+    covers: () => covered,
+    words,
+    get: ({ config }) => words[settings.findIndex((each) => has(config, each))] ?? null,
+    change: (name) => settings[words.indexOf(word('preset', name, words))],
+  };
 }

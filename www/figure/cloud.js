@@ -1,9 +1,10 @@
 /** A cloud of samples that grows before the reader's eyes: for figures that have one. */
 
-import { html } from 'lit';
+import { html, noChange, nothing } from 'lit';
+import { live } from 'lit/directives/live.js';
 import { words } from '../messages/registry.js';
 import { pointOn } from '../scene/canvas.js';
-import { button } from '../ui/controls.js';
+import { button, inputOf } from '../ui/controls.js';
 import { counted } from '../ui/format.js';
 import { truth, wholeNumber } from './checks.js';
 import { Part } from './part.js';
@@ -20,8 +21,6 @@ import { isCalm } from './stage.js';
  * @property {(count: number) => number} grow
  * @property {(count: number) => void} beginToGrow as grow, in slices
  * @property {() => void} restart
- *
- * @typedef {{ play: string, step: (batch: string) => string, reset: string, reseed: string }} CloudWords
  */
 
 /** Steps that a cloud grows in. */
@@ -195,7 +194,7 @@ export class Cloud extends Part {
     this.#turn(false, () => this.#machine.grow(this.#batch));
   }
 
-  reset() {
+  clear() {
     this.#turn(false, () => this.#machine.restart());
   }
 
@@ -219,15 +218,38 @@ export class Cloud extends Part {
     });
   }
 
-  /** @param {CloudWords} say */
-  buttons(say) {
+  buttons() {
+    const say = words.cloud;
     return html`<div class="buttons">
       ${button(this.playing ? words.pause : words.play, () => this.play(), { title: say.play })}
       ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
-      ${button(words.reset, () => this.reset(), { title: say.reset })}
-      ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
-      <span class="seed">${words.seed(this.host.settings.present.seed)}</span>
+      ${button(words.clear, () => this.clear(), { title: say.clear })}
+      ${this.#seedField()} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
     </div>`;
+  }
+
+  #seedField() {
+    const { host } = this;
+    const { max } = /** @type {{ max: number }} */ (host.kind.declared.find(({ key }) => key === 'seed'));
+    const refusal = host.typing.refusalOf('seed');
+    const type = (/** @type {Event} */ event) => {
+      const text = inputOf(event).value;
+      if (/^\d+$/.test(text) && Number(text) <= max) host.settings.want({ seed: Number(text) });
+      else host.typing.refuse('seed', words.refused(words.seed, text.replace('-', '\u2212'), '0', counted(max), true));
+    };
+    return html`<label class="seed">
+      ${words.seed}
+      <input
+        type="text"
+        inputmode="numeric"
+        autocomplete="off"
+        .value=${refusal ? noChange : live(String(host.settings.told.seed))}
+        @input=${type}
+        @change=${() => host.gesture.commit()}
+        @blur=${() => host.typing.forget()}
+      />
+      ${refusal ? html`<output role="alert">${refusal}</output>` : nothing}
+    </label>`;
   }
 }
 

@@ -3,23 +3,25 @@
 import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { words } from '../messages/registry.js';
-import { inputOf, radioGroup, rich, toggle } from '../ui/controls.js';
+import { group, inputOf, radioGroup, rich, toggle } from '../ui/controls.js';
+import { fold } from '../ui/fold.js';
 import { counted, limit, numberIn, typed } from '../ui/format.js';
 import { sliderRow } from '../ui/slider.js';
-import { exportMenu } from './takeaway/export.js';
+import { exportButtons } from './takeaway/export.js';
 
 /**
  * @import { Setting } from './attributes.js'
  * @import { Figure } from './figure.js'
  *
  * @typedef {object} Look what the eye needs of a setting that is a number
- * @property {string} symbol as in the book, in the marks of messages
+ * @property {string} [symbol] as in the book, in the marks of messages
  * @property {'prior' | 'prediction' | 'truth'} role
  * @property {number} min of the slider, within what is allowed
  * @property {number} max
  * @property {number} step
  * @property {number} decimals
  * @property {(config: any) => number} [value] where several may be shown as one
+ * @property {[model: 'velocity' | 'odometry', index: number]} [alpha] noise parameter whose words it has
  *
  * @typedef {Partial<Parameters<typeof sliderRow>[0]> & { most?: number }} Row with the most that is allowed, where that is less than declared
  * @typedef {Parameters<typeof sliderRow>[0]} WholeRow
@@ -37,11 +39,11 @@ export function slider(figure, key, otherwise) {
   const { unit } = declarationOf(figure, key);
   const config = figure.settings.told;
   const setting = /** @type {Setting} */ (attributes[key]);
-  return typeable(figure, key, symbol, {
+  return typeable(figure, key, symbol ?? name, {
     ...look,
     id: key,
-    symbol: rich(symbol),
-    name,
+    symbol: symbol && rich(symbol),
+    name: rich(name),
     value: value ? value(config) : /** @type {number} */ (setting.get({ config, machine: figure.machine })),
     show: (shown) => typed(shown, decimals) + (unit ? ` ${unit}` : ''),
     effect: effect && rich(effect),
@@ -138,9 +140,36 @@ export function check(figure, key, label) {
   return toggle({ label, checked: figure.settings.told[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 }
 
-/** What may be taken along of a figure, in folds, and the way to a full screen. @param {Figure} figure */
-export function takeAlong(figure) {
-  return html`${exportMenu(figure, figure.reading.config.seed)} ${figure.copies.render()} ${figure.presenting.button()}`;
+/**
+ * Returns the two disclosures below a figure, and the button that presents it.
+ *
+ * @param {Figure} figure
+ * @param {object} of
+ * @param {() => unknown} of.controls needed less often than those in sight
+ * @param {() => unknown} of.numbers tables and charts
+ * @param {string | number} [of.mark] what tells the files of this state from those of another
+ * @param {string} [of.csvTitle] what is in a CSV file, where that is no samples
+ */
+export function disclosures(figure, { controls, numbers, mark = figure.reading.config.seed, csvTitle }) {
+  return html`<div class="folds">
+    ${fold(words.moreControls, controls, 'more')}
+    ${fold(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.render()}`, 'numbers')}
+    ${figure.presenting.button()}
+  </div>`;
+}
+
+/**
+ * Returns a picture of the figure, with its title above.
+ *
+ * @param {unknown} title
+ * @param {unknown} picture canvas with its handles
+ * @param {string} [name] classes
+ */
+export function panel(title, picture, name) {
+  return html`<figure class="panel ${name ?? ''}">
+    <p class="panel-title">${title}</p>
+    ${picture}
+  </figure>`;
 }
 
 /**
@@ -151,13 +180,10 @@ export function takeAlong(figure) {
  */
 export function cloudControls(figure, counts) {
   const { samples } = figure.settings.told;
-  const { cloud: say } = wordsOf(figure);
   const { name, effect } = wordsFor(figure, 'samples');
   const last = counts.length - 1;
   const nearest = counts.findIndex((count) => count >= samples);
-  return html`<fieldset class="cloud">
-    <legend class="visually-hidden">${say.legend}</legend>
-    ${typeable(
+  return group(words.samples, html`${typeable(
       figure,
       'samples',
       'N',
@@ -180,8 +206,7 @@ export function cloudControls(figure, counts) {
       (count) => want(figure, 'samples', count),
       counted,
     )}
-    ${figure.cloud.buttons(say)}
-  </fieldset>`;
+    ${figure.cloud.buttons()}`, 'cloud');
 }
 
 /**
@@ -258,5 +283,7 @@ function wordsOf(figure) {
  * @returns {{ name: string, effect?: string }} what has no effect explains itself
  */
 function wordsFor(figure, key) {
-  return { .../** @type {any} */ (words.settings)[key], ...wordsOf(figure).settings[key] };
+  const [model, index] = figure.kind.looks[key]?.alpha ?? [];
+  const ofAlpha = model && { name: words.alphas[model][/** @type {number} */ (index)] };
+  return { .../** @type {any} */ (words.settings)[key], ...ofAlpha, ...wordsOf(figure).settings[key] };
 }

@@ -22,6 +22,8 @@ const VERSION = 1;
 export class State extends Part {
   /** The last good one. @type {Values | undefined} */
   kept;
+  /** Whole state that the figure opened with. @type {Values | undefined} */
+  #opened;
   /** What is the element's own, by name. @type {Values} */
   own;
   #owned;
@@ -101,6 +103,16 @@ export class State extends Part {
     host.settings.show();
   }
 
+  /** Brings back the settings, the seed and everything else as the figure opened. */
+  startOver() {
+    const { gesture, runtime } = this.host;
+    runtime.attempt(() => {
+      this.enter(this.#opened);
+      gesture.step();
+      gesture.commit();
+    });
+  }
+
   /**
    * @param {any} machine in a state
    * @param {Values} whole the state
@@ -120,6 +132,7 @@ export class State extends Part {
     const { host } = this;
     host.stage.release();
     host.cloud?.introduce(state);
+    this.#opened ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.refresh();
     host.reflection.tell();
     host.settings.show();

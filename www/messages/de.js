@@ -3,19 +3,45 @@
 /** @type {typeof import('./en.js').en} */
 export const de = {
   failure: (reason) => `Diese interaktive Abbildung läuft hier nicht. ${reason}`,
-  beginWith: 'Beginn mit',
+  presets: 'Voreinstellungen',
+  cloud: {
+    play: 'Zieht die Stichproben, immer ein paar',
+    step: (batch) => `Zieht ${batch} weitere`,
+    clear: 'Leert die Wolke; derselbe Startwert zieht dieselben Stichproben',
+    reseed: 'Neuer zufälliger Startwert',
+  },
+  legend: 'Legende',
+  moreControls: 'Weitere Regler',
+  numbersAndData: 'Zahlen und Daten',
+  samples: 'Stichprobe',
   play: 'Abspielen',
   pause: 'Anhalten',
   step: 'Schritt',
-  reset: 'Leeren',
+  clear: 'Leeren',
+  startOver: 'Von vorn',
+  startOverTitle: 'Einstellungen, Ausschnitt und Startwert wie am Anfang',
   newSeed: 'Neu würfeln',
-  seed: (seed) => `Startwert ${seed}`,
+  seed: 'Startwert',
   commandText: (v, omega, dt) => `v = ${v} m/s, ω = ${omega} rad/s, Δt = ${dt} s`,
   command: 'Fahrbefehl',
   settings: {
-    v: { name: 'v, befohlene Geschwindigkeit' },
-    omega: { name: 'ω, befohlene Drehrate' },
-    dt: { name: 'Δt, Dauer' },
+    v: { name: 'Geschwindigkeit' },
+    omega: { name: 'Drehrate' },
+    dt: { name: 'Dauer' },
+    samples: { name: 'Stichproben' },
+  },
+  noise: 'Rauschen',
+  alphas: {
+    velocity: [
+      'Geschwindigkeitsrauschen durch Fahren', 'Geschwindigkeitsrauschen durch Drehen',
+      'Drehratenrauschen durch Fahren', 'Drehratenrauschen durch Drehen',
+      'Rauschen der letzten Drehung durch Fahren', 'Rauschen der letzten Drehung durch Drehen',
+    ],
+    odometry: [
+      'Drehrauschen durch Drehen', 'Drehrauschen durch Fahren',
+      'Streckenrauschen durch Fahren', 'Streckenrauschen durch Drehen',
+      'Seitliches Rauschen durch Fahren',
+    ],
   },
   pose: {
     keys: 'Die Pfeiltasten bewegen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab bewegen ihn weit in y, Pos1 und Ende an die Enden in x; [ und ] drehen ihn',
@@ -23,7 +49,7 @@ export const de = {
   },
   sliderEnds: (end) => `Der Regler endet bei ${end}; Werte darüber hinaus kann man eintippen.`,
   refused: (name, given, least, most, whole) =>
-    `${name} ist ${given}; erlaubt ist ${whole ? 'eine ganze Zahl von ' : ''}${least} bis ${most}.`,
+    `${name} muss ${whole ? 'eine ganze Zahl ' : ''}von ${least} bis ${most} sein (gegeben: ${given}).`,
   exports: {
     label: 'Abbildung sichern',
     png: 'PNG',

@@ -12,19 +12,46 @@ export const plural = (count, word) => `${word}${count === 1 ? '' : 's'}`;
 
 export const en = /** @satisfies {import('./registry.js').Message} */ ({
   failure: (reason) => `This interactive figure cannot run here. ${reason}`,
-  beginWith: 'Begin with',
+  presets: 'Presets',
+  cloud: {
+    play: 'Draw the samples, a few at a time',
+    step: (batch) => `Draw ${batch} more`,
+    clear: 'Clear the samples; the same seed draws the same ones',
+    reseed: 'New random seed',
+  },
+  legend: 'Legend',
+  moreControls: 'More controls',
+  numbersAndData: 'Numbers and data',
+  samples: 'Samples',
   play: 'Play',
   pause: 'Pause',
   step: 'Step',
-  reset: 'Reset',
+  clear: 'Clear',
+  startOver: 'Start over',
+  startOverTitle: 'Settings, view and seed as the figure opened',
   newSeed: 'New seed',
-  seed: (seed) => `seed ${seed}`,
+  seed: 'seed',
   commandText: (v, omega, dt) => `v = ${v} m/s, ω = ${omega} rad/s, Δt = ${dt} s`,
   command: 'Command',
   settings: {
-    v: { name: 'v, commanded speed' },
-    omega: { name: 'ω, commanded turn rate' },
-    dt: { name: 'Δt, duration' },
+    v: { name: 'speed' },
+    omega: { name: 'turn rate' },
+    dt: { name: 'duration' },
+    samples: { name: 'samples' },
+  },
+  noise: 'Noise',
+  /** What each noise parameter makes: which noise, and what it grows with. */
+  alphas: {
+    velocity: [
+      'speed noise from speed', 'speed noise from turning',
+      'turn rate noise from speed', 'turn rate noise from turning',
+      'final turn noise from speed', 'final turn noise from turning',
+    ],
+    odometry: [
+      'rotation noise from rotation', 'rotation noise from translation',
+      'translation noise from translation', 'translation noise from rotation',
+      'sideways noise from translation',
+    ],
   },
   pose: {
     keys: 'Arrow keys move it, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x; [ and ] turn it',
@@ -32,7 +59,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
   },
   sliderEnds: (end) => `The slider ends at ${end}; values beyond can be typed.`,
   refused: (name, given, least, most, whole) =>
-    `${name} is ${given}; allowed is ${whole ? 'a whole number from ' : ''}${least} to ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''}.`,
+    `${name} must be ${whole ? 'a whole number ' : ''}between ${least} and ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''} (got ${given}).`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',

@@ -4,20 +4,13 @@ import { css, html, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 
 export const controlStyles = css`
-  /* The sliders of a group share their columns, each as wide as its widest text in whatever font. */
   fieldset {
     display: grid;
-    grid-template-columns: auto minmax(4em, 1fr) auto;
-    column-gap: 0.6em;
     min-width: 0;
-    margin: 0;
+    margin: 0 0 0.5em;
     padding: 0;
     border: 0;
     position: relative;
-  }
-
-  fieldset > * {
-    grid-column: 1 / -1;
   }
 
   .effect {
@@ -83,7 +76,7 @@ export const controlStyles = css`
       forced-color-adjust: none;
     }
 
-    button[aria-pressed='true'] {
+    :is(button[aria-pressed='true'], .options .choice:has(:checked)) {
       forced-color-adjust: none;
       background: Highlight;
       border-color: Highlight;
@@ -101,12 +94,10 @@ export const controlStyles = css`
   }
 
   legend {
-    width: 100%;
-    margin-bottom: 0.48em;
-    padding: 0 0 0.19em;
-    border-bottom: 1px solid var(--rule);
-    font-style: italic;
-    font-size: 1.05em;
+    margin-bottom: 0.25em;
+    padding: 0;
+    font-weight: bold;
+    font-size: 0.92em;
   }
 
   .choice,
@@ -125,19 +116,43 @@ export const controlStyles = css`
     column-gap: 1em;
   }
 
-  .choices > span {
-    flex: 0 0 var(--name, 6.5em);
-    align-self: center;
+  .choices {
+    align-items: center;
+    row-gap: 0.2em;
+    margin-bottom: 0.5em;
   }
 
+  /* Segments: the whole label is pressed, and the chosen one filled. */
   .options {
-    flex: 1;
-    min-width: min-content;
+    gap: 2px;
   }
 
   .options .choice {
-    flex: 1 0 0;
-    min-width: max-content;
+    position: relative;
+    min-height: 2em;
+    padding: 0 0.65em;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+  }
+
+  .options input {
+    position: absolute;
+    inset: 0;
+    width: 100%;
+    height: 100%;
+    margin: 0;
+    opacity: 0;
+  }
+
+  .options .choice:has(:checked) {
+    background: var(--ink);
+    border-color: var(--ink);
+    color: var(--paper);
+  }
+
+  .options .choice:has(:focus-visible) {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
   }
 
   .marked {
@@ -196,6 +211,20 @@ export function rich(message) {
             ? html`<sub>${part.charCodeAt(0) - 0x2080}</sub>`
             : part,
     );
+}
+
+/**
+ * Returns controls that belong together, under their heading.
+ *
+ * @param {unknown} heading
+ * @param {unknown} controls
+ * @param {string} [name] class
+ */
+export function group(heading, controls, name) {
+  return html`<fieldset class=${name ?? nothing}>
+    <legend>${heading}</legend>
+    ${controls}
+  </fieldset>`;
 }
 
 /**

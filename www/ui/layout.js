@@ -18,7 +18,7 @@ const layout = css`
 
   .controls {
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 1fr));
-    gap: 0 2.5em;
+    gap: 0.5em 2.5em;
   }
 
   @container (min-width: 56em) {
@@ -47,9 +47,8 @@ const layout = css`
     padding-bottom: 0.8em;
   }
 
-  .begin button {
-    min-height: 1.75em;
-    padding: 0 0.5em 0.1em;
+  .begin {
+    margin-inline-start: auto;
   }
 
   .folded {
@@ -159,11 +158,38 @@ const layout = css`
     }
   }
 
-  .legend {
+  .panel {
     display: grid;
-    grid-template-columns: repeat(auto-fill, minmax(min(100%, 20em), 1fr));
-    gap: 0 2.5em;
-    margin-top: 0.4em;
+    grid-template-rows: auto 1fr;
+    min-width: 0;
+  }
+
+  .panel-title {
+    margin: 0;
+    font-weight: bold;
+    font-size: 0.92em;
+  }
+
+  .legend {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0 1.2em;
+    margin: 0.2em 0;
+    padding: 0;
+    font-size: 0.92em;
+    list-style: none;
+  }
+
+  .swatch {
+    flex: none;
+    width: 1.9em;
+    height: 0.76em;
+    fill: none;
+    stroke: var(--role);
+  }
+
+  .swatch .filled {
+    fill: var(--role);
   }
 
   .buttons {
@@ -171,12 +197,27 @@ const layout = css`
     flex-wrap: wrap;
     align-items: center;
     gap: 0.5em;
-    margin-bottom: 0.7em;
+    margin-bottom: 0.5em;
   }
 
-  .seed {
-    margin-left: auto;
-    color: var(--muted);
+  .start-over {
+    margin-inline-start: auto;
+  }
+
+  .seed input {
+    width: 5em;
+    min-height: 2em;
+    padding: 0 0.4em;
+    background: none;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+    color: var(--ink);
+    font: inherit;
+  }
+
+  .heading {
+    margin: 1em 0 0.3em;
+    font-weight: bold;
   }
 
   figcaption {
@@ -185,9 +226,26 @@ const layout = css`
     font-size: 0.92em;
   }
 
-  /* On a phone the floor stays in sight while the controls below it are used. */
-  @container (width < 30em) {
-    @media (min-height: 37.5em) {
+  /* The pictures stay in sight while the controls below them are used. */
+  @media (min-height: 22em) {
+    .stage canvas {
+      max-height: 45svh;
+    }
+
+    :is(button, input, summary, textarea) {
+      scroll-margin-top: calc(45svh + 2em + var(--top));
+    }
+
+    @container (width >= 30em) {
+      .views {
+        position: sticky;
+        top: var(--top);
+        z-index: 1;
+        background: var(--paper);
+      }
+    }
+
+    @container (width < 30em) {
       .stage[part='picture'] {
         position: sticky;
         top: var(--top);
@@ -199,22 +257,14 @@ const layout = css`
           0 0.5em 0.5em var(--paper);
       }
 
-      .views {
+      .views,
+      .panel:has([part='picture']) {
         display: contents;
       }
 
       /* Clear of the shadow. */
       .stage[part='picture'] + * {
         margin-top: 0.7em;
-      }
-
-      .stage canvas {
-        max-height: 38svh;
-      }
-
-      /* What has the focus stays clear of the floor above it. */
-      :is(button, input, summary, textarea) {
-        scroll-margin-top: calc(38svh + 2em + var(--top));
       }
     }
   }

@@ -6,28 +6,37 @@ import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.js';
 
 export const sliderStyles = css`
-  /* Room for the line of help of the row that has the focus or the pointer. */
-  fieldset:has(.slider) {
-    padding-bottom: 1.35em;
-  }
-
-  fieldset:has(.picking) {
-    grid-template-columns: auto auto minmax(4em, 1fr) auto;
-  }
-
+  /* Name and value above the track; below it the room for a line of help. */
   .slider {
+    position: relative;
     display: grid;
-    grid-template-columns: subgrid;
-    align-items: center;
+    grid-template: 'pick name value' auto 'track track track' auto / auto 1fr auto;
+    align-items: baseline;
+    column-gap: 0.3em;
+    padding-bottom: 1.15em;
   }
 
   .slider > [for] {
-    min-width: 1.45em;
+    grid-area: name;
+    line-height: 1.2;
+  }
+
+  .slider > [for] .symbol {
+    margin-inline-end: 0.3em;
     font-size: 1.1em;
-    line-height: 1;
+  }
+
+  .slider > .choice {
+    grid-area: pick;
+    min-height: 0;
+  }
+
+  .slider > input[type='range'] {
+    grid-area: track;
   }
 
   .slider .value {
+    grid-area: value;
     position: relative;
     text-align: right;
     white-space: nowrap;
@@ -58,10 +67,10 @@ export const sliderStyles = css`
     border-color: var(--muted);
   }
 
-  /* What does not fit into its room covers what stands below, and no slider of its own group. */
+  /* A text of more lines covers what stands below. */
   .slider .effect {
     position: absolute;
-    top: calc(100% - 1.55em);
+    top: calc(100% - 1.3em);
     right: 0;
     left: 0;
     z-index: 1;
@@ -70,8 +79,7 @@ export const sliderStyles = css`
     background: var(--paper);
   }
 
-  .slider:focus-within .effect,
-  fieldset:not(:focus-within) > .slider:hover .effect {
+  .slider:is(:focus-within, :hover) .effect {
     visibility: visible;
   }
 
@@ -79,10 +87,6 @@ export const sliderStyles = css`
   .slider.refused .effect {
     visibility: visible;
     color: var(--accent);
-  }
-
-  fieldset:has(.refused) > .slider:not(.refused) .effect {
-    visibility: hidden !important;
   }
 
   .slider.off :is(label, .value) {
@@ -207,8 +211,8 @@ const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
  *
  * @param {object} row
  * @param {string} row.id unique in the widget
- * @param {unknown} row.symbol
- * @param {string} [row.name] what a screen reader says, and the symbol to one who points at it, where the symbol says too little
+ * @param {unknown} [row.symbol] before the name
+ * @param {unknown} row.name in words
  * @param {number} row.value
  * @param {number} row.min
  * @param {number} row.max
@@ -228,7 +232,6 @@ const BEGINS_A_NUMBER = /^[\d.,+\-\u2212]$/;
  */
 export function sliderRow(row) {
   const states = {
-    picking: row.pick,
     off: row.off,
     refused: row.refusal,
   };
@@ -238,8 +241,8 @@ export function sliderRow(row) {
   return html`
     <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}
-      <label for=${row.id} id="${row.id}-name" title=${row.name ?? nothing}>${row.symbol}</label>
-      ${track({ ...row, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
+      <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<span class="symbol" translate="no">${row.symbol}</span>` : nothing}${row.name}</label>
+      ${track({ ...row, name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
       <span class="value roomy" data-room=${room}>
         <span class="printed">${shown}</span>
         ${field(row, shown)}
@@ -321,10 +324,10 @@ const untilTyped = directive(
 /**
  * The value of a slider as a field to type into.
  *
- * @param {Pick<Parameters<typeof sliderRow>[0], 'id' | 'name' | 'keys' | 'type' | 'forget'>} row
+ * @param {Pick<Parameters<typeof sliderRow>[0], 'id' | 'keys' | 'type' | 'forget'>} row
  * @param {string} shown
  */
-function field({ id, name, keys, type, forget }, shown) {
+function field({ id, keys, type, forget }, shown) {
   /** @returns {boolean} whether what stands there is the value now */
   const take = (/** @type {HTMLInputElement} */ input) => {
     // By default it has what stood there when the reader came.
@@ -350,8 +353,7 @@ function field({ id, name, keys, type, forget }, shown) {
     enterkeyhint="done"
     autocomplete="off"
     spellcheck="false"
-    aria-label=${name ?? nothing}
-    aria-labelledby=${name ? nothing : `${id}-name`}
+    aria-labelledby="${id}-name"
     aria-describedby="${id}-effect"
     .value=${untilTyped(shown)}
     @focus=${(/** @type {Event} */ event) => {

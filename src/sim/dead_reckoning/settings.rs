@@ -115,19 +115,21 @@ pub struct Preset {
     pub name: &'static str,
     pub command: VelocityCmd,
     pub steps: u32,
+    /// Selected step: the same place of the path in each preset.
+    pub step: u32,
     pub alphas: [f64; 6],
 }
 
 /// The chapter's twenty steps; the same with the heading's deviation doubled, as exercise 7 asks; the same path in two hundred
 /// steps, in each of which J_r is nearly 1; and straight ahead, where noise in the turn shows alone.
 pub const PRESETS: [Preset; 4] = [
-    preset("chapter", [1.0, 0.5, 0.2], 20, 0.02),
-    preset("doubled", [1.0, 0.5, 0.2], 20, 0.08),
-    preset("fine", [1.0, 0.5, 0.02], 200, 0.02),
-    preset("straight", [1.0, 0.0, 0.2], 20, 0.02),
+    preset("chapter", [1.0, 0.5, 0.2], [20, 2], 0.02),
+    preset("doubled", [1.0, 0.5, 0.2], [20, 2], 0.08),
+    preset("fine", [1.0, 0.5, 0.02], [200, 20], 0.02),
+    preset("straight", [1.0, 0.0, 0.2], [20, 2], 0.02),
 ];
 
-const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], steps: u32, heading: f64) -> Preset {
+const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], [steps, step]: [u32; 2], heading: f64) -> Preset {
     let [h, last] = [heading, heading / 4.0];
-    Preset { name, command: VelocityCmd { v, omega, dt }, steps, alphas: [0.02, 0.02, h, h, last, last] }
+    Preset { name, command: VelocityCmd { v, omega, dt }, steps, step, alphas: [0.02, 0.02, h, h, last, last] }
 }

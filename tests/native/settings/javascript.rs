@@ -92,8 +92,8 @@ export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: 
         lines(odometry_decomposer::PRESETS.map(|odometry_decomposer::Preset { name, from, to }| {
             format!("name: '{name}', from: {{ {} }}, to: {{ {} }}", group(from), group(to))
         })),
-        lines(dead_reckoning::PRESETS.map(|dead_reckoning::Preset { name, command, steps, alphas }| {
-            format!("name: '{name}', command: {{ {} }}, steps: {steps}, alphas: {alphas:?}", group(command))
+        lines(dead_reckoning::PRESETS.map(|dead_reckoning::Preset { name, command, steps, step, alphas }| {
+            format!("name: '{name}', command: {{ {} }}, steps: {steps}, step: {step}, alphas: {alphas:?}", group(command))
         })),
     )
 }

@@ -1,4 +1,4 @@
-/** The menu from which a reader copies a link to the figure as it is, or the HTML that embeds it. */
+/** Buttons with which a reader copies a link to the figure as it is, or the HTML that embeds it. */
 
 import { html, nothing } from 'lit';
 import { address, classic } from '../../address.js';
@@ -27,8 +27,8 @@ export class CopyMenu extends Part {
     const say = words.copies;
     const { host } = this;
     const copied = this.#copied;
-    return html`<details class="copies" part="copies">
-      <summary>${say.label}</summary>
+    return html`<fieldset class="copies" part="copies">
+      <legend>${say.label}</legend>
       <div class="buttons">
         ${button(say.link, async () => this.#copy(await host.shareLink()), { title: say.linkTitle })}
         ${button(say.code, () => this.#copy(host.embedCode(), host.takeaway.notInCode), { title: say.codeTitle })}
@@ -37,7 +37,7 @@ export class CopyMenu extends Part {
       ${copied && !copied.done
         ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
         : nothing}
-    </details>`;
+    </fieldset>`;
   }
 }
 

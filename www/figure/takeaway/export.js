@@ -111,23 +111,23 @@ export function save(name, blob) {
 }
 
 /**
- * The menu from which a reader saves the figure.
+ * Returns the buttons that save the figure.
  *
  * @param {Figure} element
  * @param {string | number} mark that tells its files from those of another state
  * @param {string} [csvTitle] what is in a CSV file, where that is no samples
  */
-export function exportMenu(element, mark, csvTitle = words.exports.csvTitle) {
+export function exportButtons(element, mark, csvTitle = words.exports.csvTitle) {
   const say = words.exports;
   const name = `${element.localName}-${mark}`;
   const text = (/** @type {string} */ ending, /** @type {string} */ type, /** @type {string} */ content) =>
     save(`${name}.${ending}`, new Blob([content], { type }));
-  return html`<details class="exports" part="exports">
-    <summary>${say.label}</summary>
+  return html`<fieldset class="exports" part="exports">
+    <legend>${say.label}</legend>
     <div class="buttons">
       ${button(say.png, () => element.toPNG().then((blob) => save(`${name}.png`, blob), (error) => element.runtime.report(error)), { title: say.pngTitle })}
       ${button(say.svg, () => text('svg', 'image/svg+xml', element.toSVG()), { title: say.svgTitle })}
       ${button(say.csv, () => text('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
     </div>
-  </details>`;
+  </fieldset>`;
 }

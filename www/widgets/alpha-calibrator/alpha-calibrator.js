@@ -8,7 +8,7 @@ import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { LONGEST_WORK, advancing } from '../../figure/settings.js';
-import { exportMenu } from '../../figure/takeaway/export.js';
+import { exportButtons } from '../../figure/takeaway/export.js';
 import { words } from '../../messages/registry.js';
 import { pointOn } from '../../scene/canvas.js';
 import { fold } from '../../ui/fold.js';
@@ -254,7 +254,7 @@ export class AlphaCalibratorElement extends FigureElement {
           ${fold(say.lengths.title, () => lengths(this))}
           ${fold(say.own.title, () => ownLog(this, this.#opener), FOLD)}
           ${fold(say.nav2.title, () => nav2(this, this.#copied))}
-          ${exportMenu(this, reading.config.seed, say.csvTitle)} ${this.copies.render()} ${this.presenting.button()}
+          ${fold(words.numbersAndData, () => html`${exportButtons(this, reading.config.seed, say.csvTitle)} ${this.copies.render()}`)} ${this.presenting.button()}
         </div>`)}
       </section>
     `;

@@ -1,16 +1,15 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
 import { html } from 'lit';
-import { canvas } from '../../figure/controls.js';
+import { canvas, disclosures } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
-import { exportMenu } from '../../figure/takeaway/export.js';
 import { words } from '../../messages/registry.js';
-import { fold } from '../../ui/fold.js';
 import { Player } from '../shared/player.js';
 import { PoseHandles } from '../shared/pose-handles.js';
-import { alphaControls, commandControls, drawnControls, lineStepper, presets, printedCheck, underwayControl } from './controls.js';
+import { presetButtons } from '../shared/presets.js';
+import { alphaControls, commandControls, drawnControls, lineStepper, printedCheck, underwayControl } from './controls.js';
 import { formsPlot } from './forms.js';
 import { ArcPicture, RADIUS } from './picture.js';
 import { readingOf } from './reading.js';
@@ -126,19 +125,18 @@ export class ArcAnatomyElement extends FigureElement {
           ${this.stage.later(() => html`
           <p class="verdict caption" part="caption">${verdictOf(reading)}</p>
           <div class="aside">
-            ${factorBars(reading, this.state.own.line)} ${likelihoods(reading)} ${presets(this)} ${printedCheck(this)}
+            ${factorBars(reading, this.state.own.line)} ${likelihoods(reading)} ${presetButtons(this)} ${printedCheck(this)}
           </div>`)}
         </div>
         ${this.stage.later(() => html`
         ${lineStepper(this)} ${underwayControl(this)}
         <div class="controls" part="controls">${commandControls(this)} ${drawnControls(this)}</div>
-        <div class="folds">
-          ${fold(say.drawn, () => legend(this.state.own.twist === 'shown'))}
-          ${fold(say.noiseLabel, () => alphaControls(this))}
-          ${fold(say.table.label, () => tableOf(reading, this.state.own.line))}
-          ${fold(say.forms.label, () => formsPlot(this.motion))}
-          ${exportMenu(this, 'figure', say.csvTitle)} ${this.copies.render()} ${this.presenting.button()}
-        </div>`)}
+        ${disclosures(this, {
+          controls: () => html`${legend(this.state.own.twist === 'shown')} ${alphaControls(this)}`,
+          numbers: () => html`${tableOf(reading, this.state.own.line)} ${formsPlot(this.motion)}`,
+          mark: 'figure',
+          csvTitle: say.csvTitle,
+        })}`)}
       </section>
     `;
   }

@@ -6,17 +6,10 @@ import { words } from '../../messages/registry.js';
 import { button, rich, toggle } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { track } from '../../ui/slider.js';
-import { presetButtons } from '../shared/presets.js';
 import { lineText } from './readouts.js';
-import { ALPHAS, COMMAND, LINES, WHOLE, presetIn, presetNamed } from './settings.js';
+import { ALPHAS, COMMAND, LINES, WHOLE } from './settings.js';
 
 /** @typedef {import('./arc-anatomy.js').ArcAnatomyElement} Figure */
-
-/** @param {Figure} figure */
-export function presets(figure) {
-  const present = presetIn(/** @type {any} */ (figure.settings.told));
-  return presetButtons(figure, { names: words.anatomy.presets, present, settings: presetNamed });
-}
 
 /** @param {Figure} figure */
 export function printedCheck(figure) {

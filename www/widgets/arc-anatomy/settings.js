@@ -13,9 +13,6 @@ export const declared = settings['arc-anatomy'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'anatomy';
 
-/** Start of every preset. */
-const ORIGIN = { x: 0, y: 0, theta: 0 };
-
 /** Lines of Table 5.1. */
 export const LINES = 9;
 
@@ -24,19 +21,9 @@ export const WHOLE = 100;
 
 const TWISTS = ['hidden', 'shown'];
 
-export const { presetIn, presetNamed, preset } = presetsOf(
-  presets['arc-anatomy'],
-  ['startX', 'startY', 'startTheta', 'v', 'omega', 'dt', 'nextX', 'nextY', 'nextTheta'],
-  ({ v, omega, dt, nextX, nextY, nextTheta }) => ({
-    start: ORIGIN,
-    command: { v, omega, dt },
-    next: { x: nextX, y: nextY, theta: nextTheta },
-  }),
-);
-
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
-  preset,
+  preset: presetsOf(presets['arc-anatomy'], declared),
   ...attributesOf(declared),
   twist: { kind: WORD, own: true, words: TWISTS },
 };

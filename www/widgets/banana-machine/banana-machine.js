@@ -6,9 +6,10 @@
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
 import { Cloud, shownOf } from '../../figure/cloud.js';
-import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
+import { canvas, cloudControls, disclosures, panel } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/room.js';
+import { legend } from '../../figure/overlays.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
@@ -16,15 +17,15 @@ import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.js';
 import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
-import { fold } from '../../ui/fold.js';
 import { fixed } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
-import { alphaControls, commandControls, modelControls, overlayToggles, presets } from './controls.js';
+import { alphaControls, commandControls, modelControls } from './controls.js';
+import { presetButtons } from '../shared/presets.js';
 import { ArcHandle } from './handle.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
-import { OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
+import { LINES, OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { bananaStyles } from './styles.js';
 import { announcementOf, captionOf, planeText, skewText, twistCaption, twistText } from './words.js';
 
@@ -196,23 +197,22 @@ export class BananaMachineElement extends FigureElement {
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
-          <div class="stage" part="picture">
+          ${panel(say.floor, html`<div class="stage" part="picture">
             ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command)}
-          </div>
-          <div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>
+          </div>`)}
+          ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`)}
         </div>
         ${this.stage.later(() => html`
+        ${legend(this, LINES)}
         <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
-        ${readouts(reading)} ${presets(this)}
+        ${readouts(reading)} ${presetButtons(this)}
         <div class="controls" part="controls">
-          <div>${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
-          ${alphaControls(this)}
+          ${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}
         </div>
-        <div class="folds">
-          ${fold(say.modelAndNoise, () => html`${modelControls(this)} ${overlayToggles(this)} ${markedRobot(this, this.#inspection)}`)}
-          ${fold(say.figures, () => this.#figures(reading))}
-          ${takeAlong(this)}
-        </div>`)}
+        ${disclosures(this, {
+          controls: () => html`<div class="controls">${alphaControls(this)} ${modelControls(this)}</div>`,
+          numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figures(reading)}`,
+        })}`)}
       </section>
     `;
   }

@@ -20,7 +20,7 @@ import { View, extentOf } from '../../scene/view.js';
 import { counted } from '../../ui/format.js';
 import { lineKey } from '../shared/line-key.js';
 import { deviation } from './reading.js';
-import { DASHES } from './settings.js';
+import { LINES } from './settings.js';
 
 /**
  * @import { BananaMachine, Moments } from '../../types.d.ts'
@@ -29,7 +29,7 @@ import { DASHES } from './settings.js';
  *
  * @typedef {import('./reading.js').Reading & {
  *   machine: BananaMachine,
- *   overlays: Record<keyof typeof DASHES, boolean>,
+ *   overlays: Record<import('./settings.js').LineName, boolean>,
  *   marked: import('../../types.d.ts').Inspection | undefined,
  * }} Scene what both pictures are of
  */
@@ -96,18 +96,15 @@ function cellSize(area, count) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
 
-/** @typedef {keyof typeof DASHES} OutlineName in the order that they are painted in, and that the key names them in */
+/** @typedef {import('./settings.js').LineName} OutlineName in the order that they are painted in, and that the key names them in */
 const PAINTED = /** @type {const} @satisfies {OutlineName[]} */ (['additive', 'linearized', 'ellipse', 'exponential', 'command']);
 const NAMED = /** @type {const} @satisfies {OutlineName[]} */ (['ellipse', 'exponential', 'linearized', 'additive', 'command']);
 
-/** @param {Palette} palette @returns {Record<OutlineName, { colour: string, width: number, dash: number[] }>} */
-const outlineStyles = ({ prediction, posterior, prior }) => ({
-  additive: { colour: prediction, width: 2.5, dash: DASHES.additive },
-  linearized: { colour: prediction, width: 1.75, dash: DASHES.linearized },
-  ellipse: { colour: prediction, width: 2, dash: DASHES.ellipse },
-  exponential: { colour: posterior, width: 2.25, dash: DASHES.exponential },
-  command: { colour: prior, width: 2.5, dash: DASHES.command },
-});
+/** Returns the styles of the outlines in the colours of a palette. @param {Palette} palette */
+const outlineStyles = (palette) =>
+  /** @type {Record<OutlineName, { colour: string, width: number, dash: number[] }>} */ (
+    Object.fromEntries(Object.entries(LINES).map(([name, { role, ...line }]) => [name, { colour: palette[/** @type {keyof Palette} */ (role)], ...line }]))
+  );
 
 /** The floor from above. */
 export class PlanePicture extends CloudPicture {
@@ -135,7 +132,7 @@ export class PlanePicture extends CloudPicture {
     const { machine, contours, overlays, table, marked, end } = scene;
     const styles = outlineStyles(palette);
     const drawn = (/** @type {OutlineName} */ name) => overlays[name] && hasLength(contours[name]);
-    const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.key[name], styles[name]));
+    const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.overlays[name], styles[name]));
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     clipped(brush, () => {
       const { cov } = table.exact;
@@ -264,7 +261,7 @@ export class TwistPicture extends CloudPicture {
     const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
     const { exponential } = outlineStyles(palette);
-    const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.key.exponential, exponential)] : [];
+    const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, key);
     clipped(brush, () => {
       const [{ cov }] = twistMoments(scene);

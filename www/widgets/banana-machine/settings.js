@@ -1,28 +1,37 @@
 /** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORDS, attributesOf } from '../../figure/attributes.js';
-import { subset, wholeNumber } from '../../figure/checks.js';
+import { attributesOf, presetsOf } from '../../figure/attributes.js';
+import { wholeNumber } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
-import { openingAlphas, settings } from '../../settings.js';
+import { overlaysOf } from '../../figure/overlays.js';
+import { openingAlphas, presets, settings } from '../../settings.js';
 import { COMMAND_DASH, commandLooks } from '../shared/command.js';
 import { alphaLooks } from '../shared/noise.js';
-import { presetAttribute } from './presets.js';
 
 export const declared = settings['banana-machine'];
 
 /** The key of its words in the catalogues. */
 export const vocabulary = 'banana';
 
-/** Dashes of the outlines on the floor, CSS pixels. @satisfies {Record<string, number[]>} */
-export const DASHES = { command: COMMAND_DASH, ellipse: [7, 4], linearized: [9, 3, 2, 3], additive: [1.5, 5], exponential: [] };
-export const OVERLAYS = /** @type {(keyof typeof DASHES)[]} */ (Object.keys(DASHES));
-const OPENING_OVERLAYS = ['command', 'ellipse', 'exponential'];
+/** Styles of the lines in the pictures. @satisfies {Record<string, import('../../figure/overlays.js').LineStyle>} */
+export const LINES = {
+  command: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
+  ellipse: { role: 'prediction', width: 2, dash: [7, 4] },
+  exponential: { role: 'posterior', width: 2.25, dash: [] },
+  linearized: { role: 'prediction', width: 1.75, dash: [9, 3, 2, 3] },
+  additive: { role: 'prediction', width: 2.5, dash: [1.5, 5] },
+};
+
+/** @typedef {keyof typeof LINES} LineName */
+
+export const OVERLAYS = /** @type {LineName[]} */ (Object.keys(LINES));
+const { attribute, state } = overlaysOf(OVERLAYS, ['command', 'ellipse', 'exponential']);
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
-  preset: presetAttribute,
+  preset: presetsOf(presets['banana-machine'], declared),
   ...attributesOf(declared),
-  overlays: { kind: WORDS, own: true, words: OVERLAYS },
+  overlays: attribute,
 };
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
@@ -30,7 +39,7 @@ export const own = {
   ...cloudState,
   /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
   isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
-  overlays: { opening: OPENING_OVERLAYS, check: (field, overlays) => subset(field, overlays, OVERLAYS) },
+  overlays: state,
 };
 
 /** @type {import('../../figure/attributes.js').Documentation} */

@@ -3,7 +3,6 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
-import { cloudStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
@@ -37,29 +36,6 @@ const own = css`
       column-gap: 1em;
     }
   }
-
-  .swatch {
-    flex: none;
-    width: 1.9em;
-    height: 0.5em;
-    stroke: var(--role);
-  }
-
-  .swatch line {
-    stroke-width: 2.25;
-  }
-
-  .legend .command {
-    --role: var(--prior);
-  }
-
-  .legend :is(.ellipse, .linearized, .additive) {
-    --role: var(--prediction);
-  }
-
-  .legend .exponential {
-    --role: var(--posterior);
-  }
 `;
 
-export const bananaStyles = [...layoutStyles, plotStyles, cloudStyles, own];
+export const bananaStyles = [...layoutStyles, plotStyles, own];

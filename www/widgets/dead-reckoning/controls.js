@@ -4,8 +4,7 @@ import { html } from 'lit';
 import { choices, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { fixed } from '../../ui/format.js';
-import { presetButtons } from '../shared/presets.js';
-import { COMMAND, NOISE, presetIn, presetNamed } from './settings.js';
+import { COMMAND, NOISE } from './settings.js';
 
 /** @typedef {import('./dead-reckoning.js').DeadReckoningElement} Figure */
 
@@ -18,12 +17,6 @@ export function walkControls(figure) {
     <legend class="visually-hidden">${settings.step.name}</legend>
     ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}
   </fieldset>`;
-}
-
-/** @param {Figure} figure */
-export function presets(figure) {
-  const { presets: names, presetTitles: titles } = words.reckoning;
-  return presetButtons(figure, { names, titles, present: presetIn(figure.reading.config), settings: presetNamed });
 }
 
 /** @param {Figure} figure */

@@ -2,14 +2,13 @@
 
 import { html } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
-import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
+import { canvas, cloudControls, disclosures } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
-import { words } from '../../messages/registry.js';
-import { fold } from '../../ui/fold.js';
-import { commandAndNoise, pathControls, presets, recursionChoice, walkControls } from './controls.js';
+import { presetButtons } from '../shared/presets.js';
+import { commandAndNoise, pathControls, recursionChoice, walkControls } from './controls.js';
 import { PathPicture, StepPicture } from './pictures.js';
 import { COMPONENTS, readingOf } from './reading.js';
 import { markedRobot, missReadouts, missTable, ratioPlot, straightPlot } from './readouts.js';
@@ -109,7 +108,6 @@ export class DeadReckoningElement extends FigureElement {
   /** @param {Reading} reading */
   content(reading) {
     const { condition } = reading;
-    const say = words.reckoning;
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
@@ -125,14 +123,12 @@ export class DeadReckoningElement extends FigureElement {
           </div>`)}
         </div>
         ${this.stage.later(() => html`
-        ${presets(this)}
+        ${presetButtons(this)}
         <div class="controls" part="controls">${pathControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
-        <div class="folds">
-          ${fold(say.figures, () => html`${missTable(reading)} ${markedRobot(this, this.#marked)}`)}
-          ${fold(say.straight.title, () => straightPlot(/** @type {Machine} */ (this.machine).straight))}
-          ${fold(say.commandAndNoise, () => commandAndNoise(this))}
-          ${takeAlong(this)}
-        </div>`)}
+        ${disclosures(this, {
+          controls: () => commandAndNoise(this),
+          numbers: () => html`${missTable(reading)} ${markedRobot(this, this.#marked)} ${straightPlot(/** @type {Machine} */ (this.machine).straight)}`,
+        })}`)}
       </section>
     `;
   }

@@ -11,10 +11,10 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   settings: {
     v: { effect: 'How fast each step is driven; below zero the robot backs up.' },
     omega: { effect: 'How sharply each step bends: what is missing from the recursion grows with *ωΔt*.' },
-    dt: { name: 'Δt, duration of a step', effect: 'How long a step takes; the path grows with it.' },
-    step: { name: 'k, step that is looked at' },
-    steps: { name: 'n, steps of the same path', effect: 'The same path in more and shorter steps.' },
-    headingNoise: { name: 'h, heading noise', effect: 'Sets *α*₃ and *α*₄ to *h*, *α*₅ and *α*₆ to *h*/4.' },
+    dt: { name: 'duration of a step', effect: 'How long a step takes; the path grows with it.' },
+    step: { name: 'step that is looked at' },
+    steps: { name: 'steps of the same path', effect: 'The same path in more and shorter steps.' },
+    headingNoise: { name: 'heading noise', effect: 'Sets *α*₃ and *α*₄ to *h*, *α*₅ and *α*₆ to *h*/4.' },
     compounding: { name: 'Recursion' },
     per: { name: 'The α’s are the noise of' },
     alphas: {
@@ -25,16 +25,9 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
         'v² into γ̂: turns after the step', 'ω² into γ̂: the same, only in turns',
       ],
     },
-    samples: { name: 'N, robots', effect: 'The more robots, the narrower the bands.' },
+    samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
   },
   walked: (gone, whole) => `Walks along the path: ${gone} of ${whole} s are driven.`,
-  cloud: {
-    legend: 'Robots',
-    play: 'Sends the robots, a few at a time',
-    step: (batch) => `Send ${batch} robots more`,
-    reset: 'Take all robots off; the same seed sends the same ones',
-    reseed: 'Send other robots',
-  },
   recursions: { chapter: 'the chapter’s', 'first-order': 'with Jᵣ', 'fourth-order': 'fourth order' },
   per: { step: 'each step', path: 'the whole path' },
   // The outlines of the floor are read one after the other: the second is a Gaussian too.

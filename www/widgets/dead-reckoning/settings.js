@@ -24,10 +24,8 @@ export const COMMAND = commandLooks(1);
 
 export const NOISE = alphaLooks(6);
 
-export const { presetIn, presetNamed, preset } = presetsOf(presets['dead-reckoning'], ['v', 'omega', 'dt', 'steps', ...Object.keys(NOISE), 'headingNoise']);
-
 /** @type {import('../../figure/attributes.js').Attributes} */
-export const attributes = { preset, ...attributesOf(declared) };
+export const attributes = { preset: presetsOf(presets['dead-reckoning'], declared), ...attributesOf(declared) };
 
 /** @type {Record<string, import('../../figure/controls.js').Look>} */
 export const looks = {

@@ -3,7 +3,6 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
-import { cloudStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
@@ -89,4 +88,4 @@ const own = css`
   }
 `;
 
-export const reckoningStyles = [...layoutStyles, plotStyles, cloudStyles, own];
+export const reckoningStyles = [...layoutStyles, plotStyles, own];

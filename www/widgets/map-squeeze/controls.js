@@ -9,7 +9,8 @@ import { words } from '../../messages/registry.js';
 import { button, choice, radioGroup, rich } from '../../ui/controls.js';
 import { fileInput } from '../shared/files.js';
 import { EXTENSIONS } from './maps/open.js';
-import { MOST_SAMPLES, MOTION, PRESETS, SAMPLERS } from './settings.js';
+import { presetButtons, startOverButton } from '../shared/presets.js';
+import { MOST_SAMPLES, MOTION, SAMPLERS } from './settings.js';
 
 /** @typedef {import('./map-squeeze.js').MapSqueezeElement} Figure */
 
@@ -25,22 +26,13 @@ const EXAMPLE = `{
 
 /** Places of the present map; the apartment's are not offered in another, which they would make the reader leave. @param {Figure} figure */
 export function placeControls(figure) {
-  const { x, y, theta } = figure.reading.config.start;
-  const say = words.squeeze;
-  const isHere = (/** @type {import('../../types.d.ts').Pose} */ place) => place.x === x && place.y === y && place.theta === theta;
-  const places = PRESETS.map(({ name, start }) =>
-    button(say.presets[/** @type {keyof typeof say.presets} */ (name)], () => figure.go(start), { pressed: isHere(start) }),
-  );
-  const { left } = figure;
-  return html`<fieldset>
-    <legend class="visually-hidden">${say.place}</legend>
-    <div class="buttons">
-      ${figure.map
-        ? html`${button(say.own.open, () => figure.goToOpen(), { pressed: figure.inTheOpen })}
-          ${button(say.own.leave, () => figure.leaveMap())}`
-        : html`${places} ${left ? button(say.own.back(left.name || say.pasted), () => figure.returnToMap()) : nothing}`}
-    </div>
-  </fieldset>`;
+  const { map, left } = figure;
+  const { own, pasted } = words.squeeze;
+  if (!map) return presetButtons(figure, left ? button(own.back(left.name || pasted), () => figure.returnToMap()) : nothing);
+  return html`<div class="buttons presets">
+    ${button(own.open, () => figure.goToOpen(), { pressed: figure.inTheOpen })} ${button(own.leave, () => figure.leaveMap())}
+    ${startOverButton(figure)}
+  </div>`;
 }
 
 /** @param {Figure} figure */

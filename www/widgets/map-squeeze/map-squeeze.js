@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
-import { canvas, cloudControls, takeAlong } from '../../figure/controls.js';
+import { canvas, cloudControls, disclosures } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
@@ -10,16 +10,15 @@ import { orFree } from '../../figure/runtime.js';
 import { LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { fold } from '../../ui/fold.js';
 import { PoseHandles } from '../shared/pose-handles.js';
 import { judgeControls, motionControls, ownMap, placeControls, unknownChoice, viewChoice } from './controls.js';
 import { CostMeter } from './cost.js';
 import { applyMap, cellsOf, mapData } from './maps/data.js';
-import { FOLD, MapOpener } from './maps/open.js';
+import { MapOpener } from './maps/open.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
 import { costTable, legend, markedDraw, rates, tally } from './readouts.js';
-import { PRESETS, SAMPLE_COUNTS, attributes, declared, looks, own, presetNamed, vocabulary } from './settings.js';
+import { OPENING_START, PRESET, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
 import { mapText, pictureText, verdictOf } from './words.js';
 
@@ -151,16 +150,14 @@ export class MapSqueezeElement extends FigureElement {
   /** The place in the apartment that the robot starts from; null elsewhere. @returns {string | null} */
   get preset() {
     if (!this.machine) return /** @type {string | undefined} */ (this.reflection.wished('preset')) ?? null;
-    if (this.map) return null;
-    const { x, y, theta } = this.settings.wanted.start;
-    return PRESETS.find(({ start }) => start.x === x && start.y === y && start.theta === theta)?.name ?? null;
+    return /** @type {string | null} */ (this.map ? null : PRESET.get({ config: this.settings.wanted, machine: this.machine }));
   }
 
   set preset(name) {
     this.reflection.give('preset', name, (given) => {
-      const { start } = presetNamed(given);
+      const settings = PRESET.change(given, { config: {}, machine: this.machine });
       this.#leave();
-      this.settings.assign({ start });
+      this.settings.assign(settings);
     });
   }
 
@@ -240,7 +237,7 @@ export class MapSqueezeElement extends FigureElement {
   /** The reader wants to leave their map, which stays at hand. */
   leaveMap() {
     this.runtime.attempt(() => this.#leave());
-    this.go(PRESETS[0].start);
+    this.go(OPENING_START);
   }
 
   /** The reader wants to go back to their map, as they left it. */
@@ -315,7 +312,7 @@ export class MapSqueezeElement extends FigureElement {
   /** In the apartment the robot goes to where it opens if it has no room where it is. */
   #findRoom() {
     const { machine } = this;
-    if (machine && !machine.startFree) this.settings.assign({ start: PRESETS[0].start });
+    if (machine && !machine.startFree) this.settings.assign({ start: OPENING_START });
   }
 
   /** @param {MapData | null} map that the machine has now */
@@ -340,7 +337,6 @@ export class MapSqueezeElement extends FigureElement {
   /** @param {Reading} reading */
   content(reading) {
     const { config, note } = reading;
-    const say = words.squeeze;
     const { hasUnknown } = this.picture;
     return html`
       <section
@@ -361,11 +357,10 @@ export class MapSqueezeElement extends FigureElement {
         </div>
         ${this.stage.later(() => html`
         <div class="controls" part="controls">${motionControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
-        <div class="folds">
-          ${fold(say.keyAndSample, () => html`${viewChoice(this)} ${legend(reading, hasUnknown)} ${markedDraw(this)}`)}
-          ${fold(say.countsLabel, () => html`${tally(reading)} ${costTable(this.#meter, config.steps)}`)}
-          ${fold(say.own.legend, () => ownMap(this, this.#opener, this.#mapText), FOLD)} ${takeAlong(this)}
-        </div>`)}
+        ${disclosures(this, {
+          controls: () => html`${viewChoice(this)} ${ownMap(this, this.#opener, this.#mapText)}`,
+          numbers: () => html`${legend(reading, hasUnknown)} ${markedDraw(this)} ${tally(reading)} ${costTable(this.#meter, config.steps)}`,
+        })}`)}
       </section>
     `;
   }

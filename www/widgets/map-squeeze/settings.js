@@ -1,6 +1,6 @@
 /** Map Squeeze's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORD, attributesOf } from '../../figure/attributes.js';
+import { WORD, attributesOf, presetsOf } from '../../figure/attributes.js';
 import { word } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { presets, settings } from '../../settings.js';
@@ -11,20 +11,17 @@ export const declared = settings['map-squeeze'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'squeeze';
 
-export const PRESETS = presets['map-squeeze'];
-const PRESET_NAMES = PRESETS.map(({ name }) => name);
+/** Places in the apartment, each with the settings that show what it is for. */
+export const PRESET = presetsOf(presets['map-squeeze'], declared);
+
+/** Pose of the robot where a map has been left. */
+export const OPENING_START = presets['map-squeeze'][0].start;
 
 const VIEWS = ['close', 'whole'];
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
-  preset: {
-    kind: WORD,
-    own: true,
-    covers: () => ['x', 'y', 'theta'],
-    words: PRESET_NAMES,
-    opening: PRESET_NAMES[0],
-  },
+  preset: { ...PRESET, own: true, opening: PRESET.words?.[0] },
   ...attributesOf(declared),
   view: { kind: WORD, own: true, words: VIEWS },
 };
@@ -36,14 +33,6 @@ export const own = {
   /** The reader's own; null for the apartment. A machine has looked at it. */
   map: { opening: null, check: (_, map) => map },
 };
-
-/**
- * @param {unknown} name
- * @throws {TypeError | RangeError} where there is none of that name
- */
-export function presetNamed(name) {
-  return PRESETS[PRESET_NAMES.indexOf(word('preset', name, PRESET_NAMES))];
-}
 
 /** Of what the robot is told and what it is. @type {Record<string, import('../../figure/controls.js').Look>} */
 export const MOTION = {

@@ -6,15 +6,9 @@ import { words } from '../../messages/registry.js';
 import { choice, rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { figureTable } from '../../ui/readouts.js';
-import { presetButtons } from '../shared/presets.js';
-import { NOISE, SAMPLE_COUNTS, presetIn, presetNamed } from './settings.js';
+import { NOISE, SAMPLE_COUNTS } from './settings.js';
 
 /** @typedef {import('./odometry-decomposer.js').OdometryDecomposerElement} Figure */
-
-/** @param {Figure} figure */
-export function presets(figure) {
-  return presetButtons(figure, { names: words.decomposer.presets, present: presetIn(figure.reading.config), settings: presetNamed });
-}
 
 /** What each rule makes of the reading, the present one among them chosen by its name. @param {Figure} figure */
 export function rulesTable(figure) {

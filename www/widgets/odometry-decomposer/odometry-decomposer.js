@@ -2,18 +2,18 @@
 
 import { html } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
-import { canvas, takeAlong } from '../../figure/controls.js';
+import { canvas, disclosures } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { words } from '../../messages/registry.js';
 import { rich } from '../../ui/controls.js';
-import { fold } from '../../ui/fold.js';
 import { fixed } from '../../ui/format.js';
 import { Player } from '../shared/player.js';
 import { PoseHandles } from '../shared/pose-handles.js';
-import { noiseControls, playable, presets, rulesTable } from './controls.js';
+import { presetButtons } from '../shared/presets.js';
+import { noiseControls, playable, rulesTable } from './controls.js';
 import { LegsPicture, RADIUS, WorldPicture } from './pictures.js';
 import { readingOf } from './reading.js';
 import { readouts, spreads } from './readouts.js';
@@ -146,12 +146,11 @@ export class OdometryDecomposerElement extends FigureElement {
         </div>
         ${this.stage.later(() => html`
         <div class="plays">${playable(this, 'phase', say.way)} ${playable(this, 'drift', say.drift)}</div>
-        ${presets(this)} ${rulesTable(this)}
-        <div class="folds">
-          ${fold(say.noiseFold, () => noiseControls(this))}
-          ${fold(say.spreadFold, () => html`${readouts(reading)} ${this.machine && spreads(this.machine, reading)}`)}
-          ${takeAlong(this)}
-        </div>`)}
+        ${presetButtons(this)} ${rulesTable(this)}
+        ${disclosures(this, {
+          controls: () => noiseControls(this),
+          numbers: () => html`${readouts(reading)} ${this.machine && spreads(this.machine, reading)}`,
+        })}`)}
       </section>
     `;
   }

@@ -10,16 +10,14 @@ export const declared = settings['odometry-decomposer'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'decomposer';
 
-export const { presetIn, presetNamed, preset } = presetsOf(presets['odometry-decomposer'], ['fromX', 'fromY', 'fromTheta', 'toX', 'toY', 'toTheta']);
-
 /** @type {import('../../figure/attributes.js').Attributes} */
-export const attributes = { preset, ...attributesOf(declared) };
+export const attributes = { preset: presetsOf(presets['odometry-decomposer'], declared), ...attributesOf(declared) };
 
 export const own = cloudState;
 
 /** Of the noise. */
 export const NOISE = {
-  ...alphaLooks(5),
+  ...alphaLooks(5, 'odometry'),
   correlation: { symbol: '*ρ*', role: /** @type {const} */ ('prediction'), min: -1, max: 1, step: 0.05, decimals: 2 },
 };
 

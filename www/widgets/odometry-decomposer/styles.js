@@ -3,7 +3,7 @@
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
-import { cloudStyles, poseHandleStyles } from '../shared/styles.js';
+import { poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
@@ -110,4 +110,4 @@ const own = css`
   }
 `;
 
-export const decomposerStyles = [...layoutStyles, plotStyles, cloudStyles, poseHandleStyles, own];
+export const decomposerStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];

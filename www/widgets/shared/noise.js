@@ -4,13 +4,14 @@
 export const ALPHA = { role: /** @type {const} */ ('prediction'), min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
 /**
- * How so many of them look, by the names of their settings.
+ * Returns the sliders of the first noise parameters of a model, by the names of their settings.
  *
  * @param {number} count
+ * @param {'velocity' | 'odometry'} [model] whose words they have
  * @returns {Record<string, import('../../figure/controls.js').Look>}
  */
-export function alphaLooks(count) {
+export function alphaLooks(count, model = 'velocity') {
   return Object.fromEntries(
-    Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA, symbol: `*α*${String.fromCharCode(0x2081 + i)}` }]),
+    Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA, symbol: `*α*${String.fromCharCode(0x2081 + i)}`, alpha: [model, i] }]),
   );
 }

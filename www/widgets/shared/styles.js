@@ -19,45 +19,6 @@ export const poseHandleStyles = css`
   }
 `;
 
-/** Cloud with its seed beside the help of N, and small buttons in the column of a book. */
-export const cloudStyles = css`
-  .cloud .buttons {
-    margin-bottom: 0.2em;
-  }
-
-  @container (max-width: 48em) {
-    .controls {
-      column-gap: 1.5em;
-    }
-
-    .presets,
-    .cloud .buttons {
-      gap: 0.25em;
-    }
-
-    .presets button,
-    .cloud .buttons button {
-      --size: 0.84;
-      --beside: 0.3em;
-    }
-  }
-
-  /* The seed shares the line in which the help of N appears, if the buttons leave no room for it. */
-  @container (max-width: 68.75em) {
-    .cloud .seed {
-      position: absolute;
-      right: 0;
-      bottom: 0;
-      font-size: 0.84em;
-      line-height: 1.25;
-    }
-
-    .cloud:has(.slider:is(:focus-within, :hover)) .seed {
-      visibility: hidden;
-    }
-  }
-`;
-
 /** For a picture that has figures beside it, and a key to its marks in a fold. */
 export const besideStyles = css`
   /* The picture with the sentence below it, and beside it the figures and what is chosen. */

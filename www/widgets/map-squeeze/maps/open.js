@@ -11,7 +11,7 @@ import { FileDrop } from '../../shared/files.js';
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
 
 /** The fold that says which map is there and why another was refused. */
-export const FOLD = 'map-fold';
+const FOLD = 'more';
 
 /** Files of more bytes take longer than a moment to read. */
 const LARGE = 1_000_000;

@@ -12,8 +12,20 @@ export const sliderStyles = css`
     display: grid;
     grid-template: 'pick name value' auto 'track track track' auto / auto 1fr auto;
     align-items: baseline;
-    column-gap: 0.3em;
-    padding-bottom: 1.15em;
+    padding-bottom: 1.1em;
+  }
+
+  /* In wide figures all in one row, in columns that every group shares. */
+  @container (min-width: 56em) {
+    .slider {
+      grid-template: 'pick name track value' auto / auto 14em 1fr 5.5em;
+      align-items: center;
+      column-gap: 0.5em;
+    }
+
+    .slider:not(:has(> .choice)) {
+      grid-template: 'name track value' auto / 14em 1fr 5.5em;
+    }
   }
 
   .slider > [for] {
@@ -29,6 +41,7 @@ export const sliderStyles = css`
   .slider > .choice {
     grid-area: pick;
     min-height: 0;
+    margin-inline-end: 0.3em;
   }
 
   .slider > input[type='range'] {

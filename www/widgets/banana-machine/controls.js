@@ -21,7 +21,7 @@ export function modelControls(figure) {
   const say = words.banana;
   // From 1; the other model may have fewer.
   const chosen = Math.min(figure.state.own.isolateChoice, alphas.length);
-  return group(say.settings.model.name, html`${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
+  return group(say.modelGroup, html`${choices(figure, 'model', say.models)} ${choices(figure, 'noise', say.noises)}
     ${model === 'odometry' ? check(figure, 'reverseAware', say.reverseAware) : nothing}
     ${toggle({
       label: say.isolate,

@@ -39,6 +39,7 @@ export const de = {
     additive: 'Rauschen auf der Pose, 2σ',
     exponential: 'Gauß in ξ, 2σ',
   },
+  modelGroup: 'Modell',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
   reverseAware: 'Rückwärts ohne halbe Drehungen',

@@ -41,6 +41,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     additive: 'noise added to the pose, 2σ',
     exponential: 'Gaussian in ξ, 2σ',
   },
+  modelGroup: 'Model',
   models: { velocity: 'velocity', odometry: 'odometry' },
   noises: { normal: 'normal', triangular: 'triangular' },
   reverseAware: 'Reverse without half-turn noise',

@@ -221,21 +221,39 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   const widget = page.locator('banana-machine').first();
   await ready(widget);
   const canvas = widget.locator('canvas.plane');
-  const light = await pictureOf(canvas);
-  await page.emulateMedia({ colorScheme: 'dark' });
-  await expect.poll(() => pictureOf(canvas)).not.toBe(light);
   // At once: no frame comes between.
-  const printed = await canvas.evaluate((element) => {
+  const print = () => canvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
-    return /** @type {HTMLCanvasElement} */ (element).toDataURL();
+    const printed = /** @type {HTMLCanvasElement} */ (element).toDataURL();
+    dispatchEvent(new Event('afterprint'));
+    return printed;
   });
-  expect(printed).toBe(light);
-  await page.evaluate(() => void dispatchEvent(new Event('afterprint')));
+  const light = await print();
+  const screen = await pictureOf(canvas);
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await expect.poll(() => pictureOf(canvas)).not.toBe(screen);
+  expect((await print()) === light).toBe(true);
   await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
-  expect(await pictureOf(canvas)).toBe(light);
+  const box = await boxOf(canvas);
+  const [width, height] = await canvas.evaluate((element) => ['width', 'height'].map((side) => Number(Reflect.get(element, side))));
+  expect(width / height).toBeCloseTo(box.width / box.height, 1);
   for (const value of ['1.00 m/s', '0.50 rad/s', '0.090']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
-  await page.emulateMedia({ media: 'screen' });
-  await expect.poll(() => pictureOf(canvas)).not.toBe(light);
+});
+
+test('paper has figures that were far from the window, with their pictures', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
+  await ready(page.locator('banana-machine'));
+  const far = page.locator('map-squeeze');
+  expect(await far.evaluate((element) => Reflect.get(element, 'machine'))).toBe(undefined);
+  await page.evaluate(() => {
+    addEventListener('afterprint', () => {
+      const canvas = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('canvas');
+      const pixels = canvas?.width ? canvas.getContext('2d')?.getImageData(0, 0, canvas.width, canvas.height).data : [];
+      Object.assign(window, { inked: pixels?.some((channel) => channel > 0) });
+    }, { once: true, capture: true });
+  });
+  await page.pdf();
+  expect(await page.evaluate(() => Reflect.get(window, 'inked'))).toBe(true);
 });
 
 test('paper has the folds of a figure that the reader opened, and nothing to press', async ({ page, figure }) => {

@@ -85,10 +85,15 @@ export class Cloud extends Part {
     if (!state && !isCalm()) this.#machine.restart();
     this.pause();
     this.playing = state ? state.playing : true;
-    if (isCalm() && this.playing) {
-      this.playing = false;
-      this.#machine.grow(this.#samples);
-    }
+    if (isCalm()) this.finish();
+  }
+
+  /** A cloud that grows is complete at once. */
+  finish() {
+    if (!this.playing) return;
+    this.pause();
+    this.#machine.grow(this.#samples);
+    this.host.settings.stale = true;
   }
 
   /** @returns {Values} its part of the state */

@@ -23,6 +23,9 @@ const ENOUGH_WORK = LONGEST_WORK / 2;
 /** Longest that words wait while every frame has a picture, milliseconds: what comes later is no answer to the hand. */
 const LATEST_WORDS = 100;
 
+/** Pixels of paper a CSS pixel: as fine as in a file. */
+const PAPER_RATIO = 2;
+
 /** @type {MediaQueryList | undefined} */
 let calm;
 
@@ -182,7 +185,7 @@ export class Stage extends Part {
     const began = performance.now();
     // A large cloud takes several frames: the former one is shown until then. So is the machine that another one is to
     // replace, also where nothing of it has been drawn yet.
-    const settled = host.settings.settle(LONGEST_WORK);
+    const settled = host.settings.settle(this.#printing ? Infinity : LONGEST_WORK);
     // It has trapped: the next picture is that of the core in its place.
     if (!host.machine) return;
     // What came in slices is drawn in the frame after the last of them, if that has taken long.
@@ -196,7 +199,7 @@ export class Stage extends Part {
     }
     const { scene } = host;
     const { pressed: still, former } = host.gesture;
-    const how = { elapsed, still, atOnce: isCalm(), former };
+    const how = { elapsed, still, atOnce: this.#printing || isCalm(), former, handles: this.#printing };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();
@@ -240,6 +243,16 @@ export class Stage extends Part {
       canvas.width = Math.round(exact?.inlineSize ?? devicePixelRatio * contentRect.width);
       canvas.height = Math.round(exact?.blockSize ?? devicePixelRatio * contentRect.height);
     }
+    this.#drawResized();
+  }
+
+  #drawResized() {
+    if (this.#printing) {
+      for (const canvas of this.#canvases ?? []) {
+        const { clientWidth, clientHeight } = canvas;
+        Object.assign(canvas, { width: PAPER_RATIO * clientWidth, height: PAPER_RATIO * clientHeight });
+      }
+    }
     // Inside a closed tab neither.
     this.#colour();
     // At once: a canvas that was resized is blank, and the next frame is too late to hide that.
@@ -275,13 +288,30 @@ export class Stage extends Part {
     this.#palette = undefined;
   }
 
-  /** Paper is light, whatever the screen is. @param {boolean} printing */
+  /**
+   * Paper is light, whatever the screen is, and has every figure of the page, complete and as fine as in a file.
+   *
+   * @param {boolean} printing
+   */
   #print(printing) {
     this.#printing = printing;
-    this.#colour();
-    // At once: the printer waits for no frame.
-    this.#drawNow(0);
+    const { machine, cloud } = this.host;
+    if (!machine) {
+      // The printer waits for no frame, but microtasks pass, and a module that another figure has needs no more.
+      if (printing) void this.#hasten();
+      return;
+    }
+    if (printing) cloud?.finish();
+    else this.#measure();
+    this.#drawResized();
     this.#tell();
+  }
+
+  /** Makes a figure ready that is far from the window, and prints it. */
+  async #hasten() {
+    await this.host.runtime.hasten();
+    await this.host.updateComplete;
+    if (this.host.machine) this.#print(this.#printing);
   }
 
   /** @param {string} selector of what is there once the figure was rendered */

@@ -18,6 +18,7 @@
  * @property {number} ratio device pixels a pixel of the view
  * @property {string} font of the canvas's style
  * @property {boolean} [exported] whether a file is drawn: a picture on the page has its key beside it
+ * @property {boolean} [handles] whether handles are painted: on the screen they are elements over the picture
  * @property {any} [former] earlier reading whose outlines stay as a ghost
  */
 

@@ -293,6 +293,23 @@ export function drawRobot(brush, { x, y, heading, colour }) {
 }
 
 /**
+ * Paints a handle where no element stands for it: in files and on paper.
+ *
+ * @param {Brush} brush
+ * @param {{ x: number, y: number, radius: number, colour: string }} handle pixels
+ */
+export function drawHandle({ context, palette, handles }, { x, y, radius, colour }) {
+  if (!handles) return;
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.fillStyle = palette.paper;
+  context.fill();
+  context.strokeStyle = colour;
+  context.lineWidth = 3;
+  context.stroke();
+}
+
+/**
  * The ring and cross hairs of the marked sample.
  *
  * @param {Brush} brush

@@ -13,6 +13,7 @@ import { brushOn } from './canvas.js';
  * @property {boolean} [atOnce] whether the view goes there without easing
  * @property {any} [former] reading before the present gesture: a view that zooms out after it shows its outlines too
  * @property {boolean} [exported] whether it is drawn for a file, which has no page around it
+ * @property {boolean} [handles] whether handles are painted
  */
 
 /**
@@ -48,7 +49,7 @@ export class Picture {
    * @param {How} [how]
    * @returns {boolean} whether the view is still moving
    */
-  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false, former, exported = false } = {}) {
+  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false, former, exported = false, handles = exported } = {}) {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
     if (former !== this.#former && !exported) {
@@ -57,7 +58,7 @@ export class Picture {
     }
     if (!still || !view.aimed) this.fit(scene);
     const moving = view.ease(elapsed, atOnce);
-    this.paint({ ...brush, exported, former: view.widened && !exported ? former : undefined }, scene);
+    this.paint({ ...brush, exported, handles, former: view.widened && !exported ? former : undefined }, scene);
     return moving;
   }
 

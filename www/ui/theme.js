@@ -135,6 +135,13 @@ export const theme = css`
       min-height: 0 !important;
     }
 
+    /* The printed page has another width than the window that it was drawn for. */
+    .stage canvas {
+      height: auto !important;
+      max-height: none !important;
+      aspect-ratio: auto !important;
+    }
+
     :is(button, input, textarea, summary, .handle, .effect, .marked, .visually-hidden),
     :not(th) > label:has(input:not(:checked)) {
       display: none !important;

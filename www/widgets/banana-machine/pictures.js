@@ -7,6 +7,7 @@ import {
   drawDensity,
   drawDots,
   drawGhosts,
+  drawHandle,
   drawHeap,
   drawMark,
   drawOutline,
@@ -45,6 +46,9 @@ const ONE_PLACE = 0.6;
 
 /** Standard deviations around the mean that a view makes room for. */
 const ROOM = 3.2;
+
+/** Radius of the ring at the end of the arc, pixels. */
+const RING = 7.5;
 
 /** How near to a robot the pointer must be to mark it, CSS pixels. */
 const REACH = 14;
@@ -148,6 +152,7 @@ export class PlanePicture extends CloudPicture {
       drawOutlines(brush, outlines(contours));
       if (overlays.command && scene.reading) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
+      drawHandle(brush, { x: view.toPixelX(end[0]), y: view.toPixelY(end[1]), radius: RING, colour: palette.prior });
       if (marked) {
         const { pose, path } = marked;
         drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });

@@ -237,7 +237,7 @@ export class WorldPicture extends OutcomesPicture {
       drawOutcomes(brush, scene);
       this.#paintLine(brush, start, end, palette.prediction, [], 1.75);
       this.#paintLine(brush, to, end, palette.accent, [2, 4], 1.5);
-      drawHeldRobot(brush, start, RADIUS, palette.truth);
+      drawHeldRobot({ ...brush, handles: false }, start, RADIUS, palette.truth);
       this.#label(brush, { poses: [start, end], side: -1, symbol: 'x', colours: [palette.ink, palette.prediction] });
       this.#label(brush, { poses: [from, to], side: 1, symbol: 'x̄', colours: [palette.prior, palette.prior] });
       this.paintMark(brush, scene);

@@ -1,5 +1,7 @@
 /** A robot from above: a disc, and a line from its middle to the handle that turns it. */
 
+import { drawHandle } from '../../scene/draw.js';
+
 /**
  * @import { Pose } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
@@ -8,6 +10,9 @@
 
 /** In a view of much it is drawn no smaller than this, CSS pixels. */
 const SMALLEST = 3;
+
+/** Radius of the ring that turns it, pixels. */
+const TURN = 5.5;
 
 /**
  * How far ahead of the robot's centre the handle is that turns it.
@@ -28,7 +33,8 @@ export function turnDistance(view, radius) {
  * @param {number} radius metres
  * @param {string} colour
  */
-export function drawHeldRobot({ context, view, palette }, { x, y, theta }, radius, colour) {
+export function drawHeldRobot(brush, { x, y, theta }, radius, colour) {
+  const { context, view, palette } = brush;
   const [atX, atY] = [view.toPixelX(x), view.toPixelY(y)];
   const ahead = view.direction(theta);
   const reach = turnDistance(view, radius);
@@ -41,6 +47,7 @@ export function drawHeldRobot({ context, view, palette }, { x, y, theta }, radiu
   context.moveTo(atX, atY);
   context.lineTo(atX + reach * ahead.x, atY + reach * ahead.y);
   context.stroke();
+  drawHandle(brush, { x: atX + reach * ahead.x, y: atY + reach * ahead.y, radius: TURN, colour });
 }
 
 /**

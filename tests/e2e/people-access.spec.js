@@ -234,10 +234,12 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   await expect.poll(() => pictureOf(canvas)).not.toBe(screen);
   expect((await print()) === light).toBe(true);
   await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
-  const box = await boxOf(canvas);
-  const [width, height] = await canvas.evaluate((element) => ['width', 'height'].map((side) => Number(Reflect.get(element, side))));
-  expect(width / height).toBeCloseTo(box.width / box.height, 1);
-  for (const value of ['1.00 m/s', '0.50 rad/s', '0.090']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
+  const stretched = () => canvas.evaluate((element) => {
+    const { width, height, clientWidth, clientHeight } = /** @type {HTMLCanvasElement} */ (element);
+    return (width * clientHeight) / (height * clientWidth);
+  });
+  await expect.poll(stretched).toBeCloseTo(1, 1);
+  for (const value of ['1.00 m/s', '2.00 s', '0.100']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
 });
 
 test('paper has figures that were far from the window, with their pictures', async ({ page }) => {

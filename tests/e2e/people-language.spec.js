@@ -163,6 +163,39 @@ test('a page from right to left has the same picture, and nothing beside its fig
   expect(Number(await slider.inputValue())).toBeGreaterThan(value);
 });
 
+test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figure }) => {
+  const head = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
+  for (const [lang, direction, values] of [['en', 'ltr', '.machine'], ['he', 'rtl', '.machine :is(bdi, [dir=ltr])']]) {
+    await show(page, `<div dir="rtl" lang="${lang}"><${figure}><p slot="caption">נגן</p></${figure}></div>`, { head });
+    const widget = page.locator(figure);
+    await ready(widget);
+    await unfold(widget);
+    const found = await widget.evaluate(({ shadowRoot }, selector) => {
+      const range = new Range();
+      const edges = (/** @type {Text} */ text, /** @type {number} */ at) => {
+        range.setStart(text, at);
+        range.setEnd(text, at + 1);
+        return range.getBoundingClientRect();
+      };
+      return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(selector)].flatMap((element) => {
+        const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+        const signs = [];
+        while (walker.nextNode()) {
+          const text = /** @type {Text} */ (walker.currentNode);
+          const at = text.data.search(/\u2212\d/);
+          if (at >= 0 && text.parentElement?.checkVisibility()) signs.push([text.data, edges(text, at).right <= edges(text, at + 1).left + 0.5]);
+        }
+        return signs;
+      });
+    }, values);
+    expect(found.length).toBeGreaterThan(1);
+    expect(found.filter(([, isRight]) => !isRight)).toEqual([]);
+    const directionOf = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
+    expect(await directionOf('.machine')).toBe(direction);
+    expect(await directionOf('[slot=caption]')).toBe('rtl');
+  }
+});
+
 test('a page translator that replaces every text freezes none', async ({ page, figure }) => {
   await show(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
   const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));

@@ -1,12 +1,19 @@
 /** What is seen of a figure: all of it, or in its place the way to it, or the sentence why it cannot run. */
 
 import { html, noChange } from 'lit';
-import { speak, words } from '../messages/registry.js';
+import { language, speak, words } from '../messages/registry.js';
 import { placeholder } from './placeholder.js';
 
 /** @import { Figure } from './figure.js' */
 
-/** @param {Figure} figure */
+/** Languages that are written from right to left. */
+const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
+
+/**
+ * The figure's words have a language and a direction of their own: those of the page may be others.
+ *
+ * @param {Figure} figure
+ */
 export function surface(figure) {
   speak(figure);
   const { gesture, lettering, presenting, progress, stage } = figure;
@@ -14,7 +21,11 @@ export function surface(figure) {
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
     <div class="surface ${presenting.className}" @pointerdown=${(/** @type {PointerEvent} */ event) => gesture.press(event)} @input=${stop} @change=${stop} @keydown=${keepUsed}>
-      ${lettering.title()} ${contentOf(figure)} ${progress.render()} ${lettering.caption()} ${presenting.render()}
+      ${lettering.title()}
+      <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT.test(language) ? 'rtl' : 'ltr'}>
+        ${contentOf(figure)} ${progress.render()} ${presenting.render()}
+      </div>
+      ${lettering.caption()}
     </div>
   `;
 }

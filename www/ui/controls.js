@@ -198,20 +198,29 @@ export const controlStyles = css`
   }
 `;
 
-/** A message with its italics and subscripts. @param {string} message as messages/en.js has it; \\* is a star */
+/** Pieces of a formula in a message: italics and subscripts. */
+const PIECES = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
+const PIECE = new RegExp(PIECES, 'g');
+const FORMULA = new RegExp(`((?:${PIECES})+)`);
+
+/** A message with its formulas. @param {string} message as messages/en.js has it; \\* is a star */
 export function rich(message) {
-  return message
-    .split(/(\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\})/)
-    .map((part) =>
-      part[0] === '*'
-        ? html`<i>${part.slice(1, -1).replaceAll('\\*', '*')}</i>`
-        : part.startsWith('_{')
-          ? html`<sub>${part.slice(2, -1)}</sub>`
-          : /^[₀-₉]$/.test(part)
-            ? html`<sub>${part.charCodeAt(0) - 0x2080}</sub>`
-            : part,
-    );
+  // Every second part is a formula.
+  return message.split(FORMULA).map((part, i) => (i % 2 ? symbols(part.match(PIECE)?.map(printed)) : part));
 }
+
+/** @param {string} piece */
+function printed(piece) {
+  if (piece[0] === '*') return html`<i>${piece.slice(1, -1).replaceAll('\\*', '*')}</i>`;
+  return html`<sub>${piece[0] === '_' ? piece.slice(2, -1) : piece.charCodeAt(0) - 0x2080}</sub>`;
+}
+
+/**
+ * A value or formula: it has a direction of its own among words, and page translators leave it as it is.
+ *
+ * @param {unknown} content
+ */
+export const symbols = (content) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
 /**
  * Returns controls that belong together, under their heading.

@@ -150,17 +150,17 @@ export const plotStyles = css`
 /** @param {Plot} plot */
 export function plot({ label, x, y, curves, points = [], marks = [], slider }) {
   const [toX, toY] = [placing(x, LEFT, RIGHT), placing(y, BOTTOM, TOP)];
-  return html`<div class="plotted">
+  return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${label} part="chart">
       ${labelsOf(x, MOST_LABELS.x).map(
         ([value, text]) => svg`
           <line class="grid" x1=${toX(value)} x2=${toX(value)} y1=${TOP} y2=${BOTTOM} />
-          <text x=${toX(value)} y=${BOTTOM + 18} text-anchor="middle">${text}</text>`,
+          <text class="notranslate" translate="no" x=${toX(value)} y=${BOTTOM + 18} text-anchor="middle">${text}</text>`,
       )}
       ${labelsOf(y, MOST_LABELS.y).map(
         ([value, text]) => svg`
           <line class="grid" x1=${LEFT} x2=${RIGHT} y1=${toY(value)} y2=${toY(value)} />
-          <text x=${LEFT - 6} y=${toY(value) + 4} text-anchor="end">${text}</text>`,
+          <text class="notranslate" translate="no" x=${LEFT - 6} y=${toY(value) + 4} text-anchor="end">${text}</text>`,
       )}
       <text class="name" x=${RIGHT} y=${BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text class="name" x="0" y="12">${y.name}</text>

@@ -1,7 +1,7 @@
 /** Figures in print: a list of readouts, and tables. */
 
 import { css, html, nothing } from 'lit';
-import { rich } from './controls.js';
+import { rich, symbols } from './controls.js';
 
 export const readoutStyles = css`
   /* A name above its figure, side by side. */
@@ -52,7 +52,7 @@ export const readoutStyles = css`
   caption {
     caption-side: bottom;
     padding-top: 0.54em;
-    text-align: left;
+    text-align: start;
     color: var(--muted);
   }
 
@@ -62,20 +62,21 @@ export const readoutStyles = css`
 
   th {
     font-weight: normal;
-    text-align: left;
+    text-align: start;
   }
 
   :is(th, td) {
-    padding: 0.15em 0 0.15em 0.54em;
+    padding: 0.15em 0;
+    padding-inline-start: 0.54em;
   }
 
   :is(th, td):first-child {
-    padding-left: 0;
+    padding-inline-start: 0;
   }
 
   thead th:not(:first-child),
   td {
-    text-align: right;
+    text-align: end;
   }
 
   /* The name of a row above its numbers, which have the whole width then. */
@@ -96,13 +97,14 @@ export const readoutStyles = css`
     tr > :is(th, td) {
       flex: 1;
       min-width: 0;
-      padding: 0.17em 0 0.17em 0.37em;
+      padding: 0.17em 0;
+      padding-inline-start: 0.37em;
       overflow-wrap: anywhere;
     }
 
     tr > :first-child {
       flex-basis: 100%;
-      padding-left: 0;
+      padding-inline-start: 0;
     }
   }
 `;
@@ -115,7 +117,7 @@ export function readoutList(rows) {
     ${rows.map(
       ([name, value, detail]) => html`<div>
         <dt>${rich(name)}</dt>
-        <dd>${value}</dd>
+        <dd>${symbols(value)}</dd>
         ${detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing}
       </div>`,
     )}
@@ -132,8 +134,8 @@ export function readoutList(rows) {
 export function figureTable({ caption, columns, rows, outdated = false }) {
   const cells = (/** @type {unknown[]} */ [first, ...others]) =>
     others.length === 0
-      ? html`<td colspan=${columns.length - 1}>${first}</td>`
-      : [first, ...others].map((cell) => html`<td>${cell}</td>`);
+      ? html`<td colspan=${columns.length - 1}>${symbols(first)}</td>`
+      : [first, ...others].map((cell) => html`<td>${symbols(cell)}</td>`);
   return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
     <caption>${caption}</caption>
     <thead>

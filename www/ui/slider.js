@@ -254,9 +254,9 @@ export function sliderRow(row) {
   return html`
     <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
       ${row.pick ?? nothing}
-      <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<span class="symbol" translate="no">${row.symbol}</span>` : nothing}${row.name}</label>
+      <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       ${track({ ...row, name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}
-      <span class="value roomy" data-room=${room}>
+      <span class="value roomy notranslate" translate="no" dir="ltr" data-room=${room}>
         <span class="printed">${shown}</span>
         ${field(row, shown)}
       </span>

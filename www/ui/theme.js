@@ -96,6 +96,15 @@ export const theme = css`
     }
   }
 
+  .spoken {
+    display: contents;
+  }
+
+  /* A page translator may have words of another direction. */
+  .spoken :is(p, li, dt, dd, th, td, caption, figcaption, legend, label, summary, button, output) {
+    unicode-bidi: plaintext;
+  }
+
   .title-slot {
     margin: 0 0 0.27em;
     font-size: 1.1em;

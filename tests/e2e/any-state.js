@@ -91,7 +91,7 @@ export function anyOf(seed) {
       noise: one(['normal', 'triangular']),
       printed: one([true, false]),
       map: one(['none', 'prob', 'density']),
-      twist: one(['hidden', 'shown']),
+      overlays: ['commanded', 'inverted', 'wedge', 'chord', 'twist'].filter(() => random() < 0.5),
       line: whole(0, 9),
       underway: whole(0, 100),
     },

@@ -41,16 +41,18 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   const { config, stats } = await told(widget);
   expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
-  await expect(verdict(widget)).toContainText('γ̂ is the worst, 2.2 standard deviations off');
+  await expect(verdict(widget)).toContainText('γ̂ fits worst, 2.2 standard deviations off');
+  await expect(widget.locator('.headline')).toHaveText(`${(100 * stats.share).toFixed(1)}\u202f% as likely as the best`);
   const rows = widget.locator('.factors li');
   await expect(rows).toHaveCount(3);
   await expect(rows.nth(2)).toHaveClass(/weakest/);
   for (const [i, { estimate, deviations, share }] of stats.factors.entries()) {
     expect(numberIn(((await rows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
     expect(numberIn(((await rows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo(deviations, 1);
-    await expect(rows.nth(i).locator('.keeps')).toHaveText(`keeps ${(100 * share).toFixed(1)}\u202f%`);
+    await expect(rows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
   }
-  expect(numberIn(await widget.locator('.readouts dd').first().textContent())).toBeCloseTo(stats.prob, 3);
+  await unfold(widget);
+  expect(numberIn(await readout(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
   expect(numberIn(await readout(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
   for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(picture(widget), role)).toBeGreaterThan(20);
 });
@@ -81,7 +83,7 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
   expect(Math.abs(turned.config.next.theta)).toBeLessThan(1 / 80);
   expect(turned.stats.driven).toEqual(moved.stats.driven);
   expect(turned.stats.lastTurn).not.toBe(moved.stats.lastTurn);
-  await expect(widget.locator('p[role=status]').last()).toContainText('is the worst');
+  await expect(widget.locator('p[role=status]').last()).toContainText('fits worst');
 });
 
 test('the robot moves and turns by keyboard, and stops where the floor ends', async ({ page }) => {
@@ -91,7 +93,7 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
   expect((await told(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
   await body(widget).press('ArrowRight');
   expect((await told(widget)).config.next.x).toBe(4);
-  await expect(body(widget)).toHaveAttribute('aria-valuetext', /No further from here$/);
+  await expect(body(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
 });
 
 test('the start is dragged and turned, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
@@ -135,7 +137,8 @@ test('a centre out of sight is pointed to, with its distance', async ({ page }) 
 
 test('as printed, a right turn and a reverse lose p, and a left turn does not', async ({ page }) => {
   const widget = await open(page);
-  const printed = widget.getByRole('checkbox', { name: /^as printed/ });
+  await unfold(widget);
+  const printed = widget.getByRole('checkbox', { name: 'radius without sign, as printed' });
   for (const [name, collapses] of /** @type {[string, boolean][]} */ ([['Left turn', false], ['Right turn', true], ['Reverse', true], ['Straight', false]])) {
     await widget.getByRole('button', { name }).click();
     const [signed, before] = [await told(widget), await pictureOf(picture(widget))];
@@ -144,14 +147,15 @@ test('as printed, a right turn and a reverse lose p, and a left turn does not', 
     expect(stats.share < 1e-10 * signed.stats.share, name).toBe(collapses);
     if (collapses) await expect(verdict(widget)).toContainText('the radius has no sign');
     if (collapses) expect(await pictureOf(picture(widget))).not.toBe(before);
-    else await expect(verdict(widget)).toContainText('is the worst');
+    else await expect(verdict(widget)).toContainText('fits worst');
     await printed.uncheck();
   }
 });
 
-test('each line of the table lights what it constructs, and tells its value', async ({ page }) => {
+test('each line of the table highlights its construction, and tells its value', async ({ page }) => {
   const widget = await open(page);
-  const [back, on] = ['The line before', 'The next line'].map((name) => widget.getByTitle(name));
+  await unfold(widget);
+  const [back, on] = ['Previous line', 'Next line'].map((name) => widget.getByTitle(name));
   const sentence = widget.locator('.stepper p');
   await expect(back).toBeDisabled();
   const { lines } = (await told(widget)).table;
@@ -172,8 +176,9 @@ test('each line of the table lights what it constructs, and tells its value', as
   expect(pictures[9]).toBe(pictures[0]);
 });
 
-test('maps of p and of the density are drawn below the arcs, with the contours of both', async ({ page }) => {
+test('heat maps of p and of the density are drawn below the arcs, with the contours of both', async ({ page }) => {
   const widget = await open(page);
+  await unfold(widget);
   const pictures = [await pictureOf(picture(widget))];
   for (const name of ['p', 'density']) {
     await widget.getByRole('radio', { name, exact: true }).check();
@@ -184,18 +189,26 @@ test('maps of p and of the density are drawn below the arcs, with the contours o
   expect(await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG())).toContain('<image');
 });
 
-test('the path of constant twist, and a robot under way, are drawn on request', async ({ page }) => {
+test('entries of the legend are the toggles of the lines', async ({ page }) => {
   const widget = await open(page);
   expect(await pixelsOf(picture(widget), 'posterior')).toBe(0);
-  const whole = await pictureOf(picture(widget));
-  await widget.getByRole('checkbox', { name: /^constant twist/ }).check();
+  await widget.getByRole('checkbox', { name: 'constant twist' }).check();
   expect(await pixelsOf(picture(widget), 'posterior')).toBeGreaterThan(20);
-  await expect(widget).toHaveAttribute('twist', 'shown');
-  await widget.getByRole('checkbox', { name: /^constant twist/ }).uncheck();
-  const slider = widget.getByRole('slider', { name: 'Underway' });
+  for (const [name, role] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
+    const before = await pixelsOf(picture(widget), role);
+    await widget.getByRole('checkbox', { name }).uncheck();
+    expect(await pixelsOf(picture(widget), role), name).toBeLessThan(before);
+  }
+  await expect(widget).toHaveAttribute('overlays', 'chord');
+});
+
+test('a robot is drawn on each arc at the time that is chosen', async ({ page }) => {
+  const widget = await open(page);
+  const whole = await pictureOf(picture(widget));
+  const slider = widget.getByRole('slider', { name: 'time along the arc' });
   await expect(widget.getByRole('button', { name: 'Play' })).toHaveCount(0);
   await slider.fill('40');
-  await expect(slider).toHaveAttribute('aria-valuetext', '0.40 s');
+  await expect(slider).toHaveAttribute('aria-valuetext', '0.40 of 1.00 s');
   expect(await pictureOf(picture(widget))).not.toBe(whole);
   await slider.fill('100');
   expect(await pictureOf(picture(widget))).toBe(whole);
@@ -222,9 +235,9 @@ test('exercise 1 is plotted: three forms, the crossover and the chapter’s thre
 
 test('without noise it says so, and draws no map', async ({ page }) => {
   const widget = await open(page, 'map="density" alpha5="0" alpha6="0"');
-  await expect(verdict(widget)).toHaveText('There is no noise in γ̂ to forgive what it is off: p is 0.');
-  await expect(readout(widget, 'density')).toHaveText('none: a variance is 0');
+  await expect(verdict(widget)).toHaveText('γ̂ has zero variance but a non-zero residual, so p = 0.');
   await unfold(widget);
+  await expect(readout(widget, 'density')).toHaveText('none: a variance is 0');
   await expect(widget.locator('.lines li')).toHaveCount(9);
 });
 
@@ -236,6 +249,6 @@ test('the robot goes along the arcs by itself for readers who like motion, and r
   expect(values.length).toBeGreaterThan(10);
   expect(values).toEqual([...new Set(values)].sort((one, other) => one - other));
   expect([values[0], values.at(-1)]).toEqual([0, 100]);
-  await expect(widget.getByRole('slider', { name: 'Underway' })).toHaveValue('100');
+  await expect(widget.getByRole('slider', { name: 'time along the arc' })).toHaveValue('100');
   await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
 });

@@ -55,7 +55,7 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['map-squeeze', { view: '🤖'.repeat(1000) }, `RangeError: state.view is "${'🤖'.repeat(40)}…"; allowed is "close" or "whole"`],
     ['map-squeeze', { map: { bounds: [0, 0, 1, 1], walls: [3] } }, 'TypeError: map.walls[0] is 3; allowed is'],
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
-    ['arc-anatomy', { twist: true }, 'TypeError: state.twist is true; allowed is "hidden" or "shown"'],
+    ['arc-anatomy', { line: 10 }, 'RangeError: state.line is 10'],
     ['arc-anatomy', { next: { x: 1 } }, 'TypeError: next.y is'],
     ['odometry-decomposer', { phase: 3.5 }, 'RangeError: phase is 3.5; allowed is a number from 0 to 3'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],

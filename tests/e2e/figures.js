@@ -36,7 +36,7 @@ export const KNOWN = {
     fold: MARKED, paper: { at: 1, part: 'table' },
   },
   'arc-anatomy': {
-    ...COMMAND, handles: ['.handle.body.start', '.handle.turn.start', '.handle.body.next', '.handle.turn.next'], button: 'The next line',
+    ...COMMAND, handles: ['.handle.body.start', '.handle.turn.start', '.handle.body.next', '.handle.turn.next'], button: 'Right turn',
     fold: { at: 1, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 2, part: '.lines' },
   },
   'odometry-decomposer': {

@@ -263,7 +263,8 @@ const layout = css`
       }
 
       /* Clear of the shadow. */
-      .stage[part='picture'] + * {
+      .stage[part='picture'] + *,
+      .panel:has([part='picture']) + * {
         margin-top: 0.7em;
       }
     }

@@ -1,20 +1,21 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
 import { html } from 'lit';
-import { canvas, disclosures } from '../../figure/controls.js';
+import { canvas, disclosures, panel } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
+import { legend } from '../../figure/overlays.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { words } from '../../messages/registry.js';
 import { Player } from '../shared/player.js';
 import { PoseHandles } from '../shared/pose-handles.js';
 import { presetButtons } from '../shared/presets.js';
-import { alphaControls, commandControls, drawnControls, lineStepper, printedCheck, underwayControl } from './controls.js';
+import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.js';
 import { formsPlot } from './forms.js';
 import { ArcPicture, RADIUS } from './picture.js';
 import { readingOf } from './reading.js';
-import { factorBars, legend, likelihoods, tableOf } from './readouts.js';
-import { REACH, WHOLE, attributes, declared, looks, own, vocabulary } from './settings.js';
+import { factorBars, headline, likelihoods, tableOf } from './readouts.js';
+import { LINES, REACH, WHOLE, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { anatomyStyles } from './styles.js';
 import { pictureText, verdictOf } from './words.js';
 
@@ -30,7 +31,7 @@ const BOUNDS = [-REACH, -REACH, REACH, REACH];
  * The arc between two poses, and how likely it is after a command.
  *
  * @attr preset - A command from the origin, and a final pose off its arc; none otherwise.
- * @attr twist - Whether the way of constant twist is drawn.
+ * @attr overlays - The lines that are drawn; in the attribute with spaces between.
  *
  * @csspart chart - The plot of three forms of the arc near straight.
  *
@@ -74,10 +75,10 @@ export class ArcAnatomyElement extends FigureElement {
   }
 
   get scene() {
-    const { twist, line, underway } = this.state.own;
+    const { overlays, line, underway } = this.state.own;
     const reading = this.fresh;
     const robots = underway < WHOLE ? this.machine?.underway(underway / WHOLE) : undefined;
-    return { ...reading, machine: this.machine, twist: twist === 'shown', line, underway: robots };
+    return { ...reading, machine: this.machine, overlays, line, underway: robots };
   }
 
   get takeaway() {
@@ -119,21 +120,20 @@ export class ArcAnatomyElement extends FigureElement {
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
-          <div class="stage" part="picture">
+          ${panel(say.floor, html`<div class="stage" part="picture">
             ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
-          </div>
-          ${this.stage.later(() => html`
-          <p class="verdict caption" part="caption">${verdictOf(reading)}</p>
-          <div class="aside">
-            ${factorBars(reading, this.state.own.line)} ${likelihoods(reading)} ${presetButtons(this)} ${printedCheck(this)}
           </div>`)}
+          ${this.stage.later(() => html`
+          <div class="aside">${headline(reading)} ${factorBars(reading, this.state.own.line)}</div>`)}
         </div>
         ${this.stage.later(() => html`
-        ${lineStepper(this)} ${underwayControl(this)}
-        <div class="controls" part="controls">${commandControls(this)} ${drawnControls(this)}</div>
+        ${legend(this, LINES)}
+        <p class="verdict caption" part="caption">${verdictOf(reading)}</p>
+        ${presetButtons(this)}
+        <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
         ${disclosures(this, {
-          controls: () => html`${legend(this.state.own.twist === 'shown')} ${alphaControls(this)}`,
-          numbers: () => html`${tableOf(reading, this.state.own.line)} ${formsPlot(this.motion)}`,
+          controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
+          numbers: () => html`${lineStepper(this)} ${tableOf(reading, this.state.own.line)} ${likelihoods(reading)} ${formsPlot(this.motion)}`,
           mark: 'figure',
           csvTitle: say.csvTitle,
         })}`)}

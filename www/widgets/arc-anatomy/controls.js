@@ -1,53 +1,33 @@
-/** Arc Anatomy's controls: where it begins, the command, the noise, what is drawn, and the lines of the table. */
+/** Controls of Arc Anatomy: the command, the noise, the heat map, the time along the arcs, and the lines of Table 5.1. */
 
-import { html } from 'lit';
+import { html, nothing } from 'lit';
 import { check, choices, sliders } from '../../figure/controls.js';
+import { swatch } from '../../figure/overlays.js';
 import { words } from '../../messages/registry.js';
-import { button, rich, toggle } from '../../ui/controls.js';
+import { button, group, rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { track } from '../../ui/slider.js';
 import { lineText } from './readouts.js';
-import { ALPHAS, COMMAND, LINES, WHOLE } from './settings.js';
+import { ALPHAS, COMMAND, TABLE_LINES, WHOLE } from './settings.js';
+import { OTHER_DASH } from './surface.js';
 
 /** @typedef {import('./arc-anatomy.js').ArcAnatomyElement} Figure */
 
 /** @param {Figure} figure */
-export function printedCheck(figure) {
-  return html`<fieldset class="as-printed">
-    <legend class="visually-hidden">${words.anatomy.table.label}</legend>
-    ${check(figure, 'printed', rich(words.anatomy.printed))}
-  </fieldset>`;
-}
+export const commandControls = (figure) => group(words.command, sliders(figure, COMMAND));
 
 /** @param {Figure} figure */
-export function commandControls(figure) {
-  return html`<fieldset>
-    <legend class="visually-hidden">${words.command}</legend>
-    ${sliders(figure, COMMAND)}
-  </fieldset>`;
-}
+export const noiseControls = (figure) =>
+  group(words.noise, html`${choices(figure, 'noise', words.anatomy.noises)} ${sliders(figure, ALPHAS)}`, 'alphas');
 
-/** @param {Figure} figure */
-export function alphaControls(figure) {
-  const say = words.anatomy;
-  return html`<fieldset class="alphas">
-    <legend class="visually-hidden">${say.noiseLabel}</legend>
-    ${choices(figure, 'noise', say.noises)} ${sliders(figure, ALPHAS)}
-  </fieldset>`;
-}
-
-/** What is drawn besides the arcs. @param {Figure} figure */
-export function drawnControls(figure) {
-  const say = words.anatomy;
-  return html`<fieldset class="drawn">
-    <legend class="visually-hidden">${say.drawn}</legend>
-    ${choices(figure, 'map', say.maps)}
-    ${toggle({
-      label: rich(say.twist),
-      checked: figure.state.own.twist === 'shown',
-      change: (on) => figure.gesture.choose('twist', on ? 'shown' : 'hidden'),
-    })}
-  </fieldset>`;
+/** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. @param {Figure} figure */
+export function likelihoodControls(figure) {
+  const { likelihood, maps, printed } = words.anatomy;
+  const { map } = figure.settings.told;
+  const contour = (/** @type {'prob' | 'density'} */ name) =>
+    html`<span>${swatch({ role: 'ink', width: 1, dash: map === name ? [] : OTHER_DASH })} ${maps[name]}</span>`;
+  return group(likelihood, html`${check(figure, 'printed', rich(printed))} ${choices(figure, 'map', maps)}
+    ${map === 'none' ? nothing : html`<p class="legend contours">${contour('prob')} ${contour('density')}</p>`}`);
 }
 
 /**
@@ -58,26 +38,29 @@ export function drawnControls(figure) {
  */
 const sign = (seen, heard) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
 
-/** The way through Table 5.1: each line lights what it constructs. @param {Figure} figure */
+/** Returns the buttons that step through Table 5.1. Each line highlights its construction. @param {Figure} figure */
 export function lineStepper(figure) {
   const say = words.anatomy.table;
   const { line } = figure.state.own;
   const go = (/** @type {number} */ to) => () => figure.gesture.choose('line', to);
   return html`<div class="stepper" role="group" aria-label=${say.label}>
     ${button(sign('‹', say.back), go(line - 1), { disabled: line === 0, title: say.back })}
-    ${button(sign('›', say.on), go(line + 1), { disabled: line === LINES, title: say.on })}
+    ${button(sign('›', say.on), go(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
     <p role="status">${line === 0 ? say.begin : rich(lineText(figure.reading, line))}</p>
   </div>`;
 }
 
-/** The robot underway: along the arcs by itself, or where the reader puts it. @param {Figure} figure */
-export function underwayControl({ player, gesture, reading, state }) {
+/** Returns the slider of the time, which moves a robot along each arc, with its Play button. @param {Figure} figure */
+export function timeControl({ player, gesture, reading, state }) {
   const { underway } = state.own;
-  const shown = `${fixed((underway / WHOLE) * reading.config.command.dt, 2)} s`;
-  return html`<div class="underway">
+  const { dt } = reading.config.command;
+  const shown = words.anatomy.timeOf(fixed((underway / WHOLE) * dt, 2), fixed(dt, 2));
+  return group(words.anatomy.time, html`<div class="underway">
     ${player.button('underway')}
-    <label for="underway">${words.anatomy.underway}</label>
-    ${track({ id: 'underway', min: 0, max: WHOLE, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
-    <output for="underway">${shown}</output>
-  </div>`;
+    <div class="slider" part="slider">
+      <label for="underway"><span class="symbol" translate="no"><i>t</i></span>${words.anatomy.underway}</label>
+      ${track({ id: 'underway', min: 0, max: WHOLE, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
+      <output class="value" for="underway">${shown}</output>
+    </div>
+  </div>`);
 }

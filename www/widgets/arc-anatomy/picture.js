@@ -8,17 +8,18 @@ import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { clamp } from '../../ui/clamp.js';
 import { fixed, significant } from '../../ui/format.js';
-import { COMMAND_DASH } from '../shared/command.js';
 import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
+import { LINES } from './settings.js';
 import { OTHER_DASH, SurfaceLayer } from './surface.js';
 
 /**
  * @import { ArcAnatomy, Bend, Pose } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
+ * @import { LineName } from './settings.js'
  * @import { Reading } from './reading.js'
  *
- * @typedef {Reading & { machine: ArcAnatomy, twist: boolean, line: number, underway: Float64Array | undefined }} Scene
+ * @typedef {Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined }} Scene
  */
 
 /** Of the robots, m. */
@@ -44,9 +45,6 @@ const ARROW = 9;
 
 /** From one line of letters to the next, CSS pixels. */
 const LINE = 17;
-
-/** Dash of the way of constant twist, CSS pixels. */
-const TWIST_DASH = [7, 3];
 
 /** What each line of Table 5.1 constructs. @type {Record<number, string[]>} */
 const LIT = {
@@ -82,63 +80,65 @@ export class ArcPicture extends Picture {
 
   /** @type {Picture<Scene>['paint']} */
   paint = (brush, scene) => {
-    const { config: { start, next, printed }, stats, paths, twist } = scene;
+    const { config: { start, next, printed }, stats, paths, overlays } = scene;
     const { palette } = brush;
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
+    const shows = (/** @type {LineName} */ name) => overlays.includes(name);
+    const styleOf = (/** @type {'commanded' | 'inverted' | 'chord' | 'twist'} */ name) => ({ ...LINES[name], colour: palette[LINES[name].role] });
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
     clipped(brush, () => {
       this.#surface.draw(brush, scene.machine, scene.config);
       const { commanded, inverted, driven, lastTurn } = stats;
-      drawCircle(brush, start, commanded, {
-        colour: palette.prior,
-        dash: COMMAND_DASH,
-        side: -1,
-        angle: `ωΔt = ${fixed(commanded.turn, 2)}`,
-        radius: '',
-      });
-      drawCircle(brush, start, inverted, {
-        colour: palette.prediction,
-        dash: [],
-        side: 1,
-        angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
-        radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedText(inverted.radius)} m`,
-      });
-      drawChord(brush, start, next);
-      drawWedge(brush, next, lastTurn, palette.accent);
-      if (twist) drawTwist(brush, paths.ticks);
+      if (shows('commanded')) {
+        drawCircle(brush, start, commanded, { ...styleOf('commanded'), side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
+      }
+      if (shows('inverted')) {
+        drawCircle(brush, start, inverted, {
+          ...styleOf('inverted'),
+          side: 1,
+          angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
+          radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedText(inverted.radius)} m`,
+        });
+      }
+      if (shows('chord')) drawChord(brush, start, next);
+      if (shows('wedge')) drawWedge(brush, next, lastTurn, palette.accent);
+      if (shows('twist')) drawTwist(brush, paths.ticks);
       drawOutlines(brush, [
-        { points: paths.commanded, colour: palette.prior, width: 2.5, dash: COMMAND_DASH },
-        ...(twist ? [{ points: paths.lie, colour: palette.posterior, width: 2, dash: TWIST_DASH }] : []),
-        { points: paths.driven, colour: palette.prediction, width: 2.75, dash: [] },
+        ...(shows('commanded') ? [{ points: paths.commanded, ...styleOf('commanded') }] : []),
+        ...(shows('twist') ? [{ points: paths.lie, ...styleOf('twist') }] : []),
+        ...(shows('inverted') ? [{ points: paths.driven, ...styleOf('inverted') }] : []),
       ]);
-      if (driven.arcLength !== inverted.arcLength) drawOutlines(brush, [{ points: paths.inverted, colour: palette.prediction, width: 1, dash: [2, 3] }]);
+      if (shows('inverted') && driven.arcLength !== inverted.arcLength) {
+        drawOutlines(brush, [{ points: paths.inverted, colour: palette.prediction, width: 1, dash: [2, 3] }]);
+      }
       drawLit(brush, scene);
-      const [endX, endY, endTheta] = commanded.end;
-      drawRobotOutline(brush, endX, endY, RADIUS, palette.prior);
-      drawHeading(brush, { x: endX, y: endY, theta: endTheta }, palette.prior);
+      if (shows('commanded')) {
+        const [endX, endY, endTheta] = commanded.end;
+        drawRobotOutline(brush, endX, endY, RADIUS, palette.prior);
+        drawHeading(brush, { x: endX, y: endY, theta: endTheta }, palette.prior);
+      }
       drawUnderway(brush, scene);
       drawHeldRobot(brush, start, RADIUS, palette.truth);
       drawHeldRobot(brush, next, RADIUS, palette.prediction);
-      drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: palette.accent });
+      if (shows('wedge')) drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: palette.accent });
     });
   };
 }
 
 /**
- * The lines of the key.
+ * Returns the key of an exported picture. The last turn has its label in the picture.
  *
  * @param {Brush} brush
  * @param {Scene} scene
  */
-function keyOf(brush, { twist, config: { map } }) {
+function keyOf(brush, { overlays, config: { map } }) {
   const { palette } = brush;
-  const say = words.anatomy.drawnShort;
-  const entry = (/** @type {string} */ name, /** @type {string} */ colour, /** @type {number[]} */ dash, width = 2.5) =>
-    lineKey(brush, name, { colour, width, dash });
+  const { overlays: names, maps } = words.anatomy;
+  const contour = (/** @type {'prob' | 'density'} */ of, /** @type {number[]} */ dash) => lineKey(brush, maps[of], { colour: palette.ink, width: 1, dash });
   return [
-    entry(say.inverted, palette.prediction, []),
-    entry(say.commanded, palette.prior, COMMAND_DASH),
-    ...(twist ? [entry(say.twist, palette.posterior, TWIST_DASH)] : []),
-    ...(map === 'none' ? [] : [entry(say[map], palette.ink, [], 1), entry(say[map === 'prob' ? 'density' : 'prob'], palette.ink, OTHER_DASH, 1)]),
+    ...(/** @type {const} */ (['inverted', 'commanded', 'chord', 'twist']))
+      .filter((name) => overlays.includes(name))
+      .map((name) => lineKey(brush, names[name].replaceAll('*', ''), { ...LINES[name], colour: palette[LINES[name].role] })),
+    ...(map === 'none' ? [] : [contour(map, []), contour(map === 'prob' ? 'density' : 'prob', OTHER_DASH)]),
   ];
 }
 
@@ -304,18 +304,17 @@ function drawHeading({ context, view }, { x, y, theta }, colour) {
 }
 
 /**
- * The robot on its way, on each arc that is drawn.
+ * Draws the robot at one time on each path that is shown.
  *
  * @param {Brush} brush
  * @param {Scene} scene
  */
-function drawUnderway(brush, { underway, twist }) {
+function drawUnderway(brush, { underway, overlays }) {
   if (!underway) return;
-  const { palette } = brush;
-  const colours = [palette.prior, palette.prediction, ...(twist ? [palette.posterior] : [])];
-  for (const [i, colour] of colours.entries()) {
+  for (const [i, name] of (/** @type {const} */ (['commanded', 'inverted', 'twist'])).entries()) {
+    if (!overlays.includes(name)) continue;
     const [x, y, theta] = underway.subarray(3 * i);
-    drawRobot(brush, { x, y, heading: theta, colour });
+    drawRobot(brush, { x, y, heading: theta, colour: brush.palette[LINES[name].role] });
   }
 }
 

@@ -1,4 +1,4 @@
-/** Arc Anatomy's readouts: the three factors as bars, what they make, the key to the picture, and Table 5.1. */
+/** Readouts of Arc Anatomy: the likelihood, its three factors as bars, and Table 5.1. */
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.js';
@@ -6,41 +6,48 @@ import { clamp } from '../../ui/clamp.js';
 import { rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { readoutList } from '../../ui/readouts.js';
-import { LINES } from './settings.js';
-import { densityText, shareText } from './words.js';
+import { TABLE_LINES } from './settings.js';
+import { densityText, isTiny, shareText } from './words.js';
 
 /**
  * @import { Factor } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
  */
 
-/** The bars' scale: deviations to either side, and pixels each. */
+/** Scale of the bars: deviations to either side, and pixels each. */
 const SCALE = { most: 4, pixels: 22 };
 const MIDDLE = SCALE.most * SCALE.pixels + 4;
 
-/** What the factors are of, with the residual as the table has it. */
+/** Symbols and units of the factors, with the residuals of the table. */
 const FACTORS = [
   { symbol: '*v̂*', residual: '(*v* − *v̂*)', unit: 'm/s' },
   { symbol: '*ω̂*', residual: '(*ω* − *ω̂*)', unit: 'rad/s' },
   { symbol: '*γ̂*', residual: '*γ̂*', unit: 'rad/s' },
 ];
 
+/** Returns the headline: p as a share of its peak. @param {Reading} reading */
+export function headline({ stats: { share } }) {
+  const say = words.anatomy.headline;
+  return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? say.times : say.share}</p>`;
+}
+
 /**
- * The three residuals in deviations, and what each leaves of its factor's peak.
+ * Returns the three residuals in standard deviations, each with its factor as a share of the peak.
+ *
  *
  * @param {Reading} reading
  * @param {number} line of the table that is lit
  */
 export function factorBars({ stats: { factors, weakest, share } }, line) {
   const say = words.anatomy.bars;
-  return html`<ul part="readouts" class="factors ${line === LINES ? 'lit' : ''}" aria-label=${say.label}>
+  return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
     ${factors.map((factor, i) => {
       const { symbol, residual, unit } = FACTORS[i];
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
-        <span class="estimate">${rich(symbol)} = ${fixed(factor.estimate, 2)} ${unit}</span>
-        <span class="off">${rich(residual)}/<i>σ</i> = ${fixed(factor.deviations, 1)}</span>
+        <span class="estimate">${rich(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
         ${bar(factor)}
-        <span class="keeps">${say.keeps(shareText(factor.share))}</span>
+        <span class="keeps">${say.factor(shareText(factor.share))}</span>
+        <span class="off">${rich(residual)}/<i>σ</i> = ${fixed(factor.deviations, 1)}</span>
       </li>`;
     })}
   </ul>`;
@@ -60,15 +67,14 @@ function bar({ deviations }) {
   </svg>`;
 }
 
-/** What the factors make. @param {Reading} reading */
-export function likelihoods({ stats: { prob, share, density, xi } }) {
+/** Returns p, the density of the sampler, and ξ. @param {Reading} reading */
+export function likelihoods({ stats: { prob, density, xi } }) {
   const say = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
   return readoutList([
-    ['*p*', densityText(prob)],
-    [say.share, shareText(share)],
+    [say.prob, densityText(prob)],
     [say.density, density === null ? say.none : densityText(density)],
-    ['*ξ* (m, m, rad)', `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`],
+    [say.xi, `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`],
   ]);
 }
 
@@ -96,7 +102,7 @@ const UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 export function lineText({ table: { lines }, config: { printed } }, line) {
   const value = lines[line - 1];
   const formula = printed ? FORMULAS[line - 1].replace('±', '') : FORMULAS[line - 1];
-  const number = line === LINES ? densityText(value) : fixed(value, 3);
+  const number = line === TABLE_LINES ? densityText(value) : fixed(value, 3);
   return `${line}. ${formula} = ${number}${UNITS[line - 1]}`;
 }
 
@@ -112,18 +118,4 @@ export function tableOf(reading, lit) {
       ${FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${rich(lineText(reading, i + 1))}</li>`)}
     </ol>
     <p class="about">${rich(say.sign)}</p>`;
-}
-
-/** What the lines in the picture are. @param {boolean} twist whether the way of constant twist is drawn */
-export function legend(twist) {
-  const say = words.anatomy.key;
-  return html`<ul class="legend key" part="legend">
-    <li><svg class="commanded" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 16Q20 16 34 4" /></svg><span>${rich(say.commanded)}</span></li>
-    <li><svg class="inverted" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 16Q20 16 34 4" /></svg><span>${rich(say.inverted)}</span></li>
-    <li><svg class="wedge" viewBox="0 0 36 20" aria-hidden="true"><path d="M4 16L34 12A32 32 0 0 0 28 2Z" /></svg><span>${rich(say.wedge)}</span></li>
-    <li><svg class="chord" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 16L34 4" /></svg><span>${rich(say.chord)}</span></li>
-    ${twist
-      ? html`<li><svg class="twist" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 18Q20 16 34 6M10 17l-1-8M20 14l-3-8M29 9l-4-7" /></svg><span>${rich(say.twist)}</span></li>`
-      : nothing}
-  </ul>`;
 }

@@ -1,9 +1,10 @@
 /** Arc Anatomy's settings as attributes, in its state, and as the eye sees them. */
 
-import { WORD, attributesOf, presetsOf } from '../../figure/attributes.js';
-import { wholeNumber, word } from '../../figure/checks.js';
+import { attributesOf, presetsOf } from '../../figure/attributes.js';
+import { wholeNumber } from '../../figure/checks.js';
+import { overlaysOf } from '../../figure/overlays.js';
 import { presets, settings } from '../../settings.js';
-import { commandLooks } from '../shared/command.js';
+import { COMMAND_DASH, commandLooks } from '../shared/command.js';
 import { alphaLooks } from '../shared/noise.js';
 
 /** @typedef {import('../../types.d.ts').ArcAnatomySettings} Settings */
@@ -13,25 +14,36 @@ export const declared = settings['arc-anatomy'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'anatomy';
 
-/** Lines of Table 5.1. */
-export const LINES = 9;
+/** Number of lines of Table 5.1. */
+export const TABLE_LINES = 9;
 
-/** All of the time that the robot is underway, per cent. */
+/** Whole duration, per cent. */
 export const WHOLE = 100;
 
-const TWISTS = ['hidden', 'shown'];
+/** Styles of the lines in the picture. @satisfies {Record<string, import('../../figure/overlays.js').LineStyle>} */
+export const LINES = {
+  commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
+  inverted: { role: 'prediction', width: 2.75, dash: [] },
+  wedge: { role: 'accent', mark: 'area' },
+  chord: { role: 'ink', width: 1, dash: [2, 3] },
+  twist: { role: 'posterior', width: 2, dash: [7, 3] },
+};
+
+/** @typedef {keyof typeof LINES} LineName */
+
+const { attribute: overlays, state } = overlaysOf(Object.keys(LINES), ['commanded', 'inverted', 'wedge', 'chord']);
 
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
   preset: presetsOf(presets['arc-anatomy'], declared),
   ...attributesOf(declared),
-  twist: { kind: WORD, own: true, words: TWISTS },
+  overlays,
 };
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
 export const own = {
-  twist: { opening: 'hidden', check: (field, twist) => word(field, twist, TWISTS) },
-  line: { opening: 0, check: (field, line) => wholeNumber(field, line, 0, LINES) },
+  overlays: state,
+  line: { opening: 0, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
   underway: { opening: WHOLE, check: (field, share) => wholeNumber(field, share, 0, WHOLE) },
 };
 

@@ -1,13 +1,24 @@
-/** What Arc Anatomy's page has of its own: the bars, the lines of the table, and the key to its lines. */
+/** Styles of Arc Anatomy: the headline, the bars, and the lines of the table. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { plotStyles } from '../../ui/plot.js';
-import { besideStyles, poseHandleStyles } from '../shared/styles.js';
+import { poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
     aspect-ratio: 5 / 4;
+  }
+
+  .headline {
+    margin: 0 0 0.5em;
+    line-height: 1.25;
+  }
+
+  .headline strong {
+    display: block;
+    font-size: 1.8em;
+    line-height: 1.15;
   }
 
   .factors {
@@ -20,7 +31,7 @@ const own = css`
 
   .factors li {
     display: grid;
-    grid-template: 'estimate off' 'bar bar' 'keeps keeps' / 1fr auto;
+    grid-template: 'estimate estimate' 'bar bar' 'keeps off' / 1fr auto;
     align-content: start;
     padding-left: 0.5em;
     border-left: 3px solid transparent;
@@ -37,7 +48,6 @@ const own = css`
 
   .factors .off {
     grid-area: off;
-    align-self: end;
     font-size: 0.84em;
   }
 
@@ -81,32 +91,22 @@ const own = css`
     }
   }
 
-  /* As high as the factors beside it. */
-  @container (38em <= width < 45em) {
-    canvas {
-      aspect-ratio: 1;
-    }
-  }
-
-  /* Wider, and not higher: all of it is to fit on a screen. */
-  @container (min-width: 52em) {
-    canvas {
-      aspect-ratio: 3 / 2;
-    }
-  }
-
-  @container (min-width: 60em) {
+  /* The likelihood beside the picture. */
+  @container (min-width: 38em) {
     .views {
-      grid-template-columns: minmax(0, 1fr) 18em;
+      grid-template-columns: minmax(0, 1fr) 16em;
+      column-gap: 1.25em;
     }
+  }
 
+  @container (min-width: 52em) {
     canvas {
       aspect-ratio: 7 / 4;
     }
   }
 
-  .drawn .choices {
-    --name: 3em;
+  .contours {
+    margin: 0 0 0.5em;
   }
 
   .stepper {
@@ -123,21 +123,15 @@ const own = css`
   }
 
   .underway {
+    --thumb: var(--truth);
     display: flex;
     gap: 0.6em;
     align-items: center;
-    margin-bottom: 0.5em;
   }
 
-  .underway input {
+  .underway .slider {
     flex: 1;
-    --thumb: var(--truth);
-    min-width: 4em;
-  }
-
-  .underway output {
-    min-width: 4em;
-    text-align: right;
+    padding-bottom: 0;
   }
 
   .lines {
@@ -155,6 +149,11 @@ const own = css`
     border-color: var(--accent);
   }
 
+  .about {
+    margin: 0 0 0.7em;
+    color: var(--muted);
+  }
+
   .handle.turn {
     --ring: var(--prediction);
   }
@@ -170,37 +169,6 @@ const own = css`
   .handle.turn:hover::after {
     background: var(--ring);
   }
-
-  .key svg {
-    stroke-width: 2;
-  }
-
-  .key .commanded {
-    stroke: var(--prior);
-    stroke-dasharray: 2.5 3.5;
-  }
-
-  .key .inverted {
-    stroke: var(--prediction);
-  }
-
-  .key .wedge {
-    fill: var(--accent);
-    fill-opacity: 0.3;
-    stroke: var(--accent);
-    stroke-width: 1;
-  }
-
-  .key .chord {
-    stroke: var(--ink);
-    stroke-width: 1;
-    stroke-dasharray: 2 3;
-  }
-
-  .key .twist {
-    stroke: var(--posterior);
-    stroke-width: 1.5;
-  }
 `;
 
-export const anatomyStyles = [...layoutStyles, plotStyles, besideStyles, poseHandleStyles, own];
+export const anatomyStyles = [...layoutStyles, plotStyles, poseHandleStyles, own];

@@ -12,7 +12,7 @@ import { en } from './en.js';
 
 addEnglish({ anatomy: en });
 
-/** Below this a number is told by its power of ten, however small: here it is no rounding of 0. */
+/** Smaller numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const SMALL = 0.0005;
 
 /** @param {number} value above 0 */
@@ -21,15 +21,14 @@ function powerText(value) {
   return `${fixed(mantissa, 1)}·${powerOfTen(exponent)}`;
 }
 
+/** Checks whether a number is printed as a power of ten. @param {number} value */
+export const isTiny = (value) => value > 0 && value < SMALL;
+
 /** @param {number} share from 0 to 1 */
-export function shareText(share) {
-  return share > 0 && share < SMALL ? powerText(share) : percent(share);
-}
+export const shareText = (share) => (isTiny(share) ? powerText(share) : percent(share));
 
 /** @param {number} density */
-export function densityText(density) {
-  return density > 0 && density < SMALL ? powerText(density) : significant(density, 3);
-}
+export const densityText = (density) => (isTiny(density) ? powerText(density) : significant(density, 3));
 
 const SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 

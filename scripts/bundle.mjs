@@ -186,7 +186,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     bundled({ external: 'external.js' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundled({ 'motion-widgets.iife': 'motion-widgets.js' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
-    bundled({ de: 'de.js', 'server-component': 'server-component.js' }, 'inlined', { inject: [] }),
+    bundled({ de: 'de.js', page: 'page.js', 'server-component': 'server-component.js' }, 'inlined', { inject: [] }),
     // The core is the file beside it.
     bundled({ cli: 'cli.js' }, 'inlined', { platform: 'node', external: ['./core.js'], sourcemap: false, inject: [] }),
     bundled({ embed: 'embed.js' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
@@ -372,7 +372,9 @@ function inOneFile(name) {
   if (left) throw new Missing(`${name}: ${left[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inline = (/** @type {string} */ path) =>
     `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
+  // Other pages are not beside it.
   return page
+    .replaceAll(/<a href="\.\/[^"]*">([^<]*)<\/a>/g, '$1')
     .replace(style, (_, path) => `<style>\n${read(path)}</style>`)
     .replace(script, (_, path) => inline(path === 'motion-widgets.js' ? 'motion-widgets.iife.js' : path));
 }

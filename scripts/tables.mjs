@@ -1,5 +1,5 @@
-// The tables of the gallery that document the elements, made of what is declared and of their manifest: in index.html a
-// comment stands for each.
+// Tables of reference.html that document the elements, from their declarations and their manifest. A comment in the page stands
+// for each.
 
 /**
  * @typedef {import('./declarations.mjs').Widget} Widget
@@ -7,25 +7,25 @@
  * @typedef {import('./manifest.mjs').Item} Item
  */
 
-/** What stands for tables, and which they are. @type {Record<string, (elements: Element[], widgets: Widget[]) => string>} */
+/** Tables by the name in their comment. @type {Record<string, (elements: Element[], widgets: Widget[]) => string>} */
 const TABLES = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
         const rows = attributes.map((each) => [code(each.name), valuesOf(each), prose(each.told)]);
-        return table(tag, 'attribute', `Of ${code(`<${tag}>`)}`, ['attribute', 'values', 'what it says'], rows);
+        return table(tag, 'attribute', code(`<${tag}>`), ['attribute', 'values', 'description'], rows);
       })
       .join('\n\n'),
-  events: (elements) => shared(elements, 'event', 'Events; all of them bubble', ['event', 'when'], ({ events }) => events),
+  events: (elements) => shared(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
   methods: (elements) =>
-    shared(elements, 'method', 'Methods', ['method', 'what it gives or does'], ({ members }) =>
+    shared(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
       members
         .filter(({ kind }) => kind === 'method')
         .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((each) => each.name).join(', ')})`, description })),
     ),
-  slots: (elements) => shared(elements, 'slot', 'Slots', ['slot', 'what it holds'], ({ slots }) => slots),
-  properties: (elements) => shared(elements, 'property', 'Custom properties', ['property', 'of what'], ({ cssProperties }) => cssProperties),
-  parts: (elements) => shared(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'what it is'], ({ cssParts }) => cssParts),
+  slots: (elements) => shared(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
+  properties: (elements) => shared(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
+  parts: (elements) => shared(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
 };
 
 /**
@@ -52,7 +52,7 @@ function shared(elements, kind, caption, heads, items) {
   const bearers = (/** @type {string} */ name) => elements.filter((element) => items(element).some((item) => item.name === name));
   const rows = [...all.values()].map(({ name, description }) => {
     const of = bearers(name);
-    const only = of.length < elements.length ? ` Of ${of.map(({ tagName }) => code(`<${tagName}>`)).join(' and ')}.` : '';
+    const only = of.length < elements.length ? ` Only ${of.map(({ tagName }) => code(`<${tagName}>`)).join(' and ')}.` : '';
     return [code(name), prose(description) + only];
   });
   return table('both', kind, caption, heads, rows);

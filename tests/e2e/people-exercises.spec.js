@@ -1,108 +1,98 @@
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezed } from './squeeze-support.js';
-import { STILL, frames, open, posesOf, state, test } from './support.js';
+import { STILL, frames, ready, test } from './support.js';
 
-/** @typedef {import('@playwright/test').Locator} Locator */
+/**
+ * @typedef {import('@playwright/test').Locator} Locator
+ * @typedef {import('@playwright/test').Page} Page
+ */
 
-// The chapter's exercises 4 and 5, from the keyboard alone: Tab, Enter, Space, arrows and digits.
+// The chapter's exercises 4, 5 and 7 on the page, from the keyboard alone: predicted first, then revealed.
 test.use(STILL);
 
 /**
- * Goes on by Tab until the focus is there.
+ * Opens the page at the section of a figure.
  *
- * @param {Locator} target
+ * @param {Page} page
+ * @param {string} section
  */
-async function tabTo(target) {
-  const page = target.page();
-  for (let presses = 0; presses < 150; presses++) {
-    if ((await target.count()) && (await target.evaluate((element) => element.matches(':focus')))) return;
-    await page.keyboard.press('Tab');
-  }
-  throw new Error(`Tab does not lead to ${target}.`);
+async function openAt(page, section) {
+  await page.goto(`/#${section}`);
+  const article = page.locator(`#${section}`);
+  await ready(article.locator('.stand > *'));
+  return article;
 }
 
 /**
- * @param {Locator} target
- * @param {string[]} keys
- */
-async function press(target, ...keys) {
-  await tabTo(target);
-  for (const key of keys) await target.page().keyboard.press(key);
-  await frames(target.page());
-}
-
-/**
- * Types a slider's value.
+ * Returns the text that a form reveals.
  *
- * @param {Locator} slider
- * @param {string} value
+ * @param {Locator} form
  */
-async function type(slider, value) {
-  await tabTo(slider);
-  await slider.page().keyboard.type(value);
-  await slider.page().keyboard.press('Enter');
-  await frames(slider.page());
+async function revealed(form) {
+  await form.getByRole('button').press('Enter');
+  await expect(form.getByRole('status')).not.toHaveText('');
+  await frames(form.page());
+  return (await form.getByRole('status').textContent()) ?? '';
 }
 
-/** Returns the standard deviations of the end positions and of the headings. @param {Locator} widget */
-async function spreads(widget) {
-  const poses = await posesOf(widget);
-  const deviation = (/** @type {number} */ at) => {
-    const values = poses.filter((_, i) => i % 3 === at);
-    const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
-    return Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / values.length);
+test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ alone appear below it', async ({ page }) => {
+  const article = await openAt(page, 'banana');
+  const form = article.locator('.sketch');
+  const isolated = () => article.locator('banana-machine').evaluate((figure) => [Reflect.get(figure, 'isolate'), Reflect.get(figure, 'omega')]);
+  const cases = form.locator('[name=case]');
+  const reveal = async () => {
+    await expect(form.getByRole('button')).toBeDisabled();
+    await form.getByLabel('an ellipse').press('Space');
+    await expect(form.locator('.drawn')).toHaveAttribute('d', /^M.*Z$/);
+    const text = await revealed(form);
+    await expect(form.locator('.robots')).toHaveAttribute('d', /^M/);
+    return text;
   };
-  return { place: Math.hypot(deviation(0), deviation(1)), heading: deviation(2) };
-}
-
-test('exercise 4: what α₄ alone and α₆ alone do, on a straight and in a turn', async ({ page }) => {
-  // A hundred keys and more, each awaited.
-  test.slow();
-  const widget = await open(page, 'samples="2000"');
-  await press(widget.getByRole('button', { name: 'Straight' }), 'Enter');
-  await press(widget.locator('summary', { hasText: 'Model' }), 'Enter');
-  await press(widget.getByLabel('Isolate one'), 'Space');
-  const only = (/** @type {string} */ alpha) => widget.getByRole('radio', { name: `Only ${alpha}` });
-  // From the figure's start again; the arrows go through the group.
-  const choose = async (/** @type {number} */ number) => {
-    await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
-    for (let presses = 0; presses < 300 && !(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('name') === 'isolate')); presses++) {
-      await page.keyboard.press('Tab');
-    }
-    for (let step = 0; step < 6 && !(await only(`α${'₀₁₂₃₄₅₆'[number]}`).isChecked()); step++) {
-      await page.keyboard.press('ArrowDown');
-      await frames(page);
-    }
-    expect((await state(widget)).config.isolate).toBe(number);
-  };
-  for (const number of [4, 6]) {
-    await choose(number);
-    expect(await spreads(widget)).toEqual({ place: 0, heading: 0 });
-  }
-  await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
-  await type(widget.locator('#omega'), '0.5');
-  await choose(4);
-  const fan = await spreads(widget);
-  expect(fan.place).toBeGreaterThan(0.05);
-  await choose(6);
-  const blur = await spreads(widget);
-  expect(blur.place).toBeLessThan(1e-9);
-  expect(blur.heading).toBeGreaterThan(0.02);
+  const nothing = 'Every robot stops at the same point, with the same heading. There is no cloud.';
+  expect(await reveal()).toBe(nothing);
+  expect(await isolated()).toEqual([4, 0]);
+  await cases.nth(0).press('ArrowDown');
+  expect(await reveal()).toBe(nothing);
+  expect(await isolated()).toEqual([6, 0]);
+  await cases.nth(1).press('ArrowDown');
+  expect(await reveal()).toMatch(/^The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
+  expect(await isolated()).toEqual([4, 0.5]);
+  await cases.nth(2).press('ArrowDown');
+  expect(await reveal()).toMatch(/^Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);
+  expect(await isolated()).toEqual([6, 0.5]);
 });
 
-test('exercise 5: the share through a wall is pushed above 40 % by ω, and a repair brings it to 0', async ({ page }) => {
-  const widget = await openSqueeze(page);
-  await expect(widget.getByLabel(/Condition on/)).toBeChecked();
-  const share = async () => (await squeezed(widget)).stats.throughWallRate;
-  await type(widget.locator('#samples'), '4000');
-  const straight = await share();
-  expect(straight).toBeLessThan(0.4);
-  await page.keyboard.press('Shift+Tab');
-  await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
-  await type(widget.locator('#omega'), '0.45');
-  expect(await share()).toBeGreaterThan(0.4);
-  await page.evaluate(() => /** @type {HTMLElement | null} */ (document.activeElement)?.blur());
-  await press(widget.getByRole('radio', { name: 'endpoint' }), 'ArrowRight');
-  await expect(widget.getByRole('radio', { name: 'whole arc' })).toBeChecked();
-  expect(await share()).toBe(0);
+test('exercise 4: a sketch drawn with the pointer stays over the robots', async ({ page }) => {
+  const form = (await openAt(page, 'banana')).locator('.sketch');
+  const pad = form.locator('.pad');
+  await pad.scrollIntoViewIfNeeded();
+  await pad.dragTo(pad, { sourcePosition: { x: 150, y: 40 }, targetPosition: { x: 220, y: 120 } });
+  const drawn = await form.locator('.drawn').getAttribute('d');
+  expect(drawn?.split('L').length).toBeGreaterThan(1);
+  await revealed(form);
+  expect(await form.locator('.drawn').getAttribute('d')).toBe(drawn);
+});
+
+test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ page }) => {
+  const article = await openAt(page, 'squeeze');
+  const shares = [];
+  for (const form of await article.locator('.bet').all()) {
+    await form.getByRole('slider').press('End');
+    await expect(form.locator('output')).toHaveText('100 %');
+    const text = await revealed(form);
+    const [, share] = /^Your bet: 100 %\. The figure: ([\d.]+) %\.$/.exec(text) ?? [];
+    shares.push(Number(share));
+  }
+  expect(shares[0]).toBeLessThan(40);
+  expect(shares[1]).toBeGreaterThan(70);
+  expect(await article.locator('map-squeeze').evaluate((figure) => Reflect.get(figure, 'omega'))).toBe(0.6);
+});
+
+test('exercise 7: the step that is bet on is compared with that of the figure', async ({ page }) => {
+  const article = await openAt(page, 'reckoning');
+  const texts = [];
+  for (const form of await article.locator('.bet').all()) {
+    await form.getByRole('slider').press('ArrowRight');
+    texts.push(await revealed(form));
+  }
+  expect(texts).toEqual(['Your bet: 11. The figure: 15.', 'Your bet: 11. The figure: 9.']);
 });

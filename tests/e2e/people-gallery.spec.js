@@ -1,10 +1,11 @@
 import { expect, test as plain } from '@playwright/test';
-import { NAMES } from './figures.js';
+import { expectAccessible } from './axe.js';
+import { ALL, NAMES } from './figures.js';
 import { STILL, frames, property, ready, test, unfold } from './support.js';
 
 test.use(STILL);
 
-/** Opens the gallery, with its two figures running. @param {import('@playwright/test').Page} page */
+/** Opens the gallery, with two of its figures running. @param {import('@playwright/test').Page} page */
 async function openGallery(page) {
   await page.goto('/');
   const figures = NAMES.map((name) => page.locator(name).first());
@@ -17,7 +18,7 @@ async function openGallery(page) {
 }
 
 /**
- * Returns the names that the gallery documents.
+ * Returns the names that the reference documents.
  *
  * @param {import('@playwright/test').Page} page
  * @param {string} kind
@@ -28,16 +29,18 @@ async function documented(page, kind, of = 'both') {
   return names.map((name) => name.replace(/\(.*/, '')).sort();
 }
 
-test('the gallery documents every attribute, method, part and custom property, and no other', async ({ page }) => {
+test('the reference documents every attribute, method, part and custom property, and no other', async ({ page }) => {
+  await page.goto('/reference.html');
+  const [methods, documentedParts, documentedProperties] = await Promise.all(['method', 'part', 'property'].map((kind) => documented(page, kind)));
+  const attributes = await Promise.all(NAMES.map((name) => documented(page, 'attribute', name)));
   for (const figure of await openGallery(page)) await unfold(figure);
-  await expect(page.getByRole('heading', { level: 1 })).toHaveText('The Banana Machine');
-  for (const name of ['banana-machine', 'map-squeeze']) {
+  for (const [i, name] of NAMES.entries()) {
     const observed = await page.evaluate((tag) => Reflect.get(customElements.get(tag) ?? {}, 'observedAttributes'), name);
     // HTML has them in lower case.
-    expect((await documented(page, 'attribute', name)).map((each) => each.toLowerCase()).sort()).toEqual([...observed].sort());
+    expect(attributes[i].map((each) => each.toLowerCase()).sort()).toEqual([...observed].sort());
     const missing = await page.locator(name).first().evaluate(
-      (element, methods) => methods.filter((method) => typeof Reflect.get(element, method) !== 'function'),
-      await documented(page, 'method'),
+      (element, all) => all.filter((method) => typeof Reflect.get(element, method) !== 'function'),
+      methods,
     );
     expect(missing).toEqual([]);
   }
@@ -48,12 +51,12 @@ test('the gallery documents every attribute, method, part and custom property, a
     return [[...new Set(parts)].sort(), [...new Set(styles.join('').match(/--motion-[a-z-]+/g))].sort()];
   });
   // The progress is there while there is some.
-  expect(await documented(page, 'part')).toEqual([...parts, 'progress'].sort());
-  expect(await documented(page, 'property')).toEqual(properties);
+  expect(documentedParts).toEqual([...parts, 'progress'].sort());
+  expect(documentedProperties).toEqual(properties);
 });
 
-test('examples of the gallery start when they are opened, and are what their code says', async ({ page }) => {
-  await openGallery(page);
+test('examples of the reference start when they are opened, and are what their code says', async ({ page }) => {
+  await page.goto('/reference.html');
   const examples = page.locator('.example');
   await expect(examples).toHaveCount(5);
   for (const example of await examples.all()) {
@@ -77,22 +80,81 @@ test('examples of the gallery start when they are opened, and are what their cod
   }
 });
 
+for (const name of ALL) {
+  test(`each item of ${name} sets the whole state that it describes, whatever was pressed before`, async ({ page }) => {
+    test.slow();
+    await page.goto('/');
+    const article = page.locator('article', { has: page.locator(name) });
+    const figure = article.locator(name);
+    await figure.scrollIntoViewIfNeeded();
+    await ready(figure);
+    const buttons = await article.locator('button[data-try]').all();
+    const press = async (/** @type {import('@playwright/test').Locator} */ button) => {
+      // Those in a closed disclosure, too.
+      await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
+      await expect(button).toHaveAttribute('aria-current', 'true');
+      await frames(page);
+      const values = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
+      const [state, properties] = await figure.evaluate((element, keys) => {
+        const state = /** @type {import('../../www/types.d.ts').AnyState} */ (/** @type {any} */ (element).getState());
+        return [state, Object.fromEntries(keys.map((key) => [key, key in element ? Reflect.get(element, key) : Reflect.get(state, key)]))];
+      }, Object.keys(values));
+      const { preset, ...others } = values;
+      const { preset: _, ...found } = properties;
+      expect(found).toEqual(others);
+      if (preset && Object.keys(others).every((key) => ['samples', 'overlays', 'twist', 'line'].includes(key))) expect(properties.preset).toBe(preset);
+      return state;
+    };
+    const first = [];
+    for (const button of buttons) first.push(await press(button));
+    for (const [i, button] of [...buttons.entries()].reverse()) expect(await press(button)).toEqual(first[i]);
+  });
+}
+
+test('contents lead to every section', async ({ page }) => {
+  await page.goto('/');
+  const links = page.getByRole('navigation', { name: 'Contents' }).getByRole('link');
+  const targets = await links.evaluateAll((all) => all.map((link) => link.getAttribute('href')));
+  expect(targets).toEqual(await page.locator('main > [id]').evaluateAll((all) => all.map(({ id }) => `#${id}`)));
+});
+
+for (const [width, height] of [[1280, 720], [375, 760]]) {
+  test(`a figure stays in sight while its items are read, ${width} px wide`, async ({ page }) => {
+    await page.setViewportSize({ width, height });
+    await page.goto('/');
+    const article = page.locator('#banana');
+    await ready(article.locator('banana-machine'));
+    await article.getByRole('button', { name: 'Odometry model' }).scrollIntoViewIfNeeded();
+    await frames(page);
+    await expect(article.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
+    await expect(article.getByRole('button', { name: 'Odometry model' })).toBeInViewport();
+  });
+}
+
+for (const path of ['/', '/reference.html']) {
+  test(`nothing is inaccessible at ${path}`, async ({ page }) => {
+    await page.goto(path);
+    await expectAccessible(page, undefined, 'body > *');
+  });
+}
+
 test('both figures of the gallery are at most 720 px high in the column of a book', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 720 });
   for (const figure of await openGallery(page)) {
-    const { height } = await figure.evaluate((element) => element.getBoundingClientRect());
+    const { height } = await figure.locator('..').evaluate((element) => element.getBoundingClientRect());
     expect(height).toBeLessThanOrEqual(720);
   }
 });
 
 test('two figures of a kind on a page share nothing', async ({ page }) => {
   const [first] = await openGallery(page);
+  const opening = await property(first, 'omega');
   await page.evaluate(() => document.querySelector('main')?.append(document.createElement('banana-machine')));
   const second = page.locator('banana-machine').last();
   await second.scrollIntoViewIfNeeded();
   await second.getByRole('button', { name: 'Pivot' }).click();
   await frames(page);
-  expect([await property(second, 'omega'), await property(first, 'omega')]).toEqual([1.5, 0.5]);
+  expect([await property(second, 'omega'), await property(first, 'omega')]).toEqual([1.5, opening]);
 });
 
 plain('the gallery says what is missing without JavaScript', async ({ browser, baseURL }) => {

@@ -25,15 +25,14 @@ fn without_wedge(settings: Settings) -> Settings {
 #[test]
 fn the_last_turn_explains_the_low_probability() {
     let [off, alone, all] = page().numbers(
-        "The robot stands # standard deviations of the last turn off, and that factor alone leaves # % of its peak; all \
-         three leave # %.",
+        "The last turn is off by # standard deviations: that factor alone leaves # % of its peak, all three leave # %.",
     );
     let Stats { factors, weakest, share, .. } = stats(Settings::default());
     assert_eq!(weakest, 2);
     off.assert(factors[2].deviations, 0.0);
     alone.assert_percent(factors[2].share, 0.0);
     all.assert_percent(share, 0.0);
-    let [left] = page().numbers("until the wedge is gone: # % are left, and the position");
+    let [left] = page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
     left.assert_percent(share, 0.0);
     assert!((factors[2].share - 1.0).abs() < 1e-12);
@@ -41,7 +40,7 @@ fn the_last_turn_explains_the_low_probability() {
 
 #[test]
 fn the_printed_table_loses_p_for_centres_to_the_right() {
-    let [v]: [Number; 1] = page().numbers("and v̂ comes out as # m/s.");
+    let [v]: [Number; 1] = page().numbers("and v̂ comes out as # m/s in a right turn.");
     for name in ["right", "reverse"] {
         let printed = Settings { printed: true, ..preset(name) };
         let Stats { factors, share, inverted, .. } = stats(printed);

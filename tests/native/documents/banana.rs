@@ -2,7 +2,8 @@
 
 use crate::common::told::{Number, Told};
 use crate::common::{SIGMAS, preset, winds_around};
-use motion::sim::banana::{BananaMachine, Settings};
+use motion::VelocityCmd;
+use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
 fn machine(settings: Settings) -> BananaMachine {
     BananaMachine::new(settings).expect("a valid setting")
@@ -72,10 +73,10 @@ fn figures_are_those_told() {
     let [banana_gain, gentle_gain, hard_gain] =
         [&banana, &gentle, &hard].map(|exact| exact.likelihood_gain.pose);
     page().assert(
-        "so that the skew is # however many robots you send. Yet the ellipse covers # times the floor of the green \
-         outline: where it alone lies, robots stop a seventh as densely as where the outline alone does. The Gaussian \
-         in ξ gains # nats a robot: more than on the gentle arc, #, and on the hard one, #.",
-        [banana.cross_track_skew, banana.area_ratio, banana_gain, gentle_gain, hard_gain],
+        "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
+         densely as where the outline alone does. Both sides are alike, so the cross-track skew is #. The Gaussian in ξ \
+         gains # nats a robot: more than on the gentle arc, #, and on the hard one, #.",
+        [banana.area_ratio, banana.cross_track_skew, banana_gain, gentle_gain, hard_gain],
     );
     let opened = machine(Settings::default());
     document().assert(
@@ -108,4 +109,46 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     };
     let ratio = density([false, true]) / density([true, false]);
     assert_eq!(ratio.round(), 7.0, "{ratio}");
+}
+
+#[test]
+fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
+    page().says("In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:");
+    let gentle = preset("gentle");
+    let short = Settings { command: VelocityCmd { dt: gentle.command.dt / 10.0, ..gentle.command }, ..gentle };
+    let [long, short] = [gentle, short].map(|settings| machine(Settings { samples: 10, ..settings }));
+    let size = |machine: &BananaMachine| {
+        let cov = machine.table().exact.cov;
+        (cov[(0, 0)] + cov[(1, 1)]).sqrt()
+    };
+    assert!(size(&short) < 0.1 * size(&long), "{} {}", size(&short), size(&long));
+    let widths = [long, short].map(|machine| {
+        let x = machine.contours().additive.iter().map(|[x, _]| *x).collect::<Vec<_>>();
+        x.iter().fold(f64::MIN, |a, b| a.max(*b)) - x.iter().fold(f64::MAX, |a, b| a.min(*b))
+    });
+    assert!((widths[0] - widths[1]).abs() < 1e-9);
+}
+
+#[test]
+fn the_predicted_skew_misses_under_the_odometry_model() {
+    let [robots, errors] =
+        page().numbers("and the prediction misses: with # robots by more than # standard errors.");
+    let gentle = Settings { samples: robots.value as usize, ..preset("gentle") };
+    let mut velocity_alphas = gentle.velocity_alphas;
+    velocity_alphas[4..].fill(0.0);
+    let miss = |settings| {
+        let machine = machine(settings);
+        let (measured, predicted) = (machine.figures().cross_track, machine.figures().gaussian_skew);
+        (measured.skew - predicted).abs() / measured.skew_error
+    };
+    assert!(miss(Settings { velocity_alphas, ..gentle }) < SIGMAS);
+    assert!(miss(Settings { model: ModelKind::Odometry, ..gentle }) > errors.value);
+}
+
+#[test]
+fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
+    page().says("A hundred times the robots leave a tenth of the standard error.");
+    let error = |samples| machine(Settings { samples, ..preset("gentle") }).figures().cross_track.skew_error;
+    let ratio = error(2000) / error(200_000);
+    assert!((ratio - 10.0).abs() < 1.0, "{ratio}");
 }

@@ -29,7 +29,7 @@ fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {
 fn the_lever_grows_faster_than_the_drive() {
     // What the figure itself says: by the exact curve, of which the lever alone is the tangent.
     let [deviation, across, times] = page().numbers(
-        "± # rad at the start are ± # m across the way at the end. Drag the later pose twice as far the same way: # times as much",
+        "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
     let stats = machine(Settings::default()).stats();
     deviation.assert(figures(Settings::default(), Table).deviations[0], 0.0);
@@ -57,7 +57,7 @@ fn only_the_table_charges_two_half_turns_for_backing_up() {
 #[test]
 fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
     let [least, most] =
-        page().numbers("No outcome leaves its place, and the heading’s deviation goes from # to # rad.");
+        page().numbers("No outcome moves, and the standard deviation of the heading goes from # to # rad.");
     let of = |correlation| machine(Settings { correlation, ..Settings::default() });
     least.assert(of(-1.0).stats().exact_heading, 0.0);
     most.assert(of(1.0).stats().exact_heading, 0.0);
@@ -83,4 +83,14 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
             );
         }
     }
+}
+
+#[test]
+fn encoders_at_rest_are_noisy_by_the_table_alone() {
+    let [heading] = page().numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
+    page().says("The encoders have jittered by half a centimetre.");
+    let rest = of_preset("rest");
+    assert_eq!((1000.0 * rest.to.0[0].hypot(rest.to.0[1])).round(), 5.0);
+    let stats = machine(rest).stats();
+    heading.assert(stats.exact_heading, 0.0);
 }

@@ -60,8 +60,8 @@ fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
 #[test]
 fn most_accepted_samples_lie_behind_the_wall() {
     let [share] = page().numbers(
-        "Press Facing a wall: # % of what is accepted went through a wall, where the robot could never have gone. \
-         Choose whole arc: only what stopped short of the wall is left.",
+        "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
+         whole arc, and only what stopped short of the wall is left.",
     );
     assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), share);
     let behind = |sampler| {
@@ -76,6 +76,14 @@ fn most_accepted_samples_lie_behind_the_wall() {
 }
 
 #[test]
+fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
+    let [noise, share] =
+        page().numbers("straight ahead with noise n = #, # % of the accepted motions went through a wall.");
+    assert_eq!(Settings::default().alphas, alphas_of_noise(noise.value));
+    assert_told(through(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
+}
+
+#[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn shares_through_walls_by_substeps_are_those_in_the_documents() {
     let told = document().numbers(
@@ -86,8 +94,7 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         assert!(in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
     let [omega, on_page, at_worst, worst] = page().numbers(
-        "Now turn ω up to #: more and more pass at first, from # % judged by the endpoint to # % at k = #, and only \
-         then fewer.",
+        "With ω = # more pass at first, from # % judged by the endpoint to # % at k = #, and only then fewer.",
     );
     assert_told(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
     assert_told(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);

@@ -1,0 +1,90 @@
+/**
+ * Script of the page around the figures: buttons that set the state of a figure, terms that highlight a line in its picture,
+ * predictions, and the contents list.
+ *
+ * @module
+ */
+
+import { prepareBet } from './page/bet.js';
+import { prepareSketch } from './page/sketch.js';
+
+/**
+ * @typedef {HTMLElement & Record<string, any>} Figure any of the elements
+ */
+
+/** Whole state that each figure opened with. @type {WeakMap<Element, Record<string, any>>} */
+const openings = new WeakMap();
+
+/**
+ * Returns the figure that an element of the page is about.
+ *
+ * @param {Element} element
+ * @returns {Figure}
+ */
+export const figureOf = (element) => /** @type {Figure} */ (element.closest('article')?.querySelector('.stand > :first-child'));
+
+/**
+ * Puts a figure into the state that it opened with, with some values changed.
+ *
+ * @param {Figure} figure
+ * @param {Record<string, unknown>} values by property, or by field of its state where no property has that name; a preset comes first
+ */
+export async function enter(figure, values) {
+  if (!openings.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
+  const opening = openings.get(figure) ?? {};
+  // The whole cloud at once: what the item says is to be seen now.
+  const grown = 'shown' in opening ? { shown: opening.samples, playing: false } : {};
+  figure.setState({ ...opening, ...grown });
+  const { widget, version } = opening;
+  for (const [key, value] of Object.entries(values)) {
+    if (key in figure) figure[key] = value;
+    else figure.setState({ widget, version, [key]: value });
+  }
+}
+
+/** @param {HTMLElement} button */
+async function tryOut(button) {
+  const figure = figureOf(button);
+  for (const each of button.closest('article')?.querySelectorAll('[data-try]') ?? []) each.removeAttribute('aria-current');
+  await enter(figure, JSON.parse(button.dataset.try ?? '{}'));
+  button.setAttribute('aria-current', 'true');
+  const changed = () => button.removeAttribute('aria-current');
+  figure.addEventListener('input', changed, { once: true });
+}
+
+/**
+ * Highlights the line that a term names while the pointer or the focus is on the term.
+ *
+ * @param {Event} event
+ */
+function light({ type, target }) {
+  const term = target instanceof Element ? /** @type {HTMLElement | null} */ (target.closest('[data-line]')) : null;
+  if (!term) return;
+  figureOf(term).highlight = /over|in$/.test(type) ? term.dataset.line : null;
+}
+
+/** Marks the section in sight in the contents list. */
+function followSections() {
+  const links = new Map(
+    [...document.querySelectorAll('nav a[href^="#"]')].map((link) => [document.querySelector(link.getAttribute('href') ?? ''), link]),
+  );
+  const observer = new IntersectionObserver(
+    (entries) => {
+      for (const { target, isIntersecting } of entries) links.get(target)?.toggleAttribute('data-here', isIntersecting);
+    },
+    { rootMargin: '-45% 0% -55%' },
+  );
+  for (const section of links.keys()) if (section) observer.observe(section);
+}
+
+document.addEventListener('load', ({ target }) => {
+  const figure = /** @type {Figure} */ (target);
+  if (figure.getState && !openings.has(figure)) openings.set(figure, figure.getState());
+}, { capture: true });
+document.addEventListener('click', ({ target }) => {
+  const button = target instanceof Element ? target.closest('button[data-try]') : null;
+  if (button) void tryOut(/** @type {HTMLElement} */ (button));
+});
+for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, light);
+for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enter(figureOf(form), values), figureOf(form));
+followSections();

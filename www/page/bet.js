@@ -1,0 +1,47 @@
+/** Bet on a number: the reader says it first, and the figure reveals it. */
+
+/**
+ * @import { Figure } from '../page.js'
+ */
+
+/**
+ * Returns the number that the figure answers with.
+ *
+ * @param {Record<string, any>} stats
+ * @param {string} path keys with dots between them
+ * @returns {number | null} null for none
+ */
+const answerIn = (stats, path) => path.split('.').reduce((/** @type {any} */ part, key) => part?.[key], stats) ?? null;
+
+/**
+ * Prepares a form with one slider. `data-try` has the values to reveal, `data-answer` the path of the answer in `stats`.
+ *
+ * @param {HTMLFormElement} form
+ * @param {(values: Record<string, unknown>) => Promise<void>} enter puts the figure into a state
+ * @param {Figure} figure
+ */
+export function prepareBet(form, enter, figure) {
+  const { try: values = '{}', answer = '', unit = '' } = form.dataset;
+  const slider = /** @type {HTMLInputElement} */ (form.querySelector('input'));
+  const output = /** @type {HTMLOutputElement} */ (form.querySelector('output'));
+  const button = /** @type {HTMLButtonElement} */ (form.querySelector('button'));
+  const answered = /** @type {HTMLElement} */ (form.querySelector('[role=status]'));
+  const [min, max] = [Number(slider.min), Number(slider.max)];
+  const isShare = unit === '%';
+  const text = (/** @type {number} */ value) => `${isShare ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
+  const show = () => (output.value = text(slider.valueAsNumber));
+
+  slider.addEventListener('input', show);
+  show();
+  form.addEventListener('submit', async (event) => {
+    event.preventDefault();
+    await enter(JSON.parse(values));
+    const number = answerIn(figure.stats, answer);
+    const truth = number === null ? null : isShare ? 100 * number : number;
+    form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));
+    form.style.setProperty('--truth', String(((truth ?? max) - min) / (max - min)));
+    form.classList.add('revealed');
+    answered.textContent = `Your bet: ${text(slider.valueAsNumber)}. The figure: ${truth === null ? 'never' : text(truth)}.`;
+    button.textContent = 'Reveal again';
+  });
+}

@@ -63,6 +63,16 @@ function light({ type, target }) {
   figureOf(term).highlight = /over|in$/.test(type) ? term.dataset.line : null;
 }
 
+/** Has the picture of each figure stay in sight beside its items, where these are below it. */
+function followItems() {
+  const observer = new ResizeObserver((entries) => {
+    for (const { target, borderBoxSize: [{ blockSize }] } of entries) {
+      /** @type {HTMLElement} */ (target.parentElement).style.setProperty('--below', `${blockSize}px`);
+    }
+  });
+  for (const items of document.querySelectorAll('.try')) observer.observe(items);
+}
+
 /** Marks the section in sight in the contents list. */
 function followSections() {
   const links = new Map(
@@ -88,3 +98,4 @@ document.addEventListener('click', ({ target }) => {
 for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, light);
 for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enter(figureOf(form), values), figureOf(form));
 followSections();
+followItems();

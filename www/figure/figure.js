@@ -85,6 +85,8 @@ addEnglish(en);
  * @cssprop --motion-font - The family of all text; without it, that of the text around.
  * @cssprop --motion-sticky-top - How much of the window’s top a header of the site covers: the picture that stays in sight on
  *   a phone keeps clear of it.
+ * @cssprop --motion-sticky-bottom - Length below the controls for which the picture still stays in sight: of text about the figure,
+ *   which the page moves up by as much.
  *
  * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void, begin?(settings: Values): void, advance?(work: number): boolean }} Machine
  * @template {{ config: Values }} Reading
@@ -128,6 +130,8 @@ export class FigureElement extends LitElement {
   plate;
   /** What the machine said when it was last asked; undefined before that. @type {Reading} */
   reading = /** @type {any} */ (undefined);
+  /** @type {string | null} */
+  #highlight = null;
   /** @type {boolean | undefined} */
   #updating;
 
@@ -305,6 +309,21 @@ export class FigureElement extends LitElement {
   /** @param {boolean | ''} presentation */
   set presentation(presentation) {
     this.toggleAttribute('presentation', presentation || presentation === '');
+  }
+
+  /**
+   * Name of the line that the pictures highlight, a word of `overlays`; null for none. No part of the state.
+   *
+   * @public
+   * @returns {string | null}
+   */
+  get highlight() {
+    return this.#highlight;
+  }
+
+  set highlight(name) {
+    this.#highlight = name;
+    this.stage.wake();
   }
 
   /** The level of the heading that the title is; null where it is none. */

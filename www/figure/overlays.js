@@ -40,14 +40,15 @@ export function legend(figure, styles) {
   const all = Object.keys(styles);
   const choose = (/** @type {string} */ name, /** @type {boolean} */ shown) =>
     figure.gesture.choose('overlays', all.filter((each) => (each === name ? shown : overlays.includes(each))));
+  const light = (/** @type {string | null} */ name) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
-    ${all.map((name) =>
-      toggle({
+    ${all.map((name) => html`<span @pointerenter=${() => light(name)} @pointerleave=${() => light(null)} @focusin=${() => light(name)} @focusout=${() => light(null)}>
+      ${toggle({
         label: html`${swatch(styles[name])}<span>${rich(names[name])}</span>`,
         checked: overlays.includes(name),
         change: (shown) => choose(name, shown),
-      }),
-    )}
+      })}
+    </span>`)}
   </div>`;
 }
 

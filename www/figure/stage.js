@@ -199,7 +199,7 @@ export class Stage extends Part {
     }
     const { scene } = host;
     const { pressed: still, former } = host.gesture;
-    const how = { elapsed, still, atOnce: this.#printing || isCalm(), former, handles: this.#printing };
+    const how = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };
     const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();

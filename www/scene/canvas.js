@@ -19,6 +19,7 @@
  * @property {string} font of the canvas's style
  * @property {boolean} [exported] whether a file is drawn: a picture on the page has its key beside it
  * @property {boolean} [handles] whether handles are painted: on the screen they are elements over the picture
+ * @property {string | null} [highlight] name of the line that is drawn thicker, and all others faint
  * @property {any} [former] earlier reading whose outlines stay as a ghost
  */
 

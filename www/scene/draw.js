@@ -203,6 +203,28 @@ export function trace({ context, view }, points) {
  * @property {number[]} dash
  */
 
+/** Width of a highlighted line, times its own. */
+const THICK = 1.9;
+
+/** Ink of the lines that are not highlighted. */
+const FAINT = 0.3;
+
+/**
+ * Returns how lines are drawn by name: in the colours of their roles, the highlighted one thicker and all others faint.
+ *
+ * @template {string} Name
+ * @param {Pick<Brush, 'palette' | 'highlight'>} brush
+ * @param {Record<Name, import('../figure/overlays.js').LineStyle>} lines
+ */
+export function lineStyles({ palette, highlight }, lines) {
+  const isLit = Object.keys(lines).some((name) => name === highlight);
+  const styles = Object.entries(/** @type {Record<string, import('../figure/overlays.js').LineStyle>} */ (lines)).map(([name, { role, width = 2.25, dash = [] }]) => {
+    const colour = isLit && name !== highlight ? `rgb(${channels(palette[role]).join(' ')} / ${FAINT})` : palette[role];
+    return [name, { colour, width: name === highlight ? THICK * width : width, dash }];
+  });
+  return /** @type {Record<Name, { colour: string, width: number, dash: number[] }>} */ (Object.fromEntries(styles));
+}
+
 /** Whether an outline has any length: that of robots at one place has none but of rounding. @param {Float64Array} points */
 export const hasLength = (points) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 

@@ -12,6 +12,7 @@ import { brushOn } from './canvas.js';
  * @property {boolean} [still] whether the view stays aimed at what it is aimed at
  * @property {boolean} [atOnce] whether the view goes there without easing
  * @property {any} [former] reading before the present gesture: a view that zooms out after it shows its outlines too
+ * @property {string | null} [highlight] name of the line that is highlighted
  * @property {boolean} [exported] whether it is drawn for a file, which has no page around it
  * @property {boolean} [handles] whether handles are painted
  */
@@ -49,7 +50,7 @@ export class Picture {
    * @param {How} [how]
    * @returns {boolean} whether the view is still moving
    */
-  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false, former, exported = false, handles = exported } = {}) {
+  draw(surface, scene, palette, { elapsed = 0, still = false, atOnce = false, former, highlight, exported = false, handles = exported } = {}) {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
     if (former !== this.#former && !exported) {
@@ -58,7 +59,7 @@ export class Picture {
     }
     if (!still || !view.aimed) this.fit(scene);
     const moving = view.ease(elapsed, atOnce);
-    this.paint({ ...brush, exported, handles, former: view.widened && !exported ? former : undefined }, scene);
+    this.paint({ ...brush, highlight, exported, handles, former: view.widened && !exported ? former : undefined }, scene);
     return moving;
   }
 

@@ -232,6 +232,10 @@ const layout = css`
       max-height: 45svh;
     }
 
+    .machine {
+      padding-bottom: var(--motion-sticky-bottom, 0);
+    }
+
     :is(button, input, summary, textarea) {
       scroll-margin-top: calc(45svh + 2em + var(--top));
     }

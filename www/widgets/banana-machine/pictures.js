@@ -14,6 +14,7 @@ import {
   drawOutlines,
   drawRobot,
   hasLength,
+  lineStyles,
 } from '../../scene/draw.js';
 import { drawLabel } from '../../scene/labels.js';
 import { Picture } from '../../scene/picture.js';
@@ -26,7 +27,6 @@ import { LINES } from './settings.js';
 /**
  * @import { BananaMachine, Moments } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
- * @import { Palette } from '../../ui/theme.js'
  *
  * @typedef {import('./reading.js').Reading & {
  *   machine: BananaMachine,
@@ -104,12 +104,6 @@ function cellSize(area, count) {
 const PAINTED = /** @type {const} @satisfies {OutlineName[]} */ (['additive', 'linearized', 'ellipse', 'exponential', 'command']);
 const NAMED = /** @type {const} @satisfies {OutlineName[]} */ (['ellipse', 'exponential', 'linearized', 'additive', 'command']);
 
-/** Returns the styles of the outlines in the colours of a palette. @param {Palette} palette */
-const outlineStyles = (palette) =>
-  /** @type {Record<OutlineName, { colour: string, width: number, dash: number[] }>} */ (
-    Object.fromEntries(Object.entries(LINES).map(([name, { role, ...line }]) => [name, { colour: palette[/** @type {keyof Palette} */ (role)], ...line }]))
-  );
-
 /** The floor from above. */
 export class PlanePicture extends CloudPicture {
   constructor() {
@@ -134,7 +128,7 @@ export class PlanePicture extends CloudPicture {
   paint = (brush, scene) => {
     const { view, palette } = brush;
     const { machine, contours, overlays, table, marked, end } = scene;
-    const styles = outlineStyles(palette);
+    const styles = lineStyles(brush, LINES);
     const drawn = (/** @type {OutlineName} */ name) => overlays[name] && hasLength(contours[name]);
     const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.overlays[name], styles[name]));
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
@@ -265,7 +259,7 @@ export class TwistPicture extends CloudPicture {
   paint = (brush, scene) => {
     const { context, view, palette } = brush;
     const { machine, config, contours, overlays, marked } = scene;
-    const { exponential } = outlineStyles(palette);
+    const { exponential, command } = lineStyles(brush, LINES);
     const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, key);
     clipped(brush, () => {
@@ -282,8 +276,8 @@ export class TwistPicture extends CloudPicture {
         context.arc(view.toPixelX(v * dt), view.toPixelY(omega * dt), 5, 0, 2 * Math.PI);
         context.fillStyle = palette.paper;
         context.fill();
-        context.strokeStyle = palette.prior;
-        context.lineWidth = 2.5;
+        context.strokeStyle = command.colour;
+        context.lineWidth = command.width;
         context.stroke();
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });

@@ -232,8 +232,10 @@ const layout = css`
       max-height: 45svh;
     }
 
-    .machine {
-      padding-bottom: var(--motion-sticky-bottom, 0);
+    :host(:not([presentation])) .machine::after {
+      content: '';
+      display: block;
+      height: var(--motion-sticky-bottom, 0);
     }
 
     :is(button, input, summary, textarea) {

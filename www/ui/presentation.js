@@ -38,7 +38,6 @@ export const presentationStyles = css`
     display: flex;
     flex-direction: column;
     min-height: 0;
-    padding-bottom: 0 !important;
   }
 
   /* The pictures take the room that is left. */

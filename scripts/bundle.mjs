@@ -283,9 +283,9 @@ async function chunks() {
   );
 }
 
-/** What was declared, without what is for the documentation alone: the core has it, and no page shows it. */
+/** Returns the declarations without what documents them alone: no page shows it. Presets need the defaults. */
 function ofDeclarations() {
-  const left = ['sentence', 'default', 'nullable'];
+  const left = ['sentence', 'nullable'];
   const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (left.includes(key) ? undefined : each));
   return Object.entries(declared)
     .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)

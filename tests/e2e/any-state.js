@@ -60,7 +60,7 @@ export function anyOf(seed) {
       isolate: one([null, whole(1, 4)]),
       isolateChoice: whole(1, 6),
       reverseAware: one([true, false]),
-      overlays: ['command', 'ellipse', 'linearized', 'additive', 'exponential'].filter(() => random() < 0.5),
+      overlays: ['command', 'ellipse', 'exponential', 'linearized', 'additive'].filter(() => random() < 0.5),
     },
     'map-squeeze': {
       ...common,

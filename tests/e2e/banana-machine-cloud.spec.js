@@ -72,7 +72,7 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
 test('Reset empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
   const widget = await open(page, 'samples="3000"');
   const [whole, poses] = [await state(widget), await posesOf(widget)];
-  await widget.getByRole('button', { name: 'Reset' }).click();
+  await widget.getByRole('button', { name: 'Clear' }).click();
   expect((await state(widget)).shown).toBe(0);
   await expect(readout(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
@@ -239,7 +239,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
 test('two robots have no skew', async ({ page }) => {
   const widget = await openWhole(page);
   await set(widget, { samples: 0 });
-  await widget.getByRole('button', { name: 'Reset' }).click();
+  await widget.getByRole('button', { name: 'Clear' }).click();
   for (let i = 0; i < 2; i++) await widget.getByRole('button', { name: 'Step' }).click();
   expect((await state(widget)).shown).toBe(2);
   await expect(readout(widget, 'cross-track skew')).toHaveText('—');
@@ -318,7 +318,7 @@ test('the marked robot and Step follow the size of the cloud', async ({ page }) 
   await field.fill('100');
   await expect(widget.getByRole('alert')).toHaveCount(0);
   await expect(widget.locator('.marked output')).toContainText('m/s');
-  await widget.getByRole('button', { name: 'Reset' }).click();
+  await widget.getByRole('button', { name: 'Clear' }).click();
   await expect(field).toBeDisabled();
   await expect(step).toBeEnabled();
 });

@@ -149,7 +149,7 @@ test('too few robots tell nothing, and none at all say so', async ({ page }) => 
   const widget = await openReckoning(page, 'samples="1000"');
   await expect(caption(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
   expect(await missed(widget)).toEqual(['too few', 'too few', 'too few']);
-  await widget.getByRole('button', { name: 'Reset' }).click();
+  await widget.getByRole('button', { name: 'Clear' }).click();
   await frames(page);
   await expect(caption(widget)).toHaveText('No robots yet.');
   expect(await missed(widget)).toEqual(['—', '—', '—']);

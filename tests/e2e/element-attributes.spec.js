@@ -66,7 +66,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   await banana.getByLabel('Isolate one').check();
   await banana.getByRole('checkbox', { name: 'linearized' }).check();
   await frames(page);
-  expect(await attributes(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse linearized exponential' });
+  expect(await attributes(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
   await banana.getByLabel('Isolate one').uncheck();
   await frames(page);
   expect(await attributes(banana)).not.toHaveProperty('isolate');
@@ -77,7 +77,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
   await squeeze.getByLabel('Condition on the map').uncheck();
   await frames(page);
-  expect(await attributes(squeeze)).toEqual({ preset: 'wall', x: '3.3', conditioned: 'false' });
+  expect(await attributes(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
 test('boolean attributes may be empty or "true", and lists may have any space', async ({ page }) => {
@@ -124,7 +124,7 @@ test('attributes that are refused are reported in the words of the core, and the
     'model is "walking"; allowed is "velocity" or "odometry"',
     'command.v is "fast"; allowed is a number',
     'samples is 0; allowed is a whole number from 1 to 10000000',
-    'overlays[1] is "stars"; allowed is "command" or "ellipse" or "linearized" or "additive" or "exponential"',
+    'overlays[1] is "stars"; allowed is "command" or "ellipse" or "exponential" or "linearized" or "additive"',
   ]);
   const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
   expect(await values()).toEqual([1, 0.7, 'velocity', 50000]);
@@ -132,13 +132,13 @@ test('attributes that are refused are reported in the words of the core, and the
   expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual([
     'command.dt is -1; allowed is a number from 0.000001 to 1000000',
   ]);
-  expect(await property(widget, 'dt')).toBe(1);
+  expect(await property(widget, 'dt')).toBe(2);
   // A blank attribute is neither a number nor zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
   expect((await heard(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
   expect(await property(widget, 'omega')).toBe(0.7);
-  await widget.evaluate((element) => element.setAttribute('dt', '2'));
-  expect(await property(widget, 'dt')).toBe(2);
+  await widget.evaluate((element) => element.setAttribute('dt', '3'));
+  expect(await property(widget, 'dt')).toBe(3);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   expect(await values()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
@@ -150,7 +150,7 @@ test('attributes that are removed leave the defaults', async ({ page }) => {
   const names = ['model', 'v', 'alpha1', 'overlays', 'isolate'];
   await widget.evaluate((element, given) => given.forEach((name) => element.removeAttribute(name)), names);
   const values = await Promise.all(names.map((name) => property(widget, name)));
-  expect(values).toEqual(['velocity', 1, 0.05, ['command', 'ellipse', 'exponential'], null]);
+  expect(values).toEqual(['velocity', 1, 0.002, ['command', 'ellipse', 'exponential'], null]);
 });
 
 test('elements in the table of doc/embedding.md have the attributes that it shows', async ({ page }) => {

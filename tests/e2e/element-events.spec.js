@@ -55,7 +55,7 @@ const ACTS = {
     ['handle by key', (widget) => widget.locator('.handle').press('ArrowUp')],
     ['marker by key', (widget) => widget.locator('#chart-omega').press('ArrowRight')],
     ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
-    ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
+    ['clear', (widget) => widget.getByRole('button', { name: 'Clear' }).click()],
     ['step', (widget) => widget.getByRole('button', { name: 'Step' }).click()],
   ],
   'map-squeeze': [
@@ -97,7 +97,7 @@ const ACTS = {
     ['later robot by key', (widget) => widget.locator('.handle.body.to').press('ArrowUp')],
     ['heading by key', (widget) => widget.locator('.handle.turn.to').press('ArrowUp')],
     ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
-    ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
+    ['clear', (widget) => widget.getByRole('button', { name: 'Clear' }).click()],
     ['step', (widget) => widget.getByRole('button', { name: 'Step', exact: true }).click()],
   ],
   'dead-reckoning': [
@@ -108,7 +108,7 @@ const ACTS = {
     ['step by key', (widget) => widget.locator('#step').press('ArrowRight')],
     ['steps by key', (widget) => widget.locator('#steps').press('ArrowLeft')],
     ['seed', (widget) => widget.getByRole('button', { name: 'New seed' }).click()],
-    ['reset', (widget) => widget.getByRole('button', { name: 'Reset' }).click()],
+    ['clear', (widget) => widget.getByRole('button', { name: 'Clear' }).click()],
     ['batch', (widget) => widget.getByRole('button', { name: 'Step', exact: true }).click()],
   ],
   'alpha-calibrator': [

@@ -146,7 +146,7 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   await assign(widget, 'seed', 11);
   await unfold(widget);
   const press = (/** @type {string} */ button) => widget.locator('.cloud').getByRole('button', { name: button, exact: true }).click();
-  await press('Reset');
+  await press('Clear');
   for (let i = 0; i < 5; i++) await press('Step');
   const before = await stateOf(widget);
   expect(/** @type {any} */ (before).shown).toBeGreaterThan(0);
@@ -176,12 +176,10 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   await ready(widget);
   const { fold } = KNOWN[figure];
   const folds = widget.locator('details');
-  await expect.poll(() => folds.count()).toBeGreaterThan(3);
-  await folds.nth(fold.at).locator('summary').click();
-  await folds.last().locator('summary').click();
+  await expect.poll(() => folds.count()).toBeGreaterThan(1);
+  await unfold(widget);
   const open = () => folds.evaluateAll((all) => all.map((each) => /** @type {HTMLDetailsElement} */ (each).open));
   const before = await open();
-  expect(before.filter(Boolean)).toHaveLength(2);
   const field = folds.nth(fold.at).locator(fold.field);
   await field.fill(fold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));

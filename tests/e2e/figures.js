@@ -8,7 +8,7 @@
  * Facts about an element that tests use.
  *
  * @typedef {object} Known
- * @property {boolean} [cloud] true if the figure has a cloud that grows, by Play, Step and Reset
+ * @property {boolean} [cloud] true if the figure has a cloud that grows, by Play, Step and Clear
  * @property {string[]} [handles] selectors of the handles in its pictures
  * @property {string} slider id of a slider that is visible when the figure opens
  * @property {string[]} at path of the slider's setting in a state
@@ -21,7 +21,7 @@
 
 /** @satisfies {Partial<Known>} */
 const COMMAND = { slider: 'v', at: ['command', 'v'], values: /** @type {[number, number]} */ ([0.7, 0.4]), other: /** @type {[string, number]} */ (['omega', 1.25]) };
-const MARKED = { at: 0, field: 'input[type=number]', value: '7' };
+const MARKED = { at: 1, field: 'input[type=number]', value: '7' };
 
 /** @typedef {'banana-machine' | 'map-squeeze' | 'arc-anatomy' | 'odometry-decomposer' | 'dead-reckoning' | 'alpha-calibrator'} Name */
 
@@ -37,7 +37,7 @@ export const KNOWN = {
   },
   'arc-anatomy': {
     ...COMMAND, handles: ['.handle.body.start', '.handle.turn.start', '.handle.body.next', '.handle.turn.next'], button: 'Right turn',
-    fold: { at: 1, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 2, part: '.lines' },
+    fold: { at: 0, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 1, part: '.lines' },
   },
   'odometry-decomposer': {
     cloud: true, handles: ['.handle.body.from', '.handle.turn.from', '.handle.body.to', '.handle.turn.to'],
@@ -46,7 +46,7 @@ export const KNOWN = {
   },
   'dead-reckoning': {
     cloud: true, slider: 'step', at: ['step'], values: [7, 4], other: ['omega', 1.25], button: 'New seed',
-    fold: MARKED, paper: { at: 0, part: 'table' },
+    fold: MARKED, paper: { at: 1, part: 'table' },
   },
   'alpha-calibrator': {
     slider: 'distance', at: ['distance'], values: [0.4, 0.3], other: ['angle', 0.35], button: 'Next worst leg',

@@ -146,7 +146,7 @@ test('the spread against the drive has the outcomes beside the curve', async ({ 
   await expect(widget.locator('.readouts').last()).toContainText('exactly 0.305 m');
   // Without an outcome there is no point.
   await widget.locator('summary', { hasText: 'Noise and outcomes' }).click();
-  await widget.getByRole('button', { name: 'Reset' }).click();
+  await widget.getByRole('button', { name: 'Clear' }).click();
   await expect(plot.locator('circle')).toHaveCount(0);
 });
 

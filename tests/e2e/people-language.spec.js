@@ -113,7 +113,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
 });
 
 test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await open(page, 'preset="gentle"');
   await unfold(widget);
   const complaints = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);

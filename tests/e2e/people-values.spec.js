@@ -13,6 +13,7 @@ async function widgetOf(page, name) {
   await show(page, `<${name}></${name}>`);
   const widget = page.locator(name);
   await ready(widget);
+  await unfold(widget);
   await heard(page);
   return widget;
 }
@@ -73,10 +74,10 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
 test('a value that is refused is reported with the allowed range, and the last good one stays', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   for (const [key, text, complaint] of [
-    ['alpha1', ' -1 ', 'α₁ is −1; allowed is 0 to 1\u202f000\u202f000.'],
-    ['omega', '1,5', 'ω is "1,5"; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000, with a decimal point.'],
-    ['omega', '', 'ω is ""; allowed is −1\u202f000\u202f000 to 1\u202f000\u202f000.'],
-    ['samples', '2.5', 'N is 2.5; allowed is a whole number from 1 to 10\u202f000\u202f000.'],
+    ['alpha1', ' -1 ', 'α₁ must be between 0 and 1\u202f000\u202f000 (got −1).'],
+    ['omega', '1,5', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000, with a decimal point (got "1,5").'],
+    ['omega', '', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "").'],
+    ['samples', '2.5', 'N must be a whole number between 1 and 10\u202f000\u202f000 (got 2.5).'],
   ]) {
     const before = await property(widget, key);
     const field = valueField(widget, key);
@@ -107,14 +108,13 @@ test('a value that is refused is reported with the allowed range, and the last g
 
 test('a number that no sample has is refused and kept until it is right or left', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
-  await unfold(widget);
   const field = widget.locator('#robot');
   const said = widget.locator('.marked [role=alert]');
   const samples = await property(widget, 'samples');
   for (const text of ['2.5', String(samples + 1)]) {
     await field.fill('7');
     await field.fill(text);
-    await expect(said).toHaveText(`Robot is ${text}; allowed is a whole number from 1 to ${counted(samples)}.`);
+    await expect(said).toHaveText(`Robot must be a whole number between 1 and ${counted(samples)} (got ${text}).`);
     await expect(field).toHaveValue(text);
     expect(await property(widget, 'marked')).toBe(6);
     await field.blur();

@@ -240,8 +240,9 @@ export class Reflection extends Part {
     if (!told) return;
     const changed = new Set([...texts.keys()].filter((name) => texts.get(name) !== told.get(name)));
     for (const [name, entry] of Object.entries(this.#attributes)) {
-      if (texts.get(name) !== null || !changed.has(name)) continue;
-      entry.covers?.(null).forEach((covered) => changed.add(covered));
+      if (!entry.covers || texts.get(name) !== null || !changed.has(name)) continue;
+      const usual = this.#usualTexts;
+      for (const covered of entry.covers(null)) if (texts.get(covered) !== usual.get(covered)) changed.add(covered);
     }
     this.#writing = true;
     for (const name of changed) {
@@ -253,11 +254,17 @@ export class Reflection extends Part {
     this.#writing = false;
   }
 
+  /** Texts of the attributes when the widget opens. */
+  get #usualTexts() {
+    const usual = this.#opening((opening) => this.#texts(opening, (name) => this.#usual(name)));
+    for (const name of this.#basis) usual.set(name, this.#attributes[name].kind.print(this.#usual(name)));
+    return usual;
+  }
+
   /** The attributes that a figure needs which opens otherwise. @returns {[string, string][]} */
   needed() {
     const texts = this.#now;
-    const usual = this.#opening((opening) => this.#texts(opening, (name) => this.#usual(name)));
-    for (const name of this.#basis) usual.set(name, this.#attributes[name].kind.print(this.#usual(name)));
+    const usual = this.#usualTexts;
     /** @type {Set<string>} */
     const covered = new Set();
     /** @type {[string, string][]} */

@@ -56,7 +56,7 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   }
   await three.scrollIntoViewIfNeeded();
   await ready(three);
-  expect(/** @type {any} */ (await stateOf(three)).command).toEqual({ v: 1, omega: 0.5, dt: 1 });
+  expect(/** @type {any} */ (await stateOf(three)).command).toEqual({ v: 1, omega: 0, dt: 2 });
   expect(await heard(other, ['error', 'input', 'change'])).toEqual([]);
 });
 
@@ -233,7 +233,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
   await ready(widget);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   await frames(page);
-  await widget.getByText('Share the figure').click();
+  await widget.getByText('Numbers and data').click();
   const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
   await widget.getByRole('button', { name: 'Copy link' }).click();
   await expect(widget.getByText('Copied.')).toBeVisible();
@@ -250,7 +250,7 @@ test('says that the code to embed is without the own map', async ({ page }) => {
   await show(page, '<map-squeeze></map-squeeze>');
   const widget = page.locator('map-squeeze');
   await ready(widget);
-  await widget.getByText('Share the figure').click();
+  await widget.getByText('Numbers and data').click();
   await widget.getByRole('button', { name: 'Copy embed code' }).click();
   await expect(widget.getByText('Copied.')).toHaveText('Copied.');
   await widget.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
@@ -265,9 +265,9 @@ test('the menu shows what the clipboard does not take', async ({ page }) => {
   await show(page, '<map-squeeze seed="4"></map-squeeze>');
   const widget = page.locator('map-squeeze');
   await ready(widget);
-  await widget.getByText('Share the figure').click();
+  await widget.getByText('Numbers and data').click();
   await widget.getByRole('button', { name: 'Copy embed code' }).click();
-  await expect(widget.getByRole('textbox', { name: 'Copy it from here' })).toHaveValue(/<map-squeeze seed="4"><\/map-squeeze>/);
+  await expect(widget.getByRole('textbox', { name: 'Copy manually' })).toHaveValue(/<map-squeeze seed="4"><\/map-squeeze>/);
   await expectAccessible(page, undefined, 'map-squeeze');
 });
 

@@ -56,7 +56,7 @@ test('without full screen the attribute fills the window, and the button leaves'
   const to = await centreOf(handle);
   expect(Math.hypot(to.x - from.x - 60, to.y - from.y + 40)).toBeLessThan(2);
   await page.mouse.up();
-  await widget.getByRole('button', { name: 'Esc Leave' }).click();
+  await widget.getByRole('button', { name: 'Esc Exit' }).click();
   await expect(widget).not.toHaveAttribute('presentation');
   await expect.poll(() => boxOf(widget)).toEqual(before);
 });

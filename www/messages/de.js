@@ -66,7 +66,7 @@ export const de = {
     stopTitle: 'Alles bleibt, wie es war (Escape)',
     stopped: 'Abgebrochen: Alles ist, wie es war.',
   },
-  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', end: 'Verlassen' },
+  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', end: 'Beenden' },
   copies: {
     label: 'Abbildung weitergeben',
     link: 'Link kopieren',
@@ -74,6 +74,6 @@ export const de = {
     code: 'Code zum Einbetten kopieren',
     codeTitle: 'HTML, das die Abbildung, wie sie jetzt ist, auf einer eigenen Seite zeigt',
     done: 'Kopiert.',
-    byHand: 'Von hier kopieren:',
+    byHand: 'Von Hand kopieren:',
   },
 };

@@ -76,7 +76,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     stopTitle: 'Everything stays as it was (Escape)',
     stopped: 'Stopped: everything is as it was.',
   },
-  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', end: 'Leave' },
+  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', end: 'Exit' },
   copies: {
     label: 'Share the figure',
     link: 'Copy link',
@@ -84,6 +84,6 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     code: 'Copy embed code',
     codeTitle: 'HTML that shows the figure as it is now on a page of your own',
     done: 'Copied.',
-    byHand: 'Copy it from here:',
+    byHand: 'Copy manually:',
   },
 });

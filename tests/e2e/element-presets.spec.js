@@ -1,0 +1,63 @@
+import { expect } from '@playwright/test';
+import { STILL, frames, property, ready, show, stateOf, test, unfold } from './support.js';
+
+test.use(STILL);
+
+/** Figures with presets: a setting that no preset lists, its default, and another value. */
+const UNLISTED = /** @type {const} */ ({
+  'banana-machine': ['noise', 'normal', 'triangular'],
+  'map-squeeze': ['clearance', 0.13, 0.2],
+  'arc-anatomy': ['printed', false, true],
+  'odometry-decomposer': ['correlation', 0, 0.5],
+  'dead-reckoning': ['per', 'step', 'path'],
+});
+
+for (const [name, [key, usual, other]] of Object.entries(UNLISTED)) {
+  test(`a preset of ${name} sets every setting but samples and seed, and is marked while all hold`, async ({ page }) => {
+    await show(page, `<${name} samples="50" seed="4"></${name}>`);
+    const widget = page.locator(name);
+    await ready(widget);
+    const set = (/** @type {unknown} */ value) => widget.evaluate((element, [key, value]) => void Reflect.set(element, /** @type {string} */ (key), value), [key, value]);
+    const button = widget.locator('.presets button').nth(1);
+    await button.click();
+    await expect(button).toHaveAttribute('aria-pressed', 'true');
+    await set(other);
+    await expect(button).toHaveAttribute('aria-pressed', 'false');
+    await button.click();
+    await expect(button).toHaveAttribute('aria-pressed', 'true');
+    expect(await property(widget, key)).toBe(usual);
+    if (name !== 'arc-anatomy') expect([await property(widget, 'samples'), await property(widget, 'seed')]).toEqual([50, 4]);
+  });
+}
+
+test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {
+  await show(page, '<banana-machine preset="hard" samples="2000" seed="5" overlays="ellipse"></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  const opened = await stateOf(widget);
+  await unfold(widget);
+  await widget.locator('#alpha4').fill('0.15');
+  await widget.getByRole('button', { name: 'Pivot' }).click();
+  await widget.getByRole('button', { name: 'New seed' }).click();
+  await widget.getByRole('checkbox', { name: 'Gaussian in ξ' }).check();
+  await widget.getByRole('button', { name: 'Clear' }).click();
+  await frames(page);
+  expect(await stateOf(widget)).not.toEqual(opened);
+  await widget.getByRole('button', { name: 'Start over' }).click();
+  await expect.poll(() => stateOf(widget)).toEqual(opened);
+});
+
+test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloud }) => {
+  await show(page, `<${cloud}></${cloud}>`);
+  const widget = page.locator(cloud);
+  await ready(widget);
+  await unfold(widget);
+  const field = widget.getByRole('textbox', { name: 'seed', exact: true });
+  await field.fill('42');
+  await expect.poll(() => property(widget, 'seed')).toBe(42);
+  await field.fill('4.5');
+  await expect(widget.locator('.seed [role=alert]')).toContainText('seed must be a whole number between 0 and');
+  expect(await property(widget, 'seed')).toBe(42);
+  await field.blur();
+  await expect(field).toHaveValue('42');
+});

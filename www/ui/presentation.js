@@ -47,6 +47,10 @@ export const presentationStyles = css`
     grid-template-rows: 1fr;
   }
 
+  :host([presentation]) .panel {
+    align-self: stretch;
+  }
+
   :host([presentation]) .stage {
     position: relative !important;
     align-self: stretch;
@@ -71,7 +75,11 @@ export const presentationStyles = css`
       grid-template-rows: auto;
     }
 
-    :host([presentation]) .stage {
+    :host([presentation]) .panel {
+    align-self: stretch;
+  }
+
+  :host([presentation]) .stage {
       min-height: 60vmin;
     }
   }

@@ -126,7 +126,7 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
     await page.goto('/');
     const article = page.locator('#banana');
     await ready(article.locator('banana-machine'));
-    await article.getByRole('button', { name: 'Odometry model' }).scrollIntoViewIfNeeded();
+    await article.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
     await frames(page);
     await expect(article.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
     await expect(article.getByRole('button', { name: 'Odometry model' })).toBeInViewport();

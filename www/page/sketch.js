@@ -7,8 +7,8 @@
  */
 
 /** Pixels of the pad a metre, and the robot's start in the pad. */
-const SCALE = 100;
-const START = { x: 30, y: 135 };
+const SCALE = 95;
+const START = { x: 30, y: 150 };
 
 /** Robots drawn, and the length of their headings in pixels. */
 const DRAWN = 150;

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { drawOutlines, drawRobot } from '../../scene/draw.js';
+import { drawOutlines, drawRobot, lineStyles } from '../../scene/draw.js';
 import { drawLabel } from '../../scene/labels.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
@@ -83,43 +83,43 @@ export class ArcPicture extends Picture {
     const { config: { start, next, printed }, stats, paths, overlays } = scene;
     const { palette } = brush;
     const shows = (/** @type {LineName} */ name) => overlays.includes(name);
-    const styleOf = (/** @type {'commanded' | 'inverted' | 'chord' | 'twist'} */ name) => ({ ...LINES[name], colour: palette[LINES[name].role] });
+    const styles = lineStyles(brush, LINES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
     clipped(brush, () => {
       this.#surface.draw(brush, scene.machine, scene.config);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (shows('commanded')) {
-        drawCircle(brush, start, commanded, { ...styleOf('commanded'), side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
+        drawCircle(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
       }
       if (shows('inverted')) {
         drawCircle(brush, start, inverted, {
-          ...styleOf('inverted'),
+          ...styles.inverted,
           side: 1,
           angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
           radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedText(inverted.radius)} m`,
         });
       }
-      if (shows('chord')) drawChord(brush, start, next);
-      if (shows('wedge')) drawWedge(brush, next, lastTurn, palette.accent);
-      if (shows('twist')) drawTwist(brush, paths.ticks);
+      if (shows('chord')) drawChord(brush, start, next, styles.chord);
+      if (shows('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
+      if (shows('twist')) drawTwist(brush, paths.ticks, styles.twist.colour);
       drawOutlines(brush, [
-        ...(shows('commanded') ? [{ points: paths.commanded, ...styleOf('commanded') }] : []),
-        ...(shows('twist') ? [{ points: paths.lie, ...styleOf('twist') }] : []),
-        ...(shows('inverted') ? [{ points: paths.driven, ...styleOf('inverted') }] : []),
+        ...(shows('commanded') ? [{ points: paths.commanded, ...styles.commanded }] : []),
+        ...(shows('twist') ? [{ points: paths.lie, ...styles.twist }] : []),
+        ...(shows('inverted') ? [{ points: paths.driven, ...styles.inverted }] : []),
       ]);
       if (shows('inverted') && driven.arcLength !== inverted.arcLength) {
-        drawOutlines(brush, [{ points: paths.inverted, colour: palette.prediction, width: 1, dash: [2, 3] }]);
+        drawOutlines(brush, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
       drawLit(brush, scene);
       if (shows('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
-        drawRobotOutline(brush, endX, endY, RADIUS, palette.prior);
-        drawHeading(brush, { x: endX, y: endY, theta: endTheta }, palette.prior);
+        drawRobotOutline(brush, endX, endY, RADIUS, styles.commanded.colour);
+        drawHeading(brush, { x: endX, y: endY, theta: endTheta }, styles.commanded.colour);
       }
       drawUnderway(brush, scene);
       drawHeldRobot(brush, start, RADIUS, palette.truth);
       drawHeldRobot(brush, next, RADIUS, palette.prediction);
-      if (shows('wedge')) drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: palette.accent });
+      if (shows('wedge')) drawLabel(brush, { ...besideWedge(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
     });
   };
 }
@@ -137,7 +137,7 @@ function keyOf(brush, { overlays, config: { map } }) {
   return [
     ...(/** @type {const} */ (['inverted', 'commanded', 'chord', 'twist']))
       .filter((name) => overlays.includes(name))
-      .map((name) => lineKey(brush, names[name].replaceAll('*', ''), { ...LINES[name], colour: palette[LINES[name].role] })),
+      .map((name) => lineKey(brush, names[name].replaceAll('*', ''), lineStyles(brush, LINES)[name])),
     ...(map === 'none' ? [] : [contour(map, []), contour(map === 'prob' ? 'density' : 'prob', OTHER_DASH)]),
   ];
 }
@@ -243,9 +243,10 @@ function shareSeen({ left, right, top, bottom }, [fromX, fromY], [x, y]) {
  * @param {Brush} brush
  * @param {Pose} start
  * @param {Pose} next
+ * @param {{ colour: string, width: number, dash: number[] }} style
  */
-function drawChord({ context, view, palette }, start, next) {
-  stroke(context, palette.ink, 1, [2, 3], () => {
+function drawChord({ context, view }, start, next, { colour, width, dash }) {
+  stroke(context, colour, width, dash, () => {
     context.moveTo(view.toPixelX(start.x), view.toPixelY(start.y));
     context.lineTo(view.toPixelX(next.x), view.toPixelY(next.y));
   });
@@ -323,9 +324,10 @@ function drawUnderway(brush, { underway, overlays }) {
  *
  * @param {Brush} brush
  * @param {Float64Array} ticks
+ * @param {string} colour
  */
-function drawTwist({ context, view, palette }, ticks) {
-  stroke(context, palette.posterior, 1.25, [], () => {
+function drawTwist({ context, view }, ticks, colour) {
+  stroke(context, colour, 1.25, [], () => {
     for (let i = 0; i < ticks.length; i += 4) {
       context.moveTo(view.toPixelX(ticks[i]), view.toPixelY(ticks[i + 1]));
       context.lineTo(view.toPixelX(ticks[i + 2]), view.toPixelY(ticks[i + 3]));

@@ -15,7 +15,10 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
   const controls = widget.getByRole('button', { name: 'C Controls' });
-  await expect(controls).toBeFocused();
+  // After a click, no ring is before the audience; what has the focus is beside the buttons.
+  await expect(widget.locator('.presenting')).toBeFocused();
+  await expect(widget.locator('.presenting')).toHaveCSS('outline-style', 'none');
+  await expect(widget.locator('.title-slot')).toBeVisible();
   await expect(widget.locator('.slider').first()).toBeHidden();
   await expectAccessible(page, undefined, 'banana-machine');
   // Copying a selection shows no controls.
@@ -59,6 +62,22 @@ test('without full screen the attribute fills the window, and the button leaves'
   await widget.getByRole('button', { name: 'Esc Exit' }).click();
   await expect(widget).not.toHaveAttribute('presentation');
   await expect.poll(() => boxOf(widget)).toEqual(before);
+});
+
+test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a button', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await widget.getByRole('button', { name: 'Present' }).press('Enter');
+  await expect(widget.getByRole('button', { name: 'C Controls' })).toBeFocused();
+  const words = await widget.evaluate((element) => /** @type {any} */ (element).kind.attributes.preset.words);
+  for (const i of [1, 2, 0]) {
+    await page.keyboard.press(String(i + 1));
+    await expect(widget).toHaveAttribute('preset', words[i]);
+  }
+  // No preset has this key.
+  await page.keyboard.press('9');
+  await expect(widget).toHaveAttribute('preset', words[0]);
 });
 
 test('the browser ends the presentation by a key of its own', async ({ page }) => {

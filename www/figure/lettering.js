@@ -11,13 +11,14 @@ export class Lettering extends Part {
     return title || /** @type {any} */ (words)[this.host.kind.vocabulary].title;
   }
 
-  /** A heading where the page says of which level. */
+  /** A heading where the page says of which level. An audience sees the figure's own name where the page gives none. */
   title() {
-    return this.#slot('title', this.host.headingLevel);
+    const { presentation, headingLevel } = this.host;
+    return this.#slot('title', headingLevel, presentation && this.name);
   }
 
   caption() {
-    return this.#slot('caption', null);
+    return this.#slot('caption', null, false);
   }
 
   /** What the page has put into a slot. @param {string} name */
@@ -28,15 +29,16 @@ export class Lettering extends Part {
   /**
    * @param {string} name
    * @param {string | null} level
+   * @param {string | false} otherwise text where the page has put nothing into it
    */
-  #slot(name, level) {
+  #slot(name, level, otherwise) {
     return html`<div
       class="${name}-slot"
       role=${level ? 'heading' : nothing}
       aria-level=${level ?? nothing}
-      ?hidden=${this.#given(name).length === 0}
+      ?hidden=${!otherwise && this.#given(name).length === 0}
     >
-      <slot name=${name} @slotchange=${() => this.host.requestUpdate()}></slot>
+      <slot name=${name} @slotchange=${() => this.host.requestUpdate()}>${otherwise || nothing}</slot>
     </div>`;
   }
 }

@@ -36,8 +36,10 @@ export class Presentation extends Part {
     const { host } = this;
     this.#listening = new AbortController();
     addEventListener('keydown', this.#key, { signal: this.#listening.signal });
+    const keyed = host.renderRoot?.querySelector('.to-present:focus-visible');
     await host.updateComplete;
-    this.#focus('.presenting button');
+    // After a click, a ring around a button would stay before the audience.
+    this.#focus(keyed ? '.presenting button' : '.presenting');
     try {
       // The browser asks for a key press or a click. Without full screen the figure fills the window, by its styles.
       if (navigator.userActivation.isActive) await host.requestFullscreen();
@@ -75,7 +77,16 @@ export class Presentation extends Part {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === KEY) this.#toggle();
+    else this.#choose(this.host.kind.attributes.preset?.words?.[Number(key) - 1]);
   };
+
+  /** Sets the figure to a preset, as its button does. @param {string} [preset] */
+  #choose(preset) {
+    if (preset === undefined || !this.host.machine) return;
+    Object.assign(this.host, { preset });
+    this.host.gesture.step();
+    this.host.gesture.commit();
+  }
 
   #toggle() {
     this.#controls = !this.#controls;
@@ -98,7 +109,7 @@ export class Presentation extends Part {
     if (!this.#listening) return nothing;
     const say = words.presentation;
     const keyed = (/** @type {string} */ key, /** @type {string} */ label) => html`<kbd>${key}</kbd> ${label}`;
-    return html`<div class="presenting">
+    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${say.begin}>
       ${button(keyed(KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
       ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
     </div>`;

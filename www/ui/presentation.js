@@ -3,7 +3,7 @@
 import { css } from 'lit';
 
 export const presentationStyles = css`
-  /* Letters as large as in a window of 960 × 540 pixels that the screen enlarges. */
+  /* Letters half again as large as the page's, larger on a large screen, and smaller where a small one has no room for them. */
   :host([presentation]) {
     position: fixed !important;
     inset: 0 !important;
@@ -13,7 +13,7 @@ export const presentationStyles = css`
     height: 100% !important;
     margin: 0 !important;
     padding: 0 !important;
-    font-size: max(16px, min(100vw / 60, 100vh / 33.75)) !important;
+    font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 30), min(100vw / 60, 100vh / 33.75)) !important;
   }
 
   /* The controls need more room: that of 1280 × 720 pixels. */
@@ -102,6 +102,10 @@ export const presentationStyles = css`
     gap: 0.53em;
     margin-bottom: 0.4em;
     font-size: 0.75em;
+  }
+
+  .presenting:focus {
+    outline: none;
   }
 
   .presenting button {

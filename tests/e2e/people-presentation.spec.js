@@ -97,16 +97,19 @@ test('the browser ends the presentation by a key of its own', async ({ page }) =
  * @param {string} name
  */
 async function expectLarge(page, name) {
-  await show(page, `<${name} presentation></${name}>`);
+  await show(page, `<${name}></${name}>`);
   const widget = page.locator(name);
   await ready(widget);
+  await expect(widget.locator('[part~=caption]').first()).toBeVisible();
+  const sizes = () => widget.locator('canvas, .readouts dt').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
+  const onPage = await sizes();
+  await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   await frames(page);
   expect(await fits(widget)).toBe(true);
   const pictures = await Promise.all((await widget.locator('.stage canvas').all()).map(boxOf));
   for (const { height } of pictures) expect(height).toBeGreaterThan(1080 * 0.5);
-  const sizes = await widget.locator('canvas, .readouts dt').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
-  for (const size of sizes) expect(size).toBeGreaterThanOrEqual(24);
+  for (const [i, size] of (await sizes()).entries()) expect(size / onPage[i]).toBeCloseTo(1.5, 5);
   await page.keyboard.press('c');
   await expect(widget.locator('.folds')).toBeInViewport({ ratio: 0.99 });
   await frames(page);

@@ -19,7 +19,7 @@ export class Gesture extends Part {
   /** Reading before the present gesture, or the last. @type {any} */
   former;
 
-  /** Whether a pointer is down on the figure: the views keep still under it. */
+  /** True while a pointer is down on the figure: the views keep still under it. */
   get pressed() {
     return this.#press !== undefined;
   }

@@ -25,9 +25,9 @@ export class View {
   #target;
   /** Part of the world that the view covers in whatever size it has. @type {Extent | undefined} */
   #room;
-  /** Whether the next fit may also close in and recenter. */
+  /** True where the next fit may also close in and recenter. */
   #released = false;
-  /** Whether the view has zoomed out since this was last set to false. */
+  /** True once the view has zoomed out; set back from outside. */
   widened = false;
   /** Whether a metre is as long in y as in x. */
   #equal;
@@ -57,7 +57,7 @@ export class View {
     if (this.#room) this.extent = this.#target = this.#cover(this.#room);
   }
 
-  /** Whether it knows what to show. */
+  /** True once the view knows what to show. */
   get aimed() {
     return this.#target !== undefined;
   }

@@ -13,12 +13,12 @@ export const presentationStyles = css`
     height: 100% !important;
     margin: 0 !important;
     padding: 0 !important;
-    font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 30), min(100vw / 60, 100vh / 33.75)) !important;
+    font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 30), min(100vw / 80, 100vh / 45)) !important;
   }
 
-  /* The controls need more room: that of 1280 × 720 pixels. */
+  /* The controls need more room. */
   :host([presentation]) .with-controls {
-    font-size: 72%;
+    font-size: max(0.6em, min(1em, 100vw / 84, 100vh / 48));
   }
 
   :host([presentation]) .surface {
@@ -47,13 +47,12 @@ export const presentationStyles = css`
     grid-template-rows: 1fr;
   }
 
-  :host([presentation]) .panel {
+  :host([presentation]) :is(.panel, .stage) {
     align-self: stretch;
   }
 
   :host([presentation]) .stage {
     position: relative !important;
-    align-self: stretch;
     min-height: 40vh;
   }
 
@@ -69,8 +68,19 @@ export const presentationStyles = css`
     min-height: 0;
   }
 
+  /* The buttons stand beside the title. */
+  :host([presentation]) .title-slot {
+    margin-top: -1.55em;
+    padding-inline-end: 10em;
+  }
+
   /* A phone has the pictures one below the other, and is scrolled. */
   @media (max-width: 30em) or (max-height: 30em) {
+    :host([presentation]) .title-slot {
+      margin-top: 0;
+      padding: 0;
+    }
+
     :host([presentation]) .views {
       grid-template-rows: auto;
     }
@@ -84,7 +94,7 @@ export const presentationStyles = css`
     }
   }
 
-  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, [part~='caption'], [part~='readouts']),
+  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, [part~='legend'], [part~='caption'], [part~='readouts']),
   :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .told),
   :host([presentation]) .surface:not(.with-controls) :is(.told, .looked) > :is(fieldset, .choices, button),
   :host([presentation]) .surface > .caption-slot,

@@ -131,7 +131,7 @@ export class PlanePicture extends CloudPicture {
     const styles = lineStyles(brush, LINES);
     const drawn = (/** @type {OutlineName} */ name) => overlays[name] && hasLength(contours[name]);
     const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.overlays[name], styles[name]));
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? key : []);
     clipped(brush, () => {
       const { cov } = table.exact;
       const heaped = deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
@@ -261,7 +261,7 @@ export class TwistPicture extends CloudPicture {
     const { machine, config, contours, overlays, marked } = scene;
     const { exponential, command } = lineStyles(brush, LINES);
     const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
-    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, key);
+    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, brush.exported ? key : []);
     clipped(brush, () => {
       const [{ cov }] = twistMoments(scene);
       const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;

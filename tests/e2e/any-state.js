@@ -74,6 +74,7 @@ export function anyOf(seed) {
       steps: whole(1, 64),
       unknown: one(['free', 'blocked']),
       view: one(['whole', 'close']),
+      overlays: ['accepted', 'through', 'rejected', 'commanded', 'unknown'].filter(() => random() < 0.5),
       map: one([
         null,
         { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },

@@ -75,7 +75,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   await ready(squeeze);
   await unfold(squeeze);
   await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
-  await squeeze.getByLabel('Condition on the map').uncheck();
+  await squeeze.getByLabel('Check samples against the map').uncheck();
   await frames(page);
   expect(await attributes(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });

@@ -61,7 +61,7 @@ const ACTS = {
   'map-squeeze': [
     ['place', (widget) => widget.getByRole('button', { name: 'Facing a wall' }).click()],
     ['view', (widget) => widget.getByLabel('whole map').check()],
-    ['condition', (widget) => widget.getByLabel('Condition on the map').uncheck()],
+    ['condition', (widget) => widget.getByLabel('Check samples against the map').uncheck()],
     ['robot by key', (widget) => widget.locator('.handle.body').press('ArrowUp')],
     ['map', async (widget) => {
       await widget.getByRole('button', { name: 'Use this plan' }).click();

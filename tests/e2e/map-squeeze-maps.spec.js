@@ -28,7 +28,7 @@ const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .pre
 
 /** Chooses files, as a reader does. @param {Locator} widget @param {MapFile[]} files */
 async function choose(widget, files) {
-  await unfold(widget, 'A map of your own');
+  await unfold(widget, 'More controls');
   await widget.getByLabel('Map files').setInputFiles(files);
 }
 
@@ -79,7 +79,7 @@ test('presets keep the map of the reader, and buttons lead to the apartment and 
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await expect(widget.getByRole('button', { name })).toHaveCount(0);
   }
-  const open = widget.getByRole('button', { name: 'In the open' });
+  const open = widget.getByRole('button', { name: 'Place robot in free space' });
   await open.click();
   await expect(open).toHaveAttribute('aria-pressed', 'true');
   const { config, openPlace, bounds } = await squeezed(widget);
@@ -120,8 +120,7 @@ test('unknown cells are hatched, and free or blocked as the reader chooses', asy
   expect(blocked.stats.accepted).toBeLessThan(along.stats.accepted);
   expect(blocked.walls.length).toBeGreaterThan(along.walls.length);
   expect(await pictureOf(canvas)).not.toBe(free);
-  await unfold(widget, 'What is drawn');
-  await expect(widget.locator('.key')).toContainText('unknown: the map says nothing');
+  await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
   // A state has both, and brings both back.
   const state = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
@@ -134,7 +133,7 @@ test('unknown cells are hatched, and free or blocked as the reader chooses', asy
 
 test('a floor plan can be written on the page', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await unfold(widget, 'A map of your own');
+  await unfold(widget, 'More controls');
   const field = widget.getByLabel('Or a floor plan here');
   const use = widget.getByRole('button', { name: 'Use this plan' });
   // The example in the field is one.
@@ -219,7 +218,7 @@ test('a map that is refused is reported in a sentence, and the present map stays
     [[good, image, file('plan.json', JSON.stringify(ROOM))], /^plan\.json, room\.yaml: these are 2 maps; expected is one at a time/],
   ]);
   const widget = await openSqueeze(page);
-  await unfold(widget, 'A map of your own');
+  await unfold(widget, 'More controls');
   const before = await squeezed(widget);
   for (const [files, sentence] of cases) {
     await choose(widget, files);
@@ -272,7 +271,7 @@ test('the map survives the element’s removal', async ({ page }) => {
   });
   await page.evaluate(() => document.querySelector('main')?.append(Reflect.get(window, 'kept')));
   await widget.scrollIntoViewIfNeeded();
-  await unfold(widget, 'A map of your own');
+  await unfold(widget, 'More controls');
   await expect(present(widget)).toContainText('room.json');
   expect(await squeezed(widget)).toEqual(before);
 });

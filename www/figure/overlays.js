@@ -32,14 +32,15 @@ export function overlaysOf(names, opening = names) {
  * Returns the legend of a figure's pictures. The words are those of `overlays` in the catalogue.
  *
  * @param {import('./figure.js').Figure} figure
- * @param {Record<string, LineStyle>} styles in the order of the entries
+ * @param {Record<string, LineStyle>} styles in the order of the entries; what they leave out stays as it is
  */
 export function legend(figure, styles) {
   const { overlays } = figure.state.own;
   const { overlays: names } = /** @type {any} */ (words)[figure.kind.vocabulary];
   const all = Object.keys(styles);
+  const every = /** @type {string[]} */ (figure.kind.attributes.overlays.words);
   const choose = (/** @type {string} */ name, /** @type {boolean} */ shown) =>
-    figure.gesture.choose('overlays', all.filter((each) => (each === name ? shown : overlays.includes(each))));
+    figure.gesture.choose('overlays', every.filter((each) => (each === name ? shown : overlays.includes(each))));
   const light = (/** @type {string | null} */ name) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
     ${all.map((name) => html`<span @pointerenter=${() => light(name)} @pointerleave=${() => light(null)} @focusin=${() => light(name)} @focusout=${() => light(null)}>

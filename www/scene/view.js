@@ -3,6 +3,8 @@
  * and the choice of the part of the world that a view shows. The only place where y flips.
  */
 
+import { clamp } from '../ui/clamp.js';
+
 /** @typedef {{ xMin: number, yMin: number, xMax: number, yMax: number }} Extent axis-aligned part of a view's world */
 
 /** Share of a released view that what is shown has to fill: a view that suits stays where it is. */
@@ -29,8 +31,12 @@ export class View {
   #released = false;
   /** True once the view has zoomed out; set back from outside. */
   widened = false;
+  /** Limits that the extent is moved into, or around where it is larger. @type {Extent | undefined} */
+  within;
   /** Whether a metre is as long in y as in x. */
   #equal;
+  /** Whether it shows no more than what is needed. */
+  #snug;
   /** Canvas size, CSS pixels. */
   width = 1;
   height = 1;
@@ -38,9 +44,10 @@ export class View {
   frame = { left: 0, top: 0, right: 1, bottom: 1 };
   #inset;
 
-  /** @param {{ equal?: boolean, left?: number, right?: number, top?: number, bottom?: number }} options */
-  constructor({ equal = true, left = 42, right = 8, top = 24, bottom = 30 } = {}) {
+  /** @param {{ equal?: boolean, snug?: boolean, left?: number, right?: number, top?: number, bottom?: number }} options */
+  constructor({ equal = true, snug = false, left = 42, right = 8, top = 24, bottom = 30 } = {}) {
     this.#equal = equal;
+    this.#snug = snug;
     this.#inset = { left, right, top, bottom };
   }
 
@@ -120,7 +127,7 @@ export class View {
     this.#released = false;
     if (kept && (released ? this.#suits(kept, needed) : isInside(needed, kept))) return;
     this.widened = kept !== undefined && !released;
-    const room = withMargin(needed);
+    const room = this.#snug ? needed : withMargin(needed);
     this.#room = kept && this.widened ? extentAround([room.xMin, room.yMin, room.xMax, room.yMax], 2, kept) : room;
     this.#target = this.#cover(this.#room);
     if (!kept) this.extent = this.#target;
@@ -161,19 +168,33 @@ export class View {
   /** Returns the extent of the view's shape around some room. @param {Extent} room */
   #cover(room) {
     const { left, right, top, bottom } = this.frame;
+    const size = this.#snug ? (/** @type {number} */ needed) => needed : niceSize;
     let [width, height] = [room.xMax - room.xMin, room.yMax - room.yMin];
     if (this.#equal) {
       const aspect = (bottom - top) / (right - left);
-      width = niceSize(Math.max(width, height / aspect));
+      width = size(Math.max(width, height / aspect));
       height = width * aspect;
     } else {
-      width = niceSize(width);
-      height = niceSize(height);
+      width = size(width);
+      height = size(height);
     }
-    const x = (room.xMin + room.xMax) / 2;
-    const y = (room.yMin + room.yMax) / 2;
+    const limits = this.within ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
+    const x = movedInto((room.xMin + room.xMax) / 2, width, limits.xMin, limits.xMax);
+    const y = movedInto((room.yMin + room.yMax) / 2, height, limits.yMin, limits.yMax);
     return extentAround([x - width / 2, y - height / 2, x + width / 2, y + height / 2], 2);
   }
+}
+
+/**
+ * Returns the middle of a span that is moved between limits; between closer ones it is in their middle.
+ *
+ * @param {number} middle
+ * @param {number} length
+ * @param {number} from
+ * @param {number} to
+ */
+function movedInto(middle, length, from, to) {
+  return to - from > length ? clamp(middle, from + length / 2, to - length / 2) : (from + to) / 2;
 }
 
 /**

@@ -14,7 +14,7 @@ import { hiddenContext } from './canvas.js';
  * @typedef {Pick<Brush, 'view' | 'palette' | 'ratio'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} Painter
  */
 
-/** Default width of a wall, CSS pixels. */
+/** Width of a wall, CSS pixels. */
 const WALL = 2.5;
 
 /** Distance, width and opacity of the lines that hatch unknown cells; lengths in CSS pixels. */
@@ -29,7 +29,6 @@ const FEW_WALLS = 50;
 export class WallLayer {
   #plan;
   #grid;
-  #width;
   #layer = new OffscreenCanvas(1, 1);
   /** View and colours that the layer was painted with. */
   #shown = '';
@@ -37,24 +36,25 @@ export class WallLayer {
   /**
    * @param {Plan} plan
    * @param {Cells | null} grid the cells that are drawn instead of the walls, if the map is a grid
-   * @param {number} [width] of a wall, CSS pixels
    */
-  constructor(plan, grid, width = WALL) {
+  constructor(plan, grid) {
     this.#plan = plan;
     this.#grid = grid;
-    this.#width = width;
   }
 
-  /** @param {Brush} brush */
-  draw(brush) {
+  /**
+   * @param {Brush} brush
+   * @param {boolean} unknown whether unknown cells are hatched
+   */
+  draw(brush, unknown) {
     const { context, view, palette, ratio } = brush;
     const { extent, frame, width, height } = view;
     const { walls } = this.#plan;
     if (!this.#grid && ('vector' in context || walls.length <= 4 * FEW_WALLS)) {
-      this.#paint(brush);
+      this.#paint(brush, unknown);
       return;
     }
-    const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio]);
+    const wanted = JSON.stringify([extent, frame, width, height, palette.truth, palette.rule, palette.muted, ratio, unknown]);
     if (wanted !== this.#shown) {
       this.#shown = wanted;
       // A new size clears the layer.
@@ -62,16 +62,19 @@ export class WallLayer {
       this.#layer.height = Math.round(height * ratio);
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
-      this.#paint({ context: layer, view, palette, ratio });
+      this.#paint({ context: layer, view, palette, ratio }, unknown);
     }
     context.drawImage(this.#layer, 0, 0, width, height);
   }
 
-  /** @param {Painter} painter */
-  #paint(painter) {
+  /**
+   * @param {Painter} painter
+   * @param {boolean} unknown
+   */
+  #paint(painter, unknown) {
     const { context, view, palette } = painter;
     const grid = this.#grid;
-    if (grid?.unknown) {
+    if (unknown && grid?.unknown) {
       // The cells say where, the hatching goes there.
       fillCells(painter, grid, grid.unknown, palette.muted);
       context.globalCompositeOperation = 'source-in';
@@ -91,7 +94,7 @@ export class WallLayer {
   #stroke({ context, view, palette }) {
     const { walls } = this.#plan;
     context.strokeStyle = palette.truth;
-    context.lineWidth = this.#width;
+    context.lineWidth = WALL;
     context.lineCap = 'round';
     for (let begin = 0; begin < walls.length; begin += 4 * WALLS_A_STROKE) {
       context.beginPath();

@@ -1,16 +1,13 @@
-/**
- * Map Squeeze's controls: where the robot stands, what it is told, how draws are judged, and maps of
- * the reader's own.
- */
+/** Map Squeeze's controls: places, command, noise, sampler, and maps of the reader's own. */
 
 import { html, nothing } from 'lit';
-import { check, choices, slider, sliders } from '../../figure/controls.js';
+import { check, choices, cloudControls, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, choice, radioGroup, rich } from '../../ui/controls.js';
+import { button, group, radioGroup } from '../../ui/controls.js';
 import { fileInput } from '../shared/files.js';
 import { EXTENSIONS } from './maps/open.js';
 import { presetButtons, startOverButton } from '../shared/presets.js';
-import { MOST_SAMPLES, MOTION, SAMPLERS } from './settings.js';
+import { COMMAND, MOST_SAMPLES, SAMPLE_COUNTS } from './settings.js';
 
 /** @typedef {import('./map-squeeze.js').MapSqueezeElement} Figure */
 
@@ -24,59 +21,48 @@ const EXAMPLE = `{
   ]
 }`;
 
-/** Places of the present map; the apartment's are not offered in another, which they would make the reader leave. @param {Figure} figure */
+/** Returns the places of the present map; the apartment's are not offered in another, which they would make the reader leave. @param {Figure} figure */
 export function placeControls(figure) {
   const { map, left } = figure;
   const { own, pasted } = words.squeeze;
   if (!map) return presetButtons(figure, left ? button(own.back(left.name || pasted), () => figure.returnToMap()) : nothing);
   return html`<div class="buttons presets">
-    ${button(own.open, () => figure.goToOpen(), { pressed: figure.inTheOpen })} ${button(own.leave, () => figure.leaveMap())}
+    ${button(own.leave, () => figure.leaveMap())} ${button(own.open, () => figure.goToOpen(), { pressed: figure.inTheOpen })}
     ${startOverButton(figure)}
   </div>`;
 }
 
-/** @param {Figure} figure */
-export function viewChoice(figure) {
-  const { settings: { view: { name } }, views } = words.squeeze;
-  return radioGroup(name ?? '', 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view));
-}
-
-/** What the cells are of which the map says nothing. @param {Figure} figure */
-export function unknownChoice(figure) {
-  return choices(figure, 'unknown', words.squeeze.unknown);
-}
-
-/** @param {Figure} figure */
-export function judgeControls(figure) {
+/** Returns the choice of the sampler, with what it does. @param {Figure} figure */
+export function samplerControls(figure) {
   const { conditioned, sampler, samples, steps } = figure.reading.config;
-  const say = words.squeeze;
-  // In steps there are as many fewer.
+  const { settings, samplers, samplerEffects } = words.squeeze;
+  // Sub-steps multiply the samples.
   const most = (/** @type {string} */ name) => (name === 'sub-stepped' ? Math.floor(MOST_SAMPLES / steps) : MOST_SAMPLES);
-  const effect = say.samplerEffects[conditioned ? sampler : 'off'];
-  return html`<fieldset class="judge">
-    <legend class="visually-hidden">${say.map}</legend>
-    ${check(figure, 'conditioned', say.condition)}
-    <div class="choices" role="radiogroup" aria-label=${say.settings.sampler.name} aria-describedby="sampler-effect">
-      ${SAMPLERS.map((name) =>
-        choice({
-          group: 'sampler',
-          label: say.samplers[name],
-          checked: name === sampler,
-          choose: () => figure.gesture.decide({ sampler: name, ...(samples > most(name) && { samples: most(name) }) }),
-        }),
-      )}
-    </div>
-    <p class="effect caption" id="sampler-effect">${rich(effect)}</p>
-  </fieldset>`;
+  const choose = (/** @type {string} */ name) => figure.gesture.decide({ sampler: name, ...(samples > most(name) && { samples: most(name) }) });
+  return html`<div class="judge">
+    ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, choose)}
+    <p class="effect">${samplerEffects[conditioned ? sampler : 'off']}</p>
+    ${conditioned && sampler === 'sub-stepped' ? slider(figure, 'steps') : nothing}
+  </div>`;
 }
 
-/** @param {Figure} figure */
+/** Returns the sliders of the command and of the noise, and the samples. @param {Figure} figure */
 export function motionControls(figure) {
-  const { conditioned, sampler } = figure.reading.config;
-  return html`<fieldset>
-    <legend class="visually-hidden">${words.squeeze.commandAndNoise}</legend>
-    ${sliders(figure, MOTION)} ${slider(figure, 'steps', { off: !conditioned || sampler !== 'sub-stepped' })}
-  </fieldset>`;
+  return html`${group(words.command, sliders(figure, COMMAND))}
+    <div>${group(words.noise, slider(figure, 'noise'))} ${cloudControls(figure, SAMPLE_COUNTS)}</div>`;
+}
+
+/**
+ * Returns what is changed less often.
+ *
+ * @param {Figure} figure
+ * @param {boolean} hasUnknown whether there are cells of which the map says nothing
+ */
+export function robotAndMap(figure, hasUnknown) {
+  const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
+  return group(heading, html`${slider(figure, 'clearance')} ${check(figure, 'conditioned', condition)}
+    ${hasUnknown ? choices(figure, 'unknown', unknown) : nothing}
+    ${radioGroup(settings.view.name, 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view))}`);
 }
 
 /**
@@ -91,8 +77,7 @@ export function ownMap(figure, opener, map) {
     opener.paste(text.value);
   };
   const { complaint } = opener;
-  return html`<fieldset class="own-map">
-    <legend class="visually-hidden">${say.legend}</legend>
+  return group(say.legend, html`<div class="own-map">
     <div>
       <p>${say.text}</p>
       <label for="map-files">${say.files}</label>
@@ -106,5 +91,5 @@ export function ownMap(figure, opener, map) {
       <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE}></textarea>
       ${button(say.use, paste)}
     </div>
-  </fieldset>`;
+  </div>`);
 }

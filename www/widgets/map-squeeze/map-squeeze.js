@@ -2,8 +2,9 @@
 
 import { html, nothing } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
-import { canvas, cloudControls, disclosures } from '../../figure/controls.js';
+import { canvas, disclosures, panel } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
+import { legend } from '../../figure/overlays.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
@@ -11,16 +12,17 @@ import { LONGEST_WORK, advancing } from '../../figure/settings.js';
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
 import { PoseHandles } from '../shared/pose-handles.js';
-import { judgeControls, motionControls, ownMap, placeControls, unknownChoice, viewChoice } from './controls.js';
+import { motionControls, ownMap, placeControls, robotAndMap, samplerControls } from './controls.js';
 import { CostMeter } from './cost.js';
 import { applyMap, cellsOf, mapData } from './maps/data.js';
 import { MapOpener } from './maps/open.js';
+import { overview } from './overview.js';
 import { FloorPicture } from './picture.js';
 import { readingOf } from './reading.js';
-import { costTable, legend, markedDraw, rates, tally } from './readouts.js';
-import { OPENING_START, PRESET, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
+import { costTable, markedDraw, tally } from './readouts.js';
+import { LINES, OPENING_START, PRESET, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
-import { mapText, pictureText, verdictOf } from './words.js';
+import { headlineOf, mapText, pictureText, verdictOf } from './words.js';
 
 /**
  * @import { Job } from '../../figure/settings.js'
@@ -35,6 +37,7 @@ import { mapText, pictureText, verdictOf } from './words.js';
  *
  * @attr preset - A place in the apartment to start from; none elsewhere.
  * @attr view - The whole map, or what is near the robot.
+ * @attr overlays - The marks and lines that are drawn; in the attribute with spaces between.
  *
  * @extends {FigureElement<Machine, Reading>}
  */
@@ -121,7 +124,7 @@ export class MapSqueezeElement extends FigureElement {
     const { index, isMarked } = this.cloud;
     this.picture.close = this.state.own.view === 'close';
     const marked = isMarked && { pose: fresh.poses.subarray(3 * index), path: this.machine?.path(index) };
-    return { ...fresh, machine: this.machine, marked: marked || undefined };
+    return { ...fresh, machine: this.machine, overlays: this.state.own.overlays, marked: marked || undefined };
   }
 
   get takeaway() {
@@ -336,8 +339,10 @@ export class MapSqueezeElement extends FigureElement {
 
   /** @param {Reading} reading */
   content(reading) {
-    const { config, note } = reading;
+    const { config, sorted, stats, note } = reading;
     const { hasUnknown } = this.picture;
+    const { floor, density } = words.squeeze;
+    const { unknown, ...marks } = LINES;
     return html`
       <section
         class="machine"
@@ -347,19 +352,25 @@ export class MapSqueezeElement extends FigureElement {
         @drop=${this.#opener.dropped.drop}
       >
         <div class="views">
-          <div class="stage" part="picture">
-            ${canvas(this, this.picture, this.#description)}
-            ${this.#handles.render()}
-          </div>
-          ${this.stage.later(() => html`
-          <p class="verdict caption ${note && 'note'}" part="caption">${verdictOf(reading)}</p>
-          <div class="aside">${rates(reading)} ${placeControls(this)} ${hasUnknown ? unknownChoice(this) : nothing} ${judgeControls(this)}</div>`)}
+          ${panel(floor, html`<div class="stage" part="picture">
+              ${canvas(this, this.picture, this.#description)}
+              ${this.#handles.render()}
+            </div>
+            ${this.stage.later(() => html`<div>
+              ${legend(this, hasUnknown ? { ...marks, unknown } : marks)}
+              ${sorted ? nothing : html`<p class="about">${density}</p>`}
+            </div>`)}`)}
+          ${this.stage.later(() => html`<div class="aside">
+            <p class="headline">${headlineOf(stats)}</p>
+            <p class="verdict caption ${note && 'note'}" part="caption">${verdictOf(reading)}</p>
+            ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
+          </div>`)}
         </div>
         ${this.stage.later(() => html`
-        <div class="controls" part="controls">${motionControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
+        <div class="controls" part="controls">${motionControls(this)}</div>
         ${disclosures(this, {
-          controls: () => html`${viewChoice(this)} ${ownMap(this, this.#opener, this.#mapText)}`,
-          numbers: () => html`${legend(reading, hasUnknown)} ${markedDraw(this)} ${tally(reading)} ${costTable(this.#meter, config.steps)}`,
+          controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
+          numbers: () => html`${tally(reading)} ${markedDraw(this)} ${costTable(this.#meter, config.steps)}`,
         })}`)}
       </section>
     `;

@@ -2,14 +2,14 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { densityRamp, drawDensity, drawDots, drawMark, drawOutline, trace } from '../../scene/draw.js';
+import { densityRamp, drawDensity, drawMark, drawOutline, trace } from '../../scene/draw.js';
 import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer, cornerOf } from '../../scene/walls.js';
+import { limits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.js';
-import { COMMAND_DASH } from '../shared/command.js';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
-import { keptWords } from './words.js';
+import { LINES } from './settings.js';
 
 /**
  * @import { MapSqueeze, Plan, SqueezeSettings } from '../../types.d.ts'
@@ -19,6 +19,7 @@ import { keptWords } from './words.js';
  *
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
  *   machine: MapSqueeze,
+ *   overlays: string[],
  *   marked: { pose: Float64Array, path: Float64Array } | undefined,
  * }} Scene
  */
@@ -26,8 +27,8 @@ import { keptWords } from './words.js';
 /** Half a cross, CSS pixels. */
 const CROSS = 2.6;
 
-/** Radius of a ring: in metres, but legible in a view of a large map and no blot in a close one. */
-const RING = { metres: 0.085, least: 3.5, most: 6 };
+/** Dot of a sample: radius in CSS pixels, by the width of the picture, and opacity. */
+const DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
 
 /** Surroundings shown around the end of the command: this many times its length, and at least so many metres. */
 const SURROUNDINGS = 0.8;
@@ -36,14 +37,17 @@ const MIN_SURROUNDINGS = 0.8;
 /** Room shown around the commanded way, metres. */
 const WAYSIDE = 0.45;
 
+/** Room shown around the map, as a share of its longer side. */
+const EDGE = 0.025;
+
 /** Cells of the density, CSS pixels, of many samples and of few, which need larger ones to be a density. */
 const CELL = { least: 2, most: 5, samples: 40_000 };
 
 /** Paths that a density is drawn with: more would hide it. */
 const PATHS_ON_DENSITY = 25;
 
-/** The overview in a corner of a close-up: its sides at most, as shares of the picture's, and what is around it. */
-const OVERVIEW = { width: 0.34, height: 0.4, margin: 8, padding: 0.05, wall: 1.25 };
+/** Colours of a kind of samples that is hidden in a density. */
+const HIDDEN = new Uint8Array(4 * limits.ramp);
 
 /** @extends {SamplesPicture<Scene>} */
 export class FloorPicture extends SamplesPicture {
@@ -53,10 +57,10 @@ export class FloorPicture extends SamplesPicture {
   #near = new View();
   #whole = this.view;
   #walls;
-  #overview;
   /** Corners of what the map knows: what is around it may be much more. @type {ArrayLike<number>} */
   #known;
   #pixels = new OffscreenCanvas(1, 1);
+  #outline = '';
 
   /**
    * @param {Plan} plan
@@ -64,17 +68,24 @@ export class FloorPicture extends SamplesPicture {
    * @param {FloorPicture} [former] the picture whose place it takes: where the map is as large, the views stay where they are
    */
   constructor(plan, grid, former) {
-    super('plane', new View());
+    super('plane', new View({ snug: true }));
     this.plan = plan;
     this.hasUnknown = grid?.unknown !== undefined;
     this.#walls = new WallLayer(plan, grid);
-    this.#overview = new WallLayer(plan, grid, OVERVIEW.wall);
     this.#known = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
     if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
       this.#near = former.#near;
       this.#whole = former.#whole;
       this.view = former.view;
     }
+  }
+
+  /** Walls as a path of SVG, metres. */
+  get outline() {
+    if (this.#outline) return this.#outline;
+    const { walls } = this.plan;
+    for (let i = 0; i < walls.length; i += 4) this.#outline += `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`;
+    return this.#outline;
   }
 
   /** Whether the view is of the robot's surroundings only. */
@@ -89,9 +100,10 @@ export class FloorPicture extends SamplesPicture {
   }
 
   /** @param {Scene} scene */
-  fit({ commanded, config, poses }) {
+  fit({ commanded, config }) {
+    const mapped = this.mapped(config.start);
     if (!this.close) {
-      this.#whole.fit(extentAround(poses, 3, this.#mapped(config.start)));
+      this.#whole.fit(mapped);
       return;
     }
     const length = Math.abs(config.command.v * config.command.dt);
@@ -99,45 +111,55 @@ export class FloorPicture extends SamplesPicture {
     const [x, y] = commanded.slice(-2);
     const way = extentAround(commanded, 2);
     const wayside = [way.xMin - WAYSIDE, way.yMin - WAYSIDE, way.xMax + WAYSIDE, way.yMax + WAYSIDE];
-    this.#near.fit(extentAround([...wayside, x - room, y - room, x + room, y + room], 2));
+    const needed = extentAround([...wayside, x - room, y - room, x + room, y + room], 2);
+    this.#near.within = mapped;
+    this.#near.fit({
+      xMin: Math.max(needed.xMin, mapped.xMin),
+      yMin: Math.max(needed.yMin, mapped.yMin),
+      xMax: Math.min(needed.xMax, mapped.xMax),
+      yMax: Math.min(needed.yMax, mapped.yMax),
+    });
   }
 
   /**
-   * The part of the plan of which something is known, as long as the robot is in it; otherwise all of it.
+   * Returns the part of the plan of which something is known, as long as the robot is in it; otherwise all of it.
    *
    * @param {{ x: number, y: number }} robot
    */
-  #mapped({ x, y }) {
+  mapped({ x, y }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
     const box = extentAround(this.#known, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
     const inside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
-    return inside ? box : { xMin, yMin, xMax, yMax };
+    const { xMin: left, yMin: bottom, xMax: right, yMax: top } = inside ? box : { xMin, yMin, xMax, yMax };
+    const edge = EDGE * Math.max(right - left, top - bottom);
+    return { xMin: left - edge, yMin: bottom - edge, xMax: right + edge, yMax: top + edge };
   }
 
   /** @type {SamplesPicture<Scene>['paint']} */
   paint = (brush, scene) => {
-    const { sorted, paths, commanded, config, marked } = scene;
+    const { sorted, paths, commanded, config, marked, overlays } = scene;
     const { palette } = brush;
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
+    const has = (/** @type {string} */ name) => overlays.includes(name);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
     clipped(brush, () => {
       // What passes through a wall must not hide it.
       if (sorted) {
-        drawPaths(brush, paths);
-        const layout = { x: 0, y: 1, heading: 2 };
-        drawDots(brush, sorted.free, layout);
-        drawDots({ ...brush, palette: { ...palette, cloud: palette.accent } }, sorted.through, layout);
-        drawRings(brush, sorted.through);
-        this.#walls.draw(brush);
-        drawCrosses(brush, sorted.rejected);
+        if (has('through')) drawPaths(brush, paths);
+        if (has('accepted')) drawSamples(brush, sorted.free, palette.cloud);
+        if (has('through')) drawSamples(brush, sorted.through, palette.accent);
+        this.#walls.draw(brush, has('unknown'));
+        if (has('rejected')) drawCrosses(brush, sorted.rejected);
       } else {
         this.#drawDensity(brush, scene);
-        this.#walls.draw(brush);
-        drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY));
+        this.#walls.draw(brush, has('unknown'));
+        if (has('through')) drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY));
       }
-      drawOutline(brush, commanded, { colour: palette.prior, width: 2.5, dash: COMMAND_DASH });
       const { start, clearance } = config;
-      const [endX, endY] = commanded.slice(-2);
-      drawRobotOutline(brush, endX, endY, clearance, palette.prior);
+      if (has('commanded')) {
+        drawOutline(brush, commanded, { colour: palette.prior, width: LINES.commanded.width, dash: LINES.commanded.dash });
+        const [endX, endY] = commanded.slice(-2);
+        drawRobotOutline(brush, endX, endY, clearance, palette.prior);
+      }
       drawHeldRobot(brush, start, clearance, palette.prior);
       if (marked) {
         const { pose, path } = marked;
@@ -145,58 +167,18 @@ export class FloorPicture extends SamplesPicture {
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
       }
     });
-    if (this.close) this.#drawOverview(brush, scene);
   };
 
   /**
    * @param {Brush} brush
    * @param {Scene} scene
    */
-  #drawDensity(brush, { machine, stats }) {
+  #drawDensity(brush, { machine, stats, overlays }) {
     const { palette } = brush;
-    const ramps = [palette.truth, palette.cloud, palette.accent].flatMap((cloud) => [...densityRamp({ ...palette, cloud })]);
+    const roles = /** @type {const} */ ([['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]]);
+    const ramps = roles.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : HIDDEN)]);
     const cell = clamp(CELL.most * Math.sqrt(CELL.samples / stats.attempts) / 2, CELL.least, CELL.most);
     drawDensity(brush, this.#pixels, cell, (...part) => machine.picture(...part, Uint8Array.from(ramps)));
-  }
-
-  /**
-   * The whole map in a corner, with the part that the picture shows.
-   *
-   * @param {Brush} brush
-   * @param {Scene} scene
-   */
-  #drawOverview(brush, { config: { start }, commanded }) {
-    const { context, palette, view } = brush;
-    const { left, right, top, bottom } = view.frame;
-    const { xMin, yMin, xMax, yMax } = this.#mapped(start);
-    const [spanX, spanY] = [xMax - xMin, yMax - yMin].map((span) => (1 + 2 * OVERVIEW.padding) * span);
-    const scale = Math.min((OVERVIEW.width * (right - left)) / spanX, (OVERVIEW.height * (bottom - top)) / spanY);
-    const [width, height] = [scale * spanX, scale * spanY];
-    // At the bottom, on the side that the commanded way does not end on.
-    const endsRight = 2 * view.toPixelX(commanded[commanded.length - 2]) > left + right;
-    const [x, y] = [endsRight ? left + OVERVIEW.margin : right - OVERVIEW.margin - width, bottom - OVERVIEW.margin - height];
-    const small = new View({ left: x, right: view.width - x - width, top: y, bottom: view.height - y - height });
-    small.resize(view.width, view.height);
-    const [padX, padY] = [OVERVIEW.padding * (xMax - xMin), OVERVIEW.padding * (yMax - yMin)];
-    small.extent = { xMin: xMin - padX, yMin: yMin - padY, xMax: xMax + padX, yMax: yMax + padY };
-    const overview = { ...brush, view: small };
-    context.beginPath();
-    context.rect(x, y, width, height);
-    context.fillStyle = palette.paper;
-    context.fill();
-    clipped(overview, () => {
-      // The walls themselves come first.
-      this.#overview.draw(overview);
-      drawOutline(overview, commanded, { colour: palette.prior, width: 1.5, dash: [] });
-      const [fromX, toX] = [view.extent.xMin, view.extent.xMax].map((at) => small.toPixelX(at));
-      const [fromY, toY] = [view.extent.yMax, view.extent.yMin].map((at) => small.toPixelY(at));
-      context.strokeStyle = palette.ink;
-      context.lineWidth = 1.25;
-      context.strokeRect(fromX, fromY, toX - fromX, toY - fromY);
-    });
-    context.strokeStyle = palette.muted;
-    context.lineWidth = 1;
-    context.strokeRect(x, y, width, height);
   }
 }
 
@@ -224,46 +206,28 @@ function knownCorners(grid, unknown) {
 }
 
 /**
- * What the marks are, or the colours of a density.
+ * Returns the key of an exported picture: the marks, or the colours of a density.
  *
  * @param {Brush} brush
  * @param {Scene} scene
  * @returns {import('../../scene/axes.js').KeyEntry[]}
  */
-function keyOf({ context, palette }, { config, sorted }) {
-  /** @typedef {(x: number, y: number) => void} Shape */
-  const circle = (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ radius) => {
-    context.moveTo(x + radius, y);
-    context.arc(x, y, radius, 0, 2 * Math.PI);
-  };
-  /** @type {Shape} */
-  const dot = (x, y) => {
-    circle(x, y, 2);
-    context.fill();
-  };
-  /** @type {Shape} */
-  const ringed = (x, y) => {
-    dot(x, y);
-    circle(x, y, 5);
-  };
-  /** @type {Shape} */
-  const patch = (x, y) => {
-    context.rect(x - 5, y - 5, 10, 10);
-    context.fill();
-  };
-  const entry = (/** @type {string} */ name, /** @type {string} */ colour, /** @type {Shape} */ shape) => ({
-    name,
-    draw: (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ width) => {
-      context.strokeStyle = context.fillStyle = colour;
+function keyOf({ context, palette }, { overlays, sorted }) {
+  const names = /** @type {const} */ (['accepted', 'through', 'rejected']).filter((name) => overlays.includes(name));
+  return names.map((name) => ({
+    name: words.squeeze.overlays[name],
+    draw: (x, y, width) => {
+      const middle = x + width / 2;
+      context.strokeStyle = context.fillStyle = palette[LINES[name].role];
       context.lineWidth = 1;
       context.beginPath();
-      (sorted ? shape : patch)(x + width / 2, y);
+      if (!sorted) context.rect(middle - 5, y - 5, 10, 10);
+      else if (name === 'rejected') cross(context, middle, y);
+      else context.arc(middle, y, DOT.most, 0, 2 * Math.PI);
+      context.fill();
       context.stroke();
     },
-  });
-  const { kept, ofThem } = keptWords(config);
-  const entries = [entry(kept, palette.cloud, dot), entry(ofThem, palette.accent, ringed)];
-  return config.conditioned ? [...entries, entry(words.squeeze.rejected, palette.muted, (x, y) => cross(context, x, y))] : entries;
+  }));
 }
 
 /**
@@ -310,20 +274,20 @@ function drawPaths(brush, paths) {
 }
 
 /**
+ * Draws samples as dots that darken where they overlap.
+ *
  * @param {Brush} brush
  * @param {Float64Array} triples
+ * @param {string} colour
  */
-function drawRings({ context, view, palette }, triples) {
-  const radius = clamp(RING.metres * view.scaleX, RING.least, RING.most);
-  context.beginPath();
+function drawSamples({ context, view }, triples, colour) {
+  context.fillStyle = colour;
+  context.globalAlpha = DOT.alpha;
+  const radius = clamp(view.width / DOT.per, DOT.least, DOT.most);
   for (let i = 0; i < triples.length; i += 3) {
-    const [x, y] = [view.toPixelX(triples[i]), view.toPixelY(triples[i + 1])];
-    context.moveTo(x + radius, y);
-    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.beginPath();
+    context.arc(view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]), radius, 0, 2 * Math.PI);
+    context.fill();
   }
-  context.strokeStyle = palette.accent;
-  context.lineWidth = 1;
-  context.globalAlpha = 0.8;
-  context.stroke();
   context.globalAlpha = 1;
 }

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { counted, percent } from '../../ui/format.js';
+import { counted, fixed, percent } from '../../ui/format.js';
 
 /** @import { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts' */
 
@@ -66,9 +66,16 @@ function kindOf(verdict) {
   return (verdict & bits.pathFree) === 0 ? 2 : 1;
 }
 
-/** How many of the accepted went through a wall. @param {Pick<SqueezeStats, 'throughWall' | 'throughWallRate'>} stats */
-export function throughText({ throughWall, throughWallRate }) {
-  return words.squeeze.throughOf(throughWall, counted(throughWall), percent(throughWallRate));
+/**
+ * Returns how many of the accepted motions went through a wall, with the interval of their share. There is none where the
+ * sampler excludes it, or where the machine gave up: where that ends is chance too.
+ *
+ * @param {Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} stats
+ * @param {boolean} certain whether the sampler excludes it
+ */
+export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }, certain) {
+  const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
+  return words.squeeze.throughOf(throughWall, counted(throughWall), percent(throughWallRate), interval);
 }
 
 /**
@@ -83,7 +90,7 @@ function noteOn(config, stats, startFree) {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted } = stats;
   const drawn = counted(stats.drawn);
-  if (stats.gaveUp) return wedged(drawn, accepted, counted(accepted), counted(config.samples), throughText(stats));
+  if (stats.gaveUp) return wedged(drawn, accepted, counted(accepted), counted(config.samples), throughText(stats, false));
   if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawn, config.sampler === 'whole-arc');
   return startFree ? '' : noRoom;
 }

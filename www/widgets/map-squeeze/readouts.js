@@ -1,89 +1,33 @@
 /**
- * Map Squeeze's readouts: the key to the picture, the tally of the draws, the marked one, and what each
- * sampler costs.
+ * Map Squeeze's readouts: the tally of the samples, the marked one, and what each sampler costs.
  */
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { markedField } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { counted, fixed, percent, rounded } from '../../ui/format.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 import { DEMAND } from './cost.js';
 import { SAMPLERS } from './settings.js';
-import { keptWords, shareOf, verdictText } from './words.js';
+import { verdictText } from './words.js';
 
 /**
- * @import { SamplerName, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts'
+ * @import { SamplerName } from '../../types.d.ts'
  * @import { Cost, CostMeter } from './cost.js'
  * @import { Reading } from './reading.js'
  */
 
-/**
- * What the marks in the picture mean.
- *
- * @param {Reading} reading
- * @param {boolean} hasUnknown whether there are cells of which the map says nothing
- */
-export function legend({ config, sorted }, hasUnknown) {
-  const { kept, through } = keptWords(config);
-  const { rejected, key: say } = words.squeeze;
-  return html`<ul class="legend key" part="legend">
-    <li>
-      <svg class="rejected" viewBox="0 0 36 20" aria-hidden="true"><path d="M14 6l8 8m0-8l-8 8" /></svg>
-      ${rejected}
-    </li>
-    <li>
-      <svg class="accepted" viewBox="0 0 36 20" aria-hidden="true">
-        <circle cx="14" cy="10" r="2" /><path d="M14 10h12" />
-      </svg>
-      ${say.accepted(kept)}
-    </li>
-    <li>
-      <svg class="through" viewBox="0 0 36 20" aria-hidden="true">
-        <path d="M1 18Q14 16 26 8" opacity="0.5" />
-        <circle class="dot" cx="26" cy="8" r="2.5" /><circle cx="26" cy="8" r="6" />
-      </svg>
-      <span>${say.through(through)}</span>
-    </li>
-    <li>
-      <svg class="commanded" viewBox="0 0 36 20" aria-hidden="true">
-        <path d="M2 10h24" /><circle cx="26" cy="10" r="7" stroke-width="1.5" stroke-dasharray="3 3" />
-      </svg>
-      ${say.commanded}
-    </li>
-    ${hasUnknown
-      ? html`<li>
-          <svg class="unknown" viewBox="0 0 36 20" aria-hidden="true"><path d="M2 18L18 2M9 18L25 2M16 18L32 2" /></svg>
-          ${say.unknown}
-        </li>`
-      : nothing}
-  </ul>
-  <p class="about">${sorted ? nothing : say.density} ${say.overview}</p>`;
-}
-
-/** The two rates that matter. @param {Reading} reading */
-export function rates({ stats, config }) {
-  const say = words.squeeze.rates;
-  const { conditioned, sampler } = config;
-  const accepted = !conditioned ? say.kept : sampler === 'sub-stepped' ? say.ofParts : say.accepted;
-  const share = shareOf(stats, config);
-  return readoutList([
-    [accepted, percent(stats.acceptanceRate)],
-    [share.interval ? say.interval : say.through, share.text],
-  ]);
-}
-
-/** @param {Reading} reading */
-export function tally({ stats, config, paths: { length: paths } }) {
-  const { kept, through } = keptWords(config);
+/** Returns the counts of the samples. @param {Reading} reading */
+export function tally({ stats, config: { conditioned, sampler }, paths: { length: paths } }) {
   const say = words.squeeze.tally;
+  const certain = conditioned && sampler === 'whole-arc';
   return readoutList([
     [say.drawn, counted(stats.drawn)],
-    [kept, counted(stats.accepted)],
-    [through, counted(stats.throughWall)],
+    [say.accepted, counted(stats.accepted), say.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
+    [say.through, certain ? say.byConstruction : counted(stats.throughWall), certain ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
     [say.paths, paths < stats.throughWall ? say.first(counted(paths)) : counted(paths)],
-    [say.draws(kept), fixed(stats.drawsPerAccepted, 2)],
-    [say.tests(kept), fixed(stats.wallTestsPerAccepted, 2)],
+    [say.draws, fixed(stats.drawsPerAccepted, 2)],
+    [say.tests, fixed(stats.wallTestsPerAccepted, 2)],
   ]);
 }
 
@@ -110,7 +54,7 @@ export function costTable({ costs, current }, steps) {
     const name = samplers[sampler];
     const cost = costs[sampler] ?? 'none';
     return [
-      sampler === 'sub-stepped' ? html`${name}, <i>k</i> = ${steps}` : name,
+      sampler === 'sub-stepped' ? `${name} (${steps})` : name,
       ...(typeof cost === 'string' ? [say[cost]] : costText(cost)),
     ];
   };

@@ -3,8 +3,9 @@
 import { WORD, attributesOf, presetsOf } from '../../figure/attributes.js';
 import { word } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
+import { overlaysOf } from '../../figure/overlays.js';
 import { presets, settings } from '../../settings.js';
-import { commandLooks } from '../shared/command.js';
+import { COMMAND_DASH, commandLooks } from '../shared/command.js';
 
 export const declared = settings['map-squeeze'];
 
@@ -19,32 +20,41 @@ export const OPENING_START = presets['map-squeeze'][0].start;
 
 const VIEWS = ['close', 'whole'];
 
+/** Marks and lines of the picture. @satisfies {Record<string, import('../../figure/overlays.js').LineStyle>} */
+export const LINES = {
+  accepted: { role: 'cloud', mark: 'dot' },
+  through: { role: 'accent', mark: 'dot' },
+  rejected: { role: 'muted', mark: 'cross', width: 1.5 },
+  commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
+  unknown: { role: 'muted', mark: 'area' },
+};
+const overlays = overlaysOf(Object.keys(LINES));
+
 /** @type {import('../../figure/attributes.js').Attributes} */
 export const attributes = {
   preset: { ...PRESET, own: true, opening: PRESET.words?.[0] },
   ...attributesOf(declared),
   view: { kind: WORD, own: true, words: VIEWS },
+  overlays: overlays.attribute,
 };
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
 export const own = {
   ...cloudState,
   view: { opening: 'close', check: (field, view) => word(field, view, VIEWS) },
+  overlays: overlays.state,
   /** The reader's own; null for the apartment. A machine has looked at it. */
   map: { opening: null, check: (_, map) => map },
 };
 
-/** Of what the robot is told and what it is. @type {Record<string, import('../../figure/controls.js').Look>} */
-export const MOTION = {
-  ...commandLooks(4),
-  noise: { symbol: '*n*', role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
-  clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
-};
+export const COMMAND = commandLooks(4);
 
 /** @type {Record<string, import('../../figure/controls.js').Look>} */
 export const looks = {
-  ...MOTION,
-  steps: { symbol: '*k*', role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
+  ...COMMAND,
+  noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
+  clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
+  steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
 };
 
 /** The samplers in the order in which they are offered. */

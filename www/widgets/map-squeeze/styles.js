@@ -1,52 +1,99 @@
-/** What Map Squeeze's page has of its own: the key to its marks, and room for maps of the reader's. */
+/** Styles of Map Squeeze's own: its headline, the overview, and room for maps of the reader's. */
 
 import { css } from 'lit';
 import { layoutStyles } from '../../ui/layout.js';
 import { fileStyles } from '../shared/files.js';
-import { besideStyles, poseHandleStyles } from '../shared/styles.js';
+import { poseHandleStyles } from '../shared/styles.js';
 
 const own = css`
   canvas {
     aspect-ratio: 5 / 4;
   }
 
-  /* In the column of a book, two places in a row. */
-  @container (width < 50em) {
-    .aside .buttons button {
-      --size: 0.84;
-      --beside: 0.4em;
-    }
+  .headline {
+    margin: 0.15em 0 0;
+    font-size: 1.75em;
+    line-height: 1.15;
+    text-wrap: balance;
   }
 
-  /* Wider, and not higher: all of it is to fit on a screen. */
-  @container (min-width: 45em) {
+  .verdict.caption {
+    min-height: 3lh;
+    margin-bottom: 0.3em;
+    font-size: 0.92em;
+  }
+
+  .judge .choices {
+    margin-bottom: 0.2em;
+  }
+
+  .judge .effect {
+    min-height: 2lh;
+    margin: 0 0 0.5em;
+  }
+
+  .about {
+    margin: 0;
+    color: var(--muted);
+    font-size: 0.92em;
+  }
+
+  .overview {
+    display: none;
+  }
+
+  /* The picture, as high as it may be, with the sentence and what is chosen beside it. */
+  @container (min-width: 38em) {
+    .views {
+      grid-template-columns: minmax(0, 60svh) minmax(16em, 1fr);
+      column-gap: 1.25em;
+    }
+
     canvas {
       aspect-ratio: 4 / 3;
     }
-  }
 
-  @container (min-width: 50em) {
-    canvas {
-      aspect-ratio: 8 / 5;
+    .judge .choices > span {
+      flex: 1 0 100%;
+    }
+
+    .judge .choice {
+      padding: 0 0.4em;
+      font-size: 0.92em;
     }
   }
 
-  @container (min-width: 60em) {
-    canvas {
-      aspect-ratio: 12 / 5;
+  @container (min-width: 56em) {
+    .headline {
+      font-size: 2em;
     }
-  }
 
-  .aside .choices {
-    column-gap: 0.6em;
-  }
+    .verdict.caption {
+      min-height: 2lh;
+    }
 
-  .aside .readouts {
-    display: block;
-  }
+    .overview {
+      display: block;
+      width: 11em;
+      max-height: 8.5em;
+      overflow: visible;
+      fill: none;
+      stroke: var(--muted);
+      stroke-width: 1;
+    }
 
-  .aside .choices > span {
-    flex: 1 0 100%;
+    .overview > * > * {
+      vector-effect: non-scaling-stroke;
+    }
+
+    .overview .way {
+      stroke: var(--prior);
+      stroke-width: 2;
+    }
+
+    .overview rect {
+      stroke: var(--ink);
+    }
   }
 
   .own-map {
@@ -56,52 +103,13 @@ const own = css`
     margin: 0;
   }
 
-  .own-map > * {
-    grid-column: auto;
-  }
-
   .dropping .stage {
     outline: 2px dashed var(--accent);
     outline-offset: 4px;
   }
 
-  .key svg {
-    stroke-width: 1.5;
-  }
-
-  .key .rejected {
-    stroke: var(--muted);
-  }
-
-  .key .accepted {
-    fill: var(--cloud);
-    stroke: var(--cloud);
-  }
-
-  .key .through :not(.dot) {
-    stroke: var(--accent);
-  }
-
-  .key .through .dot {
-    fill: var(--accent);
-  }
-
-  .key .unknown {
-    stroke: var(--muted);
-    opacity: 0.6;
-  }
-
-  .key .commanded {
-    stroke: var(--prior);
-    stroke-width: 2;
-  }
-
   .marked label {
     color: var(--ink);
-  }
-
-  .choices {
-    --name: 3em;
   }
 
   table.outdated tbody {
@@ -145,4 +153,4 @@ const own = css`
   }
 `;
 
-export const squeezeStyles = [...layoutStyles, besideStyles, poseHandleStyles, fileStyles, own];
+export const squeezeStyles = [...layoutStyles, poseHandleStyles, fileStyles, own];

@@ -5,7 +5,8 @@
 
 import { addEnglish, words } from '../../messages/registry.js';
 import { verdict as bits } from '../../settings.js';
-import { counted, fixed, percent } from '../../ui/format.js';
+import { clamp } from '../../ui/clamp.js';
+import { counted, fixed } from '../../ui/format.js';
 import { commandText } from '../shared/command.js';
 import { en } from './en.js';
 import { throughText } from './reading.js';
@@ -17,62 +18,62 @@ import { throughText } from './reading.js';
 
 addEnglish({ squeeze: en });
 
-/** What is said of a draw that stays. @param {Settings} config */
-export function keptWords({ conditioned }) {
-  return conditioned ? words.squeeze.accepted : words.squeeze.kept;
-}
-
 /**
  * @param {number} verdict see `verdict` of settings.js
  * @param {Settings} config
  */
 export function verdictText(verdict, config) {
   const is = (/** @type {number} */ bit) => (verdict & bit) !== 0;
-  const { rejected, verdict: reasons } = words.squeeze;
+  const { overlays, verdict: reasons } = words.squeeze;
   const accepted = is(bits.accepted);
-  if (!accepted && config.sampler === 'sub-stepped') return `${rejected}: ${reasons.part}`;
-  const { kept, through } = keptWords(config);
-  const outcome = accepted ? kept : rejected;
+  if (!accepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${reasons.part}`;
+  const outcome = accepted ? overlays.accepted : overlays.rejected;
   if (!is(bits.endFree)) return `${outcome}: ${reasons.end}`;
   if (is(bits.pathFree)) return `${outcome}: ${reasons.free}`;
-  return `${accepted ? through : outcome}: ${reasons.way}`;
+  return `${accepted ? overlays.through : outcome}: ${reasons.way}`;
 }
 
+/** Denominators of the fractions of a headline, by preference. */
+const DENOMINATORS = [2, 3, 4, 5, 10];
+
+/** Shares told as one in some number, and shares told as nearly all. */
+const FEW = 0.075;
+const MOST = 0.95;
+
 /**
- * The share through a wall, with its interval where the draws are as many as were asked for: where
- * they end is chance too if the machine gave up.
+ * Returns a share between 0 and 1 as a simple fraction.
  *
- * @param {Pick<Stats, 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>} stats
- * @param {Settings} config
- * @returns {{ text: string, interval: boolean }} "32.7 % (28.8–36.9 %)"
+ * @param {number} share
+ * @returns {[few: number, of: number]}
  */
-export function shareOf({ throughWallRate, throughWallInterval: [low, high], gaveUp }, { conditioned, sampler }) {
-  const certain = conditioned && sampler === 'whole-arc';
-  // Before the first sample it is called what it will be.
-  if (Number.isNaN(throughWallRate)) return { text: percent(NaN), interval: !certain && !gaveUp };
-  if (certain) return { text: words.squeeze.byConstruction, interval: false };
-  if (gaveUp) return { text: percent(throughWallRate), interval: false };
-  return { text: `${percent(throughWallRate)} (${fixed(100 * low, 1)}–${percent(high)})`, interval: true };
+export function fractionOf(share) {
+  if (share < FEW) return [1, Number((1 / share).toPrecision(2))];
+  const fractions = DENOMINATORS.map((of) => /** @type {[number, number]} */ ([clamp(Math.round(share * of), 1, of - 1), of]));
+  const off = (/** @type {[number, number]} */ [few, of]) => Math.abs(few / of - share);
+  return fractions.reduce((best, each) => (off(each) < off(best) - 1e-9 ? each : best));
 }
 
-/** What the picture shows, in one sentence; and what keeps the robot from moving, if something does. @param {Reading} reading */
-export function verdictOf({ config, stats, note }) {
+/** Returns the sentence that the figure is for. @param {Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>} stats */
+export function headlineOf({ attempts, accepted, throughWall }) {
+  const say = words.squeeze.headline;
+  if (attempts === 0) return say.untried;
+  if (accepted === 0) return say.nothing;
+  if (throughWall === 0) return say.none;
+  const share = throughWall / accepted;
+  if (share === 1) return say.all;
+  return share > MOST ? say.most : say.share(...fractionOf(share));
+}
+
+/** Returns what the picture shows, in one sentence; and what keeps the robot from moving, if something does. @param {Reading} reading */
+export function verdictOf({ config: { conditioned, sampler }, stats, note }) {
   const { accepted, attempts, gaveUp } = stats;
-  // Of one that is wedged the note counts all there is.
-  if (note && (accepted === 0 || gaveUp)) return note;
-  if (attempts === 0) return words.squeeze.noneYet;
-  const sentence = sentenceOf(config, { ...stats, all: attempts });
-  return note ? `${sentence} ${note}` : sentence;
-}
-
-/**
- * @param {Pick<Settings, 'conditioned' | 'sampler'>} config
- * @param {Pick<Stats, 'accepted' | 'throughWall' | 'throughWallRate'> & { all: number }} counts
- */
-function sentenceOf({ conditioned, sampler }, { accepted, all, ...stats }) {
   const say = words.squeeze;
-  const tested = say.tested[conditioned ? sampler : 'off'](counted(accepted), counted(all));
-  return say.verdictOf(tested, throughText(stats));
+  // The note counts all motions of a robot that is wedged.
+  if (note && (accepted === 0 || gaveUp)) return note;
+  if (attempts === 0) return `${say.headline.untried}.`;
+  const tested = say.tested[conditioned ? sampler : 'off'](counted(accepted), counted(attempts));
+  const sentence = say.verdictOf(tested, throughText(stats, conditioned && sampler === 'whole-arc'));
+  return note ? `${sentence} ${note}` : sentence;
 }
 
 /**
@@ -96,13 +97,12 @@ export function mapText(name, { bounds, walls }) {
 export function pictureText({ config, stats, sorted, note }, map) {
   const { x, y, theta } = config.start;
   const { attempts, accepted, drawn, throughWall } = stats;
-  const { kept, ofThem } = keptWords(config);
   const say = words.squeeze;
   const parts = config.conditioned && config.sampler === 'sub-stepped';
   return [
     say.picture(map),
     say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(counted(drawn), parts, counted(accepted), kept, counted(throughWall), ofThem, !sorted),
+    say.outcome(counted(drawn), parts, counted(accepted), counted(throughWall), !sorted),
     accepted < attempts && config.conditioned ? say.rest(!sorted) : '',
     note,
   ].filter(Boolean).join(' ');

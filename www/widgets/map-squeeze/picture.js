@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { densityRamp, drawDensity, drawMark, drawOutline, trace } from '../../scene/draw.js';
+import { densityRamp, drawDensity, drawMark, drawOutline, lineStyles, trace } from '../../scene/draw.js';
 import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer, cornerOf } from '../../scene/walls.js';
@@ -140,25 +140,26 @@ export class FloorPicture extends SamplesPicture {
     const { sorted, paths, commanded, config, marked, overlays } = scene;
     const { palette } = brush;
     const has = (/** @type {string} */ name) => overlays.includes(name);
+    const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
     clipped(brush, () => {
       // What passes through a wall must not hide it.
       if (sorted) {
-        if (has('through')) drawPaths(brush, paths);
-        if (has('accepted')) drawSamples(brush, sorted.free, palette.cloud);
-        if (has('through')) drawSamples(brush, sorted.through, palette.accent);
+        if (has('through')) drawPaths(brush, paths, through.colour);
+        if (has('accepted')) drawSamples(brush, sorted.free, accepted.colour);
+        if (has('through')) drawSamples(brush, sorted.through, through.colour);
         this.#walls.draw(brush, has('unknown'));
-        if (has('rejected')) drawCrosses(brush, sorted.rejected);
+        if (has('rejected')) drawCrosses(brush, sorted.rejected, rejected.colour);
       } else {
         this.#drawDensity(brush, scene);
         this.#walls.draw(brush, has('unknown'));
-        if (has('through')) drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY));
+        if (has('through')) drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
       if (has('commanded')) {
-        drawOutline(brush, commanded, { colour: palette.prior, width: LINES.commanded.width, dash: LINES.commanded.dash });
+        drawOutline(brush, commanded, command);
         const [endX, endY] = commanded.slice(-2);
-        drawRobotOutline(brush, endX, endY, clearance, palette.prior);
+        drawRobotOutline(brush, endX, endY, clearance, command.colour);
       }
       drawHeldRobot(brush, start, clearance, palette.prior);
       if (marked) {
@@ -245,11 +246,12 @@ function cross(context, x, y) {
 /**
  * @param {Brush} brush
  * @param {Float64Array} triples
+ * @param {string} colour
  */
-function drawCrosses({ context, view, palette }, triples) {
+function drawCrosses({ context, view }, triples, colour) {
   context.beginPath();
   for (let i = 0; i < triples.length; i += 3) cross(context, view.toPixelX(triples[i]), view.toPixelY(triples[i + 1]));
-  context.strokeStyle = palette.muted;
+  context.strokeStyle = colour;
   context.lineWidth = 1;
   context.globalAlpha = 0.5;
   context.stroke();
@@ -259,10 +261,11 @@ function drawCrosses({ context, view, palette }, triples) {
 /**
  * @param {Brush} brush
  * @param {Float64Array[]} paths
+ * @param {string} colour
  */
-function drawPaths(brush, paths) {
-  const { context, palette } = brush;
-  context.strokeStyle = palette.accent;
+function drawPaths(brush, paths, colour) {
+  const { context } = brush;
+  context.strokeStyle = colour;
   context.lineWidth = 1;
   context.globalAlpha = 0.3;
   for (const path of paths) {

@@ -98,7 +98,7 @@ export function drawHeap(brush, { x, y, headings, label }) {
   // Large enough to show around the handle, which is often in the same place.
   context.arc(px, py, 14, 0, 2 * Math.PI);
   context.fill();
-  drawLabel(brush, { x: px + 14, y: py + 22, towards: 1, text: label, colour: palette.prediction });
+  drawLabel(brush, { x: px + 14, y: py + 27, towards: 1, text: label, colour: palette.prediction });
 }
 
 /**

@@ -9,7 +9,7 @@ import { fixed } from '../../ui/format.js';
 import { track } from '../../ui/slider.js';
 import { lineText } from './readouts.js';
 import { ALPHAS, COMMAND, TABLE_LINES, WHOLE } from './settings.js';
-import { OTHER_DASH } from './surface.js';
+import { CONTOURS } from './surface.js';
 
 /** @typedef {import('./arc-anatomy.js').ArcAnatomyElement} Figure */
 
@@ -25,7 +25,7 @@ export function likelihoodControls(figure) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.told;
   const contour = (/** @type {'prob' | 'density'} */ name) =>
-    html`<span>${swatch({ role: 'ink', width: 1, dash: map === name ? [] : OTHER_DASH })} ${maps[name]}</span>`;
+    html`<span>${swatch({ role: 'ink', width: 1, dash: CONTOURS[name] })} ${maps[name]}</span>`;
   return group(likelihood, html`${check(figure, 'printed', rich(printed))} ${choices(figure, 'map', maps)}
     ${map === 'none' ? nothing : html`<p class="legend contours">${contour('prob')} ${contour('density')}</p>`}`);
 }

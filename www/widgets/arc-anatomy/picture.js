@@ -11,7 +11,7 @@ import { fixed, significant } from '../../ui/format.js';
 import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.js';
 import { LINES } from './settings.js';
-import { OTHER_DASH, SurfaceLayer } from './surface.js';
+import { CONTOURS, SurfaceLayer } from './surface.js';
 
 /**
  * @import { ArcAnatomy, Bend, Pose } from '../../types.d.ts'
@@ -133,12 +133,12 @@ export class ArcPicture extends Picture {
 function keyOf(brush, { overlays, config: { map } }) {
   const { palette } = brush;
   const { overlays: names, maps } = words.anatomy;
-  const contour = (/** @type {'prob' | 'density'} */ of, /** @type {number[]} */ dash) => lineKey(brush, maps[of], { colour: palette.ink, width: 1, dash });
+  const contour = (/** @type {'prob' | 'density'} */ of) => lineKey(brush, maps[of], { colour: palette.ink, width: 1, dash: CONTOURS[of] });
   return [
     ...(/** @type {const} */ (['inverted', 'commanded', 'chord', 'twist']))
       .filter((name) => overlays.includes(name))
       .map((name) => lineKey(brush, names[name].replaceAll('*', ''), lineStyles(brush, LINES)[name])),
-    ...(map === 'none' ? [] : [contour(map, []), contour(map === 'prob' ? 'density' : 'prob', OTHER_DASH)]),
+    ...(map === 'none' ? [] : [contour('prob'), contour('density')]),
   ];
 }
 

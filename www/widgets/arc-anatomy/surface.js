@@ -8,8 +8,8 @@ import { densityRamp, drawPixels, trace } from '../../scene/draw.js';
  * @import { Palette } from '../../ui/theme.js'
  */
 
-/** Dash of the contours of what is not the image, CSS pixels. */
-export const OTHER_DASH = [5, 4];
+/** Dashes of the contours, CSS pixels: the same whichever of the two is the image. */
+export const CONTOURS = { prob: [5, 4], density: [] };
 
 export class SurfaceLayer {
   #pixels = new OffscreenCanvas(1, 1);
@@ -38,9 +38,8 @@ export class SurfaceLayer {
     }
     const { columns, prob, density } = surface;
     drawPixels(brush, this.#pixels, this.#image.pixels, columns);
-    const [mapped, other] = config.map === 'prob' ? [prob, density] : [density, prob];
-    this.#contour(brush, other, OTHER_DASH);
-    this.#contour(brush, mapped, []);
+    this.#contour(brush, prob, CONTOURS.prob);
+    this.#contour(brush, density, CONTOURS.density);
   }
 
   /**

@@ -18,7 +18,7 @@ import { endText, ratioText } from './words.js';
  */
 
 /** How the ratio of each component looks. @type {Record<(typeof COMPONENTS)[number], { role: Role, dash?: string }>} */
-const LOOKS = { along: { role: 'ink', dash: '8 4' }, lateral: { role: 'prediction' }, heading: { role: 'muted', dash: '2 3' } };
+const LOOKS = { along: { role: 'ink', dash: '8 4' }, lateral: { role: 'prediction' }, heading: { role: 'muted', dash: '9 3 2 3' } };
 
 /** Heights that the plot may have, so that it holds still while a slider is dragged. */
 const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];

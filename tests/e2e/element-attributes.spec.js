@@ -216,7 +216,10 @@ async function expectEmbedded(page, name, seeds) {
 test('code to embed opens the settings of a state, with its attributes in any order', ({ page, figure }) => expectEmbedded(page, figure, SEEDS.slice(0, 2)));
 
 for (const name of ALL) {
-  test(`code to embed opens the settings of any state of ${name} @nightly`, ({ page }) => expectEmbedded(page, name, SEEDS));
+  test(`code to embed opens the settings of any state of ${name} @nightly`, ({ page }) => {
+    test.slow();
+    return expectEmbedded(page, name, SEEDS);
+  });
 }
 
 test('properties that were set before the element was defined are taken up, in any order', async ({ page }) => {

@@ -31,7 +31,7 @@ async function revealed(form) {
   await form.getByRole('button').press('Enter');
   await expect(form.getByRole('status')).not.toHaveText('');
   await frames(form.page());
-  return (await form.getByRole('status').textContent()) ?? '';
+  return (await form.getByRole('status').textContent())?.replaceAll('\u00a0', ' ') ?? '';
 }
 
 test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ alone appear below it', async ({ page }) => {
@@ -77,7 +77,7 @@ test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ 
   const shares = [];
   for (const form of await article.locator('.bet').all()) {
     await form.getByRole('slider').press('End');
-    await expect(form.locator('output')).toHaveText('100 %');
+    await expect(form.locator('.value')).toHaveText('100 %');
     const text = await revealed(form);
     const [, share] = /^Your bet: 100 %\. The figure: ([\d.]+) %\.$/.exec(text) ?? [];
     shares.push(Number(share));

@@ -85,8 +85,8 @@ addEnglish(en);
  * @cssprop --motion-font - The family of all text; without it, that of the text around.
  * @cssprop --motion-sticky-top - How much of the window’s top a header of the site covers: the picture that stays in sight on
  *   a phone keeps clear of it.
- * @cssprop --motion-sticky-bottom - Length below the controls for which the picture still stays in sight: of text about the figure,
- *   which the page moves up by as much.
+ * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still stays in sight. The text
+ *   needs a `position` to be above the figure.
  *
  * @template {{ free(): void, stats: object, config: Values, configure(settings: Values): void, begin?(settings: Values): void, advance?(work: number): boolean }} Machine
  * @template {{ config: Values }} Reading

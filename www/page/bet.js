@@ -23,13 +23,13 @@ const answerIn = (stats, path) => path.split('.').reduce((/** @type {any} */ par
 export function prepareBet(form, enter, figure) {
   const { try: values = '{}', answer = '', unit = '' } = form.dataset;
   const slider = /** @type {HTMLInputElement} */ (form.querySelector('input'));
-  const output = /** @type {HTMLOutputElement} */ (form.querySelector('output'));
+  const shown = /** @type {HTMLElement} */ (form.querySelector('.value'));
   const button = /** @type {HTMLButtonElement} */ (form.querySelector('button'));
   const answered = /** @type {HTMLElement} */ (form.querySelector('[role=status]'));
   const [min, max] = [Number(slider.min), Number(slider.max)];
   const isShare = unit === '%';
   const text = (/** @type {number} */ value) => `${isShare ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
-  const show = () => (output.value = text(slider.valueAsNumber));
+  const show = () => (slider.ariaValueText = shown.textContent = text(slider.valueAsNumber));
 
   slider.addEventListener('input', show);
   show();

@@ -9,6 +9,17 @@ import { readoutStyles } from './readouts.js';
 import { sliderStyles } from './slider.js';
 
 const layout = css`
+  /* The pictures stay in sight for as long as this reaches, behind text of the page. */
+  .machine {
+    margin-bottom: calc(-1 * var(--motion-sticky-bottom, 0px));
+  }
+
+  .machine::after {
+    content: '';
+    display: block;
+    height: var(--motion-sticky-bottom, 0);
+  }
+
   .views,
   .controls {
     display: grid;
@@ -232,11 +243,6 @@ const layout = css`
       max-height: 45svh;
     }
 
-    :host(:not([presentation])) .machine::after {
-      content: '';
-      display: block;
-      height: var(--motion-sticky-bottom, 0);
-    }
 
     :is(button, input, summary, textarea) {
       scroll-margin-top: calc(45svh + 2em + var(--top));

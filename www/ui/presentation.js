@@ -23,6 +23,7 @@ export const presentationStyles = css`
 
   :host([presentation]) .surface {
     --top: 0px;
+    --motion-sticky-bottom: 0px;
     background: var(--paper);
     display: flex;
     flex-direction: column;

@@ -36,10 +36,13 @@ function heightOf(tag, unit) {
   return `max(${heights})`;
 }
 
-/** Style of a figure: it is as high as the room that was kept for it. @param {string} tag */
-export const reserve = (tag) => css`
-  ${unsafeCSS(`.reserved,.machine{min-height:${heightOf(tag, 'cqi')}}`)}
-`;
+/** Returns the style of a figure that is as high as the room that was kept for it. @param {string} tag */
+export const reserve = (tag) => {
+  const height = heightOf(tag, 'cqi');
+  return css`
+    ${unsafeCSS(`.reserved{min-height:${height}}.machine{min-height:calc(${height} + var(--motion-sticky-bottom,0px))}`)}
+  `;
+};
 
 /** Style sheet of a page: the room for elements before their script has defined them. */
 export function roomBefore() {

@@ -1,5 +1,6 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, pixelsOf, ready, show, test } from './support.js';
+import { KNOWN } from './figures.js';
+import { STILL, frames, pixelsOf, ready, show, test, unfold } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -265,4 +266,15 @@ test('custom properties colour controls and canvases, also when they change', as
   await page.addStyleTag({ content: 'banana-machine { --motion-posterior: rgb(200, 20, 90); --motion-font: monospace }' });
   await expect.poll(() => pixelsOf(canvas, 'posterior')).toBeGreaterThan(100);
   expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
+});
+
+test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figure }) => {
+  await show(page, `<${figure}></${figure}>`);
+  const widget = page.locator(figure);
+  await ready(widget);
+  await unfold(widget);
+  expect(await widget.locator('.machine [style*="--"]').count()).toBe(0);
+  const { slider } = KNOWN[figure];
+  const thumb = () => widget.locator(`#${slider}`).evaluate((input) => getComputedStyle(input).getPropertyValue('--thumb'));
+  expect(await thumb()).not.toBe('');
 });

@@ -62,5 +62,5 @@ export function swatch({ role, dash, width = 2.25, mark = 'line' }) {
     area: svg`<rect class="filled" x="4" y="1" width="22" height="10" opacity="0.4" />`,
     cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
   };
-  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" .style=${`--role: var(--${role})`}>${shapes[mark]}</svg>`;
+  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[mark]}</svg>`;
 }

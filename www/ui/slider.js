@@ -111,6 +111,10 @@ export const sliderStyles = css`
     --thumb-edge: var(--muted);
   }
 
+  .slider {
+    --thumb: var(--role);
+  }
+
   input[type='range'] {
     --thumb-edge: var(--thumb);
     appearance: none;
@@ -252,7 +256,7 @@ export function sliderRow(row) {
   const shown = row.show(row.value);
   const room = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), shown);
   return html`
-    <div class=${classes} part="slider" .style=${`--thumb: var(--${row.role})`}>
+    <div class=${classes} part="slider" data-role=${row.role}>
       ${row.pick ?? nothing}
       <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       ${track({ ...row, name: undefined, text: shown, describedBy: `${row.id}-effect`, keydown: leadIntoField })}

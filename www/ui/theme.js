@@ -52,6 +52,9 @@ export const theme = css`
     --top: var(--motion-sticky-top, var(--mw-top, 0px));
   }
 
+  /* In a style sheet, as extensions that darken pages rewrite no custom properties of elements. */
+  ${unsafeCSS(ROLES.map((role) => `[data-role='${role}'] { --role: var(--${role}); }`).join('\n'))}
+
   :host([hidden]) {
     display: none;
   }

@@ -186,7 +186,7 @@ test('a page with a base of its own keeps its address', async ({ page }) => {
   expect(await address()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
-test('a figure without share leaves the address alone, and opens its part of a link', FRESH, async ({ page, context, figure }) => {
+test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', FRESH, async ({ page, context, figure }) => {
   const { slider, values, button } = KNOWN[figure];
   await show(page, `<${figure}></${figure}>`, { fragment: '#elsewhere' });
   const widget = page.locator(figure);
@@ -202,9 +202,16 @@ test('a figure without share leaves the address alone, and opens its part of a l
   await ready(other.locator(figure));
   const opened = await stateOf(other.locator(figure));
   expect(opened).toEqual(await stateOf(widget));
+  // From there on the address shows what is on the screen, and going back leaves the page.
+  const entries = await other.evaluate(() => history.length);
   await other.locator(figure).locator(`#${slider}`).fill(String(values[1]));
-  await frames(other);
-  expect(await other.evaluate(() => location.hash)).toBe(new URL(link).hash);
+  await expect.poll(async () => (await other.evaluate(() => location.hash)) === (await fragmentOf(other.locator(figure)))).toBe(true);
+  expect(other.url()).not.toBe(link);
+  expect(await other.evaluate(() => history.length)).toBe(entries);
+  const changed = await stateOf(other.locator(figure));
+  await other.reload();
+  await ready(other.locator(figure));
+  expect(await stateOf(other.locator(figure))).toEqual(changed);
 });
 
 test('a figure with share keeps its state in the address, and follows it', async ({ page, figure }) => {

@@ -98,7 +98,7 @@ export class Gesture extends Part {
       this.#open = false;
       this.host.reflection.tell();
       this.#tell('change');
-      if (this.host.share) this.host.link.write();
+      this.host.link.write();
     });
   }
 

@@ -1,7 +1,7 @@
 /**
  * The state in the page's address: each element has a part of the fragment of its own, and leaves all
  * others as they are: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`. Every element opens what
- * is there for it, so that a link which was copied works; one that is shared writes there as well.
+ * is there for it, so that a link which was copied works, and keeps it up to date. One that is shared writes there in any case.
  */
 
 import { pack, unpack } from './packing.js';
@@ -78,8 +78,12 @@ export class Link extends Part {
     }
   }
 
-  /** Puts the state into the page's address. The page does not move, and going back does not lead through it. */
+  /**
+   * Puts the state into the page's address, where that is shared or has a state of the figure. The page does not move, and
+   * going back does not lead through it.
+   */
   async write() {
+    if (!this.host.share && !parts().some((part) => this.#isOf(part))) return;
     const writing = (this.#writing = {});
     const text = await this.#pack();
     if (writing !== this.#writing || !this.host.isConnected) return;

@@ -164,18 +164,22 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
   expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
 });
 
-test('why a dropped map is refused is seen at once, however far below it is said', async ({ page }) => {
+test('why a dropped map is refused is said in sight of the drop, until it is closed', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
   const before = await squeezed(widget);
   await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
+  const place = await page.evaluate(() => scrollY);
   await drop(widget.locator('.stage'), [file('room.txt', 'a room')]);
-  await expect(complaint(widget)).toHaveText(/^room\.txt: this kind of file is not read/);
+  const alert = widget.getByRole('alert');
+  await expect(alert).toHaveText(/^room\.txt: this kind of file is not read/);
   // Edges within a pixel of the screen's count for less than all of it.
-  await expect(complaint(widget)).toBeInViewport({ ratio: 0.99 });
-  await expect(present(widget)).toContainText('The apartment');
-  await expect(present(widget)).toBeInViewport({ ratio: 0.99 });
+  await expect(alert).toBeInViewport({ ratio: 0.99 });
+  expect(await page.evaluate(() => scrollY)).toBe(place);
   expect(await squeezed(widget)).toEqual(before);
+  await widget.getByRole('button', { name: 'Close' }).click();
+  await expect(widget.locator('.notice')).toHaveCount(0);
+  await expect(present(widget)).toContainText('The apartment');
 });
 
 test('an occupancy grid has its yaw and its mode, and its image may be a PNG in a directory', async ({ page }) => {

@@ -111,6 +111,27 @@ for (const name of ALL) {
   test(`Tab leads to every handle and control of ${name} @nightly`, ({ page }) => expectTabStops(page, name));
 }
 
+test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
+  const focused = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
+  await show(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
+  const map = page.locator('map-squeeze');
+  await ready(map);
+  await map.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
+  await map.getByRole('button', { name: 'Back to the apartment' }).press('Enter');
+  await expect(map.getByRole('button', { name: 'Back to the apartment' })).toHaveCount(0);
+  expect(await focused(map)).toContain('presets');
+  const arc = page.locator('arc-anatomy');
+  await arc.scrollIntoViewIfNeeded();
+  await ready(arc);
+  const next = arc.getByRole('button', { name: 'The next line' });
+  await next.focus();
+  while (await next.isEnabled()) {
+    await page.keyboard.press('Enter');
+    await frames(page);
+  }
+  expect(await arc.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('title'))).toBe('The line before');
+});
+
 test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {
   const widget = await open(page);
   const status = widget.locator('p[role=status]');

@@ -10,10 +10,12 @@ import { presentationStyles } from '../ui/presentation.js';
 import { theme } from '../ui/theme.js';
 import { Announcer } from './announcer.js';
 import { COMMON, HEADING_LEVELS } from './attributes.js';
+import { Focus } from './focus.js';
 import { Gesture } from './gesture.js';
 import { Link } from './link.js';
 import { Lettering } from './lettering.js';
 import { THEMES, schemeStyles } from './page/scheme.js';
+import { Notice, noticeStyles } from './notice.js';
 import { Presentation } from './presentation.js';
 import { Progress, progressStyles } from './progress.js';
 import { Reflection } from './reflection.js';
@@ -44,7 +46,7 @@ addEnglish(en);
  * value stays; `setState` throws.
  *
  * @attr theme - Colours for a light page or a dark one; auto is as the surroundings are.
- * @attr share - Keeps the state in the fragment of the page’s address. A state that it carries is opened in any case.
+ * @attr share - Keeps the state in the fragment of the page’s address. A state that it carries is opened, and kept up to date, in any case.
  * @attr presentation - Fills the screen, or the window, with pictures and figures for an audience: C shows the controls,
  *   Escape leaves.
  * @attr heading-level - Makes the slot `title` a heading of this level; the property is `headingLevel`.
@@ -92,7 +94,7 @@ addEnglish(en);
  * @template {{ config: Values }} Reading
  */
 export class FigureElement extends LitElement {
-  static styles = [theme, schemeStyles, presentationStyles, progressStyles];
+  static styles = [theme, schemeStyles, presentationStyles, progressStyles, noticeStyles];
 
   /** The widget's settings, as declared. @type {import('../settings.js').Declaration[]} */
   static declared;
@@ -116,8 +118,10 @@ export class FigureElement extends LitElement {
   link = new Link(this);
   announcer = new Announcer();
   progress = new Progress(this);
+  notice = new Notice(this);
   copies = new CopyMenu(this);
   typing = new Typing(this);
+  focusing = new Focus(this);
   lettering = new Lettering(this);
   presenting = new Presentation(this);
   /** Of a figure with samples. @type {import('./cloud.js').Cloud | undefined} */

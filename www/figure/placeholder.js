@@ -1,11 +1,9 @@
 /** In the place of a figure that is not there yet: who comes to it from the keyboard comes into the figure. */
 
 import { html } from 'lit';
+import { stopsIn } from './focus.js';
 
 /** @import { Figure } from './figure.js' */
-
-/** What Tab stops at. */
-const STOPS = ':is(button, input, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
 /** @param {Figure} figure */
 export function placeholder(figure) {
@@ -24,8 +22,8 @@ async function goInto(figure, origin) {
   await figure.updateComplete;
   // With what was in its place, the focus has gone to nothing.
   if (!figure.machine || document.activeElement !== document.body) return;
-  const stops = [...figure.renderRoot.querySelectorAll(STOPS)].filter((stop) => stop.checkVisibility());
+  const stops = stopsIn(figure.renderRoot);
   // Backwards, if the reader came from what is below.
   const below = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
-  /** @type {HTMLElement | undefined} */ (stops.at(below ? -1 : 0))?.focus();
+  stops.at(below ? -1 : 0)?.focus();
 }

@@ -16,14 +16,14 @@ const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
  */
 export function surface(figure) {
   speak(figure);
-  const { gesture, lettering, presenting, progress, stage } = figure;
+  const { gesture, lettering, notice, presenting, progress, stage } = figure;
   const recolour = () => stage.recolour();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${recolour} @transitioncancel=${recolour}></span>
     <div class="surface ${presenting.className}" @pointerdown=${(/** @type {PointerEvent} */ event) => gesture.press(event)} @input=${stop} @change=${stop} @keydown=${keepUsed}>
       ${lettering.title()}
       <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT.test(language) ? 'rtl' : 'ltr'}>
-        ${contentOf(figure)} ${progress.render()} ${presenting.render()}
+        ${contentOf(figure)} ${progress.render()} ${notice.render()} ${presenting.render()}
       </div>
       ${lettering.caption()}
     </div>

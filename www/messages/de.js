@@ -59,6 +59,7 @@ export const de = {
     svgTitle: 'Das Bild als Vektorgrafik',
     csvTitle: 'Jede Stichprobe, mit den Parametern und dem Startwert',
   },
+  close: 'Schließen',
   progress: {
     label: 'Wird berechnet',
     begins: 'Das dauert einen Augenblick. Escape bricht es ab.',

@@ -69,6 +69,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     svgTitle: 'The picture as vector graphics',
     csvTitle: 'Every sample, with the parameters and the seed',
   },
+  close: 'Close',
   progress: {
     label: 'Computing',
     begins: 'This takes a moment. Escape stops it.',

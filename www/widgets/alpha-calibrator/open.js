@@ -177,7 +177,7 @@ export class LogOpener extends Part {
     const say = sentence && (await wordsOf());
     this.#complaint = () => (say ? sentence(say()) : words.calibrator.own.refused(message));
     this.host.requestUpdate();
-    await this.dropped.showRefusal();
+    await this.dropped.showRefusal(this.complaint);
   }
 
   /**
@@ -225,12 +225,12 @@ export function ownLog(figure, opener) {
   return html`<div class="own-log">
     <p>${say.text}</p>
     <label for="log-files">${say.files}</label>
-    ${fileInput('log-files', EXTENSIONS, (files) => opener.choose(files))}
+    ${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}
     <p>${say.deviations}</p>
     ${deviations(figure)}
     ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
     ${chosen ? whichIsWhich(opener, chosen) : nothing}
-    <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
+    <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
     <p class="present">${figure.log ? say.present(figure.logName) : say.simulated}</p>
     ${figure.log ? html`${found.map((sentence) => html`<p class="muted">${sentence}</p>`)} ${button(say.leave, () => opener.leave())}` : nothing}
   </div>`;

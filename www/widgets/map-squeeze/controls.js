@@ -81,9 +81,9 @@ export function ownMap(figure, opener, map) {
     <div>
       <p>${say.text}</p>
       <label for="map-files">${say.files}</label>
-      ${fileInput('map-files', EXTENSIONS, (files) => opener.choose(files))}
+      ${fileInput('map-files', EXTENSIONS, (files) => opener.dropped.take(files))}
       <p ?hidden=${!opener.isReading}>${say.reading}</p>
-      <p class="note" role="alert" ?hidden=${complaint === ''}>${complaint}</p>
+      <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
       <p class="present">${map}.</p>
     </div>
     <div>

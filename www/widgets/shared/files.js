@@ -1,4 +1,4 @@
-/** How files get into a figure: chosen, or dropped on it. What becomes of them is said in a fold. */
+/** How files get into a figure: chosen, or dropped on it. A fold says what becomes of them, and a notice why a drop was refused. */
 
 import { css, html } from 'lit';
 import { inputOf } from '../../ui/controls.js';
@@ -20,6 +20,7 @@ export class FileDrop {
   #host;
   #id;
   #choose;
+  #isDropped = false;
 
   /**
    * @param {Figure} host
@@ -37,10 +38,18 @@ export class FileDrop {
     return this.#host.renderRoot.querySelector(`#${this.#id}`);
   }
 
-  /** Shows why files were refused, once that is drawn. */
-  async showRefusal() {
+  /** Says why files were refused: dropped ones in sight of where they were dropped. @param {string} sentence */
+  async showRefusal(sentence) {
+    if (this.#isDropped) this.#host.notice.show(sentence);
     await this.#host.updateComplete;
-    this.#fold?.querySelector('[role=alert]')?.scrollIntoView({ block: 'nearest' });
+    if (!this.#isDropped) this.#fold?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
+  }
+
+  /** Takes files that the reader has chosen or dropped. @param {File[]} files @param {boolean} [isDropped] */
+  take(files, isDropped = false) {
+    this.#isDropped = isDropped;
+    this.#host.notice.show('');
+    this.#choose(files);
   }
 
   over = (/** @type {DragEvent} */ event) => {
@@ -62,7 +71,7 @@ export class FileDrop {
     event.preventDefault();
     // What becomes of the file is said in there.
     if (this.#fold) this.#fold.open = true;
-    this.#choose([...event.dataTransfer.files]);
+    this.take([...event.dataTransfer.files], true);
   };
 }
 

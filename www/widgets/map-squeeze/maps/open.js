@@ -76,6 +76,6 @@ export class MapOpener extends Part {
       return sentence ? sentence(refused) : refused.cannot(message);
     };
     this.host.requestUpdate();
-    await this.dropped.showRefusal();
+    await this.dropped.showRefusal(this.complaint);
   }
 }

@@ -1,4 +1,4 @@
-/** How files get into a figure: chosen, or dropped on it. A fold says what becomes of them, and a notice why a drop was refused. */
+/** Files of the reader, chosen or dropped on a figure. A fold says what becomes of them, and a notice why a drop was refused. */
 
 import { css, html } from 'lit';
 import { inputOf } from '../../ui/controls.js';

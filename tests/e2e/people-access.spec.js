@@ -123,6 +123,7 @@ test('the focus stays near a control that goes or is disabled by its own action'
   const arc = page.locator('arc-anatomy');
   await arc.scrollIntoViewIfNeeded();
   await ready(arc);
+  await unfold(arc);
   const next = arc.getByRole('button', { name: 'The next line' });
   await next.focus();
   while (await next.isEnabled()) {

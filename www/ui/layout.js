@@ -18,6 +18,7 @@ const layout = css`
     content: '';
     display: block;
     height: var(--motion-sticky-bottom, 0);
+    visibility: hidden;
   }
 
   .views,

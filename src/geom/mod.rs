@@ -7,3 +7,4 @@ pub mod lanes;
 pub mod se2;
 pub mod segment;
 pub mod sinc;
+pub mod unbend;

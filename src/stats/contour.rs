@@ -4,8 +4,9 @@ use super::cross_track::NO_SPREAD;
 use super::moments::{CartesianMoments, ExponentialMoments};
 use crate::geom::se2::SE2;
 use crate::geom::sinc::sinc;
+use crate::geom::unbend::{unbend, unbend_jacobian};
 use crate::models::covariance_root;
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
@@ -73,6 +74,16 @@ impl Ellipse {
         unit_circle(segments).map(|direction| (self.centre + self.root * direction * SIGMAS).into()).collect()
     }
 
+    /// Returns the Mahalanobis distance of a point from the centre, in standard deviations.
+    pub fn distance(&self, [first, second]: [f64; 2]) -> f64 {
+        (self.whitening * (Vector2::new(first, second) - self.centre)).norm()
+    }
+
+    /// Returns a point on the way from the centre (0) to the boundary (1).
+    pub fn inside(&self, [x, y]: [f64; 2], share: f64) -> [f64; 2] {
+        (self.centre + (Vector2::new(x, y) - self.centre) * share).into()
+    }
+
     /// Whether a point lies inside.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         let [first, second] = point.map(f64x4::splat);
@@ -130,6 +141,12 @@ impl ExponentialContour {
         self.outline(segments).map(|(_, point)| point).collect()
     }
 
+    /// Returns the closed outline at a morph from 0, where it is [`ExponentialContour::boundary`], to 1, where it is that of
+    /// [`ExponentialContour::ellipse`]; in the frame of the start.
+    pub fn unbent(&self, segments: usize, morph: f64) -> Vec<[f64; 2]> {
+        self.rim(segments, morph).map(|twist| unbend(&twist, morph)).collect()
+    }
+
     /// How many times the area of this outline, drawn as `segments` chords, fits into that of an `ellipse` in the plane,
     /// drawn alike. NaN where the ellipse, or the contour in (along, heading), has no area.
     ///
@@ -153,18 +170,26 @@ impl ExponentialContour {
         ellipse.area() * sinc(TAU / segments as f64) / (0.5 * twice.abs())
     }
 
-    /// ξ along and the place of each point of the outline.
+    /// Returns ξ along and the place of each point of the outline.
+    fn outline(&self, segments: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
+        self.rim(segments, 0.0).map(|twist| {
+            let pose = self.start.boxplus(twist);
+            (twist.x, [pose.x(), pose.y()])
+        })
+    }
+
+    /// Returns the twists on the rim of the ellipsoid as it is seen at a morph.
     ///
     /// On the ellipsoid ξ = m + 2·G·u, |u| = 1, a shadow ends where u ⊥ k, with H(ξ)·G·k = 0 and H the Jacobian of
-    /// position by ξ: k is the way to move without leaving the place. It hardly turns over the ellipsoid, and the
-    /// outline is that of the great circle perpendicular to its principal direction.
-    fn outline(&self, segments: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
+    /// place by ξ: k is the way to move without leaving the place. It hardly turns over the ellipsoid, and the
+    /// rim is the great circle perpendicular to its principal direction.
+    fn rim(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let at = move |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
         // At the six ends of the axes; where a place cannot be left without turning, k is short and counts for little.
         let mut spread = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {
-                let shift = position_jacobian(&at(&end)) * self.root;
+                let shift = unbend_jacobian(&at(&end), morph) * self.root;
                 let idle = shift.row(0).transpose().cross(&shift.row(1).transpose());
                 spread += idle * idle.transpose();
             }
@@ -174,11 +199,7 @@ impl ExponentialContour {
         let aside = Matrix3::identity().column(idle.iamin()).into_owned();
         let first = (aside - idle * aside.dot(&idle)).normalize();
         let second = idle.cross(&first);
-        unit_circle(segments).map(move |direction| {
-            let twist = at(&(first * direction.x + second * direction.y));
-            let pose = self.start.boxplus(twist);
-            (twist.x, [pose.x(), pose.y()])
-        })
+        unit_circle(segments).map(move |direction| at(&(first * direction.x + second * direction.y)))
     }
 
     /// Whether the exponential coordinates of `pose` lie inside the ellipse.
@@ -186,12 +207,6 @@ impl ExponentialContour {
         let twist = (self.start.inverse() * *pose).log_near(self.mean.z);
         self.ellipse.contains([twist.x, twist.z])
     }
-}
-
-/// The 2 × 3 Jacobian of the position of exp(ξ) by ξ: the upper rows of R(ω)·J_r(ξ).
-fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
-    let rotation = SE2::new(0.0, 0.0, twist.z).adjoint();
-    (rotation * SE2::right_jacobian(twist)).fixed_view::<2, 3>(0, 0).into_owned()
 }
 
 /// The unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix, by repeated squaring: the

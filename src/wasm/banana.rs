@@ -6,18 +6,27 @@ use super::pictures::{RADIUS, read_grid, read_ramps, view_of};
 use super::values::{flat, floats, group_to_js, list, object, plain};
 use crate::geom::arc::ArcInversion;
 use crate::geom::se2::SE2;
+use crate::geom::unbend::unbend_line;
 use crate::models::VelocityCmd;
+use crate::sim::View;
 use crate::sim::banana::{
-    BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, PRESETS, Preset, Sample, Settings,
+    BananaMachine, Contours, Executed, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, PRESETS, Preset,
+    Sample, Settings,
 };
 use crate::sim::settings::QUANTITY;
-use js_sys::{Array, Float64Array, Uint8ClampedArray, Uint32Array};
+use crate::sim::views::MORPH;
+use crate::stats::{ExponentialContour, ExponentialMoments};
+use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray, Uint32Array};
+use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
 /** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
 export type ViewName = 'plane' | 'twist';
+
+/** A view by its name, or by a morph from 0 (the plane) to 1 (the twists). */
+export type MorphedView = ViewName | number;
 
 /** Of (x, y, θ) in m, m, rad; in exponential coordinates of ξ along, lateral (m) and heading (rad). */
 export interface Moments {
@@ -220,6 +229,12 @@ impl JsBananaMachine {
         ])
     }
 
+    /// Places inside of the 2σ ellipse where no robot stops, two at most, as x, y pairs in m; empty where the outlines nearly coincide.
+    #[wasm_bindgen(getter)]
+    pub fn gaps(&self) -> Float64Array {
+        flat(&self.0.gaps())
+    }
+
     /// Exact cross-track skew at 2 to 10 000 evenly spaced turn rates, rad/s; NaN where undefined.
     #[wasm_bindgen(js_name = skewCurve)]
     pub fn skew_curve(
@@ -267,14 +282,14 @@ impl JsBananaMachine {
     /// The nearest sample inside an ellipse of these radii around a point of the view; −1 for none.
     pub fn nearest(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
         x: f64,
         y: f64,
         #[wasm_bindgen(js_name = radiusX)] radius_x: f64,
         #[wasm_bindgen(js_name = radiusY)] radius_y: f64,
     ) -> Result<i32, JsValue> {
         let radii = [in_range("radiusX", radius_x, &RADIUS)?, in_range("radiusY", radius_y, &RADIUS)?];
-        let nearest = self.0.nearest(word("view", view)?, [x, y], radii);
+        let nearest = self.0.nearest(read_view(view)?, [x, y], radii);
         Ok(nearest.map_or(-1, |index| index as i32))
     }
 
@@ -282,7 +297,7 @@ impl JsBananaMachine {
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle and a size")]
     pub fn density(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
         #[wasm_bindgen(js_name = xMin)] x_min: f64,
         #[wasm_bindgen(js_name = yMin)] y_min: f64,
         #[wasm_bindgen(js_name = xMax)] x_max: f64,
@@ -291,7 +306,7 @@ impl JsBananaMachine {
         rows: f64,
     ) -> Result<Uint32Array, JsValue> {
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
-        Ok(Uint32Array::from(&self.0.density(word("view", view)?, &grid)[..]))
+        Ok(Uint32Array::from(&self.0.density(read_view(view)?, &grid)[..]))
     }
 
     /// The same as RGBA pixels, each count c in the colour ramp[255·√(c/most)] of 256, transparent where there is nobody.
@@ -300,7 +315,7 @@ impl JsBananaMachine {
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "ViewName")] view: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
         #[wasm_bindgen(js_name = xMin)] x_min: f64,
         #[wasm_bindgen(js_name = yMin)] y_min: f64,
         #[wasm_bindgen(js_name = xMax)] x_max: f64,
@@ -311,6 +326,36 @@ impl JsBananaMachine {
     ) -> Result<Uint8ClampedArray, JsValue> {
         let grid = read_grid([x_min, y_min, x_max, y_max], columns, rows)?;
         let [ramp] = read_ramps("ramp", ramp)?;
-        Ok(view_of(self.0.paint(word("view", view)?, &grid, &ramp)))
+        Ok(view_of(self.0.paint(read_view(view)?, &grid, &ramp)))
     }
+}
+
+/// Reads a view: its name, or a morph.
+fn read_view(view: &JsValue) -> Result<View, JsValue> {
+    match view.as_f64() {
+        Some(morph) => Ok(View::at(in_range("view", morph, &MORPH)?)),
+        None => word("view", view),
+    }
+}
+
+/// Places at a morph of a line of points of the floor, x, y pairs in m. Each point is taken for the end of the arc whose turn is
+/// nearest to `turn` (rad). Empty for a line around the start.
+#[wasm_bindgen(js_name = unbendLine)]
+pub fn line_unbent(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
+    let (turn, morph) = (in_range("turn", turn, &QUANTITY)?, in_range("morph", morph, &MORPH)?);
+    Ok(flat(&unbend_line(points.as_chunks().0, turn, morph)))
+}
+
+/// The 2σ outline at a morph of a Gaussian in exponential coordinates, as x, y pairs; `moments` are its mean (three numbers) and its
+/// covariance (nine).
+#[wasm_bindgen(js_name = unbendGaussian)]
+pub fn gaussian_unbent(moments: &[f64], morph: f64) -> Result<Float64Array, JsValue> {
+    let morph = in_range("morph", morph, &MORPH)?;
+    let (mean, cov) = moments
+        .split_at_checked(3)
+        .filter(|(_, cov)| cov.len() == 9)
+        .ok_or_else(|| RangeError::new(&format!("moments has length {}; allowed is 12", moments.len())))?;
+    let moments =
+        ExponentialMoments { mean: Vector3::from_column_slice(mean), cov: Matrix3::from_row_slice(cov) };
+    Ok(flat(&ExponentialContour::new(&moments, &SE2::identity()).unbent(OUTLINE_SEGMENTS, morph)))
 }

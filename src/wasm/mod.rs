@@ -30,8 +30,9 @@ mod squeeze;
 mod values;
 
 use crate::models::VelocityCmd;
-use crate::sim::banana::command_reaching;
+use crate::sim::banana::command_seen_at;
 use crate::sim::settings::QUANTITY;
+use crate::sim::views::MORPH;
 use fields::{group_in_range, in_range};
 use values::object;
 use wasm_bindgen::prelude::*;
@@ -43,16 +44,19 @@ pub fn random_seed() -> Result<f64, JsError> {
 }
 
 /// The arc from the origin, heading along x, that ends at (x, y), in m, −1e6 to 1e6, in the time of a command; of the
-/// many, the one whose turn is nearest to that command's.
+/// many, the one whose turn is nearest to that command's. With a morph from 0 (the default, the floor) to 1 (exponential coordinates),
+/// the arc whose end is seen there.
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn speeds_reaching(
     x: f64,
     y: f64,
     #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
+    morph: Option<f64>,
 ) -> Result<JsValue, JsValue> {
     let (x, y) = (in_range("x", x, &QUANTITY)?, in_range("y", y, &QUANTITY)?);
     let mut near = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
     group_in_range("command", command, &mut near)?;
-    let VelocityCmd { v, omega, .. } = command_reaching(x, y, &near);
+    let morph = in_range("morph", morph.unwrap_or(0.0), &MORPH)?;
+    let VelocityCmd { v, omega, .. } = command_seen_at([x, y], &near, morph);
     Ok(object(&[("v", v.into()), ("omega", omega.into())]))
 }

@@ -1,6 +1,7 @@
 //! The Banana Machine: one command from the origin, thousands of outcomes.
 
 mod figures;
+mod gaps;
 mod settings;
 
 use figures::Charted;
@@ -15,6 +16,7 @@ use super::settings::{Rules, SettingsError};
 use crate::geom::arc::{Arc, arc_near};
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
+use crate::geom::unbend::arc_at;
 use crate::models::{
     Hinges, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseModel,
     VelocityAlphas, VelocityCmd, VelocityModel,
@@ -120,6 +122,17 @@ pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
+/// Returns the command whose end is seen at (x, y) at a morph, with the duration of `near` and found from it; `near` itself where
+/// there is none. On the floor, at 0, it is [`command_reaching`].
+pub fn command_seen_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> VelocityCmd {
+    let VelocityCmd { v, omega, dt } = *near;
+    if morph == 0.0 {
+        return command_reaching(x, y, near);
+    }
+    let found = arc_at([x, y], [v * dt, omega * dt], morph);
+    found.map_or(*near, |[length, turn]| VelocityCmd { v: length / dt, omega: turn / dt, dt })
+}
+
 fn command_end(command: &VelocityCmd) -> SE2 {
     SE2::exp(&TangentNoiseModel::twist(command))
 }
@@ -136,7 +149,7 @@ pub const MAX_CURVE_POINTS: u64 = 10_000;
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Chords of an outline: at 128 the sagitta is 0.03 % of the radius, a fifth of a pixel on the largest screen.
-const OUTLINE_SEGMENTS: usize = 128;
+pub const OUTLINE_SEGMENTS: usize = 128;
 
 /// The simulation behind the widget: settings, draws, and the cloud shown.
 #[derive(Clone, Debug)]

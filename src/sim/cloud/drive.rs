@@ -143,6 +143,16 @@ impl Drive {
         logarithms(ends, turn)
     }
 
+    /// Returns the places of four motions that ended at `ends`, at a morph: see [`crate::geom::unbend`].
+    #[inline(always)]
+    pub fn unbent(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
+        let FourPoses { along, lateral, half, .. } = self.poses(motions, ends);
+        let left = 1.0 - morph;
+        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(half * left);
+        let (along, lateral) = (along * sinc, lateral * sinc * left);
+        [along * cos - lateral * sin, along * sin + lateral * cos + half * (2.0 * morph)]
+    }
+
     /// Whether an angle leaves the range of the short formulas.
     #[inline(always)]
     fn is_far(&self, motions: &Motions) -> bool {

@@ -180,6 +180,10 @@ impl Cloud {
                 let poses = self.drive.poses(&motions, &self.positions[four]);
                 [poses.along, poses.half * 2.0]
             }
+            View::Morph(morph) => {
+                let motions = self.drive.motions(&self.draws.fours()[four]);
+                self.drive.unbent(&motions, &self.positions[four], morph)
+            }
         };
         let (full, rest) = (shown / LANES, shown % LANES);
         (0..full).for_each(|four| see(point(four)));

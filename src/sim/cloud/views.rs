@@ -1,20 +1,36 @@
-//! The two pictures of a cloud, and what is asked of them: where is it dense, which sample is nearest.
+//! Pictures of a cloud, and what is asked of them: where is it dense, which sample is nearest.
 
 use crate::sim::settings::Words;
 use std::ops::RangeInclusive;
 
 /// A picture of the cloud.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
     /// Positions (x, y), m.
     Plane,
     /// Exponential coordinates (along, heading), m and rad.
     Twist,
+    /// Places between the two, at a morph from 0 to 1: see [`crate::geom::unbend`].
+    Morph(f64),
+}
+
+impl View {
+    /// Returns the view at a morph. At the ends it is the plane and the twists, without rounding.
+    pub fn at(morph: f64) -> Self {
+        match morph {
+            0.0 => Self::Plane,
+            1.0 => Self::Twist,
+            _ => Self::Morph(morph),
+        }
+    }
 }
 
 impl Words for View {
     const WORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
 }
+
+/// Shares of the way from the plane to the twists.
+pub const MORPH: RangeInclusive<f64> = 0.0..=1.0;
 
 /// Coordinates that a rectangle of a view may reach: as far as the fastest robot gets in the longest step, and some.
 pub const EXTENT: RangeInclusive<f64> = -1e18..=1e18;

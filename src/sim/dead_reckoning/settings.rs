@@ -129,7 +129,18 @@ pub const PRESETS: [Preset; 4] = [
     preset("straight", [1.0, 0.0, 0.2], [20, 2], 0.02),
 ];
 
-const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], [steps, step]: [u32; 2], heading: f64) -> Preset {
+const fn preset(
+    name: &'static str,
+    [v, omega, dt]: [f64; 3],
+    [steps, step]: [u32; 2],
+    heading: f64,
+) -> Preset {
     let [h, last] = [heading, heading / 4.0];
-    Preset { name, command: VelocityCmd { v, omega, dt }, steps, step, alphas: [0.02, 0.02, h, h, last, last] }
+    Preset {
+        name,
+        command: VelocityCmd { v, omega, dt },
+        steps,
+        step,
+        alphas: [0.02, 0.02, h, h, last, last],
+    }
 }

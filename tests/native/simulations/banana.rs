@@ -223,10 +223,7 @@ fn both_views_find_the_nearest_sample() {
         let points: Vec<[f64; 2]> = machine
             .poses()
             .zip(machine.twists())
-            .map(|(pose, twist)| match view {
-                View::Plane => [pose.x(), pose.y()],
-                View::Twist => [twist.x, twist.z],
-            })
+            .map(|(pose, twist)| if view == View::Plane { [pose.x(), pose.y()] } else { [twist.x, twist.z] })
             .collect();
         for target in [[0.9, 0.3], [1.2, 0.1], [0.2, 0.9]] {
             let distance =

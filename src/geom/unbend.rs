@@ -1,0 +1,68 @@
+//! Morph of the plane from places (x, y) to exponential coordinates (along, heading).
+//!
+//! With D = diag(1, 1 − μ, 1 − μ), the twist ξ has at the morph μ the place
+//!
+//!     F_μ(ξ) = position of exp(D·ξ) + (0, μ·ξ_heading)
+//!
+//! F₀ is the position of exp ξ, and F₁ is (ξ_along, ξ_heading). In between each arc keeps its length and has lost the share
+//! μ of its curvature. On arcs (ξ_lateral = 0) F_μ is one-to-one for lengths above 0 and turns below π/(1 − μ).
+
+use super::arc::arc_near;
+use super::se2::SE2;
+use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
+use std::f64::consts::PI;
+
+/// Returns the place of a twist (m, m, rad) at a morph from 0 to 1.
+pub fn unbend(twist: &Vector3<f64>, morph: f64) -> [f64; 2] {
+    let left = 1.0 - morph;
+    let pose = SE2::exp(&Vector3::new(twist.x, left * twist.y, left * twist.z));
+    [pose.x(), pose.y() + morph * twist.z]
+}
+
+/// Returns the 2 × 3 Jacobian of [`unbend`] by the twist.
+pub fn unbend_jacobian(twist: &Vector3<f64>, morph: f64) -> Matrix2x3<f64> {
+    let left = 1.0 - morph;
+    let mut jacobian = position_jacobian(&Vector3::new(twist.x, left * twist.y, left * twist.z));
+    jacobian.column_mut(1).scale_mut(left);
+    jacobian.column_mut(2).scale_mut(left);
+    jacobian[(1, 2)] += morph;
+    jacobian
+}
+
+/// Returns the 2 × 3 Jacobian of the position of exp(ξ) by ξ: the upper rows of R(ω)·J_r(ξ).
+fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
+    let rotation = SE2::new(0.0, 0.0, twist.z).adjoint();
+    (rotation * SE2::right_jacobian(twist)).fixed_view::<2, 3>(0, 0).into_owned()
+}
+
+/// Returns the places at a morph of a line of points of the floor, each taken for the end of the arc whose turn is nearest to `turn`
+/// (rad).
+///
+/// Empty for a line that leads half a turn away from there, as one around the start does: its arcs go over from forward to reverse.
+pub fn unbend_line(points: &[[f64; 2]], turn: f64, morph: f64) -> Vec<[f64; 2]> {
+    let arc = |[x, y]: &[f64; 2]| arc_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), turn);
+    let arcs: Vec<_> = points.iter().map(arc).collect();
+    if arcs.windows(2).any(|ends| (ends[1].1 - ends[0].1).abs() > PI) {
+        return Vec::new();
+    }
+    arcs.into_iter().map(|(length, turn)| unbend(&Vector3::new(length, 0.0, turn), morph)).collect()
+}
+
+/// Newton steps at most; from one frame of a drag to the next three suffice.
+const MAX_STEPS: usize = 20;
+
+/// Returns length and turn of the arc whose place at a morph is given, by Newton's method from an arc near it; None where that
+/// does not converge, as on a fold.
+pub fn arc_at(place: [f64; 2], near: [f64; 2], morph: f64) -> Option<[f64; 2]> {
+    let mut arc = Vector2::from(near);
+    for _ in 0..MAX_STEPS {
+        let twist = Vector3::new(arc.x, 0.0, arc.y);
+        let missing = Vector2::from(place) - Vector2::from(unbend(&twist, morph));
+        if missing.amax() < 1e-12 * (1.0 + arc.amax()) {
+            return Some(arc.into());
+        }
+        let jacobian = unbend_jacobian(&twist, morph);
+        arc += Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * missing;
+    }
+    None
+}

@@ -1,0 +1,47 @@
+//! Floor that only the ellipse in (x, y) covers.
+
+use super::{BananaMachine, OUTLINE_SEGMENTS};
+use crate::geom::arc::arc_near;
+use crate::geom::se2::SE2;
+use crate::sim::cloud::START;
+use crate::stats::{Ellipse, ExponentialContour};
+
+/// Least area ratio at which there is floor to point at: below it the outlines nearly coincide.
+const LEAST_RATIO: f64 = 1.15;
+
+/// Least distance from the mean in exponential coordinates, standard deviations. Beyond it stops one robot in 900, anywhere.
+const NOBODY: f64 = 3.7;
+
+/// Share of the way from the centre of the ellipse to its boundary: a point there is seen to be inside.
+const INSIDE: f64 = 0.95;
+
+impl BananaMachine {
+    /// Returns places (x, y) in m, inside of the 2σ ellipse, where no robot stops: the one furthest outside of the outline in
+    /// exponential coordinates, and the one on the other side of the cloud. Empty where the outlines nearly coincide.
+    pub fn gaps(&self) -> Vec<[f64; 2]> {
+        let Self { figures, .. } = self;
+        if figures.area_ratio.is_nan() || figures.area_ratio < LEAST_RATIO {
+            return Vec::new();
+        }
+        let floor = Ellipse::from_moments(&figures.cartesian);
+        let contour = ExponentialContour::new(&figures.exponential, &START);
+        let mean = figures.exponential.mean;
+        let candidates: Vec<_> = floor
+            .boundary(OUTLINE_SEGMENTS)
+            .into_iter()
+            .map(|point| {
+                let [x, y] = floor.inside(point, INSIDE);
+                let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), mean.z);
+                ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
+            })
+            .filter(|(_, distance, _)| *distance > NOBODY)
+            .collect();
+        let furthest = |before: bool| {
+            let side = candidates.iter().filter(|(_, _, is_before)| *is_before == before);
+            side.max_by(|(_, one, _), (_, other, _)| one.total_cmp(other))
+        };
+        let mut gaps: Vec<_> = [true, false].into_iter().filter_map(furthest).collect();
+        gaps.sort_by(|(_, one, _), (_, other, _)| other.total_cmp(one));
+        gaps.into_iter().map(|(point, _, _)| *point).collect()
+    }
+}

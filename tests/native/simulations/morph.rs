@@ -1,0 +1,151 @@
+//! The morph from the floor to exponential coordinates.
+
+use crate::common::{preset, winds_around};
+use motion::VelocityCmd;
+use motion::geom::se2::SE2;
+use motion::geom::unbend::{arc_at, unbend, unbend_line};
+use motion::sim::View;
+use motion::sim::banana::{BananaMachine, ModelKind, OUTLINE_SEGMENTS, Settings};
+use motion::stats::ExponentialContour;
+use nalgebra::Vector3;
+
+const MORPHS: [f64; 5] = [0.0, 0.2, 0.5, 0.9, 1.0];
+
+fn machine(settings: Settings) -> BananaMachine {
+    BananaMachine::new(settings).expect("a valid setting")
+}
+
+fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
+    (one[0] - other[0]).hypot(one[1] - other[1])
+}
+
+/// The end of the path of a body with constant velocity in its own frame, in steps of the midpoint rule.
+fn integrated([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
+    const STEPS: usize = 2000;
+    let step = 1.0 / STEPS as f64;
+    (0..STEPS).map(|i| omega * step * (i as f64 + 0.5)).fold([0.0; 2], |[x, y], heading: f64| {
+        let (sin, cos) = heading.sin_cos();
+        [x + step * (vx * cos - vy * sin), y + step * (vx * sin + vy * cos)]
+    })
+}
+
+#[test]
+fn robots_are_where_the_map_has_them() {
+    for settings in [
+        preset("banana"),
+        preset("hard"),
+        preset("pivot"),
+        Settings { model: ModelKind::Odometry, ..preset("hard") },
+        Settings { command: VelocityCmd { v: 1.0, omega: 2.4, dt: 1.5 }, ..preset("banana") },
+    ] {
+        let machine = machine(Settings { samples: 103, ..settings });
+        for (index, (pose, twist)) in machine.poses().zip(machine.twists()).enumerate() {
+            for morph in MORPHS {
+                let place = unbend(&twist, morph);
+                assert_eq!(machine.nearest(View::at(morph), place, [1e-10; 2]), Some(index), "{morph}");
+                let left = 1.0 - morph;
+                let [x, y] = integrated([twist.x, left * twist.y, left * twist.z]);
+                assert!(distance(place, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
+            }
+            assert!(distance(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
+            assert_eq!(unbend(&twist, 1.0), [twist.x, twist.z]);
+        }
+    }
+}
+
+#[test]
+fn robots_move_smoothly() {
+    const STEP: f64 = 1e-3;
+    let machine = machine(Settings { samples: 200, ..preset("banana") });
+    for twist in machine.twists() {
+        let speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
+        for morph in (0..1000).map(|i| f64::from(i) * STEP) {
+            let moved = distance(unbend(&twist, morph), unbend(&twist, morph + STEP));
+            assert!(moved <= STEP * speed * (1.0 + 1e-9), "{twist} at {morph}");
+        }
+    }
+}
+
+/// Without γ̂ the map is one-to-one: the same robots are inside of an outline all the way, but for those between a chord and its arc.
+#[test]
+fn outlines_keep_their_robots() {
+    let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
+    for omega in [0.0, 0.4] {
+        let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
+        let machine =
+            machine(Settings { command, velocity_alphas: alphas, samples: 5000, ..preset("banana") });
+        let contour = ExponentialContour::new(&machine.figures().exponential, &SE2::identity());
+        let inside = |morph: f64| {
+            let ellipse = unbend_line(&machine.contours().ellipse, omega * 2.0, morph);
+            let outline = contour.unbent(OUTLINE_SEGMENTS, morph);
+            [ellipse, outline].map(|outline| {
+                machine
+                    .twists()
+                    .map(|twist| winds_around(&outline, unbend(&twist, morph)))
+                    .collect::<Vec<_>>()
+            })
+        };
+        let on_floor = inside(0.0);
+        for morph in MORPHS {
+            for (now, floor) in inside(morph).iter().zip(&on_floor) {
+                let changed = now.iter().zip(floor).filter(|(now, floor)| now != floor).count();
+                assert!(changed <= 10, "{changed} robots at {morph}");
+            }
+        }
+    }
+}
+
+/// At its ends the outline of the Gaussian in exponential coordinates is the one of each view, also with γ̂.
+#[test]
+fn the_outline_ends_as_both_views_have_it() {
+    let machine = machine(Settings { samples: 5000, ..preset("hard") });
+    let figures = machine.figures();
+    let contour = ExponentialContour::new(&figures.exponential, &SE2::identity());
+    assert_eq!(contour.unbent(OUTLINE_SEGMENTS, 0.0), machine.contours().exponential);
+    for point in contour.unbent(OUTLINE_SEGMENTS, 1.0) {
+        assert!((contour.ellipse().distance(point) - 2.0).abs() < 1e-9);
+    }
+}
+
+/// A line beside the start stays connected. One around the start would be torn, and is left out.
+#[test]
+fn a_line_is_carried_whole_or_not_at_all() {
+    let circle = |x: f64| -> Vec<[f64; 2]> {
+        let angles = (0..=128).map(|i| std::f64::consts::TAU * f64::from(i) / 128.0);
+        angles.map(|angle| [x + 0.5 * angle.cos(), 0.5 * angle.sin()]).collect()
+    };
+    for morph in MORPHS {
+        assert!(unbend_line(&circle(0.1), 0.3, morph).is_empty());
+        let carried = unbend_line(&circle(0.7), 0.3, morph);
+        assert_eq!(carried.len(), 129);
+        assert!(carried.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.2), "{morph}");
+    }
+    for (point, carried) in circle(0.7).iter().zip(unbend_line(&circle(0.7), 0.3, 0.0)) {
+        assert!(distance(*point, carried) < 1e-12);
+    }
+}
+
+#[test]
+fn a_place_leads_back_to_its_arc() {
+    for morph in MORPHS {
+        for [length, turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
+            let place = unbend(&Vector3::new(length, 0.0, turn), morph);
+            let found = arc_at(place, [length + 0.1, turn - 0.1], morph).expect("an arc");
+            assert!(distance(found, [length, turn]) < 1e-9, "{morph}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn gaps_are_in_the_ellipse_alone_and_empty() {
+    let machine = machine(preset("banana"));
+    let (gaps, contours) = (machine.gaps(), machine.contours());
+    assert_eq!(gaps.len(), 2);
+    for gap in gaps {
+        assert!(winds_around(&contours.ellipse, gap) && !winds_around(&contours.exponential, gap));
+        assert_eq!(machine.nearest(View::Plane, gap, [0.03; 2]), None, "{gap:?}");
+    }
+    for name in ["straight", "gentle", "hard", "pivot", "worked"] {
+        assert!(self::machine(preset(name)).gaps().is_empty(), "{name}");
+    }
+}

@@ -390,10 +390,11 @@ export function detail(widget, name) {
  * The page, with its widget running and everything open that is folded away.
  *
  * @param {Page} page
+ * @param {string} [attributes]
  * @returns {Promise<Locator>} the widget
  */
-export async function openWhole(page) {
-  const widget = await open(page);
+export async function openWhole(page, attributes = '') {
+  const widget = await open(page, attributes);
   await unfold(widget);
   await page.evaluate(() => scrollTo(0, 0));
   await frames(page);

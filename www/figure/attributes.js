@@ -43,7 +43,7 @@ import { THEMES } from './page/scheme.js';
  */
 
 /** @type {Kind} */
-const NUMBER = {
+export const NUMBER = {
   parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
   print: (value) => (value === null ? null : String(value)),
 };

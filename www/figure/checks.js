@@ -93,6 +93,19 @@ export function wholeNumber(field, value, least, most) {
 /**
  * @param {string} field
  * @param {unknown} value
+ * @param {number} least
+ * @param {number} most
+ */
+export function numberWithin(field, value, least, most) {
+  const allowed = `${least} to ${most}`;
+  if (typeof value !== 'number') throw refusal(field, value, allowed, TypeError);
+  if (!(value >= least && value <= most)) throw refusal(field, value, allowed);
+  return value;
+}
+
+/**
+ * @param {string} field
+ * @param {unknown} value
  * @param {readonly string[]} allowed
  * @returns {string[]} those of them that it names, in their own order
  */

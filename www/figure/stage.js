@@ -32,6 +32,9 @@ let calm;
 /** Whether the reader has asked for less motion. */
 export const isCalm = () => (calm ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
+/** Returns whether a canvas has room: a narrow figure may leave one out. @param {HTMLCanvasElement} canvas */
+const isShown = ({ clientWidth, clientHeight }) => Math.min(clientWidth, clientHeight) > 0;
+
 export class Stage extends Part {
   /** Whether the reader can see it. */
   inSight = false;
@@ -200,7 +203,8 @@ export class Stage extends Part {
     const { scene } = host;
     const { pressed: still, former } = host.gesture;
     const how = { elapsed, still, atOnce: this.#printing || isCalm(), former, highlight: host.highlight, handles: this.#printing };
-    const moving = host.pictures.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
+    const shown = host.pictures.filter((picture) => isShown(this.canvasOf(picture)));
+    const moving = shown.map((picture) => picture.draw(this.canvasOf(picture), scene, this.palette, how));
     host.placeHandles(scene);
     const now = performance.now();
     const since = this.#owedSince;
@@ -230,9 +234,8 @@ export class Stage extends Part {
 
   /** Whether there is something to draw on: not before a canvas has its pixels, nor inside a closed tab, where everything has size 0. */
   get #hasSize() {
-    return this.#canvases?.every(
-      ({ width, height, clientWidth, clientHeight }) => Math.min(width, height, clientWidth, clientHeight) > 0,
-    );
+    const shown = this.#canvases?.filter(isShown) ?? [];
+    return shown.length > 0 && shown.every(({ width, height }) => Math.min(width, height) > 0);
   }
 
   /** Gives each canvas as many pixels as the screen has under it. @param {ResizeObserverEntry[]} entries */

@@ -20,8 +20,9 @@ const KEY = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
  * @param {Brush} brush
  * @param {{ x: string, y: string }} names with their units in brackets
  * @param {KeyEntry[]} key the most important first: as many as there is room for, in as many lines as the view keeps free
+ * @param {number} [grid] its opacity
  */
-export function drawAxes(brush, names, key) {
+export function drawAxes(brush, names, key, grid = 0.5) {
   const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
@@ -38,7 +39,7 @@ export function drawAxes(brush, names, key) {
   context.textBaseline = 'top';
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
-    line(context, [x, top, x, bottom], 0.5);
+    line(context, [x, top, x, bottom], grid);
     const text = xTicks.text(value);
     if (x + context.measureText(text).width / 2 < free) context.fillText(text, x, bottom + 6);
   }
@@ -47,7 +48,7 @@ export function drawAxes(brush, names, key) {
   context.textBaseline = 'middle';
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
-    line(context, [left, y, right, y], 0.5);
+    line(context, [left, y, right, y], grid);
     context.fillText(yTicks.text(value), left - 6, y);
   }
 
@@ -122,12 +123,13 @@ function ticksOf(from, to, count) {
  * @param {number} alpha
  */
 function line(context, [x1, y1, x2, y2], alpha) {
-  context.globalAlpha = alpha;
+  const { globalAlpha } = context;
+  context.globalAlpha = alpha * globalAlpha;
   context.beginPath();
   context.moveTo(x1, y1);
   context.lineTo(x2, y2);
   context.stroke();
-  context.globalAlpha = 1;
+  context.globalAlpha = globalAlpha;
 }
 
 /**

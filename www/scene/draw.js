@@ -26,7 +26,8 @@ const TICKS_A_STROKE = 25;
  *
  * @param {Brush} brush
  * @param {Float64Array} triples
- * @param {{ x: number, y: number, heading: number | null }} layout which of the three numbers are drawn
+ * @param {{ x: number, y: number, heading: number | null, ahead?: number }} layout which of the three numbers are drawn, and the length of
+ *   the heading's line as a share of the usual one
  */
 export function drawDots(brush, triples, layout) {
   const { context, view, palette } = brush;
@@ -37,9 +38,9 @@ export function drawDots(brush, triples, layout) {
   const radius = size * (few ? 2.4 : 1.8);
   const x = (/** @type {number} */ i) => view.toPixelX(triples[3 * i + layout.x]);
   const y = (/** @type {number} */ i) => view.toPixelY(triples[3 * i + layout.y]);
-  const { heading } = layout;
+  const { heading, ahead = 1 } = layout;
   if (heading !== null) {
-    const length = size * (few ? 13 : 9);
+    const length = ahead * size * (few ? 13 : 9);
     context.strokeStyle = palette.cloud;
     context.lineWidth = 1;
     context.globalAlpha = few ? 0.6 : 0.32;

@@ -20,6 +20,7 @@ import { length, pointOn } from './canvas.js';
  * @property {number} now
  * @property {string} text the value in words
  * @property {string | false} [stop] a few words on what it has come up against, if it has
+ * @property {string | false} [hint] a few words to one who has not seen it yet, while it pulses once
  */
 
 /** Steps of keys, x and y up: Home and End go to the ends of the range along x. @type {Record<string, [number, number]>} */
@@ -74,7 +75,7 @@ export class Handle {
   }
 
   /** @param {Said} said */
-  element({ name, keys, title, range, now, text, stop }) {
+  element({ name, keys, title, range, now, text, stop, hint }) {
     // What stops it stands beside it, towards the middle of the picture.
     const side = 2 * this.#middle[0] > this.#hooks.view().width ? 'right' : '';
     return html`<div
@@ -88,6 +89,7 @@ export class Handle {
       aria-valuenow=${now}
       aria-valuetext=${stop ? `${text}. ${stop}` : text}
       data-stop=${stop || nothing}
+      data-hint=${hint || nothing}
       title=${title}
       @pointerdown=${this.#take}
       @pointermove=${this.#drag}

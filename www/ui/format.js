@@ -106,20 +106,7 @@ export function significant(value, digits) {
  * @returns {string} "10⁻⁵"
  */
 export function powerOfTen(exponent) {
-  return `10${raised(exponent)}`;
-}
-
-/** @param {number} exponent a whole number */
-function raised(exponent) {
-  return String(exponent).replace('-', '⁻').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
-}
-
-/**
- * @param {number} exponent not below 0
- * @returns {string} "e²⁴⁹", the exponent rounded to a whole number
- */
-export function powerOfE(exponent) {
-  return `e${raised(Math.round(exponent))}`;
+  return `10${String(exponent).replace('-', '⁻').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)])}`;
 }
 
 /**

@@ -145,6 +145,44 @@ const layout = css`
     background: var(--prior);
   }
 
+  .handle[data-hint]::before {
+    content: attr(data-hint);
+    position: absolute;
+    top: 100%;
+    left: 50%;
+    translate: -50% 0;
+    padding: 0.12em 0.6em;
+    background: var(--prior);
+    border-radius: 3px;
+    color: var(--paper);
+    font-size: 0.85em;
+    white-space: nowrap;
+    pointer-events: none;
+    animation: hinted 2.4s ease-in-out both;
+  }
+
+  .handle[data-hint]::after {
+    animation: pulsing 1.2s ease-in-out;
+  }
+
+  @keyframes hinted {
+    from,
+    to {
+      opacity: 0;
+    }
+
+    20%,
+    80% {
+      opacity: 1;
+    }
+  }
+
+  @keyframes pulsing {
+    50% {
+      box-shadow: 0 0 0 0.9em color-mix(in srgb, var(--prior) 35%, transparent);
+    }
+  }
+
   /* Two lines, however short the sentence is: nothing moves when another one comes. */
   .caption {
     min-height: 2lh;

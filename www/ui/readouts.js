@@ -30,6 +30,11 @@ export const readoutStyles = css`
     white-space: nowrap;
   }
 
+  .readouts .headline dd:not(.detail) {
+    font-size: 1.9em;
+    line-height: 1.1;
+  }
+
   .readouts .detail {
     color: var(--muted);
     font-size: 0.84em;
@@ -110,15 +115,16 @@ export const readoutStyles = css`
 `;
 
 /**
- * @param {[name: string, value: string, detail?: string][]} rows each with an optional detail in smaller print
+ * @param {[name: string, value: string, ...details: (string | undefined)[]][]} rows each with optional details in smaller print
+ * @param {number} [headline] index of the row that is the figure's message
  */
-export function readoutList(rows) {
+export function readoutList(rows, headline) {
   return html`<dl class="readouts" part="readouts">
     ${rows.map(
-      ([name, value, detail]) => html`<div>
+      ([name, value, ...details], i) => html`<div class=${i === headline ? 'headline' : nothing}>
         <dt>${rich(name)}</dt>
         <dd>${symbols(value)}</dd>
-        ${detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing}
+        ${details.map((detail) => (detail ? html`<dd class="detail">${rich(detail)}</dd>` : nothing))}
       </div>`,
     )}
   </dl>`;

@@ -5,7 +5,7 @@
 
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
-import { Cloud, shownOf } from '../../figure/cloud.js';
+import { shownOf } from '../../figure/cloud.js';
 import { canvas, cloudControls, disclosures, panel } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
 import { reserve } from '../../figure/page/room.js';
@@ -16,12 +16,15 @@ import { words } from '../../messages/registry.js';
 import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.js';
 import { clamp } from '../../ui/clamp.js';
-import { rich } from '../../ui/controls.js';
+import { button, rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
+import { Player } from '../shared/player.js';
 import { alphaControls, commandControls, modelControls } from './controls.js';
 import { presetButtons } from '../shared/presets.js';
 import { ArcHandle } from './handle.js';
+import { IntroducedCloud } from './introduction.js';
+import { DURATION, carrying, gapsAt, morphControl, outlinesAt, placeOf } from './morph.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
@@ -51,6 +54,7 @@ const SKEWS = [0.25, 0.5, 1, 2, 4, 8];
  *
  * @attr preset - A command worth starting from; none where the command is another.
  * @attr overlays - The outlines that are drawn; in the attribute with spaces between.
+ * @attr morph - Share of the way that the floor has been carried to exponential coordinates, from 0 to 1.
  *
  * @csspart figures - Readouts, chart and table.
  * @csspart chart - The chart of the skew.
@@ -67,12 +71,20 @@ export class BananaMachineElement extends FigureElement {
   static vocabulary = vocabulary;
   static basis = ['model'];
 
-  cloud = new Cloud(this);
+  cloud = new IntroducedCloud(this);
   #curve = new CurveMemo();
   #plane = new PlanePicture();
   #twist = new TwistPicture();
   pictures = [this.#plane, this.#twist];
   #handle = new ArcHandle(this);
+
+  /** Reading that the present cloud is compared with. @type {Reading | undefined} */
+  #pinned;
+
+  /** @type {Player<'morph'>} */
+  player = new Player(this, {
+    morph: { from: 0, to: 1, duration: DURATION, at: () => this.state.own.morph, put: (to) => this.#carry(to) },
+  });
 
   /** @type {FigureElement<Machine, Reading>['createMachine']} */
   createMachine = (motion, state) => {
@@ -95,11 +107,43 @@ export class BananaMachineElement extends FigureElement {
     return readingOf(machine);
   }
 
+  /** In a state that came, or came back, nothing is played. */
+  machineChanged() {
+    this.player.stop();
+  }
+
   get scene() {
     const reading = this.fresh;
-    const { overlays } = this.state.own;
+    const { motion } = this;
+    const { overlays, morph } = this.state.own;
     const shown = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
-    return { ...reading, machine: this.machine, overlays: shown, marked: this.#inspection };
+    return {
+      ...reading,
+      machine: this.machine,
+      overlays: shown,
+      marked: this.#inspection,
+      morph,
+      outlinesOf: (/** @type {Reading} */ of) => outlinesAt(motion, of, morph),
+      // A cloud that grows has outlines that wander.
+      callouts: this.cloud.playing ? [] : gapsAt(motion, reading, morph),
+      pinned: this.#pinned,
+      driving: this.cloud.driving,
+      reached: carrying(motion, reading, 1)(reading.contours.ellipse),
+    };
+  }
+
+  /** Keeps the outlines and the numbers to compare with, or lets go of those that are kept. */
+  #pin() {
+    this.#pinned = this.#pinned ? undefined : this.fresh;
+    this.stage.wake();
+    this.requestUpdate();
+  }
+
+  /** Carries the floor so far to exponential coordinates. @param {number} morph */
+  #carry(morph) {
+    this.state.own.morph = morph;
+    this.gesture.step();
+    this.stage.wake();
   }
 
   get takeaway() {
@@ -130,9 +174,15 @@ export class BananaMachineElement extends FigureElement {
     return { ...super.completed(present, given), alphas: { ...present.alphas, ...alphas } };
   }
 
-  /** @param {Reading} scene */
-  placeHandles({ end: [x, y] }) {
+  /** Place of the end of the commanded arc, in the view's world. */
+  get seenEnd() {
+    const { v, omega, dt } = this.fresh.config.command;
+    return placeOf([v * dt, 0, omega * dt], this.state.own.morph);
+  }
+
+  placeHandles() {
     const { view } = this.#plane;
+    const [x, y] = this.seenEnd;
     this.#handle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
@@ -172,22 +222,28 @@ export class BananaMachineElement extends FigureElement {
    * Sets the command to the arc that ends at a point, as far as the sliders go: of the many that do,
    * the one nearest to the present one, so that nothing leaps.
    *
-   * @param {number} x metres
+   * @param {number} x in the view's world
    * @param {number} y
    */
   reach(x, y) {
     this.settings.want(({ command }) => {
-      const { v, omega } = this.motion.commandReaching(x, y, command);
+      const { v, omega } = this.motion.commandReaching(x, y, command, this.state.own.morph);
       const within = (/** @type {number} */ value, /** @type {{ min: number, max: number }} */ { min, max }) => clamp(value, min, max);
       return { command: { ...command, v: within(v, looks.v), omega: within(omega, looks.omega) } };
     });
+  }
+
+  /** Title of the picture that the morph carries along. */
+  get #title() {
+    const { morph } = this.state.own;
+    return morph === 0 ? words.banana.floor : morph === 1 ? words.banana.twist : words.banana.morph.title;
   }
 
   /** What the floor shows, in words. */
   get #description() {
     const { overlays } = /** @type {{ overlays: (typeof OVERLAYS)[number][] }} */ (this.state.own);
     const drawn = overlays.filter((name) => hasLength(this.reading.contours[name]));
-    return planeText(this.reading, drawn.map((name) => words.banana.overlays[name]));
+    return planeText(this.reading, drawn.map((name) => words.banana.overlays[name]), this.state.own.morph);
   }
 
   /** @param {Reading} reading */
@@ -197,15 +253,19 @@ export class BananaMachineElement extends FigureElement {
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
-          ${panel(say.floor, html`<div class="stage" part="picture">
-            ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command)}
+          ${panel(this.#title, html`<div class="stage" part="picture">
+            ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
           </div>`)}
-          ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`)}
+          ${panel(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
         </div>
         ${this.stage.later(() => html`
+        <div class="morphing">
+          ${morphControl(this)}
+          ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
+        </div>
         ${legend(this, LINES)}
         <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
-        ${readouts(reading)} ${presetButtons(this)}
+        ${readouts(reading, this.#pinned)} ${presetButtons(this)}
         <div class="controls" part="controls">
           ${commandControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}
         </div>

@@ -18,7 +18,7 @@ export class ArcHandle extends Handle {
       key: (event) => {
         const steps = stepsOf(event);
         if (!steps) return false;
-        const [x, y] = figure.runtime.attempt(() => figure.machine && figure.fresh.end) ?? [0, 0];
+        const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
         // No arc ends farther away than the straight one.
         const farthest = looks.v.max * figure.settings.wanted.command.dt;
         figure.reach(clamp(x + KEY_STEP * steps[0], -farthest, farthest), y + KEY_STEP * steps[1]);
@@ -28,8 +28,11 @@ export class ArcHandle extends Handle {
     });
   }
 
-  /** @param {import('../../types.d.ts').Command} command */
-  render({ v, omega }) {
+  /**
+   * @param {import('../../types.d.ts').Command} command
+   * @param {boolean} isAsking whether it asks to be dragged
+   */
+  render({ v, omega }, isAsking) {
     const say = words.banana;
     const { min, max } = looks.omega;
     const ends = [v - looks.v.min, looks.v.max - v, omega - min, max - omega].some((left) => left <= 0);
@@ -41,6 +44,7 @@ export class ArcHandle extends Handle {
       now: omega,
       text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
       stop: ends && say.slidersEnd,
+      hint: isAsking && say.handleHint,
     });
   }
 }

@@ -2,6 +2,7 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
+import { drawCallout } from '../../scene/callout.js';
 import {
   densityRamp,
   drawDensity,
@@ -19,20 +20,30 @@ import {
 import { drawLabel } from '../../scene/labels.js';
 import { Picture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
+import { clamp } from '../../ui/clamp.js';
 import { counted } from '../../ui/format.js';
 import { lineKey } from '../shared/line-key.js';
+import { drawLattice } from './lattice.js';
+import { MorphView, placeOf } from './morph.js';
 import { deviation } from './reading.js';
 import { LINES } from './settings.js';
 
 /**
  * @import { BananaMachine, Moments } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
+ * @import { Outlines } from './morph.js'
  *
  * @typedef {import('./reading.js').Reading & {
  *   machine: BananaMachine,
  *   overlays: Record<import('./settings.js').LineName, boolean>,
  *   marked: import('../../types.d.ts').Inspection | undefined,
- * }} Scene what both pictures are of
+ *   morph: number,
+ *   pinned: import('./reading.js').Reading | undefined,
+ *   driving: { robots: number, share: number } | undefined,
+ *   outlinesOf: (reading: import('./reading.js').Reading) => Outlines,
+ *   callouts: [number, number][],
+ *   reached: Float64Array,
+ * }} Scene what both pictures are of; outlines, and places of callouts, are those at the morph, and the ellipse is `reached` at its end
  */
 
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
@@ -61,6 +72,11 @@ const REACH = 14;
 class CloudPicture extends Picture {
   #grid = new OffscreenCanvas(1, 1);
 
+  /** Share of the way from the floor to exponential coordinates that is shown. @returns {number} */
+  get morph() {
+    return this.name === 'plane' ? 0 : 1;
+  }
+
   /**
    * The robot nearest to the pointer; −1 for none.
    *
@@ -69,7 +85,7 @@ class CloudPicture extends Picture {
    * @param {number} y
    */
   nearest(machine, x, y) {
-    return machine.nearest(this.name, ...this.around(x, y, REACH));
+    return machine.nearest(this.morph, ...this.around(x, y, REACH));
   }
 
   /**
@@ -78,16 +94,31 @@ class CloudPicture extends Picture {
    * @param {number} area that the robots cover, square pixels
    */
   paintCloud(brush, machine, area) {
-    const { name } = this;
+    const { morph } = this;
     const { palette } = brush;
     if (machine.shown <= MAX_DOTS) {
-      if (name === 'plane') drawDots(brush, machine.poses, { x: 0, y: 1, heading: 2 });
-      else drawDots(brush, machine.twists, { x: 0, y: 2, heading: null });
+      // The heading goes with the turn.
+      if (morph === 0) drawDots(brush, machine.poses, { x: 0, y: 1, heading: 2 });
+      else drawDots(brush, placesOf(machine.twists, morph), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
       return;
     }
     const ramp = densityRamp(palette);
-    drawDensity(brush, this.#grid, cellSize(area, machine.shown), (...part) => machine.picture(name, ...part, ramp));
+    drawDensity(brush, this.#grid, cellSize(area, machine.shown), (...part) => machine.picture(morph, ...part, ramp));
   }
+}
+
+/**
+ * Returns the place of each robot at a morph, with the heading that is left of it.
+ *
+ * @param {Float64Array} twists
+ * @param {number} morph
+ */
+function placesOf(twists, morph) {
+  const places = new Float64Array(twists.length);
+  for (let i = 0; i < twists.length; i += 3) {
+    places.set([...placeOf(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
+  }
+  return places;
 }
 
 /**
@@ -104,14 +135,39 @@ function cellSize(area, count) {
 const PAINTED = /** @type {const} @satisfies {OutlineName[]} */ (['additive', 'linearized', 'ellipse', 'exponential', 'command']);
 const NAMED = /** @type {const} @satisfies {OutlineName[]} */ (['ellipse', 'exponential', 'linearized', 'additive', 'command']);
 
-/** The floor from above. */
+/** Turns of the callouts out of the direction away from the middle, rad: the first keeps clear of the commanded arc. */
+const ASIDE = [0.7, 0];
+
+/** Insets of the views, CSS pixels. */
+const INSET = { left: 46, right: 10 };
+
+/** The floor from above, and what a morph makes of it on the way to exponential coordinates. */
 export class PlanePicture extends CloudPicture {
+  /** @type {MorphView} */
+  view = new MorphView(INSET);
+
   constructor() {
     super('plane', new View());
   }
 
+  get morph() {
+    return this.view.morph;
+  }
+
+  /** @type {Picture<Scene>['draw']} */
+  draw(surface, scene, ...how) {
+    this.view.morph = scene.morph;
+    return super.draw(surface, scene, ...how);
+  }
+
   /** @param {Scene} scene */
-  fit({ contours, table, end, overlays }) {
+  fit(scene) {
+    this.#fitFloor(scene);
+    if (scene.morph > 0) this.view.fitEnd(extentOf([...pointsOfTwists(scene), ...(scene.overlays.ellipse ? scene.reached : [])], 0.1), 1);
+  }
+
+  /** @param {Scene} scene */
+  #fitFloor({ contours, table, end, overlays }) {
     const { mean, cov } = table.exact;
     const [sx, sy] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[1][1])];
     const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command];
@@ -121,39 +177,84 @@ export class PlanePicture extends CloudPicture {
     // Around the end there is room for a fan of headings, which may be all there is to see.
     const fan = 0.2 * (box.xMax - box.xMin);
     const [x, y] = end;
-    this.view.fit(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4));
+    this.view.fitEnd(extentOf([...points, x - fan, y - fan, x + fan, y + fan], 0.4), 0);
   }
 
   /** @type {Picture<Scene>['paint']} */
   paint = (brush, scene) => {
-    const { view, palette } = brush;
-    const { machine, contours, overlays, table, marked, end } = scene;
+    const { context, view, palette } = brush;
+    const { machine, overlays, table, marked, end, morph } = scene;
+    const outlines = scene.outlinesOf(scene);
     const styles = lineStyles(brush, LINES);
-    const drawn = (/** @type {OutlineName} */ name) => overlays[name] && hasLength(contours[name]);
+    const drawn = (/** @type {OutlineName} */ name) => overlays[name] && hasLength(outlines[name]);
     const key = NAMED.filter(drawn).map((name) => lineKey(brush, words.banana.overlays[name], styles[name]));
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? key : []);
+    // One pair of axes goes before the other comes.
+    const [floor, twist] = this.view.ends;
+    const axes = [
+      { view: floor, there: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
+      { view: twist, there: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
+    ];
+    for (const { view: of, there, names } of axes) {
+      context.globalAlpha = clamp(there, 0, 1);
+      // The lattice is the grid of exponential coordinates until it is straight.
+      if (there > 0) drawAxes({ ...brush, view: of }, names, brush.exported ? key : [], of === twist && morph < 1 ? 0 : undefined);
+    }
+    context.globalAlpha = 1;
     clipped(brush, () => {
+      if (morph > 0 && morph < 1) drawLattice(brush, twist, morph);
+      if (scene.driving) {
+        drawDriving(brush, machine, scene.driving);
+        return;
+      }
       const { cov } = table.exact;
-      const heaped = deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
+      const heaped = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < ONE_PLACE;
       if (!heaped) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
-        const area = 4 * Math.PI * Math.sqrt(determinant) * view.scaleX * view.scaleY;
-        this.paintCloud(brush, machine, area);
+        const area = Math.sqrt(determinant) + morph * (areaOfTwists(scene) - Math.sqrt(determinant));
+        this.paintCloud(brush, machine, 4 * Math.PI * area * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      const outlines = (/** @type {Scene['contours']} */ of) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
-      if (brush.former) drawGhosts(brush, outlines(brush.former.contours));
-      drawOutlines(brush, outlines(contours));
-      if (overlays.command && scene.reading) drawReading(brush, scene.reading, end);
+      const lines = (/** @type {Outlines} */ of) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
+      for (const before of [brush.former, scene.pinned]) if (before) drawGhosts(brush, lines(scene.outlinesOf(before)));
+      drawOutlines(brush, lines(outlines));
+      if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
-      drawHandle(brush, { x: view.toPixelX(end[0]), y: view.toPixelY(end[1]), radius: RING, colour: palette.prior });
+      const [endX, endY] = outlines.command.slice(-2);
+      drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: RING, colour: palette.prior });
       if (marked) {
-        const { pose, path } = marked;
-        drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
-        drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] });
+        const { pose, twist: at, path } = marked;
+        if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
+        const [x, y] = morph === 0 ? pose : placeOf(at, morph);
+        drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
+    if (!overlays.ellipse || !overlays.exponential) return;
+    const from = placeOf(scene.stats.exponential.mean, morph);
+    scene.callouts.forEach((at, i) => drawCallout(brush, { text: words.banana.callouts[i], at, from, aside: ASIDE[i] }));
   };
+}
+
+/**
+ * Draws robots that are on their way, with the way that they have behind them.
+ *
+ * @param {Brush} brush
+ * @param {BananaMachine} machine
+ * @param {{ robots: number, share: number }} driving
+ */
+function drawDriving(brush, machine, { robots, share }) {
+  const { palette } = brush;
+  for (let i = 0; i < robots; i++) {
+    const { path, pose } = machine.inspect(i);
+    // The first has arrived when the others start.
+    const chords = path.length / 2 - 1;
+    const at = (i === 0 && robots > 1 ? 1 : share) * chords;
+    const begin = Math.min(Math.floor(at), chords - 1);
+    const [x, y, nextX, nextY] = path.subarray(2 * begin, 2 * begin + 4);
+    const [endX, endY] = [x + (at - begin) * (nextX - x), y + (at - begin) * (nextY - y)];
+    drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * begin + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
+    const heading = at === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
+    drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
+  }
 }
 
 /** Radius of the arcs that show a turn, CSS pixels, and how far beyond the end the second one's line goes on. */
@@ -238,21 +339,32 @@ function twistMoments({ config, stats, table }) {
   return [{ mean: [v * dt, 0, omega * dt], cov: [[along, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
 }
 
+/** Returns points around what there is to see in exponential coordinates. @param {Scene} scene */
+function pointsOfTwists(scene) {
+  const { v, omega, dt } = scene.config.command;
+  const points = [v * dt, omega * dt];
+  for (const { mean, cov } of twistMoments(scene)) {
+    const [along, heading] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[2][2])];
+    points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
+  }
+  return points;
+}
+
+/** Returns the product of the standard deviations in exponential coordinates. @param {Scene} scene */
+function areaOfTwists(scene) {
+  const [{ cov }] = twistMoments(scene);
+  return deviation(cov[0][0]) * deviation(cov[2][2]);
+}
+
 /** The same robots in exponential coordinates. */
 export class TwistPicture extends CloudPicture {
   constructor() {
-    super('twist', new View({ equal: false, left: 46, right: 10 }));
+    super('twist', new View({ ...INSET, equal: false }));
   }
 
   /** @param {Scene} scene */
   fit(scene) {
-    const { v, omega, dt } = scene.config.command;
-    const points = [v * dt, omega * dt];
-    for (const { mean, cov } of twistMoments(scene)) {
-      const [along, heading] = [ROOM * deviation(cov[0][0]), ROOM * deviation(cov[2][2])];
-      points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
-    }
-    this.view.fit(extentOf(points, 0.1));
+    this.view.fit(extentOf(pointsOfTwists(scene), 0.1));
   }
 
   /** @type {Picture<Scene>['paint']} */
@@ -263,11 +375,10 @@ export class TwistPicture extends CloudPicture {
     const key = overlays.exponential && hasLength(contours.twistEllipse) ? [lineKey(brush, words.banana.overlays.exponential, exponential)] : [];
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, brush.exported ? key : []);
     clipped(brush, () => {
-      const [{ cov }] = twistMoments(scene);
-      const area = 4 * Math.PI * deviation(cov[0][0]) * deviation(cov[2][2]) * view.scaleX * view.scaleY;
-      this.paintCloud(brush, machine, area);
+      if (scene.driving) return;
+      this.paintCloud(brush, machine, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        if (brush.former) drawGhosts(brush, [{ points: brush.former.contours.twistEllipse, ...exponential }]);
+        for (const before of [brush.former, scene.pinned]) if (before) drawGhosts(brush, [{ points: before.contours.twistEllipse, ...exponential }]);
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {

@@ -42,12 +42,13 @@ export class CurveMemo {
  * @param {Machine} machine
  */
 export function readingOf(machine) {
-  const { config, shown, stats, contours, table, chartHolds } = machine;
+  const { config, shown, stats, contours, gaps, table, chartHolds } = machine;
   return {
     config,
     shown,
     stats,
     contours,
+    gaps,
     table,
     note: noteOn(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,

@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { markedField } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
 import { rich } from '../../ui/controls.js';
-import { NOTHING, counted, fixed, percent, powerOfE, significant, withError } from '../../ui/format.js';
+import { NOTHING, counted, fixed, percent, significant, withError } from '../../ui/format.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 
 /**
@@ -16,48 +16,50 @@ import { figureTable, readoutList } from '../../ui/readouts.js';
 const NOMINAL = 1 - Math.exp(-2);
 
 /**
- * The three that matter: whether the cloud leans, how much likelier the other coordinates make it, and how much floor the
- * ellipse wastes.
+ * Returns the three figures of the message: the floor that the ellipse wastes, the gain of the other coordinates, and the lean of the
+ * cloud. Those of a pinned cloud stand below.
  *
  * @param {Reading} reading
+ * @param {Reading} [pinned]
  */
-export function readouts({ stats, exactSkew, gain }) {
+export function readouts(reading, pinned) {
   const say = words.banana.readouts;
-  const { coverage, areaRatio } = stats;
+  const { stats: { coverage }, exactSkew, gain } = reading;
+  const values = valuesOf(reading);
+  const before = pinned && valuesOf(pinned).map(say.pinned);
+  const shares = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [
-      say.skew,
-      withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
-      Number.isNaN(exactSkew) ? NOTHING : say.skewDetail(fixed(exactSkew, 3)),
-    ],
-    [gain.unbounded ? say.gainOnFloor : say.gain, withError(gain.value, gain.error, 3), gainText(gain)],
-    [
-      say.area,
-      fixed(areaRatio, 2),
-      [coverage.ellipse, coverage.exponential].every(Number.isNaN) ? NOTHING : say.areaDetail(percent(coverage.ellipse), percent(coverage.exponential)),
-    ],
-  ]);
+    [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(percent(shares[0]), percent(shares[1])), before?.[0]],
+    [gain.unbounded ? say.gainOnFloor : say.gain, values[1], gainText(gain), before?.[1]],
+    [say.skew, values[2], Number.isNaN(exactSkew) ? NOTHING : say.exactly(fixed(exactSkew, 3)), before?.[2]],
+  ], 0);
 }
 
-/** What the gain means for the whole cloud. @param {Reading['gain']} gain */
-function gainText({ n, unbounded, value }) {
-  const { unbounded: without, onLine, likelier, unlikelier } = words.banana.readouts;
+/** Returns the area ratio, the gain and the skew as they are printed. @param {Reading} reading */
+function valuesOf({ stats, gain }) {
+  return [
+    Number.isNaN(stats.areaRatio) ? NOTHING : `${fixed(stats.areaRatio, 2)} ×`,
+    withError(gain.value, gain.error, 3),
+    withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
+  ];
+}
+
+/** Returns the exact gain, or the reason why it has no limit. @param {Reading['gain']} gain */
+function gainText({ unbounded, value, exact }) {
+  const { withoutLimit, onLine, exactly } = words.banana.readouts;
   if (Number.isNaN(value)) return NOTHING;
   if (value === Infinity) return onLine;
-  const [nats, robots] = [counted(n * value), counted(n)];
-  if (unbounded) return without(nats, robots);
-  return (value < 0 ? unlikelier : likelier)(nats, robots, powerOfE(Math.abs(n * value)));
+  return unbounded ? withoutLimit : exactly(fixed(exact, 3));
 }
 
 /** The others. @param {Reading} reading */
-export function otherReadouts({ config, stats, gain, table }) {
+export function otherReadouts({ config, stats, table }) {
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutList([
     [say.robots, nOfAll(counted(stats.n), counted(config.samples))],
     [say.gaussian, fixed(stats.gaussianSkew, 3)],
     [say.rho, fixed(stats.rhoCrossHeading, 3)],
-    [say.exactGain, fixed(gain.exact, 4)],
     [say.exactArea, fixed(table.exact.areaRatio, 3)],
     [say.nominal, percent(NOMINAL)],
   ]);

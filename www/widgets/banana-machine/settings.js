@@ -1,7 +1,7 @@
 /** The Banana Machine's settings as attributes, in its state, and as the eye sees them. */
 
-import { attributesOf, presetsOf } from '../../figure/attributes.js';
-import { wholeNumber } from '../../figure/checks.js';
+import { NUMBER, attributesOf, presetsOf } from '../../figure/attributes.js';
+import { numberWithin, wholeNumber } from '../../figure/checks.js';
 import { cloudState } from '../../figure/cloud.js';
 import { overlaysOf } from '../../figure/overlays.js';
 import { openingAlphas, presets, settings } from '../../settings.js';
@@ -32,6 +32,7 @@ export const attributes = {
   preset: presetsOf(presets['banana-machine'], declared),
   ...attributesOf(declared),
   overlays: attribute,
+  morph: { kind: NUMBER, own: true },
 };
 
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
@@ -40,6 +41,8 @@ export const own = {
   /** The α that Isolate leaves, from 1; remembered while Isolate is off. */
   isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
   overlays: state,
+  /** Share of the way from the floor to exponential coordinates. */
+  morph: { opening: 0, check: (field, morph) => numberWithin(field, morph, 0, 1) },
 };
 
 /** @type {import('../../figure/attributes.js').Documentation} */

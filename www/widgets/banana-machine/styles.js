@@ -22,18 +22,62 @@ const own = css`
     }
   }
 
-  /* The three that matter, side by side where there is room. */
-  .surface .machine > .readouts {
-    display: grid;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12.5em), 1fr));
-    gap: 0.2em 1.25em;
+  /* A narrow figure has one picture: the one that shows both ends. */
+  @container (width < 30em) {
+    .views > .twist {
+      display: none;
+    }
   }
 
-  /* What the gain means for all robots is the longest line. */
-  @container (min-width: 40em) {
+  .morphing {
+    display: grid;
+    grid-template-columns: 1fr auto;
+    align-items: start;
+    gap: 1em;
+  }
+
+  /* The ends have their names below the track. */
+  .morph {
+    --thumb: var(--posterior);
+    display: grid;
+    grid-template: 'play track track' auto 'play floor twist' auto / auto auto 1fr;
+    align-items: start;
+    column-gap: 0.75em;
+  }
+
+  .morph button {
+    grid-area: play;
+  }
+
+  .morph input {
+    grid-area: track;
+    min-width: 0;
+  }
+
+  .morph .floor {
+    grid-area: floor;
+  }
+
+  .morph .twist {
+    grid-area: twist;
+    text-align: end;
+  }
+
+  .morph .end {
+    color: var(--muted);
+    font-size: 0.84em;
+    line-height: 1.2;
+  }
+
+  /* The three that matter, in columns of equal width where there is room. */
+  .surface .machine > .readouts {
+    display: grid;
+    gap: 0.4em 1.25em;
+  }
+
+  @container (min-width: 30em) {
     .surface .machine > .readouts {
-      grid-template-columns: 16fr 30fr 20fr;
-      column-gap: 1em;
+      grid-template-columns: repeat(3, 1fr);
     }
   }
 `;

@@ -29,11 +29,13 @@ export function announcementOf({ config, stats, note }) {
  *
  * @param {Reading} reading
  * @param {string[]} overlays names of the outlines that are shown
+ * @param {number} morph
  */
-export function planeText(reading, overlays) {
+export function planeText(reading, overlays, morph) {
   const { config, stats, table, note } = reading;
-  const { plane, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
-  const sentences = [plane(commandText(config.command))];
+  const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
+  const command = commandText(config.command);
+  const sentences = [morph === 0 ? plane(command) : between(percent(morph), command)];
   if (stats.n === 0) sentences.push(noRobots);
   else {
     const { mean: centre, cov } = stats.cartesian;

@@ -1,0 +1,167 @@
+/** The morph that carries the floor continuously to exponential coordinates: see doc/model.md. */
+
+import { html } from 'lit';
+import { words } from '../../messages/registry.js';
+import { View } from '../../scene/view.js';
+import { rich } from '../../ui/controls.js';
+import { percent } from '../../ui/format.js';
+import { track } from '../../ui/slider.js';
+
+/**
+ * @import { Motion } from '../../types.d.ts'
+ * @import { Extent } from '../../scene/view.js'
+ * @import { Reading } from './reading.js'
+ *
+ * @typedef {Omit<Reading['contours'], 'twistEllipse'>} Outlines lines on the floor, or where a morph has carried them
+ */
+
+/** Duration of the morph when it is played, ms. */
+export const DURATION = 5000;
+
+/** Step of the slider. */
+const STEP = 0.01;
+
+/**
+ * Returns the place of a twist at a morph: `geom::unbend` of the core.
+ *
+ * @param {ArrayLike<number>} twist along and lateral (m), heading (rad)
+ * @param {number} morph
+ * @returns {[number, number]}
+ */
+export function placeOf({ 0: along, 1: lateral, 2: heading }, morph) {
+  const half = ((1 - morph) * heading) / 2;
+  const sinc = half === 0 ? 1 : Math.sin(half) / half;
+  const [ahead, aside] = [sinc * along, sinc * (1 - morph) * lateral];
+  const [cos, sin] = [Math.cos(half), Math.sin(half)];
+  return [ahead * cos - aside * sin, ahead * sin + aside * cos + morph * heading];
+}
+
+/**
+ * Returns a function that carries a line of points of the floor to a morph.
+ *
+ * @param {Motion} motion
+ * @param {Reading} reading
+ * @param {number} morph
+ */
+export const carrying = (motion, { config: { command } }, morph) => (/** @type {Float64Array} */ line) =>
+  morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
+
+/**
+ * Returns the outlines of a reading at a morph: those of its two Gaussians, carried along.
+ *
+ * @param {Motion} motion
+ * @param {Reading} reading
+ * @param {number} morph
+ * @returns {Outlines}
+ */
+export function outlinesAt(motion, reading, morph) {
+  const { contours, stats } = reading;
+  if (morph === 0) return contours;
+  const carried = carrying(motion, reading, morph);
+  const { mean, cov } = stats.exponential;
+  return {
+    command: commandAt(reading, morph),
+    ellipse: carried(contours.ellipse),
+    linearized: carried(contours.linearized),
+    additive: carried(contours.additive),
+    exponential: contours.exponential.length > 0 ? motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat()]), morph) : contours.exponential,
+  };
+}
+
+/**
+ * Returns the commanded arc at a morph.
+ *
+ * @param {Reading} reading
+ * @param {number} morph
+ */
+function commandAt({ config: { command: { v, omega, dt } }, contours }, morph) {
+  const chords = contours.command.length / 2 - 1;
+  const part = (/** @type {number} */ i) => placeOf([(i / chords) * v * dt, 0, (i / chords) * omega * dt], morph);
+  return Float64Array.from(Array.from({ length: chords + 1 }, (_, i) => part(i)).flat());
+}
+
+/**
+ * Returns the places of the gaps of a reading at a morph.
+ *
+ * @param {Motion} motion
+ * @param {Reading} reading
+ * @param {number} morph
+ * @returns {[number, number][]}
+ */
+export function gapsAt(motion, reading, morph) {
+  const places = carrying(motion, reading, morph)(reading.gaps);
+  return Array.from({ length: places.length / 2 }, (_, i) => [places[2 * i], places[2 * i + 1]]);
+}
+
+/** Window on the world at a morph: between that on the floor and that on exponential coordinates, each of which is aimed alone. */
+export class MorphView extends View {
+  /** Share of the way from the floor (0) to exponential coordinates (1). */
+  morph = 0;
+  /** Windows at both ends. */
+  ends;
+
+  /** @param {{ left: number, right: number }} inset */
+  constructor(inset) {
+    super(inset);
+    this.ends = [new View(inset), new View({ ...inset, equal: false })];
+  }
+
+  /** @type {View['resize']} */
+  resize(width, height) {
+    super.resize(width, height);
+    for (const end of this.ends) end.resize(width, height);
+  }
+
+  release() {
+    for (const end of this.ends) end.release();
+  }
+
+  forget() {
+    for (const end of this.ends) end.forget();
+  }
+
+  get aimed() {
+    return this.ends[this.morph > 0 ? 1 : 0].aimed;
+  }
+
+  /**
+   * Aims the window at an end.
+   *
+   * @param {Extent} needed
+   * @param {0 | 1} end
+   */
+  fitEnd(needed, end) {
+    const view = this.ends[end];
+    view.widened = false;
+    view.fit(needed);
+    this.widened ||= view.widened;
+  }
+
+  /** @type {View['ease']} */
+  ease(elapsed, atOnce) {
+    const moving = this.ends.map((end) => end.ease(elapsed, atOnce)).includes(true);
+    const [floor, twist] = this.ends.map(({ extent }) => extent);
+    const between = (/** @type {keyof Extent} */ key) => floor[key] + this.morph * (twist[key] - floor[key]);
+    this.extent = { xMin: between('xMin'), yMin: between('yMin'), xMax: between('xMax'), yMax: between('yMax') };
+    return moving;
+  }
+}
+
+/**
+ * Slider from the floor to exponential coordinates, and the button that plays it.
+ *
+ * @param {import('./banana-machine.js').BananaMachineElement} figure
+ */
+export function morphControl({ player, gesture, state }) {
+  const say = words.banana.morph;
+  const { morph } = state.own;
+  return html`<div class="morph" role="group" aria-label=${say.name}>
+    ${player.button('morph', say.play)}
+    ${track({
+      id: 'morph', name: say.name, min: 0, max: 1, step: STEP, value: morph, text: say.text(percent(morph)),
+      input: (to) => player.put('morph', to), commit: () => gesture.commit(),
+    })}
+    <span class="end floor" aria-hidden="true">${rich(say.floor)}</span>
+    <span class="end twist" aria-hidden="true">${rich(say.twist)}</span>
+  </div>`;
+}

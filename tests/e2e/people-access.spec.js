@@ -124,13 +124,13 @@ test('the focus stays near a control that goes or is disabled by its own action'
   await arc.scrollIntoViewIfNeeded();
   await ready(arc);
   await unfold(arc);
-  const next = arc.getByRole('button', { name: 'The next line' });
+  const next = arc.getByRole('button', { name: 'Next line' });
   await next.focus();
   while (await next.isEnabled()) {
     await page.keyboard.press('Enter');
     await frames(page);
   }
-  expect(await arc.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('title'))).toBe('The line before');
+  expect(await arc.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('title'))).toBe('Previous line');
 });
 
 test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {

@@ -31,6 +31,8 @@ export class Gesture extends Part {
     this.#press = new AbortController();
     const { signal } = this.#press;
     for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => this.#release(), { capture: true, signal });
+    // A list or a dialog of the browser may have taken the end.
+    addEventListener('pointermove', ({ buttons }) => buttons === 0 && this.#release(), { capture: true, signal });
   }
 
   #release() {

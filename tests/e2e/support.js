@@ -19,9 +19,10 @@ import { CLOUDS, HANDLED, figureFor } from './figures.js';
  */
 
 /**
- * Names of elements that a test's title chooses, for claims about all figures, all clouds and all handles.
+ * Names of elements that a test's title chooses, for claims about all figures, all clouds and all handles; and whether the session has
+ * seen what a figure shows at first sight.
  *
- * @typedef {{ figure: Name, cloud: Name, handled: Name }} Chosen
+ * @typedef {{ figure: Name, cloud: Name, handled: Name, introduced: boolean }} Chosen
  */
 
 /**
@@ -35,7 +36,9 @@ export const test = base.extend({
   cloud: async ({}, use, { title }) => use(figureFor(title, CLOUDS)),
   handled: async ({}, use, { title }) => use(figureFor(title, HANDLED)),
   /* eslint-enable no-empty-pattern */
-  page: async ({ page }, use) => {
+  introduced: [true, { option: true }],
+  page: async ({ page, introduced }, use) => {
+    if (introduced) await page.addInitScript(skipIntroduction);
     /** @type {string[]} */
     const complaints = [];
     page.on('console', (message) => {
@@ -46,6 +49,15 @@ export const test = base.extend({
     expect(complaints).toEqual([]);
   },
 });
+
+/** Runs in the page before any script of its own: the session has seen what a figure shows at first sight. */
+function skipIntroduction() {
+  try {
+    sessionStorage.setItem('motion-widgets.introduced', 'yes');
+  } catch {
+    // A page without storage has no introduction.
+  }
+}
 
 /** For tests of a first visit, or of the history: they get a page of their own, as playwright.config.js says. */
 export const FRESH = { tag: '@fresh' };

@@ -118,7 +118,7 @@ fn a_line_is_carried_whole_or_not_at_all() {
         assert!(unbend_line(&circle(0.1), 0.3, morph).is_empty());
         let carried = unbend_line(&circle(0.7), 0.3, morph);
         assert_eq!(carried.len(), 129);
-        assert!(carried.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.2), "{morph}");
+        assert!(carried.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
     }
     for (point, carried) in circle(0.7).iter().zip(unbend_line(&circle(0.7), 0.3, 0.0)) {
         assert!(distance(*point, carried) < 1e-12);

@@ -1,0 +1,97 @@
+import { expect } from '@playwright/test';
+import { FRESH, STILL, open, pictureOf, played, property, readout, ready, show, state, stateOf, test } from './support.js';
+
+test.use(STILL);
+
+test('one slider carries the floor to exponential coordinates and back', async ({ page }) => {
+  const widget = await open(page);
+  const plane = widget.locator('canvas.plane');
+  const slider = widget.getByRole('slider', { name: 'From the floor' });
+  const pictures = [await pictureOf(plane)];
+  for (const [morph, title] of [['0.5', 'On the way'], ['1', 'The same robots'], ['0', 'On the floor']]) {
+    await slider.fill(morph);
+    pictures.push(await pictureOf(plane));
+    expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morph));
+    await expect(widget).toHaveAttribute('morph', morph);
+    await expect(widget.locator('.panel-title').first()).toContainText(title);
+  }
+  expect(new Set(pictures).size).toBe(3);
+  expect(pictures[3]).toBe(pictures[0]);
+});
+
+test('Play carries the floor all the way', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  const widget = await open(page, 'samples="1000"');
+  const { values, label } = await played(widget, 'morph');
+  expect(label).toBe('Pause');
+  expect(values.at(-1)).toBe(1);
+  for (const [i, value] of values.entries()) expect(value).toBeGreaterThan(values[i - 1] ?? 0);
+});
+
+test('the end of the arc is moved where the morph shows it', async ({ page }) => {
+  const widget = await open(page, 'morph="1"');
+  const handle = widget.locator('.handle');
+  await handle.press('ArrowUp');
+  await handle.press('ArrowRight');
+  let { command } = (await state(widget)).config;
+  expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
+  expect(command.v * command.dt).toBeCloseTo(2.02, 9);
+  await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
+  const [x, y] = /** @type {number[]} */ (await property(widget, 'seenEnd'));
+  await handle.press('ArrowUp');
+  const [seenX, seenY] = /** @type {number[]} */ (await property(widget, 'seenEnd'));
+  expect(seenX).toBeCloseTo(x, 9);
+  expect(seenY).toBeCloseTo(y + 0.02, 9);
+  ({ command } = (await state(widget)).config);
+  expect(command.omega).toBeGreaterThan(0.01);
+});
+
+test('Pin keeps the numbers and outlines to compare with, and lets go of them', async ({ page }) => {
+  const widget = await open(page);
+  const pin = widget.getByRole('button', { name: 'Pin' });
+  const area = widget.locator('.readouts div').filter({ hasText: 'area covered' });
+  const before = await readout(widget, 'area covered').innerText();
+  await pin.click();
+  await expect(pin).toHaveAttribute('aria-pressed', 'true');
+  await widget.getByRole('button', { name: 'Hard arc' }).click();
+  await expect(area).toContainText(`pinned: ${before}`);
+  const withGhost = await pictureOf(widget.locator('canvas.plane'));
+  await pin.click();
+  await expect(area).not.toContainText('pinned');
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(withGhost);
+});
+
+test('a narrow figure has one picture, which shows both ends', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 812 });
+  const widget = await open(page);
+  await expect(widget.locator('canvas.twist')).toBeHidden();
+  const plane = widget.locator('canvas.plane');
+  const floor = await pictureOf(plane);
+  await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
+  expect(await pictureOf(plane)).not.toBe(floor);
+});
+
+test.describe('at first sight', () => {
+  test.use({ introduced: false });
+
+  test('robots drive once a session, until a key or the pointer is pressed', FRESH, async ({ page }) => {
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    const driving = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
+    await show(page, '<banana-machine></banana-machine>');
+    await ready(page.locator('banana-machine'));
+    expect(await driving()).toBeGreaterThan(0);
+    await page.keyboard.press('Shift');
+    expect(await driving()).toBeUndefined();
+    await expect.poll(async () => (await state(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
+    await page.reload();
+    await ready(page.locator('banana-machine'));
+    expect(await driving()).toBeUndefined();
+  });
+
+  test('robots do not drive for a figure that a page has set', FRESH, async ({ page }) => {
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    const widget = await open(page, 'preset="gentle"');
+    expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();
+    await frames(page);
+  });
+});

@@ -78,7 +78,7 @@ fn most_accepted_samples_lie_behind_the_wall() {
 #[test]
 fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
     let [noise, share] =
-        page().numbers("straight ahead with noise n = #, # % of the accepted motions went through a wall.");
+        page().numbers("straight ahead at noise level #, # % of the accepted motions went through a wall.");
     assert_eq!(Settings::default().alphas, alphas_of_noise(noise.value));
     assert_told(through(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
 }
@@ -94,7 +94,7 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         assert!(in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
     let [omega, on_page, at_worst, worst] = page().numbers(
-        "With ω = # more pass at first, from # % judged by the endpoint to # % at k = #, and only then fewer.",
+        "With ω = # more pass at first, from # % judged by the endpoint to # % in # parts, and only then fewer.",
     );
     assert_told(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
     assert_told(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);
@@ -123,12 +123,12 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     assert_told(through(settings(WALL, Sampler::Endpoint, 0.0)), one);
     shares.into_iter().zip([two, four, eight]).for_each(|(share, told)| assert_told(share, told));
     let [from, to, at_two, at_eight] =
-        page().numbers("go from k = # to #. The share through the wall rises, from # % to # %:");
+        page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
     assert_eq!((from.value, to.value), (2.0, 8.0));
     assert_told(shares[0], at_two);
     assert_told(shares[2], at_eight);
     page().says(
-        "From k = 16 on hardly a part is long enough to jump, and the robot stands wedged before the wall.",
+        "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(wedged.value, 16.0);
     assert!(!machine(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());

@@ -80,7 +80,7 @@ test('examples of the reference start when they are opened, and are what their c
 });
 
 /** Values of items that leave a preset what it is. */
-const OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line'];
+const OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
 for (const name of ALL) {
   test(`each item of ${name} sets the whole state that it describes, whatever was pressed before`, async ({ page }) => {

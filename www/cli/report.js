@@ -1,5 +1,6 @@
 /** Result as text and as JSON. */
 
+import { en as shared } from '../messages/en.js';
 import { en } from '../widgets/alpha-calibrator/en.js';
 import { OVERSTATED, adviceOf, between, fixed, isZero, mostOf, nav2Lines, neededFor, short } from '../widgets/alpha-calibrator/lines.js';
 
@@ -38,7 +39,7 @@ export function textOf({ calibration, fit, deviations, logs, start, date }) {
     alpha === null ? en.nav2.undetermined : toldOf(alpha, intervals[i]),
     between(intervals[i]),
     between(bootstrap[i]),
-    en.alphas.noiseOf[/** @type {keyof typeof en.alphas.noiseOf} */ (model)][i],
+    shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
   ]);
   return [
     ...logs.flatMap(({ name, found }) => [`${name}: ${found[0]}`, ...found.slice(1).map((line) => `  ${line}`)]),
@@ -154,11 +155,14 @@ function worstOf({ worst }, legs, start) {
 }
 
 /**
- * Verdict on the model, in a sentence.
+ * Returns the verdict on the model and the next step.
  *
  * @param {Result['calibration']} calibration
  */
-const verdictOf = ({ doubts: { verdict, heldOut } }) => en.verdicts[/** @type {keyof typeof en.verdicts} */ (verdict)](`${short(100 * heldOut.coverage)} %`);
+function verdictOf({ doubts: { verdict, heldOut } }) {
+  const name = /** @type {keyof typeof en.verdicts} */ (verdict);
+  return `${en.verdicts[name](`${short(100 * heldOut.coverage)} %`)} ${en.nextSteps[name]}`;
+}
 
 /** @param {Result} result @returns {string[]} */
 function nav2Of({ calibration, fit, logs, date }) {

@@ -2,26 +2,28 @@
 
 import { html } from 'lit';
 import { object } from '../../figure/checks.js';
-import { canvas } from '../../figure/controls.js';
+import { canvas, disclosures, panel } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
+import { legend } from '../../figure/overlays.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
 import { LONGEST_WORK, advancing } from '../../figure/settings.js';
-import { exportButtons } from '../../figure/takeaway/export.js';
 import { words } from '../../messages/registry.js';
 import { pointOn } from '../../scene/canvas.js';
-import { fold } from '../../ui/fold.js';
-import { legControls, legLengths, modelControls } from './controls.js';
+import { group } from '../../ui/controls.js';
+import { counted } from '../../ui/format.js';
+import { startOverButton } from '../shared/presets.js';
+import { legControls, legLengths, legReadouts, modelControls } from './controls.js';
 import { doubts, inflation, panels } from './doubts.js';
 import { lengths } from './lengths.js';
-import { Copied, nav2 } from './nav2.js';
-import { FOLD, LogOpener, ownLog } from './open.js';
+import { Copied, copyButton, nav2 } from './nav2.js';
+import { LogOpener, dropZone, logSection } from './open.js';
 import { LegPicture, WayPicture } from './pictures.js';
 import { Plate } from './plate.js';
 import { legOf, readingOf } from './reading.js';
-import { alphaTable, alphaTexts, systematicTable, systematicTexts } from './readouts.js';
-import { attributes, declared, looks, own, vocabulary } from './settings.js';
+import { alphaTable, alphaTexts, systematicTable, systematicTexts, verdictLine } from './readouts.js';
+import { LINES, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { calibratorStyles } from './styles.js';
 import { captionOf, legText, wayText } from './words.js';
 
@@ -39,6 +41,9 @@ const DEVIATIONS = /** @type {const} */ (['positionDeviation', 'headingDeviation
 /**
  * The α's of a log, how well they are known, and whether the model is any good.
  *
+ * @attr overlays - The lines that are drawn; in the attribute with spaces between.
+ *
+ * @csspart drop - The line that logs are dropped on.
  * @csspart chart - A plot of residuals, quantiles, coverage or likelihood.
  *
  * @extends {FigureElement<Machine, Reading>}
@@ -87,7 +92,7 @@ export class AlphaCalibratorElement extends FigureElement {
 
   get scene() {
     const reading = this.fresh;
-    return { ...reading, chosen: this.chosen, leg: this.predicted };
+    return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.own.overlays };
   }
 
   /** Shows a leg while the reader moves between legs. @param {number} leg from 0 */
@@ -228,7 +233,6 @@ export class AlphaCalibratorElement extends FigureElement {
   content(reading) {
     const say = words.calibrator;
     const { chosen } = this;
-    const { verdict } = reading.stats.doubts;
     return html`
       <section
         class="machine"
@@ -237,25 +241,36 @@ export class AlphaCalibratorElement extends FigureElement {
         @dragleave=${this.#opener.dropped.away}
         @drop=${this.#opener.dropped.drop}
       >
+        ${dropZone(this, this.#opener)}
+        <p part="caption" class="caption verdict">${this.stage.later(() => verdictLine(this))}</p>
         <div class="views">
-          <div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>
-          <div class="stage one">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>
+          ${panel(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#way, wayText(reading, chosen))}</div>`)}
+          <div class="one">
+            ${panel(say.oneLeg(counted(chosen + 1)), html`<div class="stage">${canvas(this, this.#one, legText(this.predicted, chosen))}</div>`)}
+            ${this.stage.later(() => html`<div class="looked">${legControls(this)}</div>`)}
+          </div>
           ${this.stage.later(() => html`
-          <div class="looked">${legControls(this)}</div>
-          <p part="caption" class="caption ${verdict !== 'fits' && 'note'}">${captionOf(reading, this.logName, this.exact)}</p>
-          <div class="tables">${alphaTable(reading)} ${systematicTable(this)}</div>`)}
+          <div class="fitted" part="readouts">
+            <p class="panel-title">${say.alphas.title}</p>
+            ${alphaTable(reading)}
+            <div class="buttons">${copyButton(this, this.#copied)} ${startOverButton(this)}</div>
+          </div>`)}
         </div>
         ${this.stage.later(() => html`
-        <div part="controls">${modelControls(this)}${legLengths(this)}</div>
-        <div class="folds">
-          ${fold(say.panels.title, () => panels(this))}
-          ${fold(say.doubts.title, () => doubts(this))}
-          ${fold(say.inflation.title, () => inflation(this))}
-          ${fold(say.lengths.title, () => lengths(this))}
-          ${fold(say.own.title, () => ownLog(this, this.#opener), FOLD)}
-          ${fold(say.nav2.title, () => nav2(this, this.#copied))}
-          ${fold(words.numbersAndData, () => html`${exportButtons(this, reading.config.seed, say.csvTitle)} ${this.copies.render()}`)} ${this.presenting.button()}
-        </div>`)}
+        ${legend(this, LINES)}
+        <div part="controls">${legLengths(this)}</div>
+        ${disclosures(this, {
+          controls: () => html`${modelControls(this)}
+            ${group(say.systematic.title, systematicTable(this))}
+            ${group(say.own.title, logSection(this, this.#opener))}
+            ${group(say.inflation.title, inflation(this))}`,
+          numbers: () => html`${group(say.leg.name, legReadouts(this))}
+            ${group(say.panels.title, panels(this))}
+            ${group(say.doubts.title, doubts(this))}
+            ${group(say.lengths.title, lengths(this))}
+            ${group(say.nav2.title, nav2(this))}`,
+          csvTitle: say.csvTitle,
+        })}`)}
       </section>
     `;
   }

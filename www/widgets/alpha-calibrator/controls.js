@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { check, choices, slider } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { button, radioGroup } from '../../ui/controls.js';
+import { button, group, radioGroup } from '../../ui/controls.js';
 import { NOTHING, counted, fixed, numberIn, percent, typed } from '../../ui/format.js';
 import { readoutList } from '../../ui/readouts.js';
 import { sliderRow } from '../../ui/slider.js';
@@ -11,7 +11,7 @@ import { kindOf, settingsFor } from './settings.js';
 
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
 
-/** Slider of the leg that is shown, and readouts of its error. @param {Figure} figure */
+/** Slider of the leg that is shown. @param {Figure} figure */
 export function legControls(figure) {
   const { reading: { legs, stats }, chosen } = figure;
   const say = words.calibrator.leg;
@@ -23,7 +23,6 @@ export function legControls(figure) {
       <legend class="visually-hidden">${say.name}</legend>
       ${sliderRow({
         id: 'leg',
-        symbol: say.symbol,
         name: say.name,
         value: chosen + 1,
         min: 1,
@@ -49,48 +48,39 @@ export function legControls(figure) {
         forget: () => figure.typing.forget(),
       })}
     </fieldset>
-    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })} ${readoutList(saidOf(figure))}`;
+    ${button(say.worst, () => figure.choose(next), { disabled: next === undefined, title: say.worstTitle })}`;
 }
 
-/** Readouts of the leg's error. @param {Figure} figure @returns {Parameters<typeof readoutList>[0]} */
-function saidOf({ reading: { legs, stats }, chosen, predicted: leg }) {
+/** Readouts of the error of the leg that is shown. @param {Figure} figure */
+export function legReadouts({ reading: { legs, stats }, chosen, predicted: leg }) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   const told = legs.residuals.subarray(3 * chosen, 3 * chosen + 3).filter((residual) => !Number.isNaN(residual)).length;
   const [squared, bad] = leg ? [legs.squaredError[chosen], legs.bad[chosen]] : [NaN, NaN];
-  return [
+  return readoutList([
     [say.off, `${fixed(off, 3)} m`],
     [say.squared(String(told)), fixed(squared, 1)],
     // Without a fitted share of bad legs, no leg has a probability.
     [say.bad, percent(stats.outliers === null ? NaN : bad)],
-  ];
+  ]);
 }
 
-/** The model with its rule, and whether legs may be bad. @param {Figure} figure */
+/** The model with its rule, and the robust fit. @param {Figure} figure */
 export function modelControls(figure) {
-  const { settings: { model }, kinds, robust, noises } = words.calibrator;
+  const { fit, settings: { model }, kinds, robust, noises } = words.calibrator;
   const choose = (/** @type {import('./settings.js').Kind} */ kind) => figure.gesture.decide(settingsFor(kind));
-  return html`<div class="models">
-    ${radioGroup(model.name, 'kind', kinds, kindOf(/** @type {any} */ (figure.settings.told)), choose)}
-    ${choices(figure, 'noise', noises)} ${check(figure, 'robust', robust)}
-  </div>`;
+  return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(/** @type {any} */ (figure.settings.told)), choose)}
+    ${choices(figure, 'noise', noises)} ${check(figure, 'robust', robust)}`);
 }
 
 /** Sliders of the length of a leg. @param {Figure} figure */
 export function legLengths(figure) {
   const off = figure.settings.told.duration > 0;
   const show = (/** @type {number} */ seconds) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
-  return inGroups(words.calibrator.leg.name, [slider(figure, 'distance', { off }), slider(figure, 'angle', { off }), slider(figure, 'duration', { show })]);
+  return group(words.calibrator.leg.group, html`<div class="controls">
+    ${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })} ${slider(figure, 'duration', { show })}
+  </div>`);
 }
 
-/** Sliders of the reference's own error. @param {Figure} figure */
-export const deviations = (figure) =>
-  inGroups(words.calibrator.own.reference, [slider(figure, 'positionDeviation'), slider(figure, 'headingDeviation')]);
-
-/** Fieldset for each slider, with room for its own line of help. @param {string} name @param {unknown[]} sliders */
-const inGroups = (name, sliders) => html`<div class="controls">
-  ${sliders.map((each) => html`<fieldset>
-    <legend class="visually-hidden">${name}</legend>
-    ${each}
-  </fieldset>`)}
-</div>`;
+/** Sliders of the noise of the reference. @param {Figure} figure */
+export const deviations = (figure) => html`<div class="controls">${slider(figure, 'positionDeviation')} ${slider(figure, 'headingDeviation')}</div>`;

@@ -5,9 +5,9 @@ import { Part } from '../../figure/part.js';
 import { save } from '../../figure/takeaway/export.js';
 import { words } from '../../messages/registry.js';
 import { button } from '../../ui/controls.js';
-import { percent } from '../../ui/format.js';
 import { nav2Lines } from './lines.js';
 import { legsOf } from './settings.js';
+import { judgementOf } from './words.js';
 
 /** @typedef {import('./alpha-calibrator.js').AlphaCalibratorElement} Figure */
 
@@ -17,10 +17,12 @@ import { legsOf } from './settings.js';
  * @param {Figure} figure
  * @returns {string} empty if Nav2 has no such model
  */
-function yamlOf({ reading: { config, stats, legs: { count } }, logName }) {
+function yamlOf({ reading, logName }) {
+  const { config, stats, legs: { count } } = reading;
   const { model, rule, inflation } = config;
-  const { alphas, intervals, bootstrap, systematic, doubts: { verdict, heldOut } } = stats;
-  const doubt = verdict === 'fits' ? undefined : words.calibrator.verdicts[verdict](percent(heldOut.coverage));
+  const { alphas, intervals, bootstrap, systematic, doubts: { verdict } } = stats;
+  const { finding, next } = judgementOf(reading);
+  const doubt = verdict === 'fits' ? undefined : `${finding} ${next}`;
   const date = new Date().toISOString().slice(0, 10);
   const fitted = { alphas, intervals, bootstrap, count, model, rule, legs: legsOf(config), log: logName, date, verdict, doubt, systematic, inflation };
   return nav2Lines(fitted, words.calibrator.nav2).map((line) => `${line}\n`).join('');
@@ -51,17 +53,25 @@ export class Copied extends Part {
 }
 
 /**
+ * Returns the button that copies the lines for Nav2.
+ *
  * @param {Figure} figure
  * @param {Copied} copied
  */
-export function nav2(figure, copied) {
+export function copyButton(figure, copied) {
+  const say = words.calibrator.nav2;
+  const yaml = yamlOf(figure);
+  return html`${button(say.copy, () => copied.copy(yaml), { disabled: !yaml, title: yaml ? say.label : say.none })}
+    <output>${yaml && copied.has(yaml) ? say.copied : nothing}</output>`;
+}
+
+/** Returns the lines for Nav2, and the button that saves everything as JSON. @param {Figure} figure */
+export function nav2(figure) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const name = `${figure.localName}-${figure.reading.config.seed}.json`;
   return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${say.label} .value=${yaml}></textarea>` : html`<p>${say.none}</p>`}
     <div class="buttons">
-      ${yaml ? button(say.copy, () => copied.copy(yaml)) : nothing}
       ${button(say.json, () => save(name, new Blob([jsonOf(figure)], { type: 'application/json' })))}
-      <output>${copied.has(yaml) ? say.copied : nothing}</output>
     </div>`;
 }

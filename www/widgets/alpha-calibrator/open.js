@@ -1,4 +1,4 @@
-/** Logs of the reader's own: opened by a file dialog or dropped, read, and shown in a fold. */
+/** Logs of the reader's own: chosen or dropped, and read. */
 
 import { html, nothing } from 'lit';
 import { Part } from '../../figure/part.js';
@@ -29,8 +29,8 @@ import { deviations } from './controls.js';
 /** Extensions that the file dialog offers. */
 const EXTENSIONS = ['.csv', '.txt', '.tum', '.mcap'];
 
-/** Id of the fold about the log. */
-export const FOLD = 'log-fold';
+/** Id of the drop zone. */
+const ZONE = 'log';
 
 /** Usual frames of a topic of transforms: parent and child. */
 const FRAMES = { odometry: 'odom, base_link', reference: 'map, base_link' };
@@ -40,7 +40,7 @@ const partOf = ({ onProgress, signal }, from, to) => ({ signal, onProgress: (sha
 
 /** @extends {Part<Figure>} */
 export class LogOpener extends Part {
-  dropped = new FileDrop(this.host, FOLD, (files) => this.choose(files));
+  dropped = new FileDrop(this.host, ZONE, (files) => this.choose(files));
   /** Why the latest log was refused. @type {(() => string) | undefined} */
   #complaint;
   /** Summary of the present log. @type {(() => string[]) | undefined} */
@@ -216,24 +216,38 @@ async function wordsOf() {
 }
 
 /**
+ * Returns the line that logs are dropped on, and below it what becomes of a log: progress, topics, and why it is refused.
+ *
  * @param {Figure} figure
  * @param {LogOpener} opener
  */
-export function ownLog(figure, opener) {
+export function dropZone(figure, opener) {
   const say = words.calibrator.own;
-  const { chosen, complaint, share, found } = opener;
-  return html`<div class="own-log">
-    <p>${say.text}</p>
-    <label for="log-files">${say.files}</label>
-    ${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}
-    <p>${say.deviations}</p>
-    ${deviations(figure)}
+  const { chosen, complaint, share } = opener;
+  return html`<div class="drop-zone" id=${ZONE} part="drop">
+    <p title=${say.dropTitle}>
+      ${say.drop}
+      <label class="files"><span>${say.files}</span>${fileInput('log-files', EXTENSIONS, (files) => opener.dropped.take(files))}</label>
+      ${figure.log ? html`<span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.leave())}` : nothing}
+    </p>
     ${share === undefined ? nothing : html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`}
     ${chosen ? whichIsWhich(opener, chosen) : nothing}
     <p class="note" role=${figure.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>
-    <p class="present">${figure.log ? say.present(figure.logName) : say.simulated}</p>
-    ${figure.log ? html`${found.map((sentence) => html`<p class="muted">${sentence}</p>`)} ${button(say.leave, () => opener.leave())}` : nothing}
   </div>`;
+}
+
+/**
+ * Returns the summary of the log, and the noise of its reference.
+ *
+ * @param {Figure} figure
+ * @param {LogOpener} opener
+ */
+export function logSection(figure, { found }) {
+  const say = words.calibrator.own;
+  return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>
+    ${figure.log ? found.map((sentence) => html`<p class="muted">${sentence}</p>`) : nothing}
+    ${deviations(figure)}
+    <p class="muted">${say.deviations}</p>`;
 }
 
 /**

@@ -6,17 +6,19 @@ import { drawDots, drawMark, drawOutline, drawOutlines } from '../../scene/draw.
 import { Picture, SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';
-import { READ_DASH, WayLayer, readStyleOf, stylesOf } from './way.js';
+import { CLASSES } from './settings.js';
+import { WayLayer, styleOf } from './way.js';
 
 /**
  * @import { AlphaCalibrator as Machine, LegView } from '../../types.d.ts'
  * @import { Reading } from './reading.js'
+ * @import { LineName } from './settings.js'
  *
- * @typedef {Reading & { chosen: number, leg: LegView | null }} Scene with the leg that is shown
+ * @typedef {Reading & { chosen: number, leg: LegView | null, overlays: LineName[] }} Scene with the leg that is shown
  */
 
-/** Room for a key in two lines, CSS pixels. */
-const TWO_LINES = 42;
+/** Width of the lines of a single leg, CSS pixels. */
+const WIDTH = 2.25;
 
 /** Radius of the rings around the worst legs, CSS pixels. */
 const RING = 6;
@@ -29,8 +31,9 @@ const RING = 6;
 export class WayPicture extends SamplesPicture {
   #layer = new WayLayer();
 
-  constructor() {
-    super('plane', new View({ top: TWO_LINES }));
+  /** @param {number} [top] room above the picture, CSS pixels */
+  constructor(top) {
+    super('plane', new View({ top }));
   }
 
   /** @param {Scene} scene */
@@ -41,14 +44,13 @@ export class WayPicture extends SamplesPicture {
   }
 
   /** @type {Picture<Scene>['paint']} */
-  paint = (brush, { legs, classes, stats: { doubts }, chosen }) => {
+  paint = (brush, { legs, classes, stats: { doubts }, chosen, overlays }) => {
     const { context, palette, view } = brush;
-    const styles = stylesOf(palette);
-    const { key } = words.calibrator;
-    const entries = styles.map((style, i) => lineKey(brush, key.classes[i], style)).reverse();
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, [...entries, lineKey(brush, key.read, readStyleOf(palette))]);
+    const keyed = brush.exported ? /** @type {const} */ ([...CLASSES.toReversed(), 'odometry']).filter((name) => overlays.includes(name)) : [];
+    const key = keyed.map((name) => lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), styleOf(palette, name)));
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     clipped(brush, () => {
-      this.#layer.draw(brush, legs, classes);
+      this.#layer.draw(brush, legs, classes, overlays);
       context.strokeStyle = palette.ink;
       context.lineWidth = 1;
       for (const leg of doubts.worst) {
@@ -71,7 +73,7 @@ export class WayPicture extends SamplesPicture {
  */
 export class LegPicture extends Picture {
   constructor() {
-    super('leg', new View({ left: 50, top: TWO_LINES }));
+    super('leg', new View({ left: 50 }));
   }
 
   /** @param {Scene} scene */
@@ -83,27 +85,22 @@ export class LegPicture extends Picture {
   }
 
   /** @type {Picture<Scene>['paint']} */
-  paint = (brush, { leg }) => {
+  paint = (brush, { leg, overlays }) => {
     const { palette } = brush;
-    const { key, axisAhead, axisLeft } = words.calibrator;
-    const styles = {
-      predicted: { colour: palette.prediction, width: 2, dash: [] },
-      read: { colour: palette.prior, width: 2.25, dash: READ_DASH },
-      ended: { colour: palette.ink, width: 2.25, dash: [] },
-    };
-    const names = /** @type {const} */ (['predicted', 'read', 'ended']);
-    drawAxes(brush, { x: axisAhead, y: axisLeft }, names.map((name) => lineKey(brush, key[name], styles[name])));
+    drawAxes(brush, { x: words.calibrator.axisAhead, y: words.calibrator.axisLeft }, []);
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
+    const shows = (/** @type {LineName} */ name) => overlays.includes(name);
+    const line = (/** @type {LineName} */ name, /** @type {Float64Array} */ points) => (shows(name) ? [{ points, ...styleOf(palette, name), width: WIDTH }] : []);
     clipped(brush, () => {
-      drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
+      if (shows('predicted')) drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
-        { points: outline, ...styles.predicted },
-        { points: Float64Array.of(0, 0, read[0], read[1]), ...styles.read },
-        { points: Float64Array.of(0, 0, ended[0], ended[1]), ...styles.ended },
+        ...line('predicted', outline),
+        ...line('odometry', Float64Array.of(0, 0, read[0], read[1])),
+        ...line('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
-      drawMark(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      if (shows('odometry')) drawMark(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (shows('reference')) drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

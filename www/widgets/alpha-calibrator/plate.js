@@ -23,6 +23,9 @@ const [WIDTH, HEIGHT] = [720, 712];
 const WAY = { width: 430, height: 344 };
 const PANEL = { width: WIDTH / 3, height: 236 };
 
+/** Room for a key in two lines, CSS pixels. */
+const TWO_LINES = 42;
+
 /** Distance of lines. */
 const LINE = 18;
 
@@ -32,7 +35,7 @@ const PALE = 0.22;
 /** @extends {Picture<Scene>} */
 export class Plate extends Picture {
   size = { width: WIDTH, height: HEIGHT };
-  #way = new WayPicture();
+  #way = new WayPicture(TWO_LINES);
   #panel = new View({ equal: false, left: 46, top: 60 });
   #figure;
 
@@ -45,7 +48,7 @@ export class Plate extends Picture {
   /** @type {Picture<Scene>['draw']} */
   draw(surface, scene, palette) {
     const { reading, logName, exact } = this.#figure;
-    const brush = brushOn(surface, this.view, palette);
+    const brush = { ...brushOn(surface, this.view, palette), exported: true };
     const way = this.#way;
     within(brush, way.view, 0, 0, WAY, (own) => {
       way.fit(scene);

@@ -7,7 +7,7 @@ import { NOTHING, fixed, powerOfTen, significant, tick } from '../../ui/format.j
 import { adviceOf, isZero } from './lines.js';
 import { truthHolds } from './reading.js';
 import { SYSTEMATIC } from './settings.js';
-import { alphaName, significantly } from './words.js';
+import { alphaName, judgementOf, legsText, noiseNames, significantly } from './words.js';
 
 /**
  * @import { Interval } from '../../types.d.ts'
@@ -21,17 +21,26 @@ const CHART = { width: 200, height: 24, middle: 18.5, inset: 12 };
 /** Most decades between labels of the axis. */
 const MOST_DECADES = 4;
 
+/** Icons of the ratings. */
+const ICONS = { trust: '✓', caution: '!', unusable: '✕' };
+
+/** Returns the badge of the α's, with the verdict, the next step and the legs. @param {Figure} figure */
+export function verdictLine({ reading, logName, exact }) {
+  const { rating, badge, finding, next } = judgementOf(reading);
+  return html`<span class="badge ${rating}"><span aria-hidden="true">${ICONS[rating]}</span> ${badge}</span>
+    ${finding} <strong>${next}</strong> <span class="muted">${legsText(reading, logName, exact)}</span>`;
+}
+
 /** Table of the α's, each with its interval on a common axis. @param {Reading} reading */
 export function alphaTable(reading) {
   const { alphas, intervals } = reading.stats;
   const say = words.calibrator.alphas;
-  const noises = say.noiseOf[/** @type {keyof typeof say.noiseOf} */ (reading.config.model)];
+  const noises = noiseNames(reading.config.model);
   const truth = truthHolds(reading) ? reading.truth?.alphas : undefined;
   const place = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
-    <caption>${truth ? trueCaption() : say.caption}</caption>
-    <thead class="visually-hidden">
-      <tr><th scope="col">${rich(say.alpha)}</th><td></td><th scope="col">${say.value}</th><th scope="col">${say.interval}</th></tr>
+    <thead>
+      <tr><th scope="col">${rich(say.alpha)}</th><th scope="col">${truth ? trueHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
@@ -42,7 +51,7 @@ export function alphaTable(reading) {
             <td class="roomy" data-room="0.0000">${toldOf(alpha, intervals[i])}</td>
             <td class="between roomy" data-room=${say.between('0.0000', '0.0000')}>${betweenOf(intervals[i])}</td>`}
       </tr>`)}
-      <tr aria-hidden="true">
+      <tr class="axis" aria-hidden="true">
         <td></td>
         <td class="chart">
           <div class="scale">${place.decades.map((decade) => html`<span .style=${`left: ${(100 * place.at(decade)) / CHART.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div>
@@ -71,16 +80,16 @@ export function alphaTexts(reading) {
   const say = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
     const told = alpha === null ? [lackOf(reading, i)] : [toldOf(alpha, intervals[i]), betweenOf(intervals[i])];
-    return `α${alphaName(i)} ${say.noiseOf[config.model][i]}: ${told.join(', ')}`;
+    return `α${alphaName(i)} ${noiseNames(config.model)[i]}: ${told.join(', ')}`;
   });
 }
 
 /** @param {Interval | null} interval */
 const betweenOf = (interval) => (interval ? words.calibrator.alphas.between(significantly(interval[0]), significantly(interval[1])) : NOTHING);
 
-/** With the mark of the true value where it is named. */
-function trueCaption() {
-  const [before, after] = words.calibrator.alphas.captionTrue.split('|');
+/** Returns the head of the noises with the mark of the true value. */
+function trueHead() {
+  const [before, after] = words.calibrator.alphas.noiseTrue.split('|');
   return html`${before}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${after}`;
 }
 
@@ -146,8 +155,7 @@ export function systematicTable(figure) {
   const say = words.calibrator.systematic;
   const told = figure.settings.told;
   return html`<table class="systematic" part="table">
-    <caption>${truth ? say.captionTrue : say.caption}</caption>
-    <thead class="visually-hidden">
+    <thead>
       <tr>
         <th scope="col">${say.what}</th><th scope="col">${say.value}</th><th scope="col">${say.interval}</th>
         ${truth ? html`<th scope="col">${say.truth}</th>` : nothing}

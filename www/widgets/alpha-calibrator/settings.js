@@ -2,6 +2,7 @@
 
 import { attributesOf } from '../../figure/attributes.js';
 import { wholeNumber, word } from '../../figure/checks.js';
+import { overlaysOf } from '../../figure/overlays.js';
 import { settings } from '../../settings.js';
 
 /** @import { AlphaCalibratorSettings } from '../../types.d.ts' */
@@ -11,7 +12,28 @@ export const declared = settings['alpha-calibrator'];
 /** Key of the words in the catalogues. */
 export const vocabulary = 'calibrator';
 
-export const attributes = attributesOf(declared);
+/** Dash of the odometry, CSS pixels. */
+const READ_DASH = [2.5, 3.5];
+
+/** Styles of the lines in the pictures: the classes of legs, the most usual first, then the rest. @satisfies {Record<string, import('../../figure/overlays.js').LineStyle>} */
+export const LINES = {
+  likely: { role: 'truth', width: 1.5, dash: [] },
+  plausible: { role: 'truth', width: 2, dash: [] },
+  unlikely: { role: 'prediction', width: 3.25, dash: [] },
+  implausible: { role: 'accent', width: 4.5, dash: [] },
+  odometry: { role: 'prior', width: 1.25, dash: READ_DASH },
+  predicted: { role: 'prediction', width: 2, dash: [] },
+  reference: { role: 'ink', width: 2.25, dash: [] },
+};
+
+/** @typedef {keyof typeof LINES} LineName */
+
+/** Classes of legs, the most usual first. */
+export const CLASSES = /** @type {const} @satisfies {LineName[]} */ (['likely', 'plausible', 'unlikely', 'implausible']);
+
+const { attribute: overlays, state } = overlaysOf(Object.keys(LINES));
+
+export const attributes = { ...attributesOf(declared), overlays };
 
 /** Motions whose squares a variance is made of. */
 const DRIVERS = /** @type {const} */ (['turn', 'way']);
@@ -24,6 +46,7 @@ const MOST_LEGS = 9_999_999;
 /** @type {Record<string, import('../../figure/state.js').Owned>} */
 export const own = {
   leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MOST_LEGS)) },
+  overlays: state,
   driver: { opening: DRIVERS[0], check: (field, driver) => word(field, driver, DRIVERS) },
 };
 
@@ -31,8 +54,8 @@ export const own = {
 export const documentation = {
   properties: {},
   state: {
-    leg: { type: 'number | null', sentence: 'The leg that is looked at, from 0; null, or one that is not there, for the worst of those that are not bad.' },
-    driver: { type: "'turn' | 'way'", sentence: 'What squared residuals are drawn against.' },
+    leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the worst that is no outlier.' },
+    driver: { type: "'turn' | 'way'", sentence: 'The motion that squared residuals are drawn against.' },
   },
 };
 

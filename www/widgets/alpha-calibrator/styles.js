@@ -10,48 +10,119 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
-  .views table {
-    margin: 0.2em 0 0.4em;
+  .drop-zone {
+    margin-bottom: 0.4em;
+    padding: 0.25em 0.6em;
+    border: 1px dashed var(--muted);
+    border-radius: 3px;
+  }
+
+  .drop-zone p {
+    margin: 0;
+  }
+
+  .drop-zone .note {
+    margin: 0.3em 0;
+  }
+
+  /* The button of the browser speaks its own language: it lies, unseen, on one in that of the figure. */
+  .files {
+    position: relative;
+    display: inline-block;
+    padding: 0.05em 0.6em;
+    border: 1px solid var(--muted);
+    border-radius: 3px;
+  }
+
+  .files input {
+    position: absolute;
+    inset: 0;
+    width: 100%;
+    min-height: 0;
+    margin: 0;
+    opacity: 0;
+    cursor: pointer;
+  }
+
+  .files input::file-selector-button {
+    width: 100%;
+    cursor: pointer;
+  }
+
+  .files:hover {
+    border-color: var(--ink);
+    box-shadow: inset 0 0 0 1px var(--ink);
+  }
+
+  .files:has(:focus-visible) {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  /* The second class of legs has a colour between two roles, as in the picture. */
+  .legend > :nth-child(2) .swatch {
+    --role: color-mix(in srgb, var(--truth), var(--cloud));
+  }
+
+  .badge {
+    display: inline-block;
+    margin-inline-end: 0.4em;
+    padding: 0.1em 0.6em;
+    border: 1px solid var(--paper);
+    border-radius: 3px;
+    background: var(--prediction);
+    color: var(--paper);
+    font-weight: bold;
+  }
+
+  .badge.trust {
+    background: var(--posterior);
+  }
+
+  .badge.unusable {
+    background: var(--accent);
+  }
+
+  table {
     max-width: none;
+    margin: 0.2em 0 0.5em;
     font-size: 0.84em;
   }
 
-  .views caption {
-    padding-top: 0.2em;
-    line-height: 1.25;
+  .alphas :is(th, td) {
+    padding: 0 0 0 0.6em;
+    line-height: 1.2;
+    white-space: nowrap;
+    vertical-align: bottom;
   }
 
-  .views :is(th, td) {
-    padding: 0.05em 0 0.05em 0.4em;
-    white-space: nowrap;
+  /* Rows of 32 px, beside letters of 16 px. */
+  .alphas tbody tr:not(.axis),
+  .alphas thead tr {
+    height: calc(2em / 0.84);
+  }
+
+  .alphas tbody th {
+    vertical-align: middle;
   }
 
   .alphas .chart {
     width: 100%;
-    padding: 0 0.3em;
+    padding-bottom: 0.1em;
   }
 
-  .alphas :is(th, td) {
-    vertical-align: top;
-  }
-
-  /* Above the whisker, before its grid. */
+  /* A longer name goes on above the value. */
   .alphas .of {
-    position: relative;
-    top: 0.12em;
-    margin-bottom: -1.1em;
+    width: 0;
     color: var(--muted);
-    font-size: 0.9em;
-    line-height: 1.1;
+    line-height: 1;
     text-align: left;
-    width: fit-content;
-    background: var(--paper);
   }
 
   .alphas svg {
     display: block;
     width: 100%;
-    height: 1.65em;
+    height: 1.2em;
   }
 
   .alphas .sample {
@@ -100,7 +171,6 @@ const own = css`
 
   .alphas .unknown {
     display: block;
-    margin-top: 1em;
     text-align: left;
     font-style: italic;
     white-space: normal;
@@ -110,13 +180,12 @@ const own = css`
     color: var(--muted);
   }
 
-  /* As high as whole pixels have it: those of a table are rounded. */
-  .systematic :is(th, td) {
-    padding-block: 0;
+  .systematic {
+    max-width: 44em;
   }
 
-  .systematic .toggle {
-    min-height: calc(1.5em / 0.84);
+  .systematic :is(th, td) {
+    padding-block: 0;
   }
 
   .looked {
@@ -126,51 +195,22 @@ const own = css`
     grid-template-columns: minmax(min-content, 1fr) auto;
   }
 
-  .looked .readouts {
-    grid-column: 1 / -1;
-    gap: 0.2em 1.2em;
+  .looked .slider {
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
+    padding-bottom: 0.2em;
+  }
+
+  .looked fieldset {
     margin: 0;
   }
 
-  .looked button {
-    --size: 0.84;
-    --beside: 0.4em;
-  }
-
-  .models {
-    display: flex;
-    flex-wrap: wrap;
-    align-items: center;
-    column-gap: 2em;
-  }
-
-  .models .choices,
-  .models .options {
-    --name: auto;
-
-    flex: none;
-    column-gap: 0.8em;
-    max-width: 100%;
-  }
-
-  .models .options .choice {
-    flex: none;
-  }
-
-  [part='controls'] > .controls {
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 11em), 1fr));
+  [part='controls'] .controls {
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 13em), 1fr));
     column-gap: 1.5em;
   }
 
-  .folded > .choices {
-    --name: auto;
-
-    column-gap: 1em;
-  }
-
-  .folded > .choices > .options,
-  .folded > .choices .choice {
-    flex: none;
+  [part='controls'] .slider {
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
   }
 
   .panels {
@@ -191,102 +231,66 @@ const own = css`
     font: 0.84em / 1.4 ui-monospace, monospace;
   }
 
-  .dropping {
-    outline: 2px dashed var(--accent);
-    outline-offset: 4px;
+  .dropping .drop-zone {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  @media print {
+    .drop-zone {
+      display: none;
+    }
   }
 
   @container (width < 26em) {
-    .views table :is(caption, thead, tbody) {
+    .alphas :is(thead, tbody) {
       display: revert;
     }
 
-    .views tr {
+    .alphas tr {
       display: table-row;
     }
 
-    .views tr > :is(th, td) {
+    .alphas tr > :is(th, td) {
+      padding: 0 0 0 0.4em;
       overflow-wrap: normal;
     }
   }
 
   @container (min-width: 38em) {
-    canvas {
-      aspect-ratio: 7 / 5;
-    }
-
-    .one canvas {
-      aspect-ratio: 9 / 5;
-    }
-
     .views {
-      grid-template-columns: repeat(10, minmax(0, 1fr));
+      grid-template-columns: repeat(2, minmax(0, 1fr));
       gap: 0.25em 1.25em;
     }
 
-    .stage[part='picture'] {
-      grid-area: 1 / 1 / 3 / 7;
+    .fitted {
+      grid-column: 1 / -1;
     }
 
-    .stage.one {
-      grid-area: 1 / 7 / 2 / 11;
+    canvas {
+      aspect-ratio: 3 / 2;
     }
 
-    .looked {
-      grid-area: 2 / 7 / 3 / 11;
-    }
-
-    .views > .caption {
-      grid-area: 3 / 1 / 4 / 11;
-    }
-
-    .views > .tables {
-      display: grid;
-      grid-template-columns: minmax(min-content, 9fr) minmax(0, 11fr);
-      column-gap: 1.25em;
-      align-items: start;
-      grid-area: 4 / 1 / 5 / 11;
-    }
-  }
-
-  @container (45em <= width < 56em) {
-    .stage:not(.one) canvas {
-      aspect-ratio: 8 / 5;
+    .one canvas {
+      aspect-ratio: 2;
     }
   }
 
   @container (min-width: 56em) {
-    .stage:not(.one) canvas {
+    .views {
+      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) minmax(min-content, 1.1fr);
+    }
+
+    .fitted {
+      grid-column: auto;
+    }
+
+    canvas {
       aspect-ratio: 8 / 7;
     }
 
     .one canvas {
       aspect-ratio: 5 / 4;
-    }
-
-    .views {
-      grid-template: auto 1fr auto auto / repeat(7, minmax(0, 1fr)) minmax(min-content, 3.6fr);
-    }
-
-    .stage[part='picture'] {
-      grid-area: 1 / 1 / 4 / 5;
-    }
-
-    .stage.one {
-      grid-area: 1 / 5 / 2 / 8;
-    }
-
-    .looked {
-      grid-area: 2 / 5 / 4 / 8;
-    }
-
-    .views > .tables {
-      display: block;
-      grid-area: 1 / 8 / 4 / 9;
-    }
-
-    .views > .caption {
-      grid-area: 4 / 1 / 5 / 9;
     }
   }
 `;

@@ -5,12 +5,14 @@
 
 import { hiddenContext } from '../../scene/canvas.js';
 import { channels } from '../../ui/theme.js';
+import { CLASSES, LINES } from './settings.js';
 
 /**
  * @import { CalibrationLegs } from '../../types.d.ts'
  * @import { Painter } from '../../scene/walls.js'
  * @import { Brush } from '../../scene/canvas.js'
  * @import { Palette } from '../../ui/theme.js'
+ * @import { LineName } from './settings.js'
  *
  * @typedef {{ colour: string, width: number, dash: number[] }} Style
  */
@@ -30,22 +32,14 @@ const COARSE = 8;
 /** Number of a square. @param {number} x CSS pixels @param {number} y @param {number} side */
 const squareOf = (x, y, side = FINE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
 
-/** Dash of the odometry, CSS pixels. */
-export const READ_DASH = [2.5, 3.5];
+/** Width of the thinnest lines, CSS pixels. */
+const HAIR = 1;
 
-/** Widths of usual legs and of the thinnest lines, CSS pixels. */
-const [USUAL, HAIR] = [1.5, 1];
-
-/** Styles of legs, the most usual first: the wider, the more unusual. @param {Palette} palette */
-export const stylesOf = ({ truth, cloud, prediction, accent }) => [
-  { colour: truth, width: USUAL, dash: [] },
-  { colour: between(truth, cloud), width: 2, dash: [] },
-  { colour: prediction, width: 3.25, dash: [] },
-  { colour: accent, width: 4.5, dash: [] },
-];
-
-/** Style of the odometry. @param {Palette} palette */
-export const readStyleOf = ({ prior }) => ({ colour: prior, width: 1.25, dash: READ_DASH });
+/** Returns the style of a line. @param {Palette} palette @param {LineName} name @returns {Style} */
+export function styleOf(palette, name) {
+  const { role, width, dash } = LINES[name];
+  return { colour: name === 'plausible' ? between(palette.truth, palette.cloud) : palette[role], width, dash };
+}
 
 /** Mixes two colours. @param {string} one @param {string} other */
 function between(one, other) {
@@ -64,19 +58,20 @@ export class WayLayer {
    * @param {Brush} brush
    * @param {CalibrationLegs} legs
    * @param {Uint8Array} classes of the legs, the most usual first
+   * @param {LineName[]} overlays lines that are shown
    */
-  draw(brush, legs, classes) {
+  draw(brush, legs, classes, overlays) {
     const { context, view, palette, ratio } = brush;
-    if ('vector' in context || legs.count <= FEW_LEGS) return drawWay(brush, legs, classes);
+    if ('vector' in context || legs.count <= FEW_LEGS) return drawWay(brush, legs, classes, overlays);
     const { extent, frame, width, height } = view;
-    const key = JSON.stringify([extent, frame, width, height, stylesOf(palette), palette.prior, ratio]);
+    const key = JSON.stringify([extent, frame, width, height, palette, ratio, overlays]);
     if (key !== this.#key || legs !== this.#legs) {
       this.#key = key;
       this.#legs = legs;
       this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
-      drawWay({ context: layer, view, palette, ratio }, legs, classes);
+      drawWay({ context: layer, view, palette, ratio }, legs, classes, overlays);
     }
     context.drawImage(this.#layer, 0, 0, width, height);
   }
@@ -86,12 +81,15 @@ export class WayLayer {
  * @param {Painter} brush
  * @param {CalibrationLegs} legs
  * @param {Uint8Array} classes
+ * @param {LineName[]} overlays
  */
-function drawWay(brush, legs, classes) {
-  drawOdometry(brush, legs);
+function drawWay(brush, legs, classes, overlays) {
+  if (overlays.includes('odometry')) drawOdometry(brush, legs);
   // Widths fall continuously from one layer of legs to two, so that nothing jumps when a plot is resized.
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
-  for (const [place, style] of stylesOf(brush.palette).entries()) {
+  for (const [place, name] of CLASSES.entries()) {
+    if (!overlays.includes(name)) continue;
+    const style = styleOf(brush.palette, name);
     drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
   }
 }
@@ -113,7 +111,7 @@ function layersOf(view, reference) {
     // No more of a longer leg is in the square in which it ends.
     length += Math.min(COARSE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
-  return (length * USUAL) / (squares.size * COARSE ** 2);
+  return (length * LINES.likely.width) / (squares.size * COARSE ** 2);
 }
 
 /**
@@ -126,6 +124,7 @@ function drawOdometry({ context, view, palette }, { count, odometry, reference }
   if (count === 0) return;
   const turn = reference[2] - odometry[2];
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  const style = styleOf(palette, 'odometry');
   let last = NaN;
   let points = 0;
   context.beginPath();
@@ -139,12 +138,12 @@ function drawOdometry({ context, view, palette }, { count, odometry, reference }
     context.lineTo(x, y);
     points += 1;
     if (points <= LEGS_A_STROKE) continue;
-    stroke(context, readStyleOf(palette));
+    stroke(context, style);
     points = 1;
     context.beginPath();
     context.moveTo(x, y);
   }
-  stroke(context, readStyleOf(palette));
+  stroke(context, style);
 }
 
 /**

@@ -13,6 +13,27 @@ import { en } from './en.js';
 
 addEnglish({ calibrator: en });
 
+/** @typedef {'trust' | 'caution' | 'unusable'} Rating */
+
+/** Ratings of verdicts; the others are a caution. @type {Partial<Record<string, Rating>>} */
+const RATINGS = { fits: 'trust', 'few-legs': 'unusable', unrelated: 'unusable', 'long-legs': 'unusable' };
+
+/**
+ * Returns the rating of the α's, with the verdict and the next step as sentences.
+ *
+ * @param {Reading} reading
+ * @returns {{ rating: Rating, badge: string, finding: string, next: string }}
+ */
+export function judgementOf({ stats: { doubts: { verdict, heldOut } }, legs }) {
+  const { badges, nextSteps, none, verdicts } = words.calibrator;
+  const rating = legs.count === 0 ? 'unusable' : (RATINGS[verdict] ?? 'caution');
+  const finding = legs.count === 0 ? none : verdicts[verdict](percent(heldOut.coverage));
+  return { rating, badge: badges[rating], finding, next: nextSteps[legs.count === 0 ? 'few-legs' : verdict] };
+}
+
+/** Returns the names of the noises of a model. @param {Reading['config']['model']} model */
+export const noiseNames = (model) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
+
 /** The subscript of an α. @param {number} index from 0 */
 export const alphaName = (index) => String.fromCharCode(0x2081 + index);
 
@@ -31,16 +52,21 @@ export function thousandths(highest) {
 }
 
 /**
- * Caption of the pictures: the legs, and the verdict on the model.
+ * Returns the legs of the log in a sentence.
  *
  * @param {Reading} reading
- * @param {string} log its name
- * @param {Exact} exact part of its reference that is taken to be exact
+ * @param {string} log name
+ * @param {Exact} exact part of the reference that is assumed to be exact
  */
-export function captionOf({ stats: { doubts: { verdict, heldOut } }, legs }, log, exact) {
+export function legsText({ legs }, log, exact) {
   const say = words.calibrator;
-  if (legs.count === 0) return say.none;
-  return `${say.present(log, counted(legs.count), exact && say.exact[exact])} ${say.verdicts[verdict](percent(heldOut.coverage))}`;
+  return say.present(log, counted(legs.count), exact && say.exact[exact]);
+}
+
+/** Returns the caption of the pictures: the judgement and the legs. @type {typeof legsText} */
+export function captionOf(reading, log, exact) {
+  const { badge, finding, next } = judgementOf(reading);
+  return `${badge}. ${finding} ${next} ${legsText(reading, log, exact)}`;
 }
 
 /**

@@ -24,7 +24,7 @@ export class FileDrop {
 
   /**
    * @param {Figure} host
-   * @param {string} id of the fold
+   * @param {string} id of the element that says what becomes of the files; a disclosure opens
    * @param {(files: File[]) => void} choose
    */
   constructor(host, id, choose) {
@@ -33,8 +33,8 @@ export class FileDrop {
     this.#choose = choose;
   }
 
-  /** Not there until the figure has been drawn. @returns {HTMLDetailsElement | null} */
-  get #fold() {
+  /** Element that says what becomes of the files, null until the figure has been drawn. */
+  get #place() {
     return this.#host.renderRoot.querySelector(`#${this.#id}`);
   }
 
@@ -42,7 +42,7 @@ export class FileDrop {
   async showRefusal(sentence) {
     if (this.#isDropped) this.#host.notice.show(sentence);
     await this.#host.updateComplete;
-    if (!this.#isDropped) this.#fold?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
+    if (!this.#isDropped) this.#place?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
   }
 
   /** Takes files that the reader has chosen or dropped. @param {File[]} files @param {boolean} [isDropped] */
@@ -70,7 +70,7 @@ export class FileDrop {
     // The browser would leave the page for the file.
     event.preventDefault();
     // What becomes of the file is said in there.
-    if (this.#fold) this.#fold.open = true;
+    if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
     this.take([...event.dataTransfer.files], true);
   };
 }

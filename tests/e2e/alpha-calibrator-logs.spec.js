@@ -1,7 +1,7 @@
 import { spawnSync } from 'node:child_process';
 import { expect } from '@playwright/test';
 import { recordingOf, transform } from '../mcap.js';
-import { caption, choose, example, fold, openCalibrator, recordingWith, rows, settled, stats, tablesOf } from './calibrator-support.js';
+import { caption, choose, example, openCalibrator, recordingWith, rows, settled, stats, tablesOf } from './calibrator-support.js';
 import { STILL, heard, stateOf, test, unfold } from './support.js';
 
 /** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
@@ -12,15 +12,16 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   const widget = await openCalibrator(page);
   const tables = await tablesOf(widget);
   await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
-  await expect(caption(widget)).toHaveText(/^\d+ legs of odom\.csv, truth\.csv, with a reference taken to be exact\./);
+  await expect(caption(widget)).toHaveText(/ \d+ legs of odom\.csv, truth\.csv; reference assumed to be exact\.$/);
   await settled(widget);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
-  await expect(fold(widget, 'Your log').locator('.present')).toHaveText('The log at present: odom.csv, truth.csv.');
+  await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
+  await unfold(widget);
   // Their names say which is which, whatever the reader does.
   const hint = widget.getByText('it is called as odometry is, and truth.csv is not: are the two the other way round?');
   await expect(hint).toHaveCount(0);
-  await widget.getByRole('button', { name: 'The other way round' }).click();
-  await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
+  await widget.getByRole('button', { name: 'Swap odometry and reference' }).click();
+  await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv[.;]/);
   await expect(hint).toBeVisible();
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(caption(widget)).toHaveText(/of the simulated log/);
@@ -29,7 +30,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
 test('results are those of the command line, to the last bit', async ({ page }) => {
   const widget = await openCalibrator(page, 'robust="false" seed="0" bylength');
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/reference\.csv, with a reference taken to be exact\./);
+  await expect(caption(widget)).toHaveText(/reference\.csv; reference assumed to be exact\./);
   await settled(widget);
   const shown = await widget.evaluate((element) => {
     const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
@@ -47,7 +48,7 @@ test('results are those of the command line, to the last bit', async ({ page }) 
 test('a recording has both, and where it is not clear which topic is which, the reader chooses', async ({ page }) => {
   const widget = await openCalibrator(page);
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.;]/);
   await settled(widget);
   const { alphas } = await stats(widget);
   for (const topics of [['/mocap/pose'], ['/mocap/pose', '/slam/pose']]) {
@@ -58,7 +59,7 @@ test('a recording has both, and where it is not clear which topic is which, the 
       await expect(widget.getByRole('alert')).toHaveText(/^run-2\.mcap: which topic is the reference is not clear; expected is a choice of .*\/slam\/pose \(PoseStamped\)\.$/);
       await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
     }
-    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}[.,]`));
+    await expect(caption(widget)).toHaveText(new RegExp(`of ${name}[.;]`));
     await settled(widget);
     const read = await stats(widget);
     // Quaternions round the headings.
@@ -68,6 +69,7 @@ test('a recording has both, and where it is not clear which topic is which, the 
 
 test('of files with poses and commands the velocity model takes the commands, and the others the poses', async ({ page }) => {
   const widget = await openCalibrator(page, 'model="velocity"');
+  await unfold(widget);
   const keys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
   const model = async (/** @type {string} */ name, /** @type {string} */ key) => {
     await widget.getByRole('radio', { name }).check();
@@ -105,7 +107,6 @@ test('of transforms the reader says which frames are meant', async ({ page }) =>
     rows(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
   const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link')];
   const buffer = await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
-  await fold(widget, 'Your log').locator('summary').click();
   await widget.locator('#log-files').setInputFiles({ name: 'tf.mcap', mimeType: 'application/octet-stream', buffer });
   await widget.getByLabel('Odometry', { exact: true }).selectOption('/tf');
   await widget.getByLabel('Reference', { exact: true }).selectOption('/tf');
@@ -113,7 +114,7 @@ test('of transforms the reader says which frames are meant', async ({ page }) =>
   const frames = widget.getByLabel('Odometry: Frames');
   await frames.fill('odom, base_footprint');
   await frames.press('Enter');
-  await expect(caption(widget)).toHaveText(/of tf\.mcap[.,]/);
+  await expect(caption(widget)).toHaveText(/of tf\.mcap[.;]/);
 });
 
 test('files that are no log are refused in a sentence, and all stays as it was', async ({ page }) => {
@@ -123,7 +124,7 @@ test('files that are no log are refused in a sentence, and all stays as it was',
   await choose(widget, { 'odom.csv': 't,x,y,yaw\n0,0,0,0\n1,one,0,0\n', 'truth.csv': 't,x,y,yaw\n0,0,0,0\n' });
   await expect(alert).toHaveText(/^odom\.csv, line 3: x is “one”; expected is a number\.$/);
   await choose(widget, { 'alone.csv': 't,x,y,yaw\n0,0,0,0\n' });
-  await expect(alert).toHaveText(/The log is refused: 1 file given; expected are two tables at once/);
+  await expect(alert).toHaveText(/Log refused: 1 file given; choose two tables at once/);
   await choose(widget, { 'notes.mcap': 'no recording' });
   await expect(alert).toHaveText(/^notes\.mcap: the recording is damaged/);
   const buffer = await recordingOf([{ topic: '/rosout', type: 'rcl_interfaces/msg/Log', t: 1, message: {} }], {});
@@ -136,25 +137,22 @@ test('files that are no log are refused in a sentence, and all stays as it was',
 test('a log without enough legs is refused, and the present log keeps its place and its name', async ({ page }) => {
   const widget = await openCalibrator(page);
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.;]/);
   await settled(widget);
   const before = await caption(widget).innerText();
   const { alphas } = await stats(widget);
   const still = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
   await choose(widget, { 'a.csv': still, 'b.csv': still });
-  await expect(widget.getByRole('alert')).toHaveText('The log is refused: Fewer than eight legs: too little motion, or no time in common.');
+  await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time.');
   await settled(widget);
   expect(await caption(widget).innerText()).toBe(before);
   expect((await stats(widget)).alphas).toEqual(alphas);
-  await expect(widget.locator('.own-log .present')).toContainText('odometry.csv, reference.csv');
+  await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
 });
 
 test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
   const widget = await openCalibrator(page);
   const before = await stateOf(widget);
-  await fold(widget, 'Your log').locator('summary').click();
-  // The content of a fold is made when it opens.
-  await expect(widget.locator('#log-files')).toBeVisible();
   await widget.evaluate(async (element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);
     const input = /** @type {HTMLInputElement} */ (root.querySelector('#log-files'));
@@ -168,7 +166,7 @@ test('reading a log can be stopped, and everything is as it was', async ({ page 
     button()?.click();
   });
   await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
-  await expect(widget.locator('.own-log progress')).toHaveCount(0);
+  await expect(widget.locator('.drop-zone progress')).toHaveCount(0);
   expect(await stateOf(widget)).toEqual(before);
   await expect(caption(widget)).toHaveText(/of the simulated log/);
 });
@@ -209,10 +207,10 @@ test('a log without legs says so', async ({ page }) => {
   });
   await settled(widget);
   await unfold(widget);
-  await expect(caption(widget)).toHaveText(/^Fewer than eight legs:/);
+  await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs/);
   await expect(rows(widget).first()).toHaveText(/—/);
-  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /none is looked at\.$/);
-  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'There is no leg to look at.');
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /none is shown\.$/);
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'There is no leg to show.');
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Next worst leg' })).toBeDisabled();
   expect(await heard(page, ['error'])).toEqual([]);

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { between } from '../../www/widgets/alpha-calibrator/lines.js';
-import { caption, fold, openCalibrator, rows, settled, stats } from './calibrator-support.js';
+import { caption, openCalibrator, rows, section, settled, stats } from './calibrator-support.js';
 import { STILL, frames, pixelsOf, stateOf, test, unfold } from './support.js';
 
 /** @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement */
@@ -10,7 +10,7 @@ test.use(STILL);
 
 test('opens with the simulated log, said to be one, whose true α’s are inside of the intervals', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^\d+ legs of the simulated log\. The model fits: of unseen residuals, 9\d\.\d.% are inside its 95 %\.$/);
+  await expect(caption(widget)).toHaveText(/^✓ Trust\s+The model fits: 9\d\.\d.% of held-out residuals lie within their 95 % interval\. Use these α’s with legs of this length\. \d+ legs of the simulated log\.$/);
   const { alphas, intervals } = await stats(widget);
   const truth = await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth);
   expect(alphas.length).toBe(4);
@@ -28,6 +28,7 @@ test('opens with the simulated log, said to be one, whose true α’s are inside
 
 test('the true α’s are shown where the fit is of their rule and legs, and nowhere else', async ({ page }) => {
   const widget = await openCalibrator(page);
+  await unfold(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
   await settled(widget);
   await expect(widget.locator('table.alphas .true')).toHaveCount(0);
@@ -44,35 +45,36 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
 test('the meaning of each α stands beside it in one line, also on a phone and in German', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 900 });
   const widget = await openCalibrator(page, 'lang="de"');
-  await expect(rows(widget).locator('.of')).toHaveText(['Drehung durch Drehung', 'Drehung durch Fahrt', 'Weg durch Fahrt', 'Weg durch Drehung']);
+  await expect(rows(widget).locator('.of')).toHaveText(['Drehrauschen durch Drehen', 'Drehrauschen durch Fahren', 'Streckenrauschen durch Fahren', 'Streckenrauschen durch Drehen']);
   const told = await rows(widget).evaluateAll((all) => all.map((row) => {
     const of = /** @type {Element} */ (row.querySelector('.of'));
     const [, value] = row.querySelectorAll('td');
     const text = new Range();
     text.selectNodeContents(of);
     const table = /** @type {Element} */ (row.closest('table'));
-    const [end, left] = [text.getBoundingClientRect().right, value.getBoundingClientRect().left];
-    return { lines: text.getClientRects().length, end, value: left, over: table.scrollWidth - table.clientWidth };
+    const number = new Range();
+    number.selectNodeContents(value);
+    const [end, top] = [text.getBoundingClientRect(), number.getBoundingClientRect()];
+    return { lines: text.getClientRects().length, apart: end.right <= top.left || end.bottom <= top.top + 2, over: table.scrollWidth - table.clientWidth };
   }));
-  for (const { lines, end, value, over } of told) {
-    expect([lines, over]).toEqual([1, 0]);
-    expect(end).toBeLessThanOrEqual(value);
-  }
+  for (const each of told) expect(each).toEqual({ lines: 1, apart: true, over: 0 });
 });
 
-test('a few bad legs decide where none may be bad', async ({ page }) => {
+test('without the robust fit a few outliers decide', async ({ page }) => {
   const widget = await openCalibrator(page);
+  await unfold(widget);
   const before = await stats(widget);
-  await widget.getByRole('checkbox', { name: 'Some legs may be bad' }).uncheck();
+  await widget.getByRole('checkbox', { name: 'Robust fit' }).uncheck();
   await settled(widget);
   const after = await stats(widget);
   expect(after.outliers).toBeNull();
   expect(Number(after.alphas[2])).toBeGreaterThan(5 * Number(before.alphas[2]));
-  await expect(caption(widget)).toHaveText(/Heavy tails/);
+  await expect(caption(widget)).toHaveText(/^! Caution\s+Heavy tails/);
 });
 
-test('a systematic error that is left makes the α’s larger, and is told all the same', async ({ page }) => {
+test('a systematic error that is not corrected makes the α’s larger, and is told all the same', async ({ page }) => {
   const widget = await openCalibrator(page);
+  await unfold(widget);
   const before = await stats(widget);
   await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
   await settled(widget);
@@ -82,7 +84,7 @@ test('a systematic error that is left makes the α’s larger, and is told all t
   // As the page says.
   const [from, to] = [before, after].map(({ alphas: [, second] }) => Number(second).toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`<sub>2</sub> goes from ${from} to ${to}.`);
-  await expect(caption(widget)).toHaveText(/Something is left/);
+  await expect(caption(widget)).toHaveText(/Correlated residuals/);
 });
 
 test('a leg is chosen in the picture, by its slider, and from worst to worst', async ({ page }) => {
@@ -117,21 +119,22 @@ test('inflation multiplies the predictions and the exported α’s', async ({ pa
   await slider.fill('2');
   await settled(widget);
   await expect(widget.locator('textarea.yaml')).toHaveValue(new RegExp(`alpha3: ${(2 * Number(alphas[2])).toFixed(4)}  #`));
-  await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too large: lazy/);
+  await expect(section(widget, 'Noise inflation').locator('p.caption')).toHaveText(/^Too large: underconfident/);
   await slider.fill('0.3');
   await settled(widget);
-  await expect(fold(widget, 'Inflate').locator('p.caption')).toHaveText(/^Too small: overconfident/);
+  await expect(section(widget, 'Noise inflation').locator('p.caption')).toHaveText(/^Too small: overconfident/);
 });
 
 test('an export as a picture has the key, the α’s with their intervals, the panels, and the verdict', async ({ page }) => {
   const widget = await openCalibrator(page);
+  await unfold(widget);
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
   await settled(widget);
   const texts = await rows(widget).evaluateAll((all) => all.map((row) => {
     const [of, value, between] = ['.of', 'td:nth-of-type(2)', '.between'].map((part) => row.querySelector(part)?.textContent?.trim());
     return `${of}: ${value}, ${between}`;
   }));
-  const said = await caption(widget).textContent();
+  const said = ((await caption(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
   const drawn = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
     const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
@@ -144,14 +147,15 @@ test('an export as a picture has the key, the α’s with their intervals, the p
       described: root.querySelector('desc')?.textContent ?? '',
     };
   });
+  const written = drawn.texts.join(' ');
   texts.forEach((text, i) => {
-    expect(drawn.texts).toContain(`α${'₁₂₃₄'[i]} ${text}`);
+    expect(written).toContain(`α${'₁₂₃₄'[i]} ${text}`);
     expect(drawn.described).toContain(text);
   });
-  expect(drawn.texts).toContain(said);
-  for (const name of ['half of the legs', '19 in 20', '1 in 20', '1 in 1000', 'odometry']) expect(drawn.texts).toContain(name);
-  expect(drawn.texts.join(' ')).toMatch(/Systematic, and left to the α’s: mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
-  expect(drawn.texts.filter((text) => text?.includes(', r²')).map((text) => text?.split(',')[0])).toEqual(['first rotation', 'drive', 'second rotation']);
+  expect(written.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(said);
+  for (const name of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001', 'odometry']) expect(drawn.texts).toContain(name);
+  expect(written).toMatch(/Systematic errors not corrected \(absorbed by the α’s\): mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
+  expect(drawn.texts.filter((text) => text?.includes(', squared residual')).map((text) => text?.split(',')[0])).toEqual(['first rotation', 'translation', 'second rotation']);
   expect(drawn.size[0] / drawn.size[1]).toBeCloseTo(720 / 712, 1);
   drawn.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * drawn.size[i])).toBeLessThanOrEqual(1));
 });
@@ -159,7 +163,7 @@ test('an export as a picture has the key, the α’s with their intervals, the p
 test('in plots the key names every line, and no label lies on a curve', async ({ page }) => {
   const widget = await openCalibrator(page, 'inflation="1.5"');
   await unfold(widget);
-  const inflate = fold(widget, 'Inflate');
+  const inflate = section(widget, 'Noise inflation');
   expect((await inflate.locator('.plot text').allTextContents()).filter((text) => text.includes('='))).toEqual([]);
   for (const i of [0, 1]) {
     const plot = inflate.locator('figure').nth(i);
@@ -170,7 +174,7 @@ test('in plots the key names every line, and no label lies on a curve', async ({
 
 test('the lines for Nav2 say what they are of', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
-  await fold(widget, 'For Nav2').locator('summary').click();
+  await unfold(widget);
   const { alphas, intervals, bootstrap } = await stats(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
   expect(yaml).toMatch(/^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 0\.3 m or 0\.2 rad of the simulated log, \d{4}-\d\d-\d\d; 95 % intervals by bootstrap\n/);
@@ -185,10 +189,20 @@ test('the lines for Nav2 say what they are of', async ({ page }) => {
   await widget.getByRole('radio', { name: 'velocity' }).check();
   await settled(widget);
   await expect(widget.locator('textarea.yaml')).toHaveCount(0);
+  await expect(widget.getByRole('button', { name: 'Copy for Nav2' })).toBeDisabled();
+});
+
+test('the button beside the α’s copies the lines for Nav2', async ({ page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  const widget = await openCalibrator(page, 'rule="nav2"');
+  await widget.getByRole('button', { name: 'Copy for Nav2' }).click();
+  await expect(widget.locator('.fitted output')).toHaveText('Copied.');
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^amcl:\n[^]* alpha1: 0\.\d/);
 });
 
 test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2"');
+  await unfold(widget);
   const before = await stats(widget);
   const time = widget.locator('.slider:has(#duration)');
   await expect(time.locator('.typed')).toHaveValue('—');
@@ -197,16 +211,14 @@ test('legs of a time, and how well the reference is known, are set by their slid
   await settled(widget);
   expect(await stateOf(widget)).toMatchObject({ duration: 0.8, distance: 0.25, angle: 0.2 });
   await expect(widget.locator('.slider.off:is(:has(#distance), :has(#angle))')).toHaveCount(2);
-  await fold(widget, 'For Nav2').locator('summary').click();
   await expect(widget.locator('textarea.yaml')).toHaveValue(/# \d+ legs of 0\.8 s of the simulated log/);
   await expect(widget.locator('textarea.yaml')).not.toHaveValue(/update_min/);
   await time.locator('#duration').fill('0');
   await settled(widget);
   expect((await stats(widget)).alphas).toEqual(before.alphas);
-  // The reference's own error is no noise of the wheels.
-  await fold(widget, 'Your log').locator('summary').click();
-  await widget.getByRole('slider', { name: /position of the reference/ }).fill('0.004');
-  await widget.getByRole('slider', { name: /heading of the reference/ }).fill('0.003');
+  // Noise of the reference is no noise of the wheels.
+  await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
+  await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');
   await settled(widget);
   expect(await stateOf(widget)).toMatchObject({ positionDeviation: 0.004, headingDeviation: 0.003, duration: 0 });
   expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(before.alphas[3]));
@@ -216,8 +228,8 @@ test('α’s of other lengths of legs are fitted where they are asked for, and d
   const widget = await openCalibrator(page);
   const { alphas, byLength } = await stats(widget);
   expect(byLength).toEqual([]);
-  const lengths = fold(widget, 'Other lengths');
-  await lengths.locator('summary').click();
+  await unfold(widget);
+  const lengths = section(widget, 'Dependence on leg length');
   await lengths.getByRole('checkbox').check();
   await settled(widget);
   const told = await stats(widget);
@@ -246,7 +258,7 @@ test('an α that a log does not tell from 0 is no result of 0', async ({ page })
   }
 });
 
-test('of an α that a log does not determine it says why, and what to drive', async ({ page }) => {
+test('of an α that a log does not determine it says why, and what to add', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
     const count = 2000;
@@ -256,6 +268,6 @@ test('of an α that a log does not determine it says why, and what to drive', as
     Object.assign(element, { log: { odometry: { t, x: straight(0), y: none, theta: none }, reference: { t, x: straight(0.002), y: none, theta: none } } });
   });
   await settled(widget);
-  await expect(rows(widget).nth(0)).toHaveText(/not determined: this log turns too little; turn on the spot, some fifty times/);
+  await expect(rows(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);
   await expect(rows(widget).nth(2)).not.toHaveText(/not determined/);
 });

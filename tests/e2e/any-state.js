@@ -142,6 +142,7 @@ export function anyOf(seed) {
       seed: whole(0, 2 ** 53 - 1),
       leg: one([null, whole(0, 20)]),
       driver: one(['turn', 'way']),
+      overlays: ['likely', 'plausible', 'unlikely', 'implausible', 'odometry', 'predicted', 'reference'].filter(() => random() < 0.5),
     },
   };
 }

@@ -44,7 +44,7 @@ export async function settled(widget) {
 
 export const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 export const rows = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
-export const fold = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('details[part=fold]', { has: widget.page().locator('summary', { hasText: name }) });
+export const section = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
 export const stats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
 
 /** Rows of two tables of the simulated drive, as a reader's files have them. @param {Locator} widget @param {(row: number) => boolean} [keep] */
@@ -59,7 +59,6 @@ export const tablesOf = (widget, keep = () => true) =>
 
 /** @param {Locator} widget @param {Record<string, string>} files */
 export async function choose(widget, files) {
-  await fold(widget, 'Your log').evaluate((details) => void (/** @type {HTMLDetailsElement} */ (details).open = true));
   await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
 }
 

@@ -114,7 +114,8 @@ const ACTS = {
   'alpha-calibrator': [
     ['model', (widget) => widget.locator('input[name=kind]').nth(1).check()],
     ['noise', (widget) => widget.locator('input[name=noise]').nth(1).check()],
-    ['bad legs', (widget) => widget.getByRole('checkbox', { name: 'Some legs may be bad' }).uncheck()],
+    ['robust fit', (widget) => widget.getByRole('checkbox', { name: 'Robust fit' }).uncheck()],
+    ['legend', (widget) => widget.getByRole('checkbox', { name: 'odometry' }).uncheck()],
     ['systematic error', (widget) => widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck()],
     ['slider by key', (widget) => widget.locator('#distance').press('ArrowRight')],
     ['leg by key', (widget) => widget.locator('#leg').press('ArrowRight')],

@@ -50,7 +50,7 @@ export const KNOWN = {
   },
   'alpha-calibrator': {
     slider: 'distance', at: ['distance'], values: [0.4, 0.3], other: ['angle', 0.35], button: 'Next worst leg',
-    fold: { at: 2, field: '.slider:has(#inflation) .typed', value: '2.50' }, paper: { at: 1, part: 'table' },
+    fold: { at: 0, field: '.slider:has(#inflation) .typed', value: '2.50' }, paper: { at: 1, part: 'table' },
   },
 };
 

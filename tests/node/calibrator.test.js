@@ -168,13 +168,13 @@ test('lines for Nav2: an α without an interval has no empty comment', () => {
   assert.equal(large[0].trim(), `# alpha1: 206, ${en.nav2.tooLarge}`);
   const zeros = nav2Lines({ ...fitted, inflation: 2, alphas: [0, 1e-7, 0, 0.1], intervals: [[0, 0.00123], [0, 0.0016], null, [0.05, 0.16]], bootstrap: [[0, 0.0013], [0, 0.0018], null, [0.05, 0.16]] }, en.nav2);
   assert.deepEqual(zeros.filter((line) => /alpha[1-4]/.test(line)).map((line) => line.trim()), [
-    '# alpha1: not told from 0 by this log, 0.0026 at most', '# alpha2: not told from 0 by this log, 0.0036 at most',
-    '# alpha3: not told from 0 by this log, – at most', 'alpha4: 0.20  # 0.10 to 0.32',
+    '# alpha1: not significantly different from 0, at most 0.0026', '# alpha2: not significantly different from 0, at most 0.0036',
+    '# alpha3: not significantly different from 0, at most –', 'alpha4: 0.20  # 0.10 to 0.32',
   ]);
   const corrected = nav2Lines({ ...fitted, alphas: [0.1], intervals: [null], bootstrap: [null], systematic: {
     mountYaw: { value: 0.05, interval: [0.04, 0.06], removed: true }, turnScale: { value: 1.01, interval: [1, 1.02], removed: false },
   } }, en.nav2);
-  assert.ok(corrected.includes('    # with these errors removed: mountYaw 0.050'));
+  assert.ok(corrected.includes('    # with these systematic errors corrected: mountYaw 0.050'));
 });
 
 test('legs of the simulated log are those that the settings open with', () => {

@@ -164,7 +164,7 @@ test('the text has the α’s, systematic errors, doubts, a verdict, lines for N
   const { out } = await outputOf([...FILES, '--rule', 'nav2', '--distance', '1', '--angle', '1', '--position-deviation', '0.001']);
   for (const line of [
     /^odometry\.csv: \d+ of \d+ rows, /m, /^the reference errs by 0\.001 m, as stated; its heading is taken to be exact; .*: state it by --heading-deviation$/m,
-    /^alpha1 +\d\.\d+ +\S+ to \S+ +\S+ to \S+ +turn from turning$/m, /^by length +0\.25 m, 0\.25 rad +0\.5 m, 0\.5 rad /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m,
+    /^alpha1 +\d\.\d+ +\S+ to \S+ +\S+ to \S+ +rotation noise from rotation$/m, /^by length +0\.25 m, 0\.25 rad +0\.5 m, 0\.5 rad /m, /^mount yaw +0\.0\d+ rad +\S+ to \S+ +removed$/m,
     /^held-out residuals inside of 95 % +\S+ % /m, /^amcl:\n {2}ros__parameters:\n {4}# \d+ legs of 1 m or 1 rad of odometry\.csv and reference\.csv, 2026-01-02; /m,
     /^ {4}alpha1: \d\.\d+ {2}# \S+ to \S+$/m, /^ {4}update_min_d: 1\.0\n {4}update_min_a: 1\.0$/m,
   ]) assert.match(out, line);
@@ -176,18 +176,18 @@ test('the text has the α’s, systematic errors, doubts, a verdict, lines for N
     textOf({ calibration: { ...calibration, ...change }, fit: { legs: call.legs, ...fit }, deviations: {}, logs: [], start: 0, date: '' });
   for (const verdict of /** @type {(keyof typeof en.verdicts)[]} */ (Object.keys(en.verdicts))) {
     const text = printed({ doubts: { ...doubts, verdict } });
-    const sentence = en.verdicts[verdict](/(?<=inside of 95 % +)[\d.]+ %/.exec(text)?.[0] ?? '');
+    const sentence = `${en.verdicts[verdict](/(?<=inside of 95 % +)[\d.]+ %/.exec(text)?.[0] ?? '')} ${en.nextSteps[verdict]}`;
     assert.ok(text.includes(`\n${sentence}\n`), verdict);
     assert.equal(text.includes(`    # ${sentence}\n`), verdict !== 'fits', verdict);
   }
   const declared = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/verdict: '(.*)';/)?.[1].split("' | '");
   for (const { verdicts } of [en, de]) assert.deepEqual(Object.keys(verdicts).sort(), declared?.sort());
   const undetermined = ['one-ratio', 'one-ratio', 'drives-too-little', 'one-ratio'];
-  assert.match(printed({ undetermined }), /^alpha3 not determined: this log hardly goes anywhere; drive straight on, some fifty legs\nalpha1, alpha2, and alpha4 not determined: /m);
-  assert.match(printed({ undetermined: [null, 'turns-too-little', null, null] }, { model: 'velocity' }), /^alpha2 not determined: this log turns too little; drive tight bends, some fifty legs$/m);
+  assert.match(printed({ undetermined }), /^alpha3 not determined: too little translation in this log; add ~50 straight legs\nalpha1, alpha2, and alpha4 not determined: /m);
+  assert.match(printed({ undetermined: [null, 'turns-too-little', null, null] }, { model: 'velocity' }), /^alpha2 not determined: too little rotation in this log; add ~50 legs in tight bends$/m);
   const upTo = (/** @type {any[]} */ all) => all.toSpliced(1, 1, [0, 0.00123]);
   const zero = printed({ alphas: alphas.toSpliced(1, 1, 0), intervals: upTo(intervals), bootstrap: upTo(bootstrap) });
-  assert.match(zero, /^alpha2 +≤ 0\.0012 +0\.0000 to 0\.0012 .*\n(.*\n)*alpha2 not told from 0: to tell it, drive straight on, some fifty legs$/m);
+  assert.match(zero, /^alpha2 +≤ 0\.0012 +0\.0000 to 0\.0012 .*\n(.*\n)*alpha2 not told from 0: to tell it, add ~50 straight legs$/m);
   assert.match(printed({ alphas: [null, null, null, null], undetermined }), /^alpha1 +not determined by this log/m);
   assert.match(printed({ byLength: [{ factor: 1, legs: 3, alphas: [null, null, null, null], bootstrap: [null, null, null, null] }] }), /^–: too few legs, /m);
   assert.match(printed({ systematic: { ...systematic, mountYaw: { value: null, interval: null, removed: false } } }), /^mount yaw +not determined$/m);

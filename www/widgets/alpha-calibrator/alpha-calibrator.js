@@ -264,7 +264,7 @@ export class AlphaCalibratorElement extends FigureElement {
             ${group(say.systematic.title, systematicTable(this))}
             ${group(say.own.title, logSection(this, this.#opener))}
             ${group(say.inflation.title, inflation(this))}`,
-          numbers: () => html`${group(say.leg.name, legReadouts(this))}
+          numbers: () => html`${group(say.oneLeg(counted(chosen + 1)), legReadouts(this))}
             ${group(say.panels.title, panels(this))}
             ${group(say.doubts.title, doubts(this))}
             ${group(say.lengths.title, lengths(this))}

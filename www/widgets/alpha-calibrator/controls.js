@@ -65,21 +65,19 @@ export function legReadouts({ reading: { legs, stats }, chosen, predicted: leg }
   ]);
 }
 
-/** The model with its rule, and the robust fit. @param {Figure} figure */
+/** The model with its rule, the robust fit, and legs of a duration. @param {Figure} figure */
 export function modelControls(figure) {
   const { fit, settings: { model }, kinds, robust, noises } = words.calibrator;
+  const show = (/** @type {number} */ seconds) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
   const choose = (/** @type {import('./settings.js').Kind} */ kind) => figure.gesture.decide(settingsFor(kind));
   return group(fit, html`${radioGroup(model.name, 'kind', kinds, kindOf(/** @type {any} */ (figure.settings.told)), choose)}
-    ${choices(figure, 'noise', noises)} ${check(figure, 'robust', robust)}`);
+    ${choices(figure, 'noise', noises)} ${check(figure, 'robust', robust)} ${slider(figure, 'duration', { show })}`, 'fit');
 }
 
 /** Sliders of the length of a leg. @param {Figure} figure */
 export function legLengths(figure) {
   const off = figure.settings.told.duration > 0;
-  const show = (/** @type {number} */ seconds) => (seconds > 0 ? `${typed(seconds, 2)} s` : NOTHING);
-  return group(words.calibrator.leg.group, html`<div class="controls">
-    ${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })} ${slider(figure, 'duration', { show })}
-  </div>`);
+  return group(words.calibrator.leg.group, html`<div class="controls">${slider(figure, 'distance', { off })} ${slider(figure, 'angle', { off })}</div>`);
 }
 
 /** Sliders of the noise of the reference. @param {Figure} figure */

@@ -77,7 +77,6 @@ function lackOf({ stats: { undetermined }, config: { model } }, index) {
 /** All α's as texts, each with its interval. @param {Reading} reading */
 export function alphaTexts(reading) {
   const { stats: { alphas, intervals }, config } = reading;
-  const say = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
     const told = alpha === null ? [lackOf(reading, i)] : [toldOf(alpha, intervals[i]), betweenOf(intervals[i])];
     return `α${alphaName(i)} ${noiseNames(config.model)[i]}: ${told.join(', ')}`;

@@ -22,7 +22,7 @@ export const LINES = {
   unlikely: { role: 'prediction', width: 3.25, dash: [] },
   implausible: { role: 'accent', width: 4.5, dash: [] },
   odometry: { role: 'prior', width: 1.25, dash: READ_DASH },
-  predicted: { role: 'prediction', width: 2, dash: [] },
+  predicted: { role: 'prediction', width: 2, dash: [7, 4] },
   reference: { role: 'ink', width: 2.25, dash: [] },
 };
 

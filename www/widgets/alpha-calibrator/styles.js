@@ -102,8 +102,12 @@ const own = css`
     height: calc(2em / 0.84);
   }
 
-  .alphas tbody th {
+  .alphas :is(thead, tbody) th {
     vertical-align: middle;
+  }
+
+  .alphas thead th:nth-child(2) {
+    text-align: left;
   }
 
   .alphas .chart {

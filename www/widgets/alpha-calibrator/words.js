@@ -52,7 +52,7 @@ export function thousandths(highest) {
 }
 
 /**
- * Returns the legs of the log in a sentence.
+ * Returns the legs of the log in a sentence; empty if there are none.
  *
  * @param {Reading} reading
  * @param {string} log name
@@ -60,13 +60,13 @@ export function thousandths(highest) {
  */
 export function legsText({ legs }, log, exact) {
   const say = words.calibrator;
-  return say.present(log, counted(legs.count), exact && say.exact[exact]);
+  return legs.count === 0 ? '' : say.present(log, counted(legs.count), exact && say.exact[exact]);
 }
 
 /** Returns the caption of the pictures: the judgement and the legs. @type {typeof legsText} */
 export function captionOf(reading, log, exact) {
   const { badge, finding, next } = judgementOf(reading);
-  return `${badge}. ${finding} ${next} ${legsText(reading, log, exact)}`;
+  return `${badge}. ${finding} ${next} ${legsText(reading, log, exact)}`.trim();
 }
 
 /**

@@ -57,8 +57,8 @@ export function timeControl({ player, gesture, reading, state }) {
   const shown = words.anatomy.timeOf(fixed((underway / WHOLE) * dt, 2), fixed(dt, 2));
   return group(words.anatomy.time, html`<div class="underway">
     ${player.button('underway')}
-    <div class="slider" part="slider">
-      <label for="underway"><span class="symbol" translate="no"><i>t</i></span>${words.anatomy.underway}</label>
+    <div class="slider" part="slider" data-role="truth">
+      <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
       ${track({ id: 'underway', min: 0, max: WHOLE, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
       <output class="value" for="underway">${shown}</output>
     </div>

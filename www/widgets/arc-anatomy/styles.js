@@ -123,7 +123,6 @@ const own = css`
   }
 
   .underway {
-    --thumb: var(--truth);
     display: flex;
     gap: 0.6em;
     align-items: center;

@@ -359,6 +359,62 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   await expect(field).toHaveValue(String(last + 1));
 });
 
+test('a marked motion that went through a wall has a leader to it, and no other has', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { verdicts } = await squeezed(widget);
+  const labelled = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
+    Object.assign(element, { marked });
+    return /** @type {any} */ (element).toSVG().includes('through this wall');
+  }, index);
+  expect(await labelled(null)).toBe(false);
+  expect(await labelled(verdicts.indexOf(5))).toBe(true);
+  expect(await labelled(verdicts.indexOf(7))).toBe(false);
+});
+
+test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const before = await squeezed(widget);
+  const drag = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
+    const { x, y } = await centreOf(handle);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + dx, y + dy, { steps: 4 });
+    await page.mouse.up();
+    return squeezed(widget);
+  };
+  // The left edge of the doorway that the robot faces, at x = 1.6 m, as far as it goes: the right one is at 2.5 m.
+  const narrow = await drag(widget.locator('.handle.to-4'), 300, 40);
+  expect(narrow.walls.slice(16, 20)).toEqual([0, 3.8, expect.closeTo(2.45, 9), 3.8]);
+  expect(narrow.stats.throughWall).toBeGreaterThan(before.stats.throughWall);
+  expect(narrow.config).toEqual(before.config);
+  const moved = await drag(widget.locator('.handle.side-8'), 10, -20);
+  const [x0, y0, x1, y1] = moved.walls.slice(32, 36);
+  expect([x0, x1]).toEqual([0, 2.8]);
+  expect(y0).toBeGreaterThan(5);
+  expect(y1).toBe(y0);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Edited apartment/);
+  await widget.getByRole('button', { name: 'Back to the apartment' }).click();
+  expect((await squeezed(widget)).walls).toEqual(before.walls);
+});
+
+test('walls are moved by keyboard from one stop of Tab', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { walls } = await squeezed(widget);
+  await body(widget).focus();
+  await page.keyboard.press('Shift+Tab');
+  const current = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
+  expect(await current()).toBe('to-4');
+  await page.keyboard.press('ArrowRight');
+  expect((await squeezed(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
+  await page.keyboard.press(']');
+  expect(await current()).toBe('side-4');
+  await page.keyboard.press('Shift+ArrowDown');
+  const moved = await squeezed(widget);
+  expect(moved.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);
+  await page.keyboard.press('Shift+Tab');
+  expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.classList.contains('handle') ?? false)).toBe(false);
+});
+
 test('the picture and the announcements have words', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { stats } = await squeezed(widget);

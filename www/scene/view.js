@@ -35,7 +35,7 @@ export class View {
   within;
   /** Whether a metre is as long in y as in x. */
   #equal;
-  /** Whether it shows no more than what is needed. */
+  /** True for an extent of what is needed alone, without a margin. */
   #snug;
   /** Canvas size, CSS pixels. */
   width = 1;

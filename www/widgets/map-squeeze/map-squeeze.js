@@ -18,10 +18,12 @@ import { applyMap, cellsOf, mapData } from './maps/data.js';
 import { MapOpener } from './maps/open.js';
 import { overview } from './overview.js';
 import { FloorPicture } from './picture.js';
-import { readingOf } from './reading.js';
+import { kindOf, readingOf } from './reading.js';
 import { costTable, markedDraw, tally } from './readouts.js';
 import { LINES, OPENING_START, PRESET, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { squeezeStyles } from './styles.js';
+import { WallHandles } from './wall-handles.js';
+import { contactOf } from './walls.js';
 import { headlineOf, mapText, pictureText, verdictOf } from './words.js';
 
 /**
@@ -61,6 +63,9 @@ export class MapSqueezeElement extends FigureElement {
     bounds: () => this.picture.plan.bounds,
     say: () => words.squeeze.robot,
   });
+  #wallHandles = new WallHandles(this);
+  /** True while the picture has walls that the machine does not have yet. */
+  #isAhead = false;
   /** What unknown cells are in the map of the picture. */
   #unknown = '';
   /** The grid of the machine that was asked for it last. @type {{ of: Machine, grid: Cells | null } | undefined} */
@@ -106,6 +111,7 @@ export class MapSqueezeElement extends FigureElement {
     const grid = this.#gridOf(machine);
     this.#opener.forgive();
     this.#meter.outdate();
+    this.#isAhead = false;
     this.#unknown = machine.config.unknown;
     this.picture = new FloorPicture(machine.plan, grid, this.picture);
     this.pictures = [this.picture];
@@ -114,7 +120,8 @@ export class MapSqueezeElement extends FigureElement {
   /** @param {Machine} machine */
   read(machine) {
     const reading = readingOf(machine);
-    if (reading.config.unknown !== this.#unknown && this.picture.hasUnknown) this.machineChanged();
+    const isGivenUp = this.#isAhead && !this.settings.next;
+    if (isGivenUp || (reading.config.unknown !== this.#unknown && this.picture.hasUnknown)) this.machineChanged();
     this.#meter.heed(reading.config, !this.cloud.playing && !this.gesture.pressed);
     return reading;
   }
@@ -123,8 +130,19 @@ export class MapSqueezeElement extends FigureElement {
     const { fresh } = this;
     const { index, isMarked } = this.cloud;
     this.picture.close = this.state.own.view === 'close';
-    const marked = isMarked && { pose: fresh.poses.subarray(3 * index), path: this.machine?.path(index) };
-    return { ...fresh, machine: this.machine, overlays: this.state.own.overlays, marked: marked || undefined };
+    return { ...fresh, machine: this.machine, overlays: this.state.own.overlays, marked: isMarked ? this.#marked(index) : undefined };
+  }
+
+  /**
+   * Returns the marked sample, with the point where an accepted one went through a wall.
+   *
+   * @param {number} index
+   */
+  #marked(index) {
+    const { poses, verdicts, config } = this.fresh;
+    const path = /** @type {Machine} */ (this.machine).path(index);
+    const isThrough = kindOf(verdicts[index]) === 2;
+    return { pose: poses.subarray(3 * index), path, contact: isThrough ? contactOf(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get takeaway() {
@@ -148,6 +166,7 @@ export class MapSqueezeElement extends FigureElement {
   /** @param {Reading} scene */
   placeHandles({ config: { start, clearance } }) {
     this.#handles.place(start, clearance);
+    this.#wallHandles.place(this.picture.view);
   }
 
   /** The place in the apartment that the robot starts from; null elsewhere. @returns {string | null} */
@@ -259,6 +278,27 @@ export class MapSqueezeElement extends FigureElement {
     this.stage.wake();
   }
 
+  /**
+   * Moves walls. The map is the reader's own from then on. The picture shows them at once, and the samples when they are judged.
+   *
+   * @param {Float64Array} walls
+   */
+  moveWalls(walls) {
+    const { bounds } = this.picture.plan;
+    this.picture = new FloorPicture({ bounds, walls }, null, this.picture);
+    this.pictures = [this.picture];
+    this.#isAhead = true;
+    const name = this.map?.name ?? words.squeeze.edited;
+    /** @type {OwnMap['apply']} */
+    const apply = (machine) => machine.setPlan({ bounds: [...bounds], walls });
+    this.runtime.attempt(() => this.#enter(
+      { name, apply, start: this.settings.wanted.start },
+      () => this.gesture.step(),
+      (error) => this.runtime.report(error),
+    ));
+    this.stage.wake();
+  }
+
   /** Leaves the reader's own map, if it is there. */
   #leave() {
     const { machine, map } = this;
@@ -354,6 +394,7 @@ export class MapSqueezeElement extends FigureElement {
         <div class="views">
           ${panel(floor, html`<div class="stage" part="picture">
               ${canvas(this, this.picture, this.#description)}
+              ${this.stage.later(() => this.#wallHandles.render())}
               ${this.#handles.render()}
             </div>
             ${this.stage.later(() => html`<div>

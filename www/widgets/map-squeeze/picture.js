@@ -3,6 +3,7 @@
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { densityRamp, drawDensity, drawMark, drawOutline, lineStyles, trace } from '../../scene/draw.js';
+import { drawLabel } from '../../scene/labels.js';
 import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer, cornerOf } from '../../scene/walls.js';
@@ -20,7 +21,7 @@ import { LINES } from './settings.js';
  * @typedef {ReturnType<typeof import('./reading.js').readingOf> & {
  *   machine: MapSqueeze,
  *   overlays: string[],
- *   marked: { pose: Float64Array, path: Float64Array } | undefined,
+ *   marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined,
  * }} Scene
  */
 
@@ -29,6 +30,9 @@ const CROSS = 2.6;
 
 /** Dot of a sample: radius in CSS pixels, by the width of the picture, and opacity. */
 const DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
+
+/** Leader from a label to the wall that it is about, CSS pixels. */
+const LEADER = { x: 46, y: 30 };
 
 /** Surroundings shown around the end of the command: this many times its length, and at least so many metres. */
 const SURROUNDINGS = 0.8;
@@ -54,6 +58,8 @@ export class FloorPicture extends SamplesPicture {
   plan;
   /** Whether there are cells of which the map says nothing. */
   hasUnknown;
+  /** False for a grid, whose walls outline its cells and cannot be moved. */
+  movable;
   #near = new View();
   #whole = this.view;
   #walls;
@@ -71,6 +77,7 @@ export class FloorPicture extends SamplesPicture {
     super('plane', new View({ snug: true }));
     this.plan = plan;
     this.hasUnknown = grid?.unknown !== undefined;
+    this.movable = grid === null;
     this.#walls = new WallLayer(plan, grid);
     this.#known = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
     if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
@@ -163,9 +170,10 @@ export class FloorPicture extends SamplesPicture {
       }
       drawHeldRobot(brush, start, clearance, palette.prior);
       if (marked) {
-        const { pose, path } = marked;
+        const { pose, path, contact } = marked;
         drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
+        if (contact) drawContact(brush, contact);
       }
     });
   };
@@ -204,6 +212,30 @@ function knownCorners(grid, unknown) {
   if (box.left > box.right) return [];
   const { left, bottom, right, top } = box;
   return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cornerOf(grid, column, row)));
+}
+
+/**
+ * Draws what a path did to a wall, with a leader to the place.
+ *
+ * @param {Brush} brush
+ * @param {number[]} contact metres
+ */
+function drawContact(brush, contact) {
+  const { context, view, palette } = brush;
+  const [x, y] = [view.toPixelX(contact[0]), view.toPixelY(contact[1])];
+  const { left, right, top, bottom } = view.frame;
+  const [side, down] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
+  const [endX, endY] = [x + side * LEADER.x, y + down * LEADER.y];
+  context.strokeStyle = context.fillStyle = palette.ink;
+  context.lineWidth = 1.25;
+  context.beginPath();
+  context.moveTo(x, y);
+  context.lineTo(endX, endY);
+  context.stroke();
+  context.beginPath();
+  context.arc(x, y, 3, 0, 2 * Math.PI);
+  context.fill();
+  drawLabel(brush, { x: endX + 4 * side, y: endY, towards: side, text: words.squeeze.throughThisWall, colour: palette.ink });
 }
 
 /**

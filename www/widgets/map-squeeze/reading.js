@@ -60,8 +60,8 @@ function sort(poses, verdicts) {
   return { rejected: posesOf(0), free: posesOf(1), through: posesOf(2) };
 }
 
-/** 0 for a draw that is rejected, 1 for an accepted one, 2 where its path is not free. @param {number} verdict */
-function kindOf(verdict) {
+/** Returns 0 for a sample that is rejected, 1 for an accepted one, 2 where its path is not free. @param {number} verdict */
+export function kindOf(verdict) {
   if ((verdict & bits.accepted) === 0) return 0;
   return (verdict & bits.pathFree) === 0 ? 2 : 1;
 }

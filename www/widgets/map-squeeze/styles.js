@@ -10,6 +10,40 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
+  .handle:is(.jamb, .side) {
+    width: 1.75em;
+    height: 1.75em;
+    border-radius: 0;
+  }
+
+  .handle.jamb::after {
+    inset: 0.6em;
+    border: 1.5px solid var(--truth);
+    border-radius: 1px;
+  }
+
+  .handle.side {
+    height: 1em;
+    transform-origin: 0 0;
+  }
+
+  .handle.side::after {
+    inset: 0.25em 0.2em;
+    border: 1.5px solid var(--truth);
+    border-radius: 0.25em;
+  }
+
+  .handle:is(.jamb, .side):hover::after {
+    background: var(--truth);
+  }
+
+  /* Marks of walls come with the pointer; fingers have none to come with. */
+  @media (hover) {
+    .stage:not(:hover) .handle.side:not(:focus-visible)::after {
+      opacity: 0;
+    }
+  }
+
   .headline {
     margin: 0.15em 0 0;
     font-size: 1.75em;

@@ -1,7 +1,7 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL, NAMES } from './figures.js';
-import { STILL, frames, property, ready, test, unfold } from './support.js';
+import { STILL, frames, pictureOf, property, ready, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -111,6 +111,27 @@ for (const name of ALL) {
     for (const [i, button] of [...buttons.entries()].reverse()) expect(await press(button)).toEqual(first[i]);
   });
 }
+
+test('a term and an entry of the legend highlight their line in the picture', async ({ page }) => {
+  await page.goto('/');
+  const article = page.locator('#banana');
+  const figure = article.locator('banana-machine');
+  await ready(figure);
+  const canvas = figure.locator('canvas.plane');
+  const plain = await pictureOf(canvas);
+  const term = article.getByText('dashed ellipse', { exact: true });
+  await term.focus();
+  expect(await property(figure, 'highlight')).toBe('ellipse');
+  await frames(page);
+  const lit = await pictureOf(canvas);
+  expect(lit).not.toBe(plain);
+  await term.blur();
+  await frames(page);
+  expect(await pictureOf(canvas)).toBe(plain);
+  await figure.locator('.legend').getByText('Gaussian in (x, y)').hover();
+  await frames(page);
+  expect(await pictureOf(canvas)).toBe(lit);
+});
 
 test('contents lead to every section', async ({ page }) => {
   await page.goto('/');

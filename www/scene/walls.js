@@ -11,7 +11,7 @@ import { hiddenContext } from './canvas.js';
  *
  * @typedef {Omit<Grid, 'unknown'> & { unknown?: Uint8Array }} Cells of a grid; without the unknown ones where there are none
  *
- * @typedef {Pick<Brush, 'view' | 'palette' | 'ratio'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} Painter
+ * @typedef {Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D }} Painter
  */
 
 /** Width of a wall, CSS pixels. */

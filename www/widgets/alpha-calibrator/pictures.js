@@ -6,7 +6,7 @@ import { drawDots, drawMark, drawOutline, drawOutlines } from '../../scene/draw.
 import { Picture, SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
 import { lineKey } from '../shared/line-key.js';
-import { CLASSES } from './settings.js';
+import { CLASSES, LINES } from './settings.js';
 import { WayLayer, styleOf } from './way.js';
 
 /**
@@ -47,7 +47,7 @@ export class WayPicture extends SamplesPicture {
   paint = (brush, { legs, classes, stats: { doubts }, chosen, overlays }) => {
     const { context, palette, view } = brush;
     const keyed = brush.exported ? /** @type {const} */ ([...CLASSES.toReversed(), 'odometry']).filter((name) => overlays.includes(name)) : [];
-    const key = keyed.map((name) => lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), styleOf(palette, name)));
+    const key = keyed.map((name) => lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), styleOf(brush, name)));
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
     clipped(brush, () => {
       this.#layer.draw(brush, legs, classes, overlays);
@@ -91,7 +91,10 @@ export class LegPicture extends Picture {
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
     const shows = (/** @type {LineName} */ name) => overlays.includes(name);
-    const line = (/** @type {LineName} */ name, /** @type {Float64Array} */ points) => (shows(name) ? [{ points, ...styleOf(palette, name), width: WIDTH }] : []);
+    const line = (/** @type {LineName} */ name, /** @type {Float64Array} */ points) => {
+      const style = styleOf(brush, name);
+      return shows(name) ? [{ points, ...style, width: (WIDTH / LINES[name].width) * style.width }] : [];
+    };
     clipped(brush, () => {
       if (shows('predicted')) drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [

@@ -4,6 +4,7 @@
  */
 
 import { hiddenContext } from '../../scene/canvas.js';
+import { lineStyles } from '../../scene/draw.js';
 import { channels } from '../../ui/theme.js';
 import { CLASSES, LINES } from './settings.js';
 
@@ -11,7 +12,6 @@ import { CLASSES, LINES } from './settings.js';
  * @import { CalibrationLegs } from '../../types.d.ts'
  * @import { Painter } from '../../scene/walls.js'
  * @import { Brush } from '../../scene/canvas.js'
- * @import { Palette } from '../../ui/theme.js'
  * @import { LineName } from './settings.js'
  *
  * @typedef {{ colour: string, width: number, dash: number[] }} Style
@@ -35,10 +35,10 @@ const squareOf = (x, y, side = FINE) => Math.round(x / side) + 2 ** 26 * Math.ro
 /** Width of the thinnest lines, CSS pixels. */
 const HAIR = 1;
 
-/** Returns the style of a line. @param {Palette} palette @param {LineName} name @returns {Style} */
-export function styleOf(palette, name) {
-  const { role, width, dash } = LINES[name];
-  return { colour: name === 'plausible' ? between(palette.truth, palette.cloud) : palette[role], width, dash };
+/** Returns the style of a line. @param {Pick<Brush, 'palette' | 'highlight'>} brush @param {LineName} name @returns {Style} */
+export function styleOf({ palette, highlight }, name) {
+  const truth = name === 'plausible' ? between(palette.truth, palette.cloud) : palette.truth;
+  return lineStyles({ palette: { ...palette, truth }, highlight }, LINES)[name];
 }
 
 /** Mixes two colours. @param {string} one @param {string} other */
@@ -61,17 +61,17 @@ export class WayLayer {
    * @param {LineName[]} overlays lines that are shown
    */
   draw(brush, legs, classes, overlays) {
-    const { context, view, palette, ratio } = brush;
+    const { context, view, palette, ratio, highlight } = brush;
     if ('vector' in context || legs.count <= FEW_LEGS) return drawWay(brush, legs, classes, overlays);
     const { extent, frame, width, height } = view;
-    const key = JSON.stringify([extent, frame, width, height, palette, ratio, overlays]);
+    const key = JSON.stringify([extent, frame, width, height, palette, ratio, highlight, overlays]);
     if (key !== this.#key || legs !== this.#legs) {
       this.#key = key;
       this.#legs = legs;
       this.#layer = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
       const layer = hiddenContext(this.#layer);
       layer.scale(ratio, ratio);
-      drawWay({ context: layer, view, palette, ratio }, legs, classes, overlays);
+      drawWay({ context: layer, view, palette, ratio, highlight }, legs, classes, overlays);
     }
     context.drawImage(this.#layer, 0, 0, width, height);
   }
@@ -89,7 +89,7 @@ function drawWay(brush, legs, classes, overlays) {
   const extra = Math.max(0, Math.min(1, 2 - layersOf(brush.view, legs.reference)));
   for (const [place, name] of CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
-    const style = styleOf(brush.palette, name);
+    const style = styleOf(brush, name);
     drawLegs(brush, legs.reference, (leg) => classes[leg] === place, { ...style, width: HAIR + extra * (style.width - HAIR) });
   }
 }
@@ -120,11 +120,11 @@ function layersOf(view, reference) {
  * @param {Painter} brush
  * @param {CalibrationLegs} legs
  */
-function drawOdometry({ context, view, palette }, { count, odometry, reference }) {
+function drawOdometry({ context, view, ...brush }, { count, odometry, reference }) {
   if (count === 0) return;
   const turn = reference[2] - odometry[2];
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-  const style = styleOf(palette, 'odometry');
+  const style = styleOf(brush, 'odometry');
   let last = NaN;
   let points = 0;
   context.beginPath();

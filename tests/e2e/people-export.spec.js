@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { presets } from '../../www/settings.js';
 import { openSqueeze, squeezed } from './squeeze-support.js';
-import { STILL, assign, boxOf, frames, numberIn, open, posesOf, readout, ready, show, state, test } from './support.js';
+import { STILL, assign, boxOf, frames, numberIn, open, posesOf, property, readout, ready, show, state, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -102,7 +102,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   const widget = await open(page);
   const plane = widget.locator('canvas.plane');
   // A thousand.
-  await widget.getByRole('slider', { name: 'robots in the whole cloud' }).fill('6');
+  await widget.locator('#samples').fill('6');
   await frames(page);
   const few = await elementsOf(page, await svgOf(widget));
   const { width, height } = await boxOf(plane);
@@ -113,8 +113,10 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(few.paths).toBeGreaterThan(1000);
   expect(few.texts).toBeGreaterThan(8);
   const drawn = await svgOf(widget);
-  for (const name of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(drawn).toContain(`>${name}</text>`);
-  await widget.getByRole('slider', { name: 'robots in the whole cloud' }).fill('9');
+  for (const name of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(drawn).toContain(`>${name}`);
+  // A ring stands for the handle, which is an element on the page.
+  expect(drawn).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
+  await widget.locator('#samples').fill('9');
   await frames(page);
   const many = await elementsOf(page, await svgOf(widget));
   expect(many.images).toBe(1);
@@ -169,16 +171,15 @@ test('PNG of a figure has twice the pixels and opaque paper', async ({ page, fig
 
 test('the menu saves files with names that say what they are, from the keyboard too', async ({ page }) => {
   const widget = await open(page);
-  const menu = widget.locator('.exports summary');
-  await menu.focus();
-  await page.keyboard.press('Enter');
+  await unfold(widget);
+  await widget.locator('.exports button').first().focus();
   for (const ending of ['png', 'svg', 'csv']) {
-    await page.keyboard.press('Tab');
     const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
-    expect(download.suggestedFilename()).toBe(`banana-machine-3.${ending}`);
+    expect(download.suggestedFilename()).toBe(`banana-machine-${await property(widget, 'seed')}.${ending}`);
     const contents = readFileSync(await download.path());
     expect(contents.length).toBeGreaterThan(1000);
     if (ending === 'csv') expect(contents.toString()).toBe(await csvOf(widget));
+    await page.keyboard.press('Tab');
   }
 });
 

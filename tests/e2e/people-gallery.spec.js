@@ -5,10 +5,15 @@ import { STILL, frames, pictureOf, property, ready, test, unfold } from './suppo
 
 test.use(STILL);
 
-/** Opens the gallery, with two of its figures running. @param {import('@playwright/test').Page} page */
-async function openGallery(page) {
+/**
+ * Opens the gallery, with some of its figures running.
+ *
+ * @param {import('@playwright/test').Page} page
+ * @param {readonly import('./figures.js').Name[]} [names]
+ */
+async function openGallery(page, names = NAMES) {
   await page.goto('/');
-  const figures = NAMES.map((name) => page.locator(name).first());
+  const figures = names.map((name) => page.locator(name).first());
   for (const figure of figures) {
     await figure.scrollIntoViewIfNeeded();
     await ready(figure);
@@ -33,7 +38,7 @@ test('the reference documents every attribute, method, part and custom property,
   await page.goto('/reference.html');
   const [methods, documentedParts, documentedProperties] = await Promise.all(['method', 'part', 'property'].map((kind) => documented(page, kind)));
   const attributes = await Promise.all(NAMES.map((name) => documented(page, 'attribute', name)));
-  for (const figure of await openGallery(page)) await unfold(figure);
+  for (const figure of await openGallery(page, ALL)) await unfold(figure);
   for (const [i, name] of NAMES.entries()) {
     const observed = await page.evaluate((tag) => Reflect.get(customElements.get(tag) ?? {}, 'observedAttributes'), name);
     // HTML has them in lower case.
@@ -44,12 +49,12 @@ test('the reference documents every attribute, method, part and custom property,
     );
     expect(missing).toEqual([]);
   }
-  const [parts, properties] = await page.evaluate(() => {
-    const roots = [...document.querySelectorAll('banana-machine, map-squeeze')].map((element) => element.shadowRoot);
+  const [parts, properties] = await page.evaluate((selector) => {
+    const roots = [...document.querySelectorAll(selector)].map((element) => element.shadowRoot);
     const parts = roots.flatMap((root) => [...(root?.querySelectorAll('[part]') ?? [])].map((each) => each.getAttribute('part')));
     const styles = roots.flatMap((root) => (root?.adoptedStyleSheets ?? []).flatMap((sheet) => [...sheet.cssRules].map(({ cssText }) => cssText)));
     return [[...new Set(parts)].sort(), [...new Set(styles.join('').match(/--motion-[a-z-]+/g))].sort()];
-  });
+  }, ALL.join());
   // The progress is there while there is some.
   expect(documentedParts).toEqual([...parts, 'progress'].sort());
   expect(documentedProperties).toEqual(properties);

@@ -54,7 +54,9 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   await unfold(widget);
   expect(numberIn(await readout(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
   expect(numberIn(await readout(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
-  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(picture(widget), role)).toBeGreaterThan(20);
+  // An entry of the legend under the pointer would highlight its line.
+  await page.mouse.move(0, 0);
+  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(picture(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
 });
 
 test('the robot is dragged and turned by its handles, under the pointer', async ({ page }) => {
@@ -192,11 +194,18 @@ test('heat maps of p and of the density are drawn below the arcs, with the conto
 test('entries of the legend are the toggles of the lines', async ({ page }) => {
   const widget = await open(page);
   expect(await pixelsOf(picture(widget), 'posterior')).toBe(0);
-  await widget.getByRole('checkbox', { name: 'constant twist' }).check();
+  // A toggle with the pointer or the focus on it highlights its line.
+  const toggle = async (/** @type {string} */ name) => {
+    await widget.getByRole('checkbox', { name }).click();
+    await page.mouse.move(0, 0);
+    await widget.getByRole('checkbox', { name }).blur();
+    await frames(page);
+  };
+  await toggle('constant twist');
   expect(await pixelsOf(picture(widget), 'posterior')).toBeGreaterThan(20);
   for (const [name, role] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
     const before = await pixelsOf(picture(widget), role);
-    await widget.getByRole('checkbox', { name }).uncheck();
+    await toggle(name);
     expect(await pixelsOf(picture(widget), role), name).toBeLessThan(before);
   }
   await expect(widget).toHaveAttribute('overlays', 'chord');

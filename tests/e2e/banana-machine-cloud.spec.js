@@ -104,21 +104,24 @@ test('each overlay has a toggle', async ({ page }) => {
   const first = await pictureOf(plane);
   for (const [label, role] of [
     ['commanded arc', 'prior'],
-    ['2σ Gaussian in (x, y)', 'prediction'],
-    ['linearized (EKF) ellipse', 'prediction'],
+    ['Gaussian in (x, y)', 'prediction'],
+    ['linearized (EKF)', 'prediction'],
     ['noise added to the pose', 'prediction'],
-    ['2σ Gaussian in exponential coordinates', 'posterior'],
+    ['Gaussian in ξ', 'posterior'],
   ]) {
     const box = widget.getByRole('checkbox', { name: label });
     const shown = await box.isChecked();
     const before = await pixelsOf(plane, role);
     await box.setChecked(!shown);
+    // Pointing at an entry highlights its line.
+    await page.mouse.move(0, 0);
     const change = (await pixelsOf(plane, role)) - before;
     expect(shown ? -change : change, label).toBeGreaterThan(30);
     await box.setChecked(shown);
+    await page.mouse.move(0, 0);
     expect(await pictureOf(plane)).toBe(first);
   }
-  await widget.getByRole('checkbox', { name: 'exponential coordinates' }).uncheck();
+  await widget.getByRole('checkbox', { name: 'Gaussian in ξ' }).uncheck();
   expect(await pixelsOf(twist, 'posterior')).toBe(0);
 });
 

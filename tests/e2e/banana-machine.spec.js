@@ -5,20 +5,16 @@ import { STILL, centreOf, dragSlider, frames, inspectFirst, open, openWhole, pic
 
 test.use(STILL);
 
-/** Commands of presets that keep the noise. */
+/** Attribute for a bend, where every α has an effect. */
+const GENTLE = 'preset="gentle"';
+
+/** Commands of presets. */
 const PRESETS = {
   Straight: { v: 1, omega: 0, dt: 2 },
   'Gentle arc': { v: 1, omega: 0.5, dt: 1 },
   'Hard arc': { v: 1, omega: 1.2, dt: 1.4 },
   Pivot: { v: 0.06, omega: 1.5, dt: 1 },
 };
-
-/** Presets with noise parameters of their own. */
-const WITH_ALPHAS = {
-  Banana: { command: { v: 1, omega: 0, dt: 2 }, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002] },
-  'Worked example': { command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] },
-};
-const OPENING_ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
 async function set(widget, values) {
@@ -36,38 +32,11 @@ test('presets set the whole command', async ({ page }) => {
   }
 });
 
-test('presets with noise set it, and others restore the default noise unless it was set by hand', async ({ page }) => {
-  const widget = await openWhole(page);
-  const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
-  const preset = () => widget.evaluate((element) => Reflect.get(element, 'preset'));
-  for (const [name, { command, alphas }] of Object.entries(WITH_ALPHAS)) {
-    await press(name);
-    expect((await state(widget)).config).toMatchObject({ command, alphas });
-    expect(await preset()).toBe({ Banana: 'banana', 'Worked example': 'worked' }[name]);
-    await expect(widget.locator('.presets [aria-pressed=true]')).toHaveText([name]);
-    await press('Gentle arc');
-    expect((await state(widget)).config).toMatchObject({ command: PRESETS['Gentle arc'], alphas: OPENING_ALPHAS });
-    expect(await preset()).toBe('gentle');
-  }
-  // Noise that was set by hand stays.
-  await press('Banana');
-  await widget.locator('#alpha1').fill('0.01');
-  await frames(page);
-  expect(await preset()).toBe('straight');
-  await press('Hard arc');
-  expect((await state(widget)).config.alphas).toEqual([0.01, 0.002, 0.1, 0.1, 0.002, 0.002]);
-  // Their noise is that of the velocity model, all of it.
-  await widget.getByLabel('Isolate one').check();
-  await widget.getByLabel('odometry').check();
-  await press('Banana');
-  expect((await state(widget)).config).toMatchObject({ model: 'velocity', isolate: null, alphas: WITH_ALPHAS.Banana.alphas });
-});
-
 test('sliders dragged with the mouse set v, ω and Δt', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await open(page, GENTLE);
   const before = await pictureOf(widget.locator('canvas.plane'));
-  for (const [name, key] of [['v,', 'v'], ['ω,', 'omega'], ['Δt,', 'dt']]) {
-    const slider = widget.locator('.controls').getByRole('slider', { name });
+  for (const key of ['v', 'omega', 'dt']) {
+    const slider = widget.locator(`#${key}`);
     await dragSlider(slider, 0.7);
     const value = Number(await slider.inputValue());
     expect(value).toBeGreaterThan(0);
@@ -145,7 +114,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
 });
 
 test('the end of the arc can be moved from the keyboard', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await open(page, GENTLE);
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   await handle.focus();
   const ways = /** @type {const} */ ([
@@ -200,7 +169,7 @@ test('the ring says where the sliders end, to the eye and to the ear', async ({ 
 });
 
 test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
-  const widget = await openWhole(page);
+  const widget = await openWhole(page, GENTLE);
   const marker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
   await marker.focus();
   await marker.press('ArrowRight');
@@ -215,7 +184,7 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
 });
 
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openWhole(page, GENTLE);
   const before = await state(widget);
   const picture = await pictureOf(widget.locator('canvas.plane'));
   const skew = await readout(widget, 'cross-track skew').textContent();
@@ -244,7 +213,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
 });
 
 test('each model keeps its own α’s', async ({ page }) => {
-  const widget = await openWhole(page);
+  const widget = await openWhole(page, GENTLE);
   await widget.getByRole('slider', { name: 'α1' }).fill('0.123');
   await widget.getByLabel('odometry').check();
   let { config } = await state(widget);
@@ -257,7 +226,7 @@ test('each model keeps its own α’s', async ({ page }) => {
 });
 
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
-  const widget = await openWhole(page);
+  const widget = await openWhole(page, GENTLE);
   const before = await state(widget);
   await widget.getByLabel('Isolate one').check();
   expect((await state(widget)).config).toEqual({ ...before.config, isolate: 4 });
@@ -280,7 +249,7 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
 
 test('no slider moves under the finger when there is something to note', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await openWhole(page);
+  const widget = await openWhole(page, GENTLE);
   const slider = widget.locator('#omega');
   const note = widget.locator('.note');
   const place = async () => {

@@ -53,9 +53,9 @@ settings! {
     /// Everything that a user sets.
     pub struct Settings {
         /// The odometry pose before the motion.
-        from: OdometryPose = PRESETS[0].from;
+        from: OdometryPose = REVERSE.from;
         /// The odometry pose after it.
-        to: OdometryPose = PRESETS[0].to;
+        to: OdometryPose = REVERSE.to;
         /// Whose bookkeeping of the noise it is.
         rule: OdometryRule = OdometryRule::Table;
         /// Noise parameters, the fifth of the omnidirectional rule alone.
@@ -72,7 +72,7 @@ settings! {
         samples: usize = 500, in 1..=MAX_SAMPLES;
         // Of the seeds 0 to 39, the one whose spreads are nearest to the exact ones at the opening.
         /// The same seed draws the same outcomes.
-        seed: u64 = 33, in 0..=MAX_SEED;
+        seed: u64 = 25, in 0..=MAX_SEED;
     }
 }
 
@@ -95,13 +95,16 @@ const fn preset(name: &'static str, to: [f64; 3]) -> Preset {
     Preset { name, from: OdometryPose([0.0; 3]), to: OdometryPose(to) }
 }
 
-/// All three legs, then one or two of them, and what the rules disagree about: backing up, and jitter of half a centimetre.
+/// Driving backwards, which the rules disagree about: the reading at the opening.
+pub const REVERSE: Preset = preset("reverse", [-1.2, -0.3, 0.1]);
+
+/// All three legs, then one or two of them, and readings that the rules disagree about: driving backwards, and jitter of half a centimetre.
 pub const PRESETS: [Preset; 6] = [
     preset("all", [1.2, 1.0, 1.2]),
     // Along (4, 3), by the angle of that triangle.
     preset("turn-drive", [1.2, 0.9, 0.6435]),
     preset("drive-turn", [1.5, 0.0, 1.0]),
-    preset("reverse", [-1.2, -0.3, 0.1]),
+    REVERSE,
     preset("spin", [0.0, 0.0, 2.2]),
     preset("rest", [-0.004, 0.003, 0.001]),
 ];

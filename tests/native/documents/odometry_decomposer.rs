@@ -31,11 +31,12 @@ fn the_lever_grows_faster_than_the_drive() {
     let [deviation, across, times] = page().numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
-    let stats = machine(Settings::default()).stats();
-    deviation.assert(figures(Settings::default(), Table).deviations[0], 0.0);
+    let settings = of_preset("all");
+    let stats = machine(settings).stats();
+    deviation.assert(figures(settings, Table).deviations[0], 0.0);
     across.assert(stats.exact_cross_track, 0.0);
-    let OdometryPose([x, y, theta]) = Settings::default().to;
-    let far = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..Settings::default() };
+    let OdometryPose([x, y, theta]) = settings.to;
+    let far = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
     times.assert(machine(far).stats().exact_cross_track / stats.exact_cross_track, 0.0);
 }
 
@@ -58,7 +59,7 @@ fn only_the_table_charges_two_half_turns_for_backing_up() {
 fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
     let [least, most] =
         page().numbers("No outcome moves, and the standard deviation of the heading goes from # to # rad.");
-    let of = |correlation| machine(Settings { correlation, ..Settings::default() });
+    let of = |correlation| machine(Settings { correlation, ..of_preset("all") });
     least.assert(of(-1.0).stats().exact_heading, 0.0);
     most.assert(of(1.0).stats().exact_heading, 0.0);
     for (a, b) in of(-1.0).poses().iter().zip(of(1.0).poses()) {

@@ -107,6 +107,7 @@ export function anyOf(seed) {
       correlation: real(-1, 1),
       drift: real(0, 200),
       phase: real(0, 3),
+      overlays: ['legs', 'deviation', 'outcomes', 'prediction', 'odometry', 'difference'].filter(() => random() < 0.5),
     },
     'dead-reckoning': {
       ...common,
@@ -116,6 +117,7 @@ export function anyOf(seed) {
       alphas: alphas(6),
       per: one(['step', 'path']),
       compounding: one(['chapter', 'first-order', 'fourth-order']),
+      overlays: ['lateral', 'along', 'heading', 'tolerance', 'command', 'measured', 'ellipse', 'exponential'].filter(() => random() < 0.5),
     },
     'alpha-calibrator': {
       version: 1,

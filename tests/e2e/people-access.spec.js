@@ -360,7 +360,7 @@ test('the help of a slider covers no slider of its group, and no outline crosses
         slider.focus();
         const help = /** @type {Element} */ (row.querySelector('.effect')).getBoundingClientRect();
         // The outline of a thumb is 4 px about it, and a thumb 0.525 rem about its middle.
-        return [.../** @type {Element} */ (row.closest('fieldset')).querySelectorAll('.slider input[type=range]')]
+        return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
           .map((each) => each.getBoundingClientRect())
           .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > help.top && (top + bottom) / 2 < help.bottom)
           .map(() => slider.id);

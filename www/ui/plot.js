@@ -145,10 +145,11 @@ export const plotStyles = css`
  * @property {Point[]} [points]
  * @property {Mark[]} [marks]
  * @property {Omit<Parameters<typeof track>[0], 'min' | 'max'>} [slider] over the whole of the x axis
+ * @property {unknown} [legend] in the place of the key
  */
 
 /** @param {Plot} plot */
-export function plot({ label, x, y, curves, points = [], marks = [], slider }) {
+export function plot({ label, x, y, curves, points = [], marks = [], slider, legend = keyOf(curves) }) {
   const [toX, toY] = [placing(x, LEFT, RIGHT), placing(y, BOTTOM, TOP)];
   return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${label} part="chart">
@@ -179,16 +180,21 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider }) {
     </svg>
     ${slider ? track({ ...slider, min: x.from, max: x.to }) : nothing}
     </div>
-    <ul class="plot-key" part="legend">
-      ${curves.map(
-        ({ name, role, dash, area }) => html`<li>
-          <svg viewBox="0 0 36 10" aria-hidden="true">
-            <path class=${area ? 'band' : 'curve'} fill="var(--${role})" stroke="var(--${role})" stroke-dasharray=${dash ?? nothing} d=${area ? 'M1 1H35V9H1Z' : 'M1 5H35'} />
-          </svg>${rich(name)}
-        </li>`,
-      )}
-    </ul>
+    ${legend}
   `;
+}
+
+/** Returns the key of a chart. @param {Curve[]} curves */
+function keyOf(curves) {
+  return html`<ul class="plot-key" part="legend">
+    ${curves.map(
+      ({ name, role, dash, area }) => html`<li>
+        <svg viewBox="0 0 36 10" aria-hidden="true">
+          <path class=${area ? 'band' : 'curve'} fill="var(--${role})" stroke="var(--${role})" stroke-dasharray=${dash ?? nothing} d=${area ? 'M1 1H35V9H1Z' : 'M1 5H35'} />
+        </svg>${rich(name)}
+      </li>`,
+    )}
+  </ul>`;
 }
 
 /**

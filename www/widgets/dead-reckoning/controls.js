@@ -1,35 +1,24 @@
-/** Dead Reckoning's controls: the step that is looked at, what the path is made of, and how its covariance is carried. */
+/** Dead Reckoning's controls: the recursion, the path, its noise, and the samples. */
 
 import { html } from 'lit';
-import { choices, slider, sliders } from '../../figure/controls.js';
+import { choices, cloudControls, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
+import { group } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
-import { COMMAND, NOISE } from './settings.js';
+import { COMMAND, NOISE, SAMPLE_COUNTS } from './settings.js';
 
 /** @typedef {import('./dead-reckoning.js').DeadReckoningElement} Figure */
 
-/** @param {Figure} figure */
-export function walkControls(figure) {
-  const { steps, step, command: { dt } } = figure.settings.told;
-  const { settings, walked } = words.reckoning;
-  const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
-  return html`<fieldset class="walk">
-    <legend class="visually-hidden">${settings.step.name}</legend>
-    ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}
-  </fieldset>`;
-}
-
-/** @param {Figure} figure */
+/** Returns the choice of the recursion. @param {Figure} figure */
 export function recursionChoice(figure) {
   return choices(figure, 'compounding', words.reckoning.recursions);
 }
 
-/** What is changed most: the heading's noise, and the size of a step on the same path. @param {Figure} figure */
+/** Returns what is changed most: the heading noise, and the number of steps of the same path. @param {Figure} figure */
 export function pathControls(figure) {
-  return html`<fieldset>
-    <legend class="visually-hidden">${words.reckoning.commandAndNoise}</legend>
+  return html`<div class="controls" part="controls">
     ${slider(figure, 'headingNoise')} ${slider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => samePath(wanted, steps)) })}
-  </fieldset>`;
+  </div>`;
 }
 
 /**
@@ -42,18 +31,16 @@ function samePath({ command, steps: before, step }, steps) {
   return { steps, step: Math.max(1, Math.round((step * steps) / before)), command: { ...command, dt: (command.dt * before) / steps } };
 }
 
-/** @param {Figure} figure */
-export function commandAndNoise(figure) {
-  const { name, effects } = words.reckoning.settings.alphas;
+/** Returns the selected step to be typed, the command, the noise and the samples. @param {Figure} figure */
+export function moreControls(figure) {
+  const { steps, step, command: { dt } } = figure.settings.told;
+  const { settings: { alphas }, walked, per } = words.reckoning;
+  const effect = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">
-      <fieldset>
-        <legend class="visually-hidden">${words.command}</legend>
-        ${sliders(figure, COMMAND)}
-      </fieldset>
-      <fieldset>
-        <legend class="visually-hidden">${name}</legend>
-        ${Object.keys(NOISE).map((key, i) => slider(figure, key, { effect: effects[i] }))}
-      </fieldset>
-    </div>
-    ${choices(figure, 'per', words.reckoning.per)}`;
+    ${group(words.command, html`${sliders(figure, COMMAND)}
+      ${slider(figure, 'step', { max: Math.max(2, steps), most: steps, off: steps === 1, effect })}`)}
+    ${group(words.noise, html`${Object.keys(NOISE).map((key, i) => slider(figure, key, { effect: alphas.effects[i] }))}
+      ${choices(figure, 'per', per)}`)}
+    ${cloudControls(figure, SAMPLE_COUNTS)}
+  </div>`;
 }

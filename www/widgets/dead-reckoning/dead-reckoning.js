@@ -2,17 +2,19 @@
 
 import { html } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
-import { canvas, cloudControls, disclosures } from '../../figure/controls.js';
+import { canvas, disclosures, panel } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
+import { legend } from '../../figure/overlays.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
+import { words } from '../../messages/registry.js';
 import { presetButtons } from '../shared/presets.js';
-import { commandAndNoise, pathControls, recursionChoice, walkControls } from './controls.js';
+import { moreControls, pathControls, recursionChoice } from './controls.js';
 import { PathPicture, StepPicture } from './pictures.js';
 import { COMPONENTS, readingOf } from './reading.js';
-import { markedRobot, missReadouts, missTable, ratioPlot, straightPlot } from './readouts.js';
-import { RECURSIONS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
+import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.js';
+import { OUTLINES, RECURSIONS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { reckoningStyles } from './styles.js';
 import { announcementOf, captionOf, planeText, stepText } from './words.js';
 
@@ -31,6 +33,7 @@ const columnsOf = (quantity) => COMPONENTS.map((name) => `${quantity}_${name}_${
  * One command driven step after step, and how well its growing uncertainty is predicted.
  *
  * @attr preset - A path worth starting from; none where the path is another.
+ * @attr overlays - Curves and outlines that are drawn; in the attribute with spaces between.
  *
  * @csspart chart - The plot of predicted over measured variance.
  *
@@ -76,7 +79,7 @@ export class DeadReckoningElement extends FigureElement {
   }
 
   get scene() {
-    return { ...this.fresh, marked: this.#marked };
+    return { ...this.fresh, marked: this.#marked, overlays: this.state.own.overlays };
   }
 
   get takeaway() {
@@ -107,26 +110,24 @@ export class DeadReckoningElement extends FigureElement {
 
   /** @param {Reading} reading */
   content(reading) {
-    const { condition } = reading;
+    const { condition, config: { step } } = reading;
+    const say = words.reckoning;
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
-          <div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>
-          <div class="ratios">${ratioPlot(reading)}</div>
-          <div class="stage step">${canvas(this, this.#step, stepText(reading))}</div>
-          ${this.stage.later(() => html`<div class="aside">
-            <div class="told">
-              ${walkControls(this)}
-              <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading)}</p>
-            </div>
-            <div class="told">${recursionChoice(this)} ${missReadouts(reading)}</div>
+          ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
+          ${this.stage.later(() => html`<div class="said">
+            ${headline(reading)}
+            <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading)}</p>
+            ${recursionChoice(this)}
           </div>`)}
+          ${panel(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
+          ${panel(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
         </div>
         ${this.stage.later(() => html`
-        ${presetButtons(this)}
-        <div class="controls" part="controls">${pathControls(this)} ${cloudControls(this, SAMPLE_COUNTS)}</div>
+        ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
         ${disclosures(this, {
-          controls: () => commandAndNoise(this),
+          controls: () => moreControls(this),
           numbers: () => html`${missTable(reading)} ${markedRobot(this, this.#marked)} ${straightPlot(/** @type {Machine} */ (this.machine).straight)}`,
         })}`)}
       </section>

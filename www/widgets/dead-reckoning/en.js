@@ -7,19 +7,18 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   title: 'Dead Reckoning',
   presets: { chapter: 'The chapter’s 20 steps', doubled: 'Heading noise doubled', fine: 'Same path, 200 steps', straight: 'Straight' },
   /** What a preset does that its name does not say. */
-  presetTitles: { doubled: 'The standard deviation is doubled: its variance, and h with it, is fourfold' },
+  presetTitles: { doubled: 'The standard deviation is doubled: the variance, and with it α₃ to α₆, is fourfold' },
   settings: {
     v: { effect: 'How fast each step is driven; below zero the robot backs up.' },
     omega: { effect: 'How sharply each step bends: what is missing from the recursion grows with *ωΔt*.' },
     dt: { name: 'duration of a step', effect: 'How long a step takes; the path grows with it.' },
-    step: { name: 'step that is looked at' },
-    steps: { name: 'steps of the same path', effect: 'The same path in more and shorter steps.' },
-    headingNoise: { name: 'heading noise', effect: 'Sets *α*₃ and *α*₄ to *h*, *α*₅ and *α*₆ to *h*/4.' },
+    step: { name: 'selected step' },
+    steps: { name: 'steps', effect: 'The same path in more and shorter steps.' },
+    headingNoise: { name: 'heading noise *α*₃ to *α*₆', effect: 'Sets *α*₃ and *α*₄ to this value, *α*₅ and *α*₆ to a quarter of it.' },
     compounding: { name: 'Recursion' },
-    per: { name: 'The α’s are the noise of' },
+    per: { name: 'α’s apply per' },
     alphas: {
-      name: 'Noise parameters',
-      effects: [
+            effects: [
         'v² into v̂: spreads along the track', 'ω² into v̂: the same, only in turns',
         'v² into ω̂: turns within the step', 'ω² into ω̂: the same, only in turns',
         'v² into γ̂: turns after the step', 'ω² into γ̂: the same, only in turns',
@@ -27,20 +26,35 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     },
     samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
   },
-  walked: (gone, whole) => `Walks along the path: ${gone} of ${whole} s are driven.`,
-  recursions: { chapter: 'the chapter’s', 'first-order': 'with Jᵣ', 'fourth-order': 'fourth order' },
-  per: { step: 'each step', path: 'the whole path' },
-  // The outlines of the floor are read one after the other: the second is a Gaussian too.
-  key: { command: 'command', ellipse: 'Gaussian in (x, y)', exponential: 'in ξ', predicted: 'predicted', measured: 'measured' },
+  walked: (gone, whole) => `t = ${gone} s of ${whole} s`,
+  recursions: { chapter: 'the chapter’s', 'first-order': 'right Jacobian Jᵣ', 'fourth-order': 'fourth order' },
+  per: { step: 'step', path: 'whole path' },
+  chart: 'Predicted share of the robots’ variance, by step',
+  floor: 'On the floor, outlines at 2σ',
+  atStepTitle: (step) => `Step ${step} in exponential coordinates`,
+  overlays: {
+    lateral: 'lateral',
+    along: 'along the track',
+    heading: 'heading',
+    tolerance: 'right within 5 %',
+    command: 'command',
+    measured: 'measured',
+    ellipse: 'predicted in (x, y)',
+    exponential: 'predicted in ξ',
+  },
   axisAlong: 'ξ along (m)',
   axisLateral: 'ξ lateral (m)',
+  /** An axis that is drawn on a larger scale than the other one. */
+  stretched: (axis, factor) => `${axis} ×${factor}`,
   components: { along: 'along', lateral: 'lateral', heading: 'heading' },
   where: { along: 'along the track', lateral: 'laterally', heading: 'in heading' },
   of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
-  tolerance: 'right, ± 5 %',
   ratioAxis: 'predicted / measured variance',
   stepAxis: 'step',
   atStepMark: (step) => `step ${step}`,
+  /** Before the ratio, and after it. */
+  predictionHas: (step) => `At step ${step} the prediction has`,
+  ofVariance: (component) => `of the ${component} variance`,
   ratioText: (recursion, step, along, lateral, heading) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: along ${along}, lateral ${lateral}, heading ${heading}.`,
   atStep: (ratio, step) => `${ratio} at step ${step}`,
@@ -59,7 +73,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     `View of the floor from above, x to the right and y up. ${robotsOf(robots)} ${robots === '1' ? 'drives' : 'drive'} ${stepsOf(steps)} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
   stepText: (step, measured, predicted) =>
     `Step ${step} in exponential coordinates, ξ along to the right and ξ lateral up. Standard deviations measured ${measured[0]} m and ${measured[1]} m, predicted ${predicted[0]} m and ${predicted[1]} m.`,
-  missed: 'Off by more than 5 %; and at the end:',
   misses: {
     caption: 'Steps at which predicted and measured variance differ by more than 5 %, and the difference after the last step',
     component: 'component',
@@ -68,8 +81,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     from: (first, last) => (first === last ? `step ${first}` : `steps ${first}–${last}`),
     endOf: (component) => `${component}, at the end`,
   },
-  commandAndNoise: 'Command and noise',
-  figures: 'All recursions',
   straight: {
     title: 'Why bananas bend',
     label: (crossing) => `Variances of a straight drive against its duration, on logarithmic axes. ${crossing}`,

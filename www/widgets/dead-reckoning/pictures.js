@@ -2,18 +2,18 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, trace } from '../../scene/draw.js';
+import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineStyles, trace } from '../../scene/draw.js';
 import { Picture, SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround, extentOf } from '../../scene/view.js';
-import { COMMAND_DASH } from '../shared/command.js';
+import { significant } from '../../ui/format.js';
 import { lineKey } from '../shared/line-key.js';
+import { OUTLINES } from './settings.js';
 
 /**
  * @import { Brush } from '../../scene/canvas.js'
- * @import { Palette } from '../../ui/theme.js'
  *
- * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined }} Scene what both pictures are of, with the
- *   poses of the robot that is marked after each step
+ * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined, overlays: string[] }} Scene what both pictures
+ *   are of, with the poses of the robot that is marked after each step
  */
 
 /** Standard deviations of a cloud that a view makes room for. */
@@ -22,24 +22,16 @@ const ROOM = 3.2;
 /** Dots of a cloud that is not looked at, at most, and their radius and ink. */
 const PASSED = { most: 200, radius: 1.3, alpha: 0.4 };
 
-/** The outlines by name, in the order in which they are painted. @param {Palette} palette */
-const stylesOf = ({ prediction, posterior, prior, truth }) => ({
-  command: { colour: prior, width: 2.25, dash: COMMAND_DASH },
-  measured: { colour: truth, width: 2.25, dash: [3, 3] },
-  ellipse: { colour: prediction, width: 2, dash: [7, 4] },
-  exponential: { colour: posterior, width: 2.25, dash: [] },
-  predicted: { colour: posterior, width: 2.25, dash: [] },
-});
-
-/** @typedef {keyof ReturnType<typeof stylesOf>} OutlineName */
+/** @typedef {keyof typeof OUTLINES} OutlineName */
 
 /**
+ * Returns the key of an exported picture: on the page the legend stands beside it.
+ *
  * @param {Brush} brush
- * @param {OutlineName} name
+ * @param {OutlineName[]} names
  */
-function keyEntry(brush, name) {
-  return lineKey(brush, words.reckoning.key[name], stylesOf(brush.palette)[name]);
-}
+const keyOf = (brush, names) =>
+  brush.exported ? names.map((name) => lineKey(brush, words.reckoning.overlays[name], lineStyles(brush, OUTLINES)[name])) : [];
 
 /**
  * The floor from above.
@@ -61,21 +53,20 @@ export class PathPicture extends SamplesPicture {
   }
 
   /** @type {Picture<Scene>['paint']} */
-  paint = (brush, { commanded, outlines, milestones, poses, pose, marked, config: { step } }) => {
+  paint = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
     const { context, palette } = brush;
-    const { command, ellipse, exponential } = stylesOf(palette);
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, /** @type {const} */ (['ellipse', 'exponential', 'command']).map((name) => keyEntry(brush, name)));
+    const styles = lineStyles(brush, OUTLINES);
+    const drawn = (/** @type {OutlineName[]} */ names) => names.filter((name) => overlays.includes(name));
+    const predictions = /** @type {('ellipse' | 'exponential')[]} */ (drawn(['ellipse', 'exponential']));
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, drawn(['ellipse', 'exponential', 'command'])));
+    const styled = (/** @type {Scene['outlines']} */ of) => predictions.map((name) => ({ points: of[name], ...styles[name] }));
     clipped(brush, () => {
       for (const milestone of milestones) drawPassed(brush, milestone.poses);
       drawDots(brush, poses, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
-        { points: commanded, ...command },
-        ...milestones.flatMap(({ outlines: passed }) => [
-          { points: passed.ellipse, ...ellipse, width: 1 },
-          { points: passed.exponential, ...exponential, width: 1 },
-        ]),
+        ...drawn(['command']).map((name) => ({ points: commanded, ...styles[name] })),
+        ...milestones.flatMap(({ outlines: passed }) => styled(passed).map((outline) => ({ ...outline, width: 1 }))),
       ]);
-      const styled = (/** @type {Scene['outlines']} */ of) => [{ points: of.ellipse, ...ellipse }, { points: of.exponential, ...exponential }];
       if (brush.former) drawGhosts(brush, styled(brush.former.outlines));
       drawOutlines(brush, styled(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
@@ -154,15 +145,26 @@ export class StepPicture extends Picture {
   }
 
   /** @type {Picture<Scene>['paint']} */
-  paint = (brush, { outlines: { predicted, measured }, twists }) => {
-    const styles = stylesOf(brush.palette);
-    const { axisAlong, axisLateral } = words.reckoning;
-    const key = /** @type {const} */ (['predicted', 'measured']);
-    drawAxes(brush, { x: axisAlong, y: axisLateral }, key.map((name) => keyEntry(brush, name)));
+  paint = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
+    const styles = lineStyles(brush, OUTLINES);
+    const drawn = /** @type {('exponential' | 'measured')[]} */ (['exponential', 'measured']).filter((name) => overlays.includes(name));
+    drawAxes(brush, axesOf(this.view), keyOf(brush, drawn));
+    const points = { exponential: predicted, measured };
     clipped(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.former) drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.predicted }]);
-      drawOutlines(brush, [{ points: predicted, ...styles.predicted }, { points: measured, ...styles.measured }]);
+      if (brush.former && overlays.includes('exponential')) drawGhosts(brush, [{ points: brush.former.outlines.predicted, ...styles.exponential }]);
+      drawOutlines(brush, drawn.map((name) => ({ points: points[name], ...styles[name] })));
     });
   };
+}
+
+/** Stretch of one axis against the other that is not seen. */
+const UNSEEN = 1.05;
+
+/** Returns the names of the axes, with the factor by which one is stretched against the other. @param {View} view */
+function axesOf({ scaleX, scaleY }) {
+  const { axisAlong, axisLateral, stretched } = words.reckoning;
+  const factor = scaleY / scaleX;
+  const named = (/** @type {string} */ name, /** @type {number} */ by) => (by > UNSEEN ? stretched(name, significant(by, by < 10 ? 2 : 1)) : name);
+  return { x: named(axisAlong, 1 / factor), y: named(axisLateral, factor) };
 }

@@ -2,14 +2,15 @@
 
 import { html } from 'lit';
 import { markedField } from '../../figure/controls.js';
+import { legend } from '../../figure/overlays.js';
 import { words } from '../../messages/registry.js';
 import { rich } from '../../ui/controls.js';
 import { NOTHING, fixed, significant } from '../../ui/format.js';
 import { plot } from '../../ui/plot.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 import { COMPONENTS } from './reading.js';
-import { RECURSIONS } from './settings.js';
-import { endText, ratioText } from './words.js';
+import { CURVES, RECURSIONS } from './settings.js';
+import { endText, ratioText, worstAt } from './words.js';
 
 /**
  * @import { Misses } from '../../types.d.ts'
@@ -17,33 +18,60 @@ import { endText, ratioText } from './words.js';
  * @import { Role } from '../../ui/plot.js'
  */
 
-/** How the ratio of each component looks. @type {Record<(typeof COMPONENTS)[number], { role: Role, dash?: string }>} */
-const LOOKS = { along: { role: 'ink', dash: '8 4' }, lateral: { role: 'prediction' }, heading: { role: 'muted', dash: '9 3 2 3' } };
-
 /** Heights that the plot may have, so that it holds still while a slider is dragged. */
 const HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 
 /** What counts as right. */
 const TOLERANCE = 0.05;
 
-/** @param {Reading} reading */
-export function ratioPlot(reading) {
+/**
+ * Returns the chart of predicted over measured variance, whose line at the selected step is a slider.
+ *
+ * @param {import('./dead-reckoning.js').DeadReckoningElement} figure
+ * @param {Reading} reading
+ */
+export function ratioPlot(figure, reading) {
   const { config: { step, steps }, curves } = reading;
+  const { overlays } = figure.state.own;
   const say = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highest = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
-  const looks = COMPONENTS.map((name) => LOOKS[name]);
+  const shown = COMPONENTS.map((name, axis) => ({ ...lookOf(name), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
+  const band = { name: say.overlays.tolerance, ...lookOf('tolerance'), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
   return plot({
     label: ratioText(reading),
     x: { name: say.stepAxis, from: 0, to: steps },
     y: { name: say.ratioAxis, from: 0, to: HEIGHTS.find((height) => height >= highest) ?? highest },
     curves: [
-      { name: say.tolerance, role: 'truth', dash: '1 3', x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE] },
-      ...curves.map(({ ratio, error }, axis) => ({ ...looks[axis], name: say.components[COMPONENTS[axis]], x, y: ratio, error })),
+      ...(overlays.includes('tolerance') ? [band] : []),
+      ...shown.map(({ ratio, ...curve }) => ({ ...curve, x, y: ratio })),
     ],
-    points: curves.map(({ ratio, error }, axis) => ({ role: looks[axis].role, x: step, y: ratio[step - 1], error: error[step - 1] })),
+    points: shown.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
     marks: [{ x: step, text: say.atStepMark(step) }],
+    slider: {
+      id: 'chart-step',
+      name: say.settings.step.name,
+      step: 1,
+      value: step,
+      text: say.atStepMark(step),
+      input: (to) => figure.settings.want({ step: Math.max(1, to) }),
+      commit: () => figure.gesture.commit(),
+    },
+    legend: legend(figure, CURVES),
   });
+}
+
+/** Returns the colour and the dash of a curve. @param {keyof typeof CURVES} name @returns {{ role: Role, dash?: string }} */
+function lookOf(name) {
+  const { role, dash } = /** @type {import('../../figure/overlays.js').LineStyle & { role: Role }} */ (CURVES[name]);
+  return { role, dash: dash?.join(' ') };
+}
+
+/** Returns the ratio at the selected step that is furthest from 1, as the message of the figure. @param {Reading} reading */
+export function headline(reading) {
+  const say = words.reckoning;
+  const { ratio, component } = worstAt(reading);
+  return readoutList([[say.predictionHas(reading.config.step), fixed(ratio, 2), say.ofVariance(say.of[component])]], 0);
 }
 
 /** Logarithmic axes that hold what sliders can make of it: the variances of an opening and of a tenth and ten times of it. */
@@ -83,14 +111,7 @@ function missed({ told, first, last, end }) {
   return first === null || last === null ? never : from(first, last);
 }
 
-/** Of the recursion that is looked at. @param {Reading} reading */
-export function missReadouts({ config: { compounding }, stats: { misses } }) {
-  const say = words.reckoning;
-  const rows = misses[compounding].map((each, axis) => /** @type {[string, string, string]} */ ([say.components[COMPONENTS[axis]], missed(each), endText(each)]));
-  return html`<p class="missed">${say.missed}</p>${readoutList(rows)}`;
-}
-
-/** Of all of them. @param {Reading} reading */
+/** Returns the misses of all recursions. @param {Reading} reading */
 export function missTable({ stats: { misses } }) {
   const say = words.reckoning;
   return figureTable({

@@ -9,81 +9,113 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
-  .views {
-    grid-template: 'floor' 'ratios' 'step' 'aside' / minmax(0, 1fr);
+  .chart .plotted {
+    max-width: calc(60svh * 1.52);
+    margin-inline: auto;
   }
 
-  .ratios .plot-key {
+  /* The line at the selected step is dragged where the pointer takes it. */
+  .chart input {
+    --thumb: var(--accent);
+    cursor: ew-resize;
+  }
+
+  .said .readouts {
     margin: 0;
-  }
-
-  .missed {
-    margin: 0.2em 0 0;
-    color: var(--muted);
-    font-size: 0.84em;
-  }
-
-  /* The three components side by side, however narrow. */
-  .surface .machine .readouts {
-    display: grid;
-    grid-template-columns: repeat(3, minmax(0, 1fr));
-    gap: 0 0.75em;
-  }
-
-  .aside .choices {
-    --name: 4.5em;
-
-    column-gap: 0.5em;
   }
 
   .ratios {
     grid-area: ratios;
   }
 
-  .stage[part='picture'] {
+  .said {
+    grid-area: said;
+  }
+
+  .floor {
     grid-area: floor;
   }
 
-  .stage.step {
+  .step {
     grid-area: step;
-  }
-
-  .aside {
-    grid-area: aside;
   }
 
   @container (min-width: 30em) {
     canvas {
-      aspect-ratio: 8 / 5;
+      aspect-ratio: 1;
+    }
+
+    .step canvas {
+      aspect-ratio: 2;
     }
 
     .views {
-      grid-template: 'floor step' 'ratios aside' / minmax(0, 1fr) minmax(0, 1fr);
+      grid-template: 'ratios floor' 'said step' / minmax(0, 1.45fr) minmax(0, 1fr);
       gap: 0.25em 1em;
     }
 
-    .ratios .plot {
-      max-width: 20em;
+    .said {
+      display: grid;
+      grid-template: 'headline caption' 'choices choices' / auto 1fr;
+      column-gap: 1em;
+      align-items: center;
+    }
+
+    .said .caption {
+      font-size: 0.95em;
+      line-height: 1.25;
+    }
+
+    .said .choices {
+      grid-area: choices;
     }
   }
 
   @container (min-width: 56em) {
-    canvas {
-      aspect-ratio: 5 / 4;
+    :is(canvas, .step canvas) {
+      aspect-ratio: 6 / 7;
     }
 
     .views {
-      grid-template: 'floor step ratios' 'aside aside aside' / minmax(0, 1fr) minmax(0, 1fr) minmax(0, 1fr);
+      grid-template: 'ratios floor step' 'said said said' / minmax(0, 1.75fr) minmax(0, 1fr) minmax(0, 1fr);
     }
 
-    .ratios .plot {
-      max-width: none;
+    /* The chart is larger than its letters. */
+    .chart .plot text {
+      font-size: 10.5px;
     }
 
-    .aside {
-      display: grid;
-      grid-template-columns: 1fr 1fr;
-      gap: 2em;
+    .said {
+      grid-template: 'headline caption choices' / auto 1fr auto;
+      column-gap: 2em;
+    }
+  }
+
+  /* The chart stays in sight, as its line is what is dragged. */
+  @media (min-height: 22em) {
+    @container (width < 30em) {
+      .ratios,
+      .chart {
+        display: contents;
+      }
+
+      .chart .plotted {
+        position: sticky;
+        top: var(--top);
+        z-index: 2;
+        max-width: calc(45svh * 1.52);
+        background: var(--paper);
+        box-shadow:
+          -0.5em 0 var(--paper),
+          0.5em 0 var(--paper),
+          0 0.5em 0.5em var(--paper);
+      }
+
+      .floor .stage[part='picture'] {
+        position: relative;
+        z-index: auto;
+        box-shadow: none;
+      }
     }
   }
 `;

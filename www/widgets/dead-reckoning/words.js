@@ -43,6 +43,17 @@ const furthest = (misses) => misses.reduce((most, miss, i) => (miss > (misses[mo
 const listOf = (ratios) =>
   TOLD_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
 
+/**
+ * Returns the component whose ratio at the selected step is furthest from 1.
+ *
+ * @param {Reading} reading
+ */
+export function worstAt({ config: { step }, curves }) {
+  const ratios = curves.map(({ ratio }) => ratio[step - 1]);
+  const worst = furthest(ratios.map((ratio) => Math.abs(ratio - 1)));
+  return { component: COMPONENTS[worst], ratio: ratios[worst] };
+}
+
 /** What is announced after a change has come to rest. @param {Reading} reading */
 export function announcementOf(reading) {
   const { config, shown } = reading;

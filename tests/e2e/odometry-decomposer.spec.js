@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, frames, pictureOf, played, ready, show, test } from './support.js';
+import { STILL, centreOf, frames, pictureOf, played, readout, ready, show, test, unfold } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -34,17 +34,18 @@ async function told(widget) {
 
 const slider = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
 
-test('opens with three legs, and presets set the reading alone', async ({ page }) => {
+test('opens on Reverse, and presets set the reading', async ({ page }) => {
   const widget = await open(page);
   const { config, shown } = await told(widget);
   expect(shown).toBe(config.samples);
-  await expect(widget).toHaveJSProperty('preset', 'all');
-  await widget.getByRole('button', { name: 'Reverse' }).click();
-  const reverse = await told(widget);
-  expect(reverse.config).toEqual({ ...config, to: { x: -1.2, y: -0.3, theta: 0.1 } });
   await expect(widget).toHaveJSProperty('preset', 'reverse');
-  await expect(widget).toHaveAttribute('tox', '-1.2');
-  await expect(widget.locator('[part=caption].said')).toContainText('two half turns');
+  await expect(widget.locator('[part=caption]')).toContainText('two rotations near π');
+  await expect(readout(widget, 'standard deviation across the path')).toHaveText('± 0.626 m');
+  await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
+  const forward = await told(widget);
+  expect(forward.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
+  await expect(widget).toHaveJSProperty('preset', 'all');
+  await expect(widget).toHaveAttribute('tox', '1.2');
 });
 
 test('the later pose is dragged by its body and turned by its heading', async ({ page }) => {
@@ -87,6 +88,9 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   await expect(row('Table 5.6').locator('td')).toHaveText(['0.517', '0.602', '0.534', '0.000', '0.626', '0.743']);
   await expect(row('AMCL of Nav2').locator('td')).toHaveText(['0.131', '0.130', '0.126', '0.000', '0.161', '0.182']);
   await expect(row('AMCL, omnidirectional').locator('td')).toHaveText(['0.000', '0.124', '0.125', '0.124', '0.124', '0.125']);
+  // Cells that differ from the printed table stand out.
+  await expect(row('Table 5.6').locator('strong')).toHaveCount(0);
+  await expect(row('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
   const before = await told(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
   const after = await told(widget);
@@ -105,7 +109,7 @@ test('on paper every rule has its name, and the chosen one stands out', async ({
   await expect(name('Beluga 2')).not.toHaveCSS('font-weight', '700');
   // Elsewhere what is not chosen stays off it.
   await page.emulateMedia({ media: 'screen' });
-  await widget.locator('summary', { hasText: 'Noise and outcomes' }).click();
+  await unfold(widget);
   await page.emulateMedia({ media: 'print' });
   await expect(widget.getByText('normal', { exact: true })).toBeVisible();
   await expect(widget.getByText('triangular', { exact: true })).toBeHidden();
@@ -116,7 +120,7 @@ test('the frame drifts, and no outcome moves', async ({ page }) => {
   const before = await told(widget);
   const legs = await pictureOf(widget.locator('canvas.plane'));
   const world = await pictureOf(widget.locator('canvas.world'));
-  await slider(widget, 't, time of drifting').press('End');
+  await slider(widget, 'drift time').press('End');
   const after = await told(widget);
   expect(after.config.drift).toBe(120);
   expect(after.drifted).not.toEqual(before.drifted);
@@ -127,9 +131,9 @@ test('the frame drifts, and no outcome moves', async ({ page }) => {
 
 test('hinges that go together move no outcome', async ({ page }) => {
   const widget = await open(page);
-  await widget.locator('summary', { hasText: 'Noise and outcomes' }).click();
+  await unfold(widget);
   const before = await told(widget);
-  await slider(widget, 'ρ, correlation of the two rotations').press('End');
+  await widget.locator('#correlation').press('End');
   const after = await told(widget);
   const places = (/** @type {number[]} */ poses) => poses.filter((_, i) => i % 3 < 2);
   expect(places(after.poses)).toEqual(places(before.poses));
@@ -138,14 +142,13 @@ test('hinges that go together move no outcome', async ({ page }) => {
 });
 
 test('the spread against the drive has the outcomes beside the curve', async ({ page }) => {
-  const widget = await open(page);
-  await widget.locator('summary', { hasText: 'Spread against the drive' }).click();
+  const widget = await open(page, 'preset="all"');
+  await unfold(widget);
   const plot = widget.locator('svg.plot');
   await expect(plot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
   await expect(plot.locator('circle')).toHaveCount(1);
   await expect(widget.locator('.readouts').last()).toContainText('exactly 0.305 m');
   // Without an outcome there is no point.
-  await widget.locator('summary', { hasText: 'Noise and outcomes' }).click();
   await widget.getByRole('button', { name: 'Clear' }).click();
   await expect(plot.locator('circle')).toHaveCount(0);
 });
@@ -154,7 +157,7 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   const widget = await open(page, 'phase="2.8"');
   // Readers who prefer reduced motion have no button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
-  await slider(widget, 's, phase of the way').press('Home');
+  await slider(widget, 'progress of the motion').press('Home');
   const { robot, config } = await told(widget);
   expect(robot).toEqual(config.from);
   await page.emulateMedia({ reducedMotion: 'no-preference' });

@@ -1,27 +1,28 @@
-/** The Odometry Decomposer's controls: readings worth starting from, rules side by side, and sliders that can be played. */
+/** The Odometry Decomposer's controls: noise models side by side, sliders that can be played, and the noise. */
 
 import { html } from 'lit';
 import { choices, cloudControls, slider, sliders } from '../../figure/controls.js';
 import { words } from '../../messages/registry.js';
-import { choice, rich } from '../../ui/controls.js';
+import { choice, group, rich } from '../../ui/controls.js';
 import { fixed } from '../../ui/format.js';
 import { figureTable } from '../../ui/readouts.js';
 import { NOISE, SAMPLE_COUNTS } from './settings.js';
 
 /** @typedef {import('./odometry-decomposer.js').OdometryDecomposerElement} Figure */
 
-/** What each rule makes of the reading, the present one among them chosen by its name. @param {Figure} figure */
+/** Returns the deviations by every noise model: those that differ from the printed table's stand out. @param {Figure} figure */
 export function rulesTable(figure) {
   const { rules: names, table: say, settings } = words.decomposer;
   const { rules } = figure.reading;
   const present = figure.settings.told.rule;
+  const rows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({
-      caption: html`<span class="visually-hidden">${rich(say.caption)}</span>`,
-      columns: [say.rule, ...say.columns.map(rich)],
-      rows: rules.map(({ rule, deviations, crossTrack, heading }) => [
+      caption: rich(say.caption),
+      columns: [settings.rule.name, ...say.columns.map(rich)],
+      rows: rules.map(({ rule }, i) => [
         choice({ group: 'rule', label: names[rule], checked: rule === present, choose: () => figure.gesture.decide({ rule }) }),
-        ...[...deviations, crossTrack, heading].map((value) => fixed(value, 3)),
+        ...rows[i].map((cell, column) => (cell === rows[0][column] ? cell : html`<strong>${cell}</strong>`)),
       ]),
     })}
   </div>`;
@@ -43,14 +44,11 @@ export function playable(figure, key, legend) {
   </fieldset>`;
 }
 
-/** The noise, how that of the two rotations goes together, and the outcomes. @param {Figure} figure */
+/** Returns the noise, the correlation of the two rotations, and the outcomes. @param {Figure} figure */
 export function noiseControls(figure) {
-  const { hinges, noiseParameters, noises } = words.decomposer;
-  return html`<div class="controls" part="controls">
-      <fieldset class="alphas">
-        <legend class="visually-hidden">${noiseParameters}</legend>
-        ${sliders(figure, NOISE)} ${choices(figure, 'noise', noises)}
-      </fieldset>
+  const { hinges, noises } = words.decomposer;
+  return html`<div class="controls">
+      ${group(words.noise, html`${sliders(figure, NOISE)} ${choices(figure, 'noise', noises)}`, 'alphas')}
       ${cloudControls(figure, SAMPLE_COUNTS)}
     </div>
     <p>${rich(hinges)}</p>`;

@@ -2,8 +2,9 @@
 
 import { html } from 'lit';
 import { Cloud, shownOf } from '../../figure/cloud.js';
-import { canvas, disclosures } from '../../figure/controls.js';
+import { canvas, disclosures, panel } from '../../figure/controls.js';
 import { FigureElement } from '../../figure/figure.js';
+import { legend } from '../../figure/overlays.js';
 import { reserve } from '../../figure/page/room.js';
 import { define } from '../../figure/reflection.js';
 import { orFree } from '../../figure/runtime.js';
@@ -16,8 +17,8 @@ import { presetButtons } from '../shared/presets.js';
 import { noiseControls, playable, rulesTable } from './controls.js';
 import { LegsPicture, RADIUS, WorldPicture } from './pictures.js';
 import { readingOf } from './reading.js';
-import { readouts, spreads } from './readouts.js';
-import { attributes, declared, looks, own, vocabulary } from './settings.js';
+import { headline, readouts, spreads } from './readouts.js';
+import { LINES, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { decomposerStyles } from './styles.js';
 import { apart, captionOf, legsText, worldText } from './words.js';
 
@@ -33,6 +34,7 @@ const FLOOR = [-4, -4, 4, 4];
  * What odometry read as rotate, drive, rotate, and what localizers make of its noise.
  *
  * @attr preset - A reading worth starting from; none where it is another.
+ * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.
  *
  * @csspart chart - The plot of the deviation across the way.
  *
@@ -89,7 +91,7 @@ export class OdometryDecomposerElement extends FigureElement {
   get scene() {
     const reading = this.fresh;
     const { index, isMarked } = this.cloud;
-    return { ...reading, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
+    return { ...reading, overlays: this.state.own.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
   }
 
   /**
@@ -136,17 +138,17 @@ export class OdometryDecomposerElement extends FigureElement {
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
-          <div class="stage" part="picture">
+          ${panel(say.legsTitle, html`<div class="stage" part="picture">
             ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
-          </div>
-          <div class="stage beside">${canvas(this, this.#world, worldText(reading))}</div>
+          </div>`, 'legs')}
+          ${panel(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`, 'world')}
           ${this.stage.later(() => html`
-          <p class="caption said" part="caption">${captionOf(reading)}</p>
+          <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
           <p class="caption drifting">${rich(say.worldCaption(fixed(apart(reading), 2)))}</p>`)}
         </div>
         ${this.stage.later(() => html`
-        <div class="plays">${playable(this, 'phase', say.way)} ${playable(this, 'drift', say.drift)}</div>
-        ${presetButtons(this)} ${rulesTable(this)}
+        ${legend(this, LINES)} ${presetButtons(this)} ${rulesTable(this)}
+        <div class="plays" part="controls">${playable(this, 'phase', say.path)} ${playable(this, 'drift', say.drift)}</div>
         ${disclosures(this, {
           controls: () => noiseControls(this),
           numbers: () => html`${readouts(reading)} ${this.machine && spreads(this.machine, reading)}`,

@@ -2,8 +2,8 @@
 
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { drawDots, drawMark } from '../../scene/draw.js';
-import { drawLabel } from '../../scene/labels.js';
+import { drawDots, drawMark, lineStyles } from '../../scene/draw.js';
+import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.js';
 import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentOf } from '../../scene/view.js';
 import { fixed } from '../../ui/format.js';
@@ -11,12 +11,16 @@ import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.js';
 import { drawBar, drawFan, drawTurn } from './marks.js';
 import { poseIn } from './reading.js';
+import { LINES } from './settings.js';
 
 /**
  * @import { Pose } from '../../types.d.ts'
  * @import { Brush } from '../../scene/canvas.js'
  *
- * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined }} Scene what both pictures are of
+ * @typedef {keyof typeof LINES} LineName
+ *
+ * @typedef {import('./reading.js').Reading & { marked: Float64Array | undefined, overlays: string[] }} Scene what both pictures are of,
+ *   with the names of the lines that are shown
  */
 
 /** Radius of the robot, m. */
@@ -29,7 +33,7 @@ const ROOM = { metres: 0.3, deviations: 2.2 };
 const MAX_TICKS = 1000;
 
 /** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
-const GAP = { handle: 16, arcs: 22 };
+const GAP = { handle: 14, arcs: 16 };
 
 /** A shorter drive is not seen as one, CSS pixels: there is no label for it. */
 const SEEN = 40;
@@ -37,13 +41,26 @@ const SEEN = 40;
 /** A smaller turn, rad, has no arc. */
 const NO_TURN = 0.005;
 
+/** Places along the arc of a turn that a leader may end at, as shares of it. */
+const ANCHORS = [0.5, 0.3, 0.7, 0.1, 0.9];
+
 const AXES = { x: 'x (m)', y: 'y (m)' };
 
 /** How long the axes of the odometry's frame are drawn, m. */
 const AXIS = 0.35;
 
-/** Dash of what is told in the frame of the odometry, CSS pixels. */
-const ODOMETRY_DASH = [6, 4];
+/**
+ * Returns the key of an exported picture: on the page the legend stands beside it.
+ *
+ * @param {Brush} brush
+ * @param {Scene} scene
+ * @param {LineName[]} names
+ */
+function keyOf(brush, { overlays }, names) {
+  const styles = lineStyles(brush, LINES);
+  const say = words.decomposer.overlays;
+  return brush.exported ? names.filter((name) => overlays.includes(name)).map((name) => lineKey(brush, say[name].replaceAll('*', ''), styles[name])) : [];
+}
 
 /**
  * Corners of where the outcomes are, as far as a picture makes room for them.
@@ -68,12 +85,18 @@ function surroundings({ linkage, legs, deviations, stats }) {
  * @param {Brush} brush
  * @param {Scene} scene
  */
-function drawOutcomes(brush, { poses }) {
+function drawOutcomes(brush, { poses, overlays }) {
+  if (!overlays.includes('outcomes')) return;
   drawDots(brush, poses, { x: 0, y: 1, heading: poses.length <= 3 * MAX_TICKS ? 2 : null });
 }
 
 /** @extends {SamplesPicture<Scene>} */
 class OutcomesPicture extends SamplesPicture {
+  /** @param {string} name */
+  constructor(name) {
+    super(name, new View({ top: LABELS_ABOVE }));
+  }
+
   /**
    * @param {Brush} brush
    * @param {Scene} scene
@@ -86,7 +109,7 @@ class OutcomesPicture extends SamplesPicture {
 /** The frame of the odometry: the legs as a linkage, and what noise makes of it. */
 export class LegsPicture extends OutcomesPicture {
   constructor() {
-    super('plane', new View());
+    super('plane');
   }
 
   /** @param {Scene} scene */
@@ -97,28 +120,69 @@ export class LegsPicture extends OutcomesPicture {
   /** @type {SamplesPicture<Scene>['paint']} */
   paint = (brush, scene) => {
     const { palette } = brush;
-    const { linkage, legs, deviations, config } = scene;
+    const { linkage, legs, deviations, config, overlays } = scene;
     const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
-    drawAxes(brush, AXES, keyOf(brush));
-    const outer = turnDistance(this.view, RADIUS) + GAP.handle;
+    drawAxes(brush, AXES, keyOf(brush, scene, ['legs', 'deviation', 'outcomes']));
+    const [first, second] = [0, 1].map((arc) => turnDistance(this.view, RADIUS) + GAP.handle + arc * GAP.arcs);
+    const styles = lineStyles(brush, LINES);
+    const spread = overlays.includes('deviation');
+    const { colour } = styles.deviation;
     clipped(brush, () => {
-      drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, outer + GAP.arcs), palette.prediction);
-      this.#paintGhosts(brush, scene);
+      if (spread) drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
+      if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
-      this.#paintDrive(brush, start, driven);
+      if (overlays.includes('legs')) drawSegment(brush, start, driven, styles.legs);
       drawHeldRobot(brush, start, RADIUS, palette.prior);
       drawHeldRobot(brush, config.to, RADIUS, palette.prior);
-      drawBar(brush, driven, deviations.trans, palette.prediction);
-      drawBar(brush, { ...driven, theta: driven.theta + Math.PI / 2 }, deviations.strafe, palette.prediction);
+      if (spread) {
+        drawBar(brush, driven, deviations.trans, colour);
+        drawBar(brush, { ...driven, theta: driven.theta + Math.PI / 2 }, deviations.strafe, colour);
+        drawFan(brush, { ...driven, theta: driven.theta + legs.rot2 }, deviations.rot2, second, colour);
+      }
       if (config.phase < 3) this.#paintRobot(brush, scene.robot);
-      this.#paintTurns(brush, scene, outer);
+      if (overlays.includes('legs')) {
+        for (const [from, by, reach] of /** @type {[Pose, number, number][]} */ ([[start, legs.rot1, first], [driven, legs.rot2, second]])) {
+          if (Math.abs(by) >= NO_TURN) drawTurn(brush, from, by, reach, styles.legs.colour);
+        }
+      }
       this.paintMark(brush, scene);
     });
+    if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, first, second));
   };
+
+  /**
+   * Returns the labels of the legs that are seen, with their values and deviations.
+   *
+   * @param {Brush} brush
+   * @param {Scene} scene
+   * @param {number} first radius of the arc of the first turn, pixels
+   * @param {number} second
+   */
+  #labels({ view, palette: { prior: colour } }, { linkage, legs, deviations }, first, second) {
+    const [start, driven] = [0, 2].map((index) => poseIn(linkage, index));
+    const label = (/** @type {'rot1' | 'trans' | 'rot2'} */ sub, /** @type {string} */ unit, /** @type {{ x: number, y: number }} */ place) => ({
+      ...place,
+      symbol: 'δ',
+      sub,
+      text: `${fixed(legs[sub], 2)}${deviations[sub] > 0 ? ` ± ${fixed(deviations[sub], 2)}` : ''} ${unit}`,
+      colour,
+    });
+    // The place of an arc that is nearest to the labels.
+    const onArc = (/** @type {Pose} */ { x, y, theta }, /** @type {number} */ by, /** @type {number} */ reach) => {
+      const [highest] = ANCHORS.map((share) => view.direction(theta + share * by)).sort((one, other) => one.y - other.y);
+      return { x: view.toPixelX(x) + reach * highest.x, y: view.toPixelY(y) + reach * highest.y };
+    };
+    const middle = { x: view.toPixelX((start.x + driven.x) / 2), y: view.toPixelY((start.y + driven.y) / 2) };
+    return [
+      ...(Math.abs(legs.rot1) < NO_TURN ? [] : [label('rot1', 'rad', onArc(start, legs.rot1, first))]),
+      ...(legs.trans * view.scaleX < SEEN ? [] : [label('trans', 'm', middle)]),
+      ...(Math.abs(legs.rot2) < NO_TURN ? [] : [label('rot2', 'rad', onArc(driven, legs.rot2, second))]),
+    ];
+  }
 
   /** The linkages of some outcomes. @param {Brush} brush @param {Scene} scene */
   #paintGhosts({ context, view, palette }, { ghosts }) {
-    context.strokeStyle = palette.prediction;
+    context.strokeStyle = palette.cloud;
     context.lineWidth = 1;
     context.globalAlpha = 0.5;
     context.beginPath();
@@ -129,16 +193,6 @@ export class LegsPicture extends OutcomesPicture {
     }
     context.stroke();
     context.globalAlpha = 1;
-  }
-
-  /** @param {Brush} brush @param {Pose} start @param {Pose} driven */
-  #paintDrive({ context, view, palette }, start, driven) {
-    context.strokeStyle = palette.prior;
-    context.lineWidth = 3;
-    context.beginPath();
-    context.moveTo(view.toPixelX(start.x), view.toPixelY(start.y));
-    context.lineTo(view.toPixelX(driven.x), view.toPixelY(driven.y));
-    context.stroke();
   }
 
   /** On its way. @param {Brush} brush @param {Pose} robot */
@@ -158,60 +212,12 @@ export class LegsPicture extends OutcomesPicture {
     context.lineTo(px + size * ahead.x, py + size * ahead.y);
     context.stroke();
   }
-
-  /**
-   * The turns about either end, and what all three legs are.
-   *
-   * @param {Brush} brush
-   * @param {Scene} scene
-   * @param {number} radius of the first turn, pixels
-   */
-  #paintTurns(brush, { linkage, legs, deviations }, radius) {
-    const { view, palette } = brush;
-    const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
-    const said = (/** @type {number} */ value, /** @type {number} */ deviation, /** @type {string} */ unit) =>
-      `${fixed(value, 2)}${deviation > 0 ? ` ± ${fixed(deviation, 2)}` : ''} ${unit}`;
-    const second = radius + GAP.arcs;
-    const labels = /** @type {Parameters<typeof drawLabel>[1][]} */ ([]);
-    const turn = (/** @type {Pose} */ from, /** @type {number} */ by, /** @type {number} */ reach, /** @type {string} */ sub, /** @type {number} */ deviation) => {
-      if (Math.abs(by) < NO_TURN) return;
-      drawTurn(brush, from, by, reach, palette.prior);
-      const out = view.direction(from.theta + by / 2);
-      labels.push({
-        x: view.toPixelX(from.x) + (reach + 9) * out.x,
-        y: view.toPixelY(from.y) + (reach + 12) * out.y,
-        towards: Math.sign(out.x),
-        symbol: 'δ',
-        sub,
-        text: said(by, deviation, 'rad'),
-        colour: palette.prior,
-      });
-    };
-    drawFan(brush, { ...driven, theta: driven.theta + legs.rot2 }, deviations.rot2, second, palette.prediction);
-    turn(start, legs.rot1, radius, 'rot1', deviations.rot1);
-    turn(driven, legs.rot2, second, 'rot2', deviations.rot2);
-    // After both arcs: neither is to strike through a label.
-    for (const label of labels) drawLabel(brush, label);
-    if (legs.trans * view.scaleX < SEEN) return;
-    // The arc of a turn to the left is to the right of the drive, and the label beyond its other side.
-    const side = view.direction(turned.theta + (Math.sign(legs.rot1 || 1) * Math.PI) / 2);
-    const middle = [view.toPixelX((start.x + driven.x) / 2), view.toPixelY((start.y + driven.y) / 2)];
-    drawLabel(brush, {
-      x: middle[0] + 16 * side.x,
-      y: middle[1] + 22 * side.y,
-      towards: Math.abs(side.x) < 0.3 ? 0 : Math.sign(side.x),
-      symbol: 'δ',
-      sub: 'trans',
-      text: said(legs.trans, deviations.trans, 'm'),
-      colour: palette.prior,
-    });
-  }
 }
 
 /** The world, in which the frame of the odometry drifts. */
 export class WorldPicture extends OutcomesPicture {
   constructor() {
-    super('world', new View());
+    super('world');
   }
 
   /** @param {Scene} scene */
@@ -227,21 +233,27 @@ export class WorldPicture extends OutcomesPicture {
   /** @type {SamplesPicture<Scene>['paint']} */
   paint = (brush, scene) => {
     const { palette } = brush;
+    const { overlays } = scene;
     const [frame, from, to] = [0, 1, 2].map((index) => poseIn(scene.drifted.poses, index));
     const [start, end] = [poseIn(scene.linkage, 0), poseIn(scene.linkage, 3)];
-    drawAxes(brush, AXES, []);
+    const styles = lineStyles(brush, LINES);
+    drawAxes(brush, AXES, keyOf(brush, scene, ['prediction', 'odometry', 'difference']));
     clipped(brush, () => {
-      this.#paintFrame(brush, frame);
-      this.#paintLine(brush, from, to, palette.prior, ODOMETRY_DASH, 1.75);
-      for (const pose of [from, to]) this.#paintOdometry(brush, pose);
+      if (overlays.includes('odometry')) {
+        this.#paintFrame(brush, frame);
+        drawSegment(brush, from, to, styles.odometry);
+        for (const pose of [from, to]) this.#paintOdometry(brush, pose);
+      }
       drawOutcomes(brush, scene);
-      this.#paintLine(brush, start, end, palette.prediction, [], 1.75);
-      this.#paintLine(brush, to, end, palette.accent, [2, 4], 1.5);
-      drawHeldRobot({ ...brush, handles: false }, start, RADIUS, palette.truth);
-      this.#label(brush, { poses: [start, end], side: -1, symbol: 'x', colours: [palette.ink, palette.prediction] });
-      this.#label(brush, { poses: [from, to], side: 1, symbol: 'x̄', colours: [palette.prior, palette.prior] });
+      if (overlays.includes('prediction')) drawSegment(brush, start, end, styles.prediction);
+      if (overlays.includes('difference')) drawSegment(brush, to, end, styles.difference);
+      drawHeldRobot(brush, start, RADIUS, palette.truth);
       this.paintMark(brush, scene);
     });
+    drawLabelsAbove(brush, [
+      ...(overlays.includes('prediction') ? this.#labels(brush, [start, end], 'x', [palette.ink, palette.prediction]) : []),
+      ...(overlays.includes('odometry') ? this.#labels(brush, [from, to], 'x̄', [palette.prior, palette.prior]) : []),
+    ]);
   };
 
   /** The axes of the frame that the odometry is told in. @param {Brush} brush @param {Pose} frame */
@@ -271,53 +283,38 @@ export class WorldPicture extends OutcomesPicture {
   }
 
   /**
-   * @param {Brush} brush
-   * @param {Pose} from
-   * @param {Pose} to
-   * @param {string} colour
-   * @param {number[]} dash
-   * @param {number} width
-   */
-  #paintLine({ context, view }, from, to, colour, dash, width) {
-    context.strokeStyle = colour;
-    context.lineWidth = width;
-    context.setLineDash(dash);
-    context.beginPath();
-    context.moveTo(view.toPixelX(from.x), view.toPixelY(from.y));
-    context.lineTo(view.toPixelX(to.x), view.toPixelY(to.y));
-    context.stroke();
-    context.setLineDash([]);
-  }
-
-  /**
-   * Labels the poses before and the poses after; the former where these are two places.
+   * Returns the labels of the poses before and after; the former where these are two places.
    *
    * @param {Brush} brush
-   * @param {{ poses: Pose[], side: number, symbol: string, colours: string[] }} pair with the side of a pose that its label
-   *   stands on: −1 for above and to the left, 1 for below and to the right
+   * @param {Pose[]} poses
+   * @param {string} symbol
+   * @param {string[]} colours
    */
-  #label(brush, { poses, side, symbol, colours }) {
-    const { view } = brush;
-    const out = side * (Math.max(8, RADIUS * view.scaleX) + 7);
-    const [before, after] = poses.map(({ x, y }) => [view.toPixelX(x), view.toPixelY(y)]);
-    const apart = Math.hypot(before[0] - after[0], before[1] - after[1]) > SEEN;
-    [before, after].forEach(([x, y], i) => {
-      if (i === 1 || apart) drawLabel(brush, { x: x + out, y: y + out, towards: side, symbol, sub: ['t−1', 't'][i], colour: colours[i] });
-    });
+  #labels({ view }, poses, symbol, colours) {
+    const [before, after] = poses.map(({ x, y }, i) => ({
+      x: view.toPixelX(x),
+      y: view.toPixelY(y),
+      symbol,
+      sub: ['t−1', 't'][i],
+      colour: colours[i],
+    }));
+    return Math.hypot(before.x - after.x, before.y - after.y) > SEEN ? [before, after] : [after];
   }
 }
 
 /**
- * What the marks of the legs are, above their picture.
- *
  * @param {Brush} brush
+ * @param {Pose} from
+ * @param {Pose} to
+ * @param {{ colour: string, width: number, dash: number[] }} style
  */
-function keyOf(brush) {
-  const { prior, prediction } = brush.palette;
-  const say = words.decomposer.key;
-  return [
-    lineKey(brush, say.legs, { colour: prior, width: 3, dash: [] }),
-    lineKey(brush, say.deviation, { colour: prediction, width: 1, dash: [5, 3] }),
-    lineKey(brush, say.ghosts, { colour: prediction, width: 1, dash: [] }),
-  ];
+function drawSegment({ context, view }, from, to, { colour, width, dash }) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  context.beginPath();
+  context.moveTo(view.toPixelX(from.x), view.toPixelY(from.y));
+  context.lineTo(view.toPixelX(to.x), view.toPixelY(to.y));
+  context.stroke();
+  context.setLineDash([]);
 }

@@ -15,6 +15,12 @@ import { readoutList } from '../../ui/readouts.js';
 /** @param {number} value m */
 const metres = (value) => `${fixed(value, 3)} m`;
 
+/** Returns the deviation across the path by the present noise model, as the message of the figure. @param {Reading} reading */
+export function headline({ config: { rule }, stats }) {
+  const say = words.decomposer;
+  return readoutList([[say.readouts.across, `± ${metres(stats.exactCrossTrack)}`, say.rules[rule]]], 0);
+}
+
 /** The lever beside what it does to the outcomes. @param {Reading} reading */
 export function readouts({ stats }) {
   const say = words.decomposer.readouts;

@@ -2,6 +2,7 @@
 
 import { attributesOf, presetsOf } from '../../figure/attributes.js';
 import { cloudState } from '../../figure/cloud.js';
+import { overlaysOf } from '../../figure/overlays.js';
 import { presets, settings } from '../../settings.js';
 import { alphaLooks } from '../shared/noise.js';
 
@@ -10,10 +11,23 @@ export const declared = settings['odometry-decomposer'];
 /** The key of its words in the catalogues. */
 export const vocabulary = 'decomposer';
 
-/** @type {import('../../figure/attributes.js').Attributes} */
-export const attributes = { preset: presetsOf(presets['odometry-decomposer'], declared), ...attributesOf(declared) };
+/** Styles of what the pictures show. @satisfies {Record<string, import('../../figure/overlays.js').LineStyle>} */
+export const LINES = {
+  legs: { role: 'prior', width: 3, dash: [] },
+  deviation: { role: 'prediction', width: 1.25, dash: [5, 3] },
+  outcomes: { role: 'cloud', mark: 'dot' },
+  prediction: { role: 'prediction', width: 2.5, dash: [] },
+  odometry: { role: 'prior', width: 1.75, dash: [6, 4] },
+  difference: { role: 'accent', width: 1.5, dash: [2, 4] },
+};
 
-export const own = cloudState;
+const { attribute, state } = overlaysOf(Object.keys(LINES));
+
+/** @type {import('../../figure/attributes.js').Attributes} */
+export const attributes = { preset: presetsOf(presets['odometry-decomposer'], declared), ...attributesOf(declared), overlays: attribute };
+
+/** @type {Record<string, import('../../figure/state.js').Owned>} */
+export const own = { ...cloudState, overlays: state };
 
 /** Of the noise. */
 export const NOISE = {
@@ -24,8 +38,8 @@ export const NOISE = {
 /** @type {Record<string, import('../../figure/controls.js').Look>} */
 export const looks = {
   ...NOISE,
-  phase: { symbol: '*s*', role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
-  drift: { symbol: '*t*', role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
+  phase: { role: 'prior', min: 0, max: 3, step: 0.01, decimals: 2 },
+  drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
 };
 
 export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];

@@ -10,31 +10,32 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
+  .said .readouts {
+    margin: 0;
+  }
+
   @container (30em <= width < 38em) {
     canvas {
       aspect-ratio: 8 / 5;
     }
   }
 
-  /* The legs beside the world, each with what is said of it and its slider. */
+  /* The legs beside the world, each with what is said of it. */
   @container (min-width: 38em) {
     .views {
-      grid-template: 'legs world' 'said drifting' / 3fr 2fr;
+      grid-template: 'legs world' 'said drifting' / minmax(0, 3fr) minmax(0, 2fr);
       column-gap: 1.5em;
     }
 
-    .plays {
-      display: grid;
-      grid-template-columns: 3fr 2fr;
-      column-gap: 1.5em;
+    .panel {
+      --high: 0.58;
     }
 
-    .views > .stage {
-      --high: 0.6;
+    .legs {
       grid-area: legs;
     }
 
-    .views > .beside {
+    .world {
       grid-area: world;
     }
 
@@ -42,34 +43,54 @@ const own = css`
       aspect-ratio: 1 / var(--high);
     }
 
-    .beside canvas {
+    .world canvas {
       /* As high as the legs, which are half as wide again. */
       aspect-ratio: 2 / calc(3 * var(--high));
     }
 
     .said {
+      display: grid;
+      grid-template-columns: auto 1fr;
       grid-area: said;
+      column-gap: 1em;
+      align-items: center;
     }
 
     .drifting {
       grid-area: drifting;
     }
+
+    .plays {
+      display: grid;
+      grid-template-columns: 1fr 1fr;
+      column-gap: 2.5em;
+    }
   }
 
   /* Wider, and not higher: all of it is to fit on a screen. */
   @container (min-width: 55em) {
-    .views > .stage {
-      --high: 0.52;
+    .panel {
+      --high: 0.48;
     }
   }
 
   @container (min-width: 65em) {
-    .views > .stage {
-      --high: 0.42;
+    .panel {
+      --high: 0.36;
     }
   }
 
   @container (38em <= width < 50em) {
+    /* All of them in a row. */
+    .presets {
+      --beside: 0.45em;
+      gap: 0.35em;
+    }
+
+    .said .readouts {
+      max-width: 8.5em;
+    }
+
     .views .caption {
       font-size: 0.92em;
       line-height: 1.25;
@@ -77,27 +98,15 @@ const own = css`
   }
 
   .playable {
-    grid-template-columns: auto minmax(4em, 1fr) auto auto;
+    grid-template-columns: minmax(0, 1fr) auto;
+    gap: 0.75em;
     align-items: center;
   }
 
-  .playable > .slider {
-    grid-column: 1 / 4;
-  }
-
   .playable > button {
-    grid-column: 4;
     min-width: 5em;
-  }
-
-  .presets {
-    margin-top: 0.2em;
-  }
-
-  .surface .machine > .readouts {
-    display: grid;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12em), 1fr));
-    gap: 0.2em 1.25em;
+    /* Beside the track, not beside the hint below it. */
+    margin-bottom: 1em;
   }
 
   .rules table {
@@ -106,7 +115,28 @@ const own = css`
   }
 
   .rules th .choice {
-    min-height: 1.6em;
+    min-height: max(24px, 1.6em);
+  }
+
+  @container (width < 38em) {
+    .rules th .choice {
+      min-height: max(28px, 1.75em);
+    }
+  }
+
+  /* Bold, and on a tint. */
+  .rules td:has(strong) {
+    background: color-mix(in srgb, var(--prediction) 16%, var(--paper));
+  }
+
+  .rules :is(td, thead th:not(:first-child)) {
+    padding-inline: 0.54em;
+  }
+
+  .surface .folded > .readouts {
+    display: grid;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12em), 1fr));
+    gap: 0.2em 1.25em;
   }
 `;
 

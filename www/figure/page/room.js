@@ -14,7 +14,7 @@ const WIDTHS = [0, 30, 38, 56];
  */
 const HEIGHTS = {
   'banana-machine': [86, 55.5, 42, 40],
-  'map-squeeze': [72, 70, 42, 41],
+  'map-squeeze': [76, 76.5, 43, 44.5],
   'arc-anatomy': [67, 66, 49, 49],
   'odometry-decomposer': [78, 75, 39, 39],
   'dead-reckoning': [91, 46, 42, 35],

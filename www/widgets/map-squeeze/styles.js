@@ -76,6 +76,10 @@ const own = css`
     display: none;
   }
 
+  .views {
+    margin-bottom: 0.5em;
+  }
+
   /* The picture, as high as it may be, with the sentence and what is chosen beside it. */
   @container (min-width: 38em) {
     .views {
@@ -87,6 +91,10 @@ const own = css`
       aspect-ratio: 4 / 3;
     }
 
+  }
+
+  /* The samplers in one row. */
+  @container (38em <= width < 56em) {
     .judge .choices > span {
       flex: 1 0 100%;
     }

@@ -98,7 +98,7 @@ test('New seed sends other robots, and no other control does', async ({ page }) 
 });
 
 test('each overlay has a toggle', async ({ page }) => {
-  const widget = await openWhole(page);
+  const widget = await openWhole(page, 'preset="gentle"');
   const plane = widget.locator('canvas.plane');
   const twist = widget.locator('canvas.twist');
   const first = await pictureOf(plane);

@@ -13,7 +13,7 @@ const WIDTHS = [0, 30, 38, 56];
  * @type {Record<string, number[]>}
  */
 const HEIGHTS = {
-  'banana-machine': [86, 55.5, 42, 40],
+  'banana-machine': [82.5, 64, 58, 51.5],
   'map-squeeze': [76, 76.5, 43, 44.5],
   'arc-anatomy': [67, 66, 49, 49],
   'odometry-decomposer': [78, 75, 39, 39],

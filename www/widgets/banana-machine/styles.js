@@ -18,7 +18,7 @@ const own = css`
 
   @container (min-width: 56em) {
     canvas {
-      aspect-ratio: 2;
+      aspect-ratio: 1.6;
     }
   }
 

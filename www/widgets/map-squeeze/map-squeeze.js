@@ -402,8 +402,10 @@ export class MapSqueezeElement extends FigureElement {
               ${sorted ? nothing : html`<p class="about">${density}</p>`}
             </div>`)}`)}
           ${this.stage.later(() => html`<div class="aside">
-            <p class="headline">${headlineOf(stats)}</p>
-            <p class="verdict caption ${note && 'note'}" part="caption">${verdictOf(reading)}</p>
+            <div class="told">
+              <p class="headline">${headlineOf(stats)}</p>
+              <p class="verdict caption ${note && 'note'}" part="caption">${verdictOf(reading)}</p>
+            </div>
             ${placeControls(this)} ${samplerControls(this)} ${overview(this.picture, reading)}
           </div>`)}
         </div>

@@ -87,6 +87,10 @@ const own = css`
       column-gap: 1.25em;
     }
 
+    :host([presentation]) .views {
+      grid-template-columns: minmax(0, 1fr) 17em;
+    }
+
     canvas {
       aspect-ratio: 4 / 3;
     }

@@ -31,6 +31,11 @@ export class WallHandles extends Part {
   #plan;
   /** @type {(Grip | undefined)[]} */
   #grips = [];
+  /** Plan whose handles were rendered, and whether they have not been placed. @type {Plan | undefined} */
+  #rendered;
+  #hasNew = false;
+  /** Plan and view that the handles were placed in. @type {unknown[]} */
+  #shown = [];
   /** Name of the handle that Tab leads to. */
   #current = '';
 
@@ -46,6 +51,8 @@ export class WallHandles extends Part {
 
   render() {
     const say = words.squeeze.walls;
+    this.#hasNew ||= this.#rendered !== this.host.picture.plan;
+    this.#rendered = this.host.picture.plan;
     return this.#present.map((grip) => {
       if (!grip) return nothing;
       const [x, y] = this.#pointOf(grip);
@@ -63,11 +70,19 @@ export class WallHandles extends Part {
 
   /** Places new elements: they come after the picture. */
   hostUpdated() {
-    if (this.host.machine) this.place(this.host.picture.view);
+    if (this.#hasNew) this.#place(this.host.picture.view);
+    this.#hasNew = false;
   }
 
   /** Puts the handles where the walls are drawn. @param {View} view */
   place(view) {
+    const shown = [this.host.picture.plan, view.extent, view.frame];
+    if (shown.some((each, i) => each !== this.#shown[i])) this.#place(view);
+    this.#shown = shown;
+  }
+
+  /** @param {View} view */
+  #place(view) {
     const root = this.host.renderRoot;
     const shown = this.#present.filter((grip) => grip !== undefined).map((grip) => {
       const element = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${nameOf(grip)}`));
@@ -131,7 +146,7 @@ export class WallHandles extends Part {
     const next = all[(from + turn + all.length) % all.length];
     this.#current = next.classList[2];
     next.focus();
-    this.host.stage.wake();
+    this.#place(this.host.picture.view);
   }
 
   /**

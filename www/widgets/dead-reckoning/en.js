@@ -36,7 +36,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     lateral: 'lateral',
     along: 'along the track',
     heading: 'heading',
-    tolerance: 'right within 5 %',
+    tolerance: 'within 5 %',
     command: 'command',
     measured: 'measured',
     ellipse: 'predicted in (x, y)',

@@ -88,6 +88,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
   const [least, most] = GROWTH.variances;
   const told = crossing === null ? '' : significant(crossing, 3);
   return html`<figure>
+    <p class="panel-title">${say.title}</p>
     ${plot({
       label: say.label(crossing === null ? say.never : say.crossing(told)),
       x: { name: say.x, from, to, logarithmic: true },

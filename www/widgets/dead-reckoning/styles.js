@@ -80,6 +80,11 @@ const own = css`
       grid-template: 'ratios floor step' 'said said said' / minmax(0, 1.75fr) minmax(0, 1fr) minmax(0, 1fr);
     }
 
+    /* Sliders in one row with their names need the room of two columns. */
+    .folded .controls {
+      grid-template-columns: repeat(2, minmax(0, 1fr));
+    }
+
     /* The chart is larger than its letters. */
     .chart .plot text {
       font-size: 10.5px;

@@ -81,6 +81,7 @@ export const de = {
   hinges:
     'Die Rauschmodelle ziehen beide Drehungen unabhängig. Eine Korrelation *ρ* lässt jeder ihr Rauschen und jedem Ausgang seinen Ort; die Richtungen streuen von der Differenz der beiden Abweichungen (*ρ* = −1) bis zu ihrer Summe (*ρ* = 1). Bei *ρ* = 0 sieht man beides nicht.',
   plot: {
+    title: 'Streuung über der Länge der Fahrt',
     label: (trans, exact) =>
       `Standardabweichungen über der Länge der Fahrt: quer zum Weg, der Hebel allein, und in Fahrtrichtung. Bei der Messung, ${trans} m, sind es quer ${exact} m.`,
     x: 'δ trans (m)',

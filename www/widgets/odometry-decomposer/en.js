@@ -80,6 +80,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   hinges:
     'The noise models draw both rotations independently. A correlation *ρ* leaves the noise of each as it is and every outcome in its place; the headings spread from the difference of the two deviations (*ρ* = −1) to their sum (*ρ* = 1). At *ρ* = 0 neither is seen.',
   plot: {
+    title: 'Spread against the length of the drive',
     label: (trans, exact) =>
       `Standard deviations against the length of the drive: across the path, the lever alone, and along the path. At the reading, ${trans} m, ${exact} m across.`,
     x: 'δ trans (m)',

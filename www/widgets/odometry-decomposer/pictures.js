@@ -36,7 +36,7 @@ const MAX_TICKS = 1000;
 const GAP = { handle: 14, arcs: 16 };
 
 /** A shorter drive is not seen as one, CSS pixels: there is no label for it. */
-const SEEN = 40;
+const SEEN = 24;
 
 /** A smaller turn, rad, has no arc. */
 const NO_TURN = 0.005;

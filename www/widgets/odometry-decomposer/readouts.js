@@ -51,6 +51,7 @@ export function spreads(machine, { legs, stats }) {
   const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(column);
   const highest = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>
+    <p class="panel-title">${say.title}</p>
     ${plot({
       label: say.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
       x: { name: say.x, from: 0, to: longest },

@@ -61,6 +61,7 @@ export function anyOf(seed) {
       isolateChoice: whole(1, 6),
       reverseAware: one([true, false]),
       overlays: ['command', 'ellipse', 'exponential', 'linearized', 'additive'].filter(() => random() < 0.5),
+      morph: random() < 0.5 ? 0 : random(),
     },
     'map-squeeze': {
       ...common,

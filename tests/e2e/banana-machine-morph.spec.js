@@ -92,6 +92,5 @@ test.describe('at first sight', () => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const widget = await open(page, 'preset="gentle"');
     expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();
-    await frames(page);
   });
 });

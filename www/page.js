@@ -63,7 +63,7 @@ function light({ type, target }) {
   figureOf(term).highlight = /over|in$/.test(type) ? term.dataset.line : null;
 }
 
-/** Has the picture of each figure stay in sight beside its items, where these are below it. */
+/** Keeps the picture of each figure in sight while its items are read, where these are below the figure. */
 function followItems() {
   const observer = new ResizeObserver((entries) => {
     for (const { target, borderBoxSize: [{ blockSize }] } of entries) {

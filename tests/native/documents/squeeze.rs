@@ -94,7 +94,7 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         assert!(in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
     let [omega, on_page, at_worst, worst] = page().numbers(
-        "With ω = # more pass at first, from # % judged by the endpoint to # % in # parts, and only then fewer.",
+        "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
     assert_told(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
     assert_told(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);

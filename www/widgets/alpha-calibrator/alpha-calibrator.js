@@ -251,9 +251,11 @@ export class AlphaCalibratorElement extends FigureElement {
           </div>
           ${this.stage.later(() => html`
           <div class="fitted" part="readouts">
-            <p class="panel-title">${say.alphas.title}</p>
+            <div class="buttons">
+              <p class="panel-title">${say.alphas.title}</p>
+              ${copyButton(this, this.#copied)} ${startOverButton(this)}
+            </div>
             ${alphaTable(reading)}
-            <div class="buttons">${copyButton(this, this.#copied)} ${startOverButton(this)}</div>
           </div>`)}
         </div>
         ${this.stage.later(() => html`

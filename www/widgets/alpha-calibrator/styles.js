@@ -83,6 +83,14 @@ const own = css`
     background: var(--accent);
   }
 
+  .fitted .buttons {
+    margin-bottom: 0.1em;
+  }
+
+  .fitted .panel-title {
+    flex: 1 0 100%;
+  }
+
   table {
     max-width: none;
     margin: 0.2em 0 0.5em;
@@ -271,12 +279,27 @@ const own = css`
       grid-column: 1 / -1;
     }
 
+    .fitted .panel-title {
+      flex: none;
+    }
+
     canvas {
-      aspect-ratio: 3 / 2;
+      aspect-ratio: 8 / 5;
     }
 
     .one canvas {
-      aspect-ratio: 2;
+      aspect-ratio: 9 / 4;
+    }
+  }
+
+  /* All of it fits on a screen of 720 px. */
+  @container (38em <= width < 42em) {
+    canvas {
+      aspect-ratio: 5 / 3;
+    }
+
+    .one canvas {
+      aspect-ratio: 5 / 2;
     }
   }
 
@@ -287,6 +310,10 @@ const own = css`
 
     .fitted {
       grid-column: auto;
+    }
+
+    .fitted .panel-title {
+      flex: 1 0 100%;
     }
 
     canvas {

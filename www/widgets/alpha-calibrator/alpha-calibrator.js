@@ -251,7 +251,7 @@ export class AlphaCalibratorElement extends FigureElement {
           </div>
           ${this.stage.later(() => html`
           <div class="fitted" part="readouts">
-            <div class="buttons">
+            <div class="buttons told">
               <p class="panel-title">${say.alphas.title}</p>
               ${copyButton(this, this.#copied)} ${startOverButton(this)}
             </div>

@@ -114,8 +114,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     name: 'From the floor to exponential coordinates',
     play: 'Carry the robots to exponential coordinates',
     title: 'On the way to exponential coordinates',
-    floor: 'floor *(x, y)*',
-    twist: 'exponential coordinates *ξ*',
+    floor: 'floor',
+    twist: 'exponential coordinates',
     text: (share) => `${share} of the way to exponential coordinates`,
   },
   /** In the picture, in lines. */

@@ -3,7 +3,6 @@
 import { html } from 'lit';
 import { words } from '../../messages/registry.js';
 import { View } from '../../scene/view.js';
-import { rich } from '../../ui/controls.js';
 import { percent } from '../../ui/format.js';
 import { track } from '../../ui/slider.js';
 
@@ -161,7 +160,7 @@ export function morphControl({ player, gesture, state }) {
       id: 'morph', name: say.name, min: 0, max: 1, step: STEP, value: morph, text: say.text(percent(morph)),
       input: (to) => player.put('morph', to), commit: () => gesture.commit(),
     })}
-    <span class="end floor" aria-hidden="true">${rich(say.floor)}</span>
-    <span class="end twist" aria-hidden="true">${rich(say.twist)}</span>
+    <span class="end floor" aria-hidden="true">${say.floor}</span>
+    <span class="end twist" aria-hidden="true">${say.twist}</span>
   </div>`;
 }

@@ -158,6 +158,18 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
   });
 }
 
+test('nothing on the page moves while figures load', async ({ page }) => {
+  await page.addInitScript(() => {
+    const moved = /** @type {number[]} */ ([]);
+    Object.assign(window, { moved });
+    new PerformanceObserver((list) => {
+      for (const entry of list.getEntries()) moved.push(Reflect.get(entry, 'value'));
+    }).observe({ type: 'layout-shift', buffered: true });
+  });
+  await openGallery(page, ALL);
+  expect(await page.evaluate(() => Reflect.get(window, 'moved'))).toEqual([]);
+});
+
 for (const path of ['/', '/reference.html']) {
   test(`nothing is inaccessible at ${path}`, async ({ page }) => {
     await page.goto(path);

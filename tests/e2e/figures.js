@@ -45,7 +45,7 @@ export const KNOWN = {
     fold: { at: 0, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 1, part: '.readouts' },
   },
   'dead-reckoning': {
-    cloud: true, slider: 'step', at: ['step'], values: [7, 4], other: ['omega', 1.25], button: 'Straight',
+    cloud: true, slider: 'headingNoise', at: ['alphas', '2'], values: [0.07, 0.04], other: ['omega', 1.25], button: 'Straight',
     fold: MARKED, paper: { at: 1, part: 'table' },
   },
   'alpha-calibrator': {

@@ -27,7 +27,7 @@ import { LINES } from './settings.js';
 export const RADIUS = 0.11;
 
 /** Room around the robots, and around a standard deviation of the outcomes. */
-const ROOM = { metres: 0.3, deviations: 2.2 };
+const ROOM = { metres: 0.3, deviations: 1.5 };
 
 /** With more outcomes their headings would be one blot. */
 const MAX_TICKS = 1000;

@@ -133,6 +133,11 @@ const own = css`
     padding-inline: 0.54em;
   }
 
+  /* The table needs room too. */
+  :host([presentation]) .with-controls .stage {
+    min-height: 34vh;
+  }
+
   .surface .folded > .readouts {
     display: grid;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 12em), 1fr));

@@ -128,7 +128,7 @@ export class BananaMachineElement extends FigureElement {
       callouts: this.cloud.playing ? [] : gapsAt(motion, reading, morph),
       pinned: this.#pinned,
       driving: this.cloud.driving,
-      reached: carrying(motion, reading, 1)(reading.contours.ellipse),
+      reached: morph > 0 ? carrying(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
     };
   }
 

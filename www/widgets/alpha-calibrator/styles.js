@@ -200,6 +200,10 @@ const own = css`
     padding-block: 0;
   }
 
+  .systematic .toggle {
+    min-height: calc(1.75em / 0.84);
+  }
+
   .looked {
     display: grid;
     gap: 0 0.8em;
@@ -266,6 +270,10 @@ const own = css`
     .alphas tr > :is(th, td) {
       padding: 0 0 0 0.4em;
       overflow-wrap: normal;
+    }
+
+    .alphas thead th {
+      white-space: normal;
     }
   }
 

@@ -393,6 +393,11 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect(y0).toBeGreaterThan(5);
   expect(y1).toBe(y0);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Edited apartment/);
+  // Many samples are judged when the walls have come to rest.
+  await widget.evaluate((element) => Object.assign(element, { samples: 5000 }));
+  const many = await drag(widget.locator('.handle.side-8'), 0, -20);
+  expect(many.walls[33]).toBeGreaterThan(y0 + 0.1);
+  expect(many.shown).toBe(5000);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   expect((await squeezed(widget)).walls).toEqual(before.walls);
 });

@@ -34,6 +34,9 @@ import { headlineOf, mapText, pictureText, verdictOf } from './words.js';
  * @import { Reading } from './reading.js'
  */
 
+/** Largest number of samples that are judged in each frame of a drag of walls. */
+const MOST_LIVE = 2000;
+
 /**
  * Motion conditioned on a map, and what the condition cannot see.
  *
@@ -120,7 +123,7 @@ export class MapSqueezeElement extends FigureElement {
   /** @param {Machine} machine */
   read(machine) {
     const reading = readingOf(machine);
-    const isGivenUp = this.#isAhead && !this.settings.next;
+    const isGivenUp = this.#isAhead && !this.settings.next && !this.gesture.pressed;
     if (isGivenUp || (reading.config.unknown !== this.#unknown && this.picture.hasUnknown)) this.machineChanged();
     this.#meter.heed(reading.config, !this.cloud.playing && !this.gesture.pressed);
     return reading;
@@ -279,15 +282,28 @@ export class MapSqueezeElement extends FigureElement {
   }
 
   /**
-   * Moves walls. The map is the reader's own from then on. The picture shows them at once, and the samples when they are judged.
+   * Moves walls. The picture shows them at once; the samples follow in the same frame where they are few, otherwise when the
+   * walls have come to rest.
    *
    * @param {Float64Array} walls
    */
   moveWalls(walls) {
-    const { bounds } = this.picture.plan;
-    this.picture = new FloorPicture({ bounds, walls }, null, this.picture);
+    this.picture = new FloorPicture({ bounds: this.picture.plan.bounds, walls }, null, this.picture);
     this.pictures = [this.picture];
     this.#isAhead = true;
+    if (this.settings.present.samples <= MOST_LIVE) this.#judgeWalls();
+    this.stage.wake();
+  }
+
+  /** The walls that were moved have come to rest. */
+  restWalls() {
+    if (this.#isAhead && !this.settings.next) this.#judgeWalls();
+    this.gesture.commit();
+  }
+
+  /** Makes the walls of the picture the reader's own map. */
+  #judgeWalls() {
+    const { bounds, walls } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
     /** @type {OwnMap['apply']} */
     const apply = (machine) => machine.setPlan({ bounds: [...bounds], walls });
@@ -296,7 +312,6 @@ export class MapSqueezeElement extends FigureElement {
       () => this.gesture.step(),
       (error) => this.runtime.report(error),
     ));
-    this.stage.wake();
   }
 
   /** Leaves the reader's own map, if it is there. */

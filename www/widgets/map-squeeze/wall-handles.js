@@ -110,7 +110,7 @@ export class WallHandles extends Part {
       view: () => this.host.picture.view,
       drag: (x, y) => this.#move(present(), (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1]),
       key: (event) => this.#key(event, present()),
-      commit: () => this.host.gesture.commit(),
+      commit: () => this.host.restWalls(),
     });
     this.#handles.set(name, handle);
     return handle;

@@ -83,6 +83,24 @@ const own = css`
     background: var(--accent);
   }
 
+  @media (forced-colors: active) {
+    .badge {
+      color: CanvasText;
+      border-color: CanvasText;
+    }
+  }
+
+  /* The picture of the leg takes the room that is left. */
+  :host([presentation]) .one {
+    display: flex;
+    flex-direction: column;
+    align-self: stretch;
+  }
+
+  :host([presentation]) .one .panel {
+    flex: 1;
+  }
+
   .fitted .buttons {
     margin-bottom: 0.1em;
   }

@@ -1,5 +1,7 @@
 //! `BananaMachine` for JavaScript.
 
+use std::ops::RangeInclusive;
+
 use super::face::{advancing, cloud, configured, sliced};
 use super::fields::{in_range, not_shown, whole, word};
 use super::pictures::{RADIUS, read_grid, read_ramps, view_of};
@@ -338,11 +340,14 @@ fn read_view(view: &JsValue) -> Result<View, JsValue> {
     }
 }
 
+/// Turns of commands: a turn rate times a duration.
+const TURN: RangeInclusive<f64> = -1e12..=1e12;
+
 /// Places at a morph of a line of points of the floor, x, y pairs in m. Each point is taken for the end of the arc whose turn is
 /// nearest to `turn` (rad). Empty for a line around the start.
 #[wasm_bindgen(js_name = unbendLine)]
 pub fn line_unbent(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
-    let (turn, morph) = (in_range("turn", turn, &QUANTITY)?, in_range("morph", morph, &MORPH)?);
+    let (turn, morph) = (in_range("turn", turn, &TURN)?, in_range("morph", morph, &MORPH)?);
     Ok(flat(&unbend_line(points.as_chunks().0, turn, morph)))
 }
 

@@ -48,7 +48,7 @@ test('a page finds every name of the contract', async () => {
   const motion = await (await freshModule()).load();
   const machines = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
   const models = ['OdometryModel', 'VelocityModel'];
-  const functions = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage'];
+  const functions = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine'];
   assert.deepEqual(Object.keys(motion).sort(), [...machines, ...models, ...functions, 'se2'].sort());
   for (const [names, members] of [[machines, ['configure', 'config', 'stats']], [models, ['prob', 'poseDensity', 'sample']]]) {
     for (const name of names) {

@@ -32,7 +32,8 @@ fn the_last_turn_explains_the_low_probability() {
     off.assert(factors[2].deviations, 0.0);
     alone.assert_percent(factors[2].share, 0.0);
     all.assert_percent(share, 0.0);
-    let [left] = page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
+    let [left] =
+        page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
     left.assert_percent(share, 0.0);
     assert!((factors[2].share - 1.0).abs() < 1e-12);

@@ -115,7 +115,8 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
 fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
     page().says("In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:");
     let gentle = preset("gentle");
-    let short = Settings { command: VelocityCmd { dt: gentle.command.dt / 10.0, ..gentle.command }, ..gentle };
+    let short =
+        Settings { command: VelocityCmd { dt: gentle.command.dt / 10.0, ..gentle.command }, ..gentle };
     let [long, short] = [gentle, short].map(|settings| machine(Settings { samples: 10, ..settings }));
     let size = |machine: &BananaMachine| {
         let cov = machine.table().exact.cov;

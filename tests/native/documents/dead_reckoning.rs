@@ -49,7 +49,9 @@ fn the_lateral_miss_is_worse_than_the_six_per_cent() {
         second.assert(ratios[1], 0.0);
         fifth.assert(ratios[4], 0.0);
     }
-    page().says("With Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.");
+    page().says(
+        "With Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
+    );
     for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
         for ratio in &opening.compared(order).ratios {
             assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.01), "{order:?}: {ratio}");

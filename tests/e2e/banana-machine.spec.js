@@ -96,7 +96,7 @@ test('a drag keeps the scale, and the view zooms out after it', async ({ page })
   await dragSlider(widget.locator('#dt'), 0.05);
   await frames(page);
   expect(await extent()).toEqual(after);
-  await widget.getByRole('button', { name: 'Straight' }).click();
+  await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await expect.poll(async () => (await extent()).xMax - (await extent()).xMin).toBeLessThan(after.xMax - after.xMin);
 });
 

@@ -230,7 +230,7 @@ test.describe('a finger', () => {
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
     expect((await state(widget)).config.command.omega).toBeGreaterThan(1);
-    const canvas = widget.locator('canvas.twist');
+    const canvas = widget.locator('canvas.plane');
     await canvas.scrollIntoViewIfNeeded();
     const centre = await centreOf(canvas);
     await page.touchscreen.tap(centre.x, centre.y);

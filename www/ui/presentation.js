@@ -57,6 +57,10 @@ export const presentationStyles = css`
     min-height: 40vh;
   }
 
+  :host([presentation]) .with-controls .stage {
+    min-height: 31vh;
+  }
+
   :host([presentation]) .stage canvas {
     position: absolute;
     inset: 0;

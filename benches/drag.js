@@ -10,8 +10,8 @@ import { spread } from './timing.js';
 /** Factor by which Chromium slows the processor. */
 export const THROTTLE = 4;
 
-/** Selector of visible sliders and of handles. */
-const DRAGGED = '.slider input[type=range], .handle';
+/** Selector of visible sliders and of handles. Those of walls change the map and no setting. */
+const DRAGGED = '.slider input[type=range], .handle:not(.jamb, .side)';
 
 /**
  * @typedef {import('./timing.js').Spread} Spread

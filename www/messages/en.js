@@ -45,7 +45,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     velocity: [
       'speed noise from speed', 'speed noise from turning',
       'turn rate noise from speed', 'turn rate noise from turning',
-      'final turn noise from speed', 'final turn noise from turning',
+      'last turn noise from speed', 'last turn noise from turning',
     ],
     odometry: [
       'rotation noise from rotation', 'rotation noise from translation',

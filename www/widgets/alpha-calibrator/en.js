@@ -113,7 +113,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     against: 'Against squared',
     drivers: { turn: 'rotation', way: 'translation' },
     caption: 'Squared residuals in bins of equally many legs, minus the part of the other *α*. The slope is the *α*, the band its 95 % interval; bars are standard errors.',
-    kinds: { rot1: 'first rotation', trans: 'translation', rot2: 'second rotation', strafe: 'sideways motion', v: 'speed v̂', omega: 'turn rate ω̂', gamma: 'final turn γ̂' },
+    kinds: { rot1: 'first rotation', trans: 'translation', rot2: 'second rotation', strafe: 'sideways motion', v: 'speed v̂', omega: 'turn rate ω̂', gamma: 'last turn γ̂' },
     turn: 'rotation² (rad²)',
     way: 'translation² (m²)',
     turnRate: 'turn rate² (rad²/s²)',

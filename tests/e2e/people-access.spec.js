@@ -232,8 +232,20 @@ test.describe('a finger', () => {
     expect((await state(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
     await canvas.scrollIntoViewIfNeeded();
-    const centre = await centreOf(canvas);
-    await page.touchscreen.tap(centre.x, centre.y);
+    const [right, down] = await widget.evaluate((element) => {
+      const { pictures: [{ view }], poses, reading: { end } } = /** @type {any} */ (element);
+      const place = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
+      const handle = [view.toPixelX(end[0]), view.toPixelY(end[1])];
+      // A robot that the handle does not cover, inside of the frame.
+      for (let i = 0; i < poses.length / 3; i++) {
+        const [x, y] = place(i);
+        const { left, right, top, bottom } = view.frame;
+        if (Math.hypot(x - handle[0], y - handle[1]) > 60 && x > left && x < right && y > top && y < bottom) return [x / view.width, y / view.height];
+      }
+      throw new Error('No robot is clear of the handle.');
+    });
+    const box = await boxOf(canvas);
+    await page.touchscreen.tap(box.x + right * box.width, box.y + down * box.height);
     await expect(widget.locator('#robot')).not.toHaveValue('');
   });
 });

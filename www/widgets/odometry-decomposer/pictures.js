@@ -167,10 +167,12 @@ export class LegsPicture extends OutcomesPicture {
       text: `${fixed(legs[sub], 2)}${deviations[sub] > 0 ? ` ± ${fixed(deviations[sub], 2)}` : ''} ${unit}`,
       colour,
     });
-    // The place of an arc that is nearest to the labels.
+    // The place of an arc that is nearest to the labels, and inside of the axes.
     const onArc = (/** @type {Pose} */ { x, y, theta }, /** @type {number} */ by, /** @type {number} */ reach) => {
-      const [highest] = ANCHORS.map((share) => view.direction(theta + share * by)).sort((one, other) => one.y - other.y);
-      return { x: view.toPixelX(x) + reach * highest.x, y: view.toPixelY(y) + reach * highest.y };
+      const places = ANCHORS.map((share) => view.direction(theta + share * by))
+        .map((out) => ({ x: view.toPixelX(x) + reach * out.x, y: view.toPixelY(y) + reach * out.y }))
+        .sort((one, other) => one.y - other.y);
+      return places.find((place) => place.y > view.frame.top) ?? places[places.length - 1];
     };
     const middle = { x: view.toPixelX((start.x + driven.x) / 2), y: view.toPixelY((start.y + driven.y) / 2) };
     return [

@@ -28,7 +28,7 @@ const own = css`
     }
 
     .panel {
-      --high: 0.55;
+      --high: 0.57;
     }
 
     .legs {

@@ -260,14 +260,17 @@ function inBrowser(runner, { chrome, driver }) {
 }
 
 /**
+ * Returns the command that runs the tests of a directory, or of it those files that are named.
+ *
  * @param {string} directory
- * @param {string[]} more
- * @returns {string[]} the command that runs its tests
+ * @param {string[]} more files or options
  */
 function nodeTests(directory, more) {
   const files = filesOf(directory).filter((path) => path.endsWith('.test.js') && (ALL || !path.endsWith('.nightly.test.js')));
+  const named = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
+  const options = more.filter((each) => !named.some((path) => path.includes(each)));
   // By itself it leaves a core idle.
-  return [process.execPath, '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...more, ...files];
+  return [process.execPath, '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...options, ...(named.length > 0 ? named : files)];
 }
 
 /**

@@ -138,7 +138,7 @@ impl Part {
         after(from.drive(length, turn), last)
     }
 
-    /// Four of them at once, to be asked for each.
+    /// Computes four motions at once, in the lanes of a SIMD vector. Returns a function of the lane's index.
     #[inline(always)]
     fn four_motions(
         &self,

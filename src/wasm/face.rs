@@ -137,4 +137,5 @@ macro_rules! advancing {
     };
 }
 
+#[allow(unused_imports)]
 pub(super) use {advancing, cloud, configured, sliced, stoppable};

@@ -49,8 +49,8 @@ const FIELD = 'textarea, input:not([type=range], [type=radio], [type=checkbox])'
 const MOVES = /Arrow|Page|Home|End/;
 
 /**
- * A key that was used goes no further: a book around the figure would turn its page by it, as to the book it comes from no
- * field or slider.
+ * Stops a key that the figure has used. A book that turns its page by arrow keys would use it again: outside of the shadow root the
+ * key comes from the element, not from a field or slider.
  *
  * @param {KeyboardEvent} event
  */

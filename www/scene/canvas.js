@@ -56,7 +56,7 @@ export function hiddenContext(canvas) {
 }
 
 /**
- * Clears a canvas and gives the view its size.
+ * Clears a canvas, sets the view to the size of the canvas, and returns what pictures draw with.
  *
  * @param {HTMLCanvasElement | Surface} canvas
  * @param {import('./view.js').View} view

@@ -103,7 +103,7 @@ pub fn example(seed: u64) -> Log {
     for row in 1..ROWS {
         let time = STEP * row as f64;
         let (_, driven) = open.rows[open.rows.len() - 1];
-        // Who steers by where he really is corrects his own errors, and then these and his turns have something in common.
+        // The robot steers by its odometry: steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = robot.drive(time, &(start * odometry[row - 1].1), &mut rng);
         let driven = driven * SE2::exp(&Vector3::new(v * STEP, 0.0, omega * STEP));
         let read = Vector3::new(v * STEP / DISTANCE_SCALE, 0.0, omega * STEP / TURN_SCALE);

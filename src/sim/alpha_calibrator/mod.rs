@@ -63,10 +63,11 @@ pub struct LegView {
 #[derive(Clone, Debug)]
 pub struct AlphaCalibrator {
     settings: Settings,
+    /// Log and calibration that are shown.
     shown: Shown,
-    /// What is to take its place, until it is complete.
+    /// Fit under way, which replaces what is shown when it is complete.
     next: Option<Fitting>,
-    /// How often that has happened.
+    /// Number of completed fits.
     fits: u32,
 }
 
@@ -184,7 +185,7 @@ impl AlphaCalibrator {
         self.next.as_ref().map_or(&self.shown.source, |next| &next.source)
     }
 
-    /// Goes on with what was begun by one step; whether all is done. A log of too few legs has a calibration without any.
+    /// Advances the fit that was begun by one step. Returns whether it is complete. A log with too few legs ends in a calibration without legs.
     pub fn advance(&mut self) -> bool {
         let Some(Fitting { source, calibrating }) = &mut self.next else { return true };
         let log = source.made();

@@ -41,7 +41,8 @@ pub struct Panel {
     pub interval: Option<[f64; 2]>,
 }
 
-/// Whether the first of a noise's two α's is the way's: that of the drive, of the strafe, and of all velocities.
+/// Tells whether the first α of a noise multiplies the squared distance. It does for the translation, the sideways motion and every
+/// noise of the velocity model; for rotations it multiplies the squared rotation.
 fn way_first(model: Model, kind: usize) -> bool {
     match model {
         Model::Odometry(OdometryRule::Omni) => kind > 0,

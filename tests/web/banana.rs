@@ -124,7 +124,7 @@ fn samples_are_inspected_found_and_counted() {
     assert_eq!((pose, twist), it.get("[it.poses.slice(51, 54), it.twists.slice(51, 54)]"));
     let arc: [f64; 3] = it.get("pick(it.inspect(17), 'vHat', 'omegaHat', 'gammaHat')");
     assert_eq!(arc, it.get::<[f64; 3]>("it.executed.slice(51, 54)"));
-    assert_near([arc[1] + arc[2], it.get("it.heading(17)")], [pose[2], pose[2]], 1e-12);
+    assert_near([2.0 * (arc[1] + arc[2]), it.get("it.heading(17)")], [pose[2], pose[2]], 1e-12);
     assert_eq!(it.get::<Option<()>>("it.inspect(17).legs"), None);
     assert_near(it.get("it.inspect(17).path.slice(-2)"), [pose[0], pose[1]], 1e-12);
     assert_eq!(

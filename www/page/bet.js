@@ -31,7 +31,12 @@ export function prepareBet(form, enter, figure) {
   const text = (/** @type {number} */ value) => `${isShare ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
   const show = () => (slider.ariaValueText = shown.textContent = text(slider.valueAsNumber));
 
-  slider.addEventListener('input', show);
+  // No answer before a bet.
+  button.disabled = true;
+  slider.addEventListener('input', () => {
+    button.disabled = false;
+    show();
+  });
   show();
   form.addEventListener('submit', async (event) => {
     event.preventDefault();

@@ -197,7 +197,7 @@ export const de = {
     copied: 'Kopiert.',
     json: 'Alles als JSON speichern',
     none: 'Nav2 hat kein Geschwindigkeitsmodell: Für seine Zeilen ein anderes wählen. In JSON steht alles.',
-    otherRule: 'mit einem anderen Rauschmodell als dem von Nav2 angepasst: Nav2 wählen',
+    otherRule: 'Mit einem anderen Rauschmodell als dem von Nav2 angepasst: AMCL von Nav2 unter Weitere Regler wählen',
     undetermined: 'von dieser Aufzeichnung nicht bestimmt',
     useless: 'weggelassen, aus dem Grund darüber',
     zero: (most) => `nicht signifikant von 0 verschieden, höchstens ${most}`,

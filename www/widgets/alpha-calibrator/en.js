@@ -196,7 +196,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     copied: 'Copied.',
     json: 'Save all as JSON',
     none: 'Nav2 has no velocity model; choose another model for its lines. JSON has everything.',
-    otherRule: 'fitted with another noise model than Nav2’s: choose AMCL of Nav2',
+    otherRule: 'Fitted with another noise model than Nav2’s: choose AMCL of Nav2 under More controls',
     undetermined: 'not determined by this log',
     useless: 'omitted, for the reason above',
     zero: (most) => `not significantly different from 0, at most ${most}`,

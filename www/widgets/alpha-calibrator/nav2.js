@@ -62,7 +62,7 @@ export function copyButton(figure, copied) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   return html`${button(say.copy, () => copied.copy(yaml), { disabled: !yaml, title: yaml ? say.label : say.none })}
-    <output>${yaml && copied.has(yaml) ? say.copied : nothing}</output>`;
+    <output>${yaml && copied.has(yaml) ? [say.copied, yaml.includes(say.otherRule) ? ` ${say.otherRule}.` : nothing] : nothing}</output>`;
 }
 
 /** Returns the lines for Nav2, and the button that saves everything as JSON. @param {Figure} figure */

@@ -34,7 +34,7 @@ export function verdictText(verdict, config) {
 }
 
 /** Denominators of the fractions of a headline, by preference. */
-const DENOMINATORS = [2, 3, 4, 5, 10];
+const DENOMINATORS = [2, 3, 4, 5, 6, 7, 8, 9, 10];
 
 /** Shares told as one in some number, and shares told as nearly all. */
 const FEW = 0.075;

@@ -226,7 +226,7 @@ test.describe('a finger', () => {
   test('that taps sets the chart and marks a robot', async ({ page }) => {
     const widget = await unfolded(page, 'banana-machine');
     const chart = widget.locator('#chart-omega');
-    await chart.scrollIntoViewIfNeeded();
+    await lower(chart);
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
     expect((await state(widget)).config.command.omega).toBeGreaterThan(1);

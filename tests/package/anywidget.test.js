@@ -116,13 +116,13 @@ test('traits become what the figure shows, by whichever of their names, and thos
   const { page, complaints } = await shown(state, 'notebook');
   await complete(page);
   const { figure, traits } = await saidOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
-  assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], lang: 'de' });
+  assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
   assert.equal(traits.v, 1);
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
   await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
   await change(page, { lang: null, omega: null });
-  assert.deepEqual((await saidOf(page, ['omega', 'lang'])).figure, { omega: 0.5, lang: '' });
+  assert.deepEqual((await saidOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
   await page.getByRole('button', { name: 'New seed' }).waitFor();
   assert.deepEqual(complaints, []);
   await page.close();
@@ -185,16 +185,16 @@ test('what is refused is said by the trait error, and the trait has the last goo
 
 test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing', async () => {
   for (const kind of /** @type {const} */ (['book', 'notebook'])) {
-    const { page, complaints } = await shown({ widget: 'map-squeeze', preset: 'corridor', samples: '300', 'sampler': 'whole-arc' }, kind);
+    const { page, complaints } = await shown({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, kind);
     await complete(page);
-    const { figure, traits } = await saidOf(page, ['preset', 'samples', 'sampler']);
-    assert.deepEqual(figure, { preset: 'corridor', samples: 300, sampler: 'whole-arc' });
-    await page.getByRole('slider', { name: /clearance/ }).focus();
+    const { figure, traits } = await saidOf(page, ['preset', 'samples', 'view']);
+    assert.deepEqual(figure, { preset: 'corridor', samples: 300, view: 'whole' });
+    await page.getByRole('slider', { name: /noise level/ }).focus();
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('Tab');
     await frames(page);
     // It has no traits but those that it was given.
-    assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'sampler', 'samples', 'widget']);
+    assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'samples', 'view', 'widget']);
     assert.equal(traits.preset, 'corridor');
     const left = await page.evaluate(() => {
       const { el, end, heard } = /** @type {any} */ (globalThis).view;

@@ -79,7 +79,7 @@ test('every map is used, and what differs is named', () => {
   ]);
 });
 
-/** What tells nothing, or nothing twice, or comes to what another way comes to as well: tests/native/simulations/banana.rs, tests/native/simulations/morph.rs, tests/native/simulations/squeeze.rs and tests/native/simulations/alpha_calibrator.rs hold it to that. */
+/** Members without results of their own. Tests in tests/native/simulations cover them: banana, morph, squeeze and alpha_calibrator. */
 const OTHERWISE = new Set([
   'constructor', 'free', '__destroy_into_raw', 'config', 'configure', 'begin', 'beginLog', 'advance', 'grow', 'beginToGrow', 'restart', 'progress', 'stop', 'alphasOfModels',
   'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine', 'gaps',

@@ -40,7 +40,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     samples: { name: 'samples' },
   },
   noise: 'Noise',
-  /** What each noise parameter makes: which noise, and what it grows with. */
+  /** Names of the noise parameters: the noise, and the motion that it grows with. */
   alphas: {
     velocity: [
       'speed noise from speed', 'speed noise from turning',

@@ -85,7 +85,7 @@ fn figures_are_those_told() {
             .map(|machine| machine.exact().cross_track_skew),
     );
     document().assert(
-        "The widget opens with # robots: they tell the skew of the Banana to ±#,",
+        "The widget opens with # robots. They give the skew of the Banana to ±#.",
         [opened.settings().samples as f64, opened.figures().cross_track.skew_error],
     );
 }

@@ -129,7 +129,7 @@ fn exercise_4_each_alpha() {
     let [alpha, variance, skew]: [Number; 3] = [
         "Δt = 2 s as they are, with # for the one and 0",
         "headings spread with a variance of # rad²",
-        "its curve has a cross-track skew of #, of",
+        "its curve has a cross-track skew of #, which",
     ]
     .map(|sentence| document().numbers::<1>(sentence)[0]);
     assert_eq!(alpha.value, 0.09);

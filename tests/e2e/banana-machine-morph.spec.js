@@ -59,6 +59,9 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   await pin.click();
   await expect(area).not.toContainText('pinned');
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(withGhost);
+  await pin.click();
+  await widget.getByRole('button', { name: 'Start over' }).click();
+  await expect(pin).toHaveAttribute('aria-pressed', 'false');
 });
 
 test('a narrow figure has one picture, which shows both ends', async ({ page }) => {

@@ -108,6 +108,19 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   expect(await stateOf(widget)).toEqual(after);
 });
 
+test('a property set right after a state holds, however long the state takes', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await widget.evaluate((element) => {
+    const figure = /** @type {any} */ (element);
+    figure.setState({ widget: 'banana-machine', version: 1, samples: 3e6, shown: 3e6, playing: false, morph: 0 });
+    figure.morph = 0.5;
+  });
+  await frames(page);
+  await expect.poll(() => stateOf(widget)).toMatchObject({ samples: 3e6, morph: 0.5 });
+});
+
 test('a state that comes while a slider plays is what is shown from then on', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await show(page, '<odometry-decomposer></odometry-decomposer>');

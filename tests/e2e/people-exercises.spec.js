@@ -39,25 +39,25 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
   const form = article.locator('.sketch');
   const isolated = () => article.locator('banana-machine').evaluate((figure) => [Reflect.get(figure, 'isolate'), Reflect.get(figure, 'omega')]);
   const cases = form.locator('[name=case]');
-  const reveal = async () => {
+  const reveal = async (shape = 'an ellipse') => {
     await expect(form.getByRole('button')).toBeDisabled();
-    await form.getByLabel('an ellipse').press('Space');
+    await form.getByLabel(shape).press('Space');
     await expect(form.locator('.drawn')).toHaveAttribute('d', /^M.*Z$/);
     const text = await revealed(form);
     await expect(form.locator('.robots')).toHaveAttribute('d', /^M/);
     return text;
   };
-  const nothing = 'Every robot stops at the same point, with the same heading. There is no cloud.';
+  const nothing = 'Not what you chose. Every robot stops at the same point, with the same heading. There is no cloud.';
   expect(await reveal()).toBe(nothing);
   expect(await isolated()).toEqual([4, 0]);
   await cases.nth(0).press('ArrowDown');
   expect(await reveal()).toBe(nothing);
   expect(await isolated()).toEqual([6, 0]);
   await cases.nth(1).press('ArrowDown');
-  expect(await reveal()).toMatch(/^The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
+  expect(await reveal()).toMatch(/^Not what you chose\. The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
   expect(await isolated()).toEqual([4, 0.5]);
   await cases.nth(2).press('ArrowDown');
-  expect(await reveal()).toMatch(/^Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);
+  expect(await reveal('a point')).toMatch(/^Right\. Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);
   expect(await isolated()).toEqual([6, 0.5]);
 });
 

@@ -207,6 +207,9 @@ export class FigureElement extends LitElement {
   /** Another machine has taken its place, and nothing of it is shown yet. */
   machineChanged() {}
 
+  /** Lets go of what is no part of the state: the figure is to be as it opened. */
+  startedOver() {}
+
   /** Puts the handles where the pictures have them now. @param {any} _scene */
   placeHandles(_scene) {}
 

@@ -108,6 +108,7 @@ export class State extends Part {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
       this.enter(this.#opened);
+      this.host.startedOver();
       gesture.step();
       gesture.commit();
     });
@@ -145,7 +146,10 @@ export class State extends Part {
    * @param {unknown} value
    */
   assign(name, value) {
-    const { machine, cloud, reflection, stage } = this.host;
+    const { settings, cloud, reflection, stage } = this.host;
+    // A state on its way has another value, and would come later.
+    settings.takeUp();
+    const { machine } = this.host;
     this.own[name] = this.#owned[name].check(name, value, machine, cloud?.markable ?? 0);
     reflection.tell();
     stage.wake();

@@ -64,13 +64,15 @@ const ringAround = ([x, y], radiusX, radiusY) =>
  * Says where the robots stop.
  *
  * @param {Float64Array} poses x, y, θ of one robot after the other
+ * @param {string | undefined} guess shape that was chosen; none for a drawing
  */
-function outcomeOf(poses) {
+function outcomeOf(poses, guess) {
   const of = (/** @type {number} */ axis) => spreadOf([...poses].filter((_, i) => i % 3 === axis)).deviation;
   const [place, heading] = [Math.hypot(of(0), of(1)), of(2)];
-  if (place > NONE) return `The robots spread by ${place.toFixed(2)}\u00a0m (1σ), their headings by ${heading.toFixed(2)}\u00a0rad.`;
-  if (heading > NONE) return `Every robot stops at the same point. Only the headings differ, by ${heading.toFixed(2)}\u00a0rad (1σ).`;
-  return 'Every robot stops at the same point, with the same heading. There is no cloud.';
+  const verdict = guess === undefined ? '' : guess === (place > NONE ? 'fan' : 'point') ? 'Right. ' : 'Not what you chose. ';
+  if (place > NONE) return `${verdict}The robots spread by ${place.toFixed(2)}\u00a0m (1σ), their headings by ${heading.toFixed(2)}\u00a0rad.`;
+  if (heading > NONE) return `${verdict}Every robot stops at the same point. Only the headings differ, by ${heading.toFixed(2)}\u00a0rad (1σ).`;
+  return `${verdict}Every robot stops at the same point, with the same heading. There is no cloud.`;
 }
 
 /**
@@ -136,7 +138,7 @@ export function prepareSketch(form, enter, figure) {
     });
     part('robots').setAttribute('d', dots.map(({ dot }) => dot).join(''));
     part('headings').setAttribute('d', dots.map(({ tick }) => tick).join(''));
-    status.textContent = outcomeOf(poses);
+    status.textContent = outcomeOf(poses, chosen('shape')?.value);
   });
   begin();
 }

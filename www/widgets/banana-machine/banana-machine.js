@@ -132,6 +132,10 @@ export class BananaMachineElement extends FigureElement {
     };
   }
 
+  startedOver() {
+    this.#pinned = undefined;
+  }
+
   /** Keeps the outlines and the numbers to compare with, or lets go of those that are kept. */
   #pin() {
     this.#pinned = this.#pinned ? undefined : this.fresh;

@@ -5,7 +5,7 @@ const stepsOf = (/** @type {string} */ steps) => (steps === '1' ? '1 step' : `${
 
 export const en = /** @satisfies {import('../../messages/registry.js').Message} */ ({
   title: 'Dead Reckoning',
-  presets: { chapter: 'The chapter’s 20 steps', doubled: 'Heading noise doubled', fine: 'Same path, 200 steps', straight: 'Straight' },
+  presets: { chapter: 'The chapter’s 20 steps', doubled: 'Heading σ doubled', fine: 'Same path, 200 steps', straight: 'Straight' },
   /** What a preset does that its name does not say. */
   presetTitles: { doubled: 'The standard deviation is doubled: the variance, and with it α₃ to α₆, is fourfold' },
   settings: {

@@ -1,5 +1,8 @@
 //! Methods that several machines have in JavaScript.
 
+// The module of a single figure needs some of them.
+#![allow(unused_macros, unused_imports)]
+
 /// Constructor, `configure` and `config` of a class.
 ///
 /// `$options` is the TypeScript type of what a caller may leave out in part.
@@ -137,5 +140,4 @@ macro_rules! advancing {
     };
 }
 
-#[allow(unused_imports)]
 pub(super) use {advancing, cloud, configured, sliced, stoppable};

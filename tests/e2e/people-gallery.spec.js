@@ -1,7 +1,7 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL, NAMES } from './figures.js';
-import { STILL, frames, pictureOf, property, ready, test, unfold } from './support.js';
+import { STILL, boxOf, frames, pictureOf, property, ready, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -146,11 +146,13 @@ test('contents lead to every section', async ({ page }) => {
 });
 
 for (const [width, height] of [[1280, 720], [375, 760]]) {
-  test(`a figure stays in sight while its items are read, ${width} px wide`, async ({ page }) => {
+  test(`a figure stands below its heading, and stays in sight while its items are read, ${width} px wide`, async ({ page }) => {
     await page.setViewportSize({ width, height });
     await page.goto('/');
     const article = page.locator('#banana');
     await ready(article.locator('banana-machine'));
+    const [heading, stand] = [await boxOf(article.locator('header')), await boxOf(article.locator('.stand'))];
+    expect(stand.y).toBeGreaterThanOrEqual(heading.y + heading.height);
     await article.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
     await frames(page);
     await expect(article.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });

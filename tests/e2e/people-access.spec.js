@@ -229,7 +229,7 @@ test.describe('a finger', () => {
     await lower(chart);
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
-    expect((await state(widget)).config.command.omega).toBeGreaterThan(1);
+    await expect.poll(async () => (await state(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
     await canvas.scrollIntoViewIfNeeded();
     const [right, down] = await widget.evaluate((element) => {

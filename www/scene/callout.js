@@ -1,6 +1,7 @@
 /** Sentences in a picture, each with a line to what it is about. */
 
 import { clamp } from '../ui/clamp.js';
+import { drawLeader } from './labels.js';
 
 /** @import { Brush } from './canvas.js' */
 
@@ -33,16 +34,8 @@ export function drawCallout({ context, view, palette, font }, { text, at, from, 
   const down = along * Math.sqrt(Math.max(0, 1 - ((middleX - x) / across) ** 2));
   const middleY = clamp(y + (Math.sin(away) < 0 ? -down : down), top + height / 2, Math.max(top, bottom - height / 2));
 
-  context.strokeStyle = palette.ink;
-  context.fillStyle = palette.ink;
-  context.lineWidth = 1;
-  context.beginPath();
-  context.moveTo(clamp(x, middleX - width / 2, middleX + width / 2), clamp(y, middleY - height / 2, middleY + height / 2));
-  context.lineTo(x, y);
-  context.stroke();
-  context.beginPath();
-  context.arc(x, y, 2.5, 0, 2 * Math.PI);
-  context.fill();
+  const begin = [clamp(x, middleX - width / 2, middleX + width / 2), clamp(y, middleY - height / 2, middleY + height / 2)];
+  drawLeader(context, [begin, [x, y]], palette.ink);
   context.fillStyle = palette.paper;
   context.globalAlpha = 0.85;
   context.fillRect(middleX - width / 2, middleY - height / 2, width, height);

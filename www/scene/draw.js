@@ -249,7 +249,13 @@ export function drawOutlines(brush, outlines) {
     context.stroke();
   }
   context.globalAlpha = 1;
-  for (const { points, colour, width, dash } of drawn) {
+  strokeLines(brush, drawn);
+}
+
+/** Draws lines in their own styles. @param {Brush} brush @param {Outline[]} lines */
+function strokeLines(brush, lines) {
+  const { context } = brush;
+  for (const { points, colour, width, dash } of lines) {
     context.beginPath();
     trace(brush, points);
     context.strokeStyle = colour;
@@ -270,18 +276,9 @@ const GHOST = 0.35;
  * @param {Outline[]} outlines
  */
 export function drawGhosts(brush, outlines) {
-  const { context } = brush;
-  context.globalAlpha = GHOST;
-  for (const { points, colour, width, dash } of outlines.filter((outline) => hasLength(outline.points))) {
-    context.beginPath();
-    trace(brush, points);
-    context.strokeStyle = colour;
-    context.lineWidth = width;
-    context.setLineDash(dash);
-    context.stroke();
-  }
-  context.setLineDash([]);
-  context.globalAlpha = 1;
+  brush.context.globalAlpha = GHOST;
+  strokeLines(brush, outlines.filter(({ points }) => hasLength(points)));
+  brush.context.globalAlpha = 1;
 }
 
 /**

@@ -83,19 +83,29 @@ export function drawLabelsAbove(brush, labels) {
     const least = row === 0 ? from : before.from + before.width + GAP / 2;
     const most = row === 0 ? from + width : (after?.from ?? right) - GAP / 2;
     const leader = clamp(x, least, Math.max(least, most));
-    context.strokeStyle = context.fillStyle = palette.muted;
-    context.lineWidth = 1;
-    context.beginPath();
-    context.moveTo(clamp(leader, from, from + width), line + GROUND.half);
-    context.lineTo(leader, top - (row === 0 ? 0 : ROW));
-    context.lineTo(leader, top);
-    context.lineTo(x, y);
-    context.stroke();
-    context.beginPath();
-    context.arc(x, y, 2, 0, 2 * Math.PI);
-    context.fill();
+    const begin = [clamp(leader, from, from + width), line + GROUND.half];
+    drawLeader(context, [begin, [leader, top - (row === 0 ? 0 : ROW)], [leader, top], [x, y]], palette.muted);
     write(brush, parts, from, line, colour);
   });
+}
+
+/**
+ * Draws a leader: a thin line from a text to a point, with a dot at the point.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[][]} line its points, x and y in pixels; the dot is at the last
+ * @param {string} colour
+ */
+export function drawLeader(context, line, colour) {
+  context.strokeStyle = context.fillStyle = colour;
+  context.lineWidth = 1;
+  context.beginPath();
+  for (const [x, y] of line) context.lineTo(x, y);
+  context.stroke();
+  const [x, y] = line[line.length - 1];
+  context.beginPath();
+  context.arc(x, y, 2.5, 0, 2 * Math.PI);
+  context.fill();
 }
 
 /** Returns the parts of a text with their widths. @param {Brush} brush @param {Text} text */

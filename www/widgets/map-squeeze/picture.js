@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { densityRamp, drawDensity, drawMark, drawOutline, lineStyles, trace } from '../../scene/draw.js';
-import { drawLabel } from '../../scene/labels.js';
+import { drawLabel, drawLeader } from '../../scene/labels.js';
 import { SamplesPicture } from '../../scene/picture.js';
 import { View, extentAround } from '../../scene/view.js';
 import { WallLayer, cornerOf } from '../../scene/walls.js';
@@ -226,15 +226,7 @@ function drawContact(brush, contact) {
   const { left, right, top, bottom } = view.frame;
   const [side, down] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
   const [endX, endY] = [x + side * LEADER.x, y + down * LEADER.y];
-  context.strokeStyle = context.fillStyle = palette.ink;
-  context.lineWidth = 1.25;
-  context.beginPath();
-  context.moveTo(x, y);
-  context.lineTo(endX, endY);
-  context.stroke();
-  context.beginPath();
-  context.arc(x, y, 3, 0, 2 * Math.PI);
-  context.fill();
+  drawLeader(context, [[endX, endY], [x, y]], palette.ink);
   drawLabel(brush, { x: endX + 4 * side, y: endY, towards: side, text: words.squeeze.throughThisWall, colour: palette.ink });
 }
 

@@ -286,8 +286,8 @@ export function sliderRow(row) {
  * @param {() => void} of.commit
  */
 export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }) {
+  // A browser sets a slider as soon as a finger comes down on it: until the finger taps or scrolls, a rendering leaves that value.
   const set = (/** @type {Event} */ event) => {
-    // A browser sets a slider as soon as a finger comes down on it.
     if (!finger.waits) input(inputOf(event).valueAsNumber);
   };
   return html`<input
@@ -296,7 +296,7 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
     min=${min}
     max=${max}
     step=${step}
-    .value=${live(String(value))}
+    .value=${finger.waits ? noChange : live(String(value))}
     aria-label=${name ?? nothing}
     aria-valuetext=${text}
     aria-describedby=${describedBy ?? nothing}

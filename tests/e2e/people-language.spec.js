@@ -197,6 +197,8 @@ test('signs stand left of their numbers on a page from right to left, also among
 });
 
 test('a page translator that replaces every text freezes none', async ({ page, figure }) => {
+  // A figure out of sight waits to be drawn: both are in sight.
+  await page.setViewportSize({ width: 1280, height: 4000 });
   await show(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
   const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));
   const { slider, values } = KNOWN[figure];
@@ -205,7 +207,6 @@ test('a page translator that replaces every text freezes none', async ({ page, f
     return Promise.all([translated, other].map((widget) => widget.locator('.machine').evaluate((machine) => machine.textContent)));
   };
   for (const widget of [translated, other]) {
-    await widget.scrollIntoViewIfNeeded();
     await ready(widget);
     await unfold(widget);
   }

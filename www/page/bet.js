@@ -14,14 +14,15 @@
 const answerIn = (stats, path) => path.split('.').reduce((/** @type {any} */ part, key) => part?.[key], stats) ?? null;
 
 /**
- * Prepares a form with one slider. `data-try` has the values to reveal, `data-answer` the path of the answer in `stats`.
+ * Prepares a form with one slider. `data-try` has the values to reveal, `data-answer` the path of the answer in `stats`, and
+ * `data-hides` the overlay that the figure shows from the first bet on.
  *
  * @param {HTMLFormElement} form
  * @param {(values: Record<string, unknown>) => Promise<void>} enter puts the figure into a state
  * @param {Figure} figure
  */
 export function prepareBet(form, enter, figure) {
-  const { try: values = '{}', answer = '', unit = '' } = form.dataset;
+  const { try: values = '{}', answer = '', unit = '', hides } = form.dataset;
   const slider = /** @type {HTMLInputElement} */ (form.querySelector('input'));
   const shown = /** @type {HTMLElement} */ (form.querySelector('.value'));
   const button = /** @type {HTMLButtonElement} */ (form.querySelector('button'));
@@ -41,6 +42,7 @@ export function prepareBet(form, enter, figure) {
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
     await enter(JSON.parse(values));
+    if (hides) figure.overlays = [...figure.overlays, hides];
     const number = answerIn(figure.stats, answer);
     const truth = number === null ? null : isShare ? 100 * number : number;
     form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));

@@ -52,8 +52,8 @@ export const de = {
   atStepMark: (step) => `Schritt ${step}`,
   predictionHas: (step) => `In Schritt ${step} hat die Vorhersage`,
   ofVariance: (component) => `der Varianz ${component}`,
-  ratioText: (recursion, step, along, lateral, heading) =>
-    `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: längs ${along}, quer ${lateral}, Richtung ${heading}.`,
+  ratioText: (recursion, step, ratios) =>
+    `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} in Schritt ${step}`,
   wrong: (end, where) => `${end} ${where} am Ende.`,
   worse: (end, where, worst, list) => `${end} ${where} am Ende verdecken Schlimmeres: Varianz ${worst} vorhergesagt zu ${list}.`,

@@ -111,13 +111,14 @@ export class DeadReckoningElement extends FigureElement {
   /** @param {Reading} reading */
   content(reading) {
     const { condition, config: { step } } = reading;
+    const { overlays } = this.state.own;
     const say = words.reckoning;
     return html`
       <section class="machine" aria-label=${this.lettering.name}>
         <div class="views">
           ${panel(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
           ${this.stage.later(() => html`<div class="said">
-            ${headline(reading)}
+            ${headline(reading, overlays)}
             <p part="caption" class="caption ${condition !== 'told' && 'note'}">${captionOf(reading)}</p>
             ${recursionChoice(this)}
           </div>`)}
@@ -128,7 +129,7 @@ export class DeadReckoningElement extends FigureElement {
         ${legend(this, OUTLINES)} ${presetButtons(this)} ${pathControls(this)}
         ${disclosures(this, {
           controls: () => moreControls(this),
-          numbers: () => html`${missTable(reading)} ${markedRobot(this, this.#marked)} ${straightPlot(/** @type {Machine} */ (this.machine).straight)}`,
+          numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(/** @type {Machine} */ (this.machine).straight)}`,
         })}`)}
       </section>
     `;

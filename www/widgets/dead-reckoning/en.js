@@ -55,8 +55,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   /** Before the ratio, and after it. */
   predictionHas: (step) => `At step ${step} the prediction has`,
   ofVariance: (component) => `of the ${component} variance`,
-  ratioText: (recursion, step, along, lateral, heading) =>
-    `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: along ${along}, lateral ${lateral}, heading ${heading}.`,
+  ratioText: (recursion, step, ratios) =>
+    `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} at step ${step}`,
   wrong: (end, where) => `${end} ${where} at the end.`,
   worse: (end, where, worst, list) => `The ${end} ${where} at the end hides a worse miss: of the ${worst} variance it predicts ${list}.`,

@@ -10,7 +10,7 @@ import { plot } from '../../ui/plot.js';
 import { figureTable, readoutList } from '../../ui/readouts.js';
 import { COMPONENTS } from './reading.js';
 import { CURVES, RECURSIONS } from './settings.js';
-import { endText, ratioText, worstAt } from './words.js';
+import { componentsOf, endText, ratioText, worstAt } from './words.js';
 
 /**
  * @import { Misses } from '../../types.d.ts'
@@ -39,7 +39,7 @@ export function ratioPlot(figure, reading) {
   const shown = COMPONENTS.map((name, axis) => ({ ...lookOf(name), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
   const band = { name: say.overlays.tolerance, ...lookOf('tolerance'), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
   return plot({
-    label: ratioText(reading),
+    label: ratioText(reading, overlays),
     x: { name: say.stepAxis, from: 0, to: steps },
     y: { name: say.ratioAxis, from: 0, to: HEIGHTS.find((height) => height >= highest) ?? highest },
     curves: [
@@ -67,10 +67,10 @@ function lookOf(name) {
   return { role, dash: dash?.join(' ') };
 }
 
-/** Returns the ratio at the selected step that is furthest from 1, as the message of the figure. @param {Reading} reading */
-export function headline(reading) {
+/** Returns the ratio at the selected step that is furthest from 1, as the message of the figure. @param {Reading} reading @param {string[]} overlays */
+export function headline(reading, overlays) {
   const say = words.reckoning;
-  const { ratio, component } = worstAt(reading);
+  const { ratio, component } = worstAt(reading, overlays);
   return readoutList([[say.predictionHas(reading.config.step), fixed(ratio, 2), say.ofVariance(say.of[component])]], 0);
 }
 
@@ -112,16 +112,16 @@ function missed({ told, first, last, end }) {
   return first === null || last === null ? never : from(first, last);
 }
 
-/** Returns the misses of all recursions. @param {Reading} reading */
-export function missTable({ stats: { misses } }) {
+/** Returns the misses of all recursions in the components that are shown. @param {Reading} reading @param {string[]} overlays */
+export function missTable({ stats: { misses } }, overlays) {
   const say = words.reckoning;
   return figureTable({
     caption: say.misses.caption,
     columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
-    rows: COMPONENTS.flatMap((component, axis) => [
-      [say.components[component], ...RECURSIONS.map((recursion) => missed(misses[recursion][axis]))],
-      [say.misses.endOf(say.components[component]), ...RECURSIONS.map((recursion) => endText(misses[recursion][axis]))],
-    ]),
+    rows: componentsOf(overlays).flatMap((component) => {
+      const ofEach = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
+      return [[say.components[component], ...ofEach.map(missed)], [say.misses.endOf(say.components[component]), ...ofEach.map(endText)]];
+    }),
   });
 }
 

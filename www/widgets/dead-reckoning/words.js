@@ -44,13 +44,26 @@ const listOf = (ratios) =>
   TOLD_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
 
 /**
- * Returns the component whose ratio at the selected step is furthest from 1.
+ * Returns the components whose curves are shown; all where none is.
+ *
+ * @param {string[]} overlays
+ * @returns {readonly (typeof COMPONENTS)[number][]}
+ */
+export function componentsOf(overlays) {
+  const shown = COMPONENTS.filter((name) => overlays.includes(name));
+  return shown.length > 0 ? shown : COMPONENTS;
+}
+
+/**
+ * Returns the component whose ratio at the selected step is furthest from 1, of those shown.
  *
  * @param {Reading} reading
+ * @param {string[]} overlays
  */
-export function worstAt({ config: { step }, curves }) {
+export function worstAt({ config: { step }, curves }, overlays) {
   const ratios = curves.map(({ ratio }) => ratio[step - 1]);
-  const worst = furthest(ratios.map((ratio) => Math.abs(ratio - 1)));
+  const shown = componentsOf(overlays);
+  const worst = furthest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
   return { component: COMPONENTS[worst], ratio: ratios[worst] };
 }
 
@@ -60,11 +73,14 @@ export function announcementOf(reading) {
   return words.reckoning.announcement(counted(shown), commandText(config.command), String(config.steps), captionOf(reading));
 }
 
-/** Ratios of the step that is looked at. @param {Reading} reading */
-export function ratioText({ config: { step, compounding }, curves }) {
+/** Returns the ratios that are shown, at the selected step. @param {Reading} reading @param {string[]} overlays */
+export function ratioText({ config: { step, compounding }, curves }, overlays) {
   const say = words.reckoning;
-  const [along, lateral, heading] = curves.map(({ ratio, error }) => withError(ratio[step - 1], error[step - 1], 2));
-  return say.ratioText(say.recursions[compounding], String(step), along, lateral, heading);
+  const ratios = componentsOf(overlays).map((name) => {
+    const { ratio, error } = curves[COMPONENTS.indexOf(name)];
+    return `${say.components[name]} ${withError(ratio[step - 1], error[step - 1], 2)}`;
+  });
+  return say.ratioText(say.recursions[compounding], String(step), ratios.join(', '));
 }
 
 /** The text equivalent of the floor. @param {Reading} reading */

@@ -240,11 +240,11 @@ test('copies a link, and the code to embed with the address of the script', asyn
   await ready(widget);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   await frames(page);
-  await widget.getByText('Numbers and data').click();
   const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
   await widget.getByRole('button', { name: 'Copy link' }).click();
   await expect(widget.getByText('Copied.')).toBeVisible();
   expect(await clipboard()).toBe(await linkOf(widget));
+  await widget.getByText('Numbers and data').click();
   const embed = widget.getByRole('button', { name: 'Copy embed code' });
   await expect(embed).toHaveAttribute('title', 'HTML that shows the figure as it is now on a page of your own');
   await embed.click();

@@ -141,7 +141,7 @@ export function check(figure, key, label) {
 }
 
 /**
- * Returns the two disclosures below a figure, and the button that presents it.
+ * Returns the two disclosures below a figure, and the buttons that copy a link to it and present it.
  *
  * @param {Figure} figure
  * @param {object} of
@@ -153,8 +153,9 @@ export function check(figure, key, label) {
 export function disclosures(figure, { controls, numbers, mark = figure.reading.config.seed, csvTitle }) {
   return html`<div class="folds">
     ${fold(words.moreControls, controls, 'more')}
-    ${fold(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.render()}`, 'numbers')}
-    ${figure.presenting.button()}
+    ${fold(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.codeButton()}`, 'numbers')}
+    <div class="begin">${figure.copies.linkButton()} ${figure.presenting.button()}</div>
+    ${figure.copies.answer('link')}
   </div>`;
 }
 

@@ -72,7 +72,7 @@ addEnglish(en);
  * @csspart fold - What is folded away, with its name.
  * @csspart progress - How much is done of what takes longer, with the button that stops it.
  * @csspart exports - Pictures and data to take along.
- * @csspart copies - The page's address and HTML to copy.
+ * @csspart copies - HTML to copy.
  *
  * @cssprop --motion-paper - The ground of everything; without it, that of what is around the figure.
  * @cssprop --motion-ink - Text, and curves of charts; without it, the colour of the text around.

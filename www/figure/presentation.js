@@ -101,7 +101,7 @@ export class Presentation extends Part {
   /** Button that begins the presentation. */
   button() {
     const say = words.presentation;
-    return html`<span class="begin">${button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' })}</span>`;
+    return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
   }
 
   /** Buttons that show the controls and end the presentation, with their keys. */

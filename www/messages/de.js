@@ -69,7 +69,7 @@ export const de = {
   },
   presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', end: 'Beenden' },
   copies: {
-    label: 'Abbildung weitergeben',
+    label: 'Abbildung einbetten',
     link: 'Link kopieren',
     linkTitle: 'Die Adresse dieser Seite mit der Abbildung, wie sie jetzt ist',
     code: 'Code zum Einbetten kopieren',

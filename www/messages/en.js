@@ -79,7 +79,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
   },
   presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', end: 'Exit' },
   copies: {
-    label: 'Share the figure',
+    label: 'Embed the figure',
     link: 'Copy link',
     linkTitle: 'The address of this page with the figure as it is now',
     code: 'Copy embed code',

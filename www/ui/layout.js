@@ -60,7 +60,15 @@ const layout = css`
   }
 
   .begin {
+    display: flex;
+    gap: 0.5em;
     margin-inline-start: auto;
+  }
+
+  /* An answer has a line of its own. */
+  .folds > :is(output, textarea) {
+    flex: 1 0 100%;
+    text-align: end;
   }
 
   .folded {

@@ -7,37 +7,52 @@ import { escaped } from '../../scene/svg.js';
 import { button } from '../../ui/controls.js';
 import { Part } from '../part.js';
 
-/** What was copied last, and where the reader finds it. */
+/** @typedef {'link' | 'code'} Kind */
+
+/** Buttons that copy, each with its answer: what was copied last, or what to copy by hand. */
 export class CopyMenu extends Part {
-  /** @type {{ text: string, done?: boolean, missing: string } | undefined} */
+  /** @type {{ kind: Kind, text: string, done?: boolean, missing: string } | undefined} */
   #copied;
 
   /**
+   * @param {Kind} kind
    * @param {string} text
    * @param {string} [missing] what of the figure is not in it, in a sentence
    */
-  async #copy(text, missing = '') {
+  async #copy(kind, text, missing = '') {
     // Refused in a frame without the permission, and absent where the page came without encryption.
     const done = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
-    this.#copied = { text, done, missing };
+    this.#copied = { kind, text, done, missing };
     this.host.requestUpdate();
   }
 
-  render() {
+  /** Returns the button that copies a link to the figure as it is. */
+  linkButton() {
+    const say = words.copies;
+    return button(say.link, async () => this.#copy('link', await this.host.shareLink()), { title: say.linkTitle });
+  }
+
+  /** Returns the button that copies the code to embed, with its answer. */
+  codeButton() {
     const say = words.copies;
     const { host } = this;
-    const copied = this.#copied;
     return html`<fieldset class="copies" part="copies">
       <legend>${say.label}</legend>
       <div class="buttons">
-        ${button(say.link, async () => this.#copy(await host.shareLink()), { title: say.linkTitle })}
-        ${button(say.code, () => this.#copy(host.embedCode(), host.takeaway.notInCode), { title: say.codeTitle })}
+        ${button(say.code, () => this.#copy('code', host.embedCode(), host.takeaway.notInCode), { title: say.codeTitle })}
       </div>
-      <output>${copied ? `${copied.missing} ${copied.done ? say.done : say.byHand}` : nothing}</output>
+      ${this.answer('code')}
+    </fieldset>`;
+  }
+
+  /** Returns the answer to a button. @param {Kind} kind */
+  answer(kind) {
+    const say = words.copies;
+    const copied = this.#copied?.kind === kind ? this.#copied : undefined;
+    return html`<output class="copied">${copied ? `${copied.missing} ${copied.done ? say.done : say.byHand}` : nothing}</output>
       ${copied && !copied.done
         ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
-        : nothing}
-    </fieldset>`;
+        : nothing}`;
   }
 }
 

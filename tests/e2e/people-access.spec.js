@@ -274,6 +274,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
     return (width * clientHeight) / (height * clientWidth);
   });
   await expect.poll(stretched).toBeCloseTo(1, 1);
+  await expect(widget.locator('.on-paper')).toHaveText(/α1\s=\s0\.002 α2\s=.* α6\s=\s0\.002/);
   for (const value of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
 });
 

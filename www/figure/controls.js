@@ -156,7 +156,16 @@ export function disclosures(figure, { controls, numbers, mark = figure.reading.c
     ${fold(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.codeButton()}`, 'numbers')}
     <div class="begin">${figure.copies.linkButton()} ${figure.presenting.button()}</div>
     ${figure.copies.answer('link')}
-  </div>`;
+  </div>
+  <p class="on-paper">${noiseOf(figure)}</p>`;
+}
+
+/** Returns the noise parameters with their values, for paper. @param {Figure} figure */
+function noiseOf({ kind: { attributes, looks }, machine, settings: { told: config } }) {
+  return Object.entries(looks).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
+    const value = /** @type {number | null} */ (/** @type {Setting} */ (attributes[key]).get({ config, machine }));
+    return value === null ? [] : html`<span>${rich(`${symbol}\u00a0=\u00a0${typed(value, decimals)}`)}</span> `;
+  });
 }
 
 /**

@@ -133,8 +133,32 @@ export const theme = css`
     white-space: nowrap;
   }
 
+  .on-paper {
+    display: none;
+  }
+
   /* On paper: the figure and what it was made with, and nothing that wants to be pressed. */
   @media print {
+    /* Values whose sliders are in a closed disclosure. */
+    .folds:not(:has(> #more[open])) + .on-paper {
+      display: block;
+      margin: 0.4em 0;
+      font-size: 0.85em;
+    }
+
+    .on-paper span {
+      margin-inline-end: 1em;
+      white-space: nowrap;
+    }
+
+    /* Browsers print no ground behind letters. */
+    .options .choice:has(:checked) {
+      padding: 0;
+      background: none !important;
+      border: 0;
+      color: var(--ink) !important;
+    }
+
     .surface {
       color-scheme: light !important;
     }

@@ -290,17 +290,34 @@ const layout = css`
       max-height: 45svh;
     }
 
-
     :is(button, input, summary, textarea) {
       scroll-margin-top: calc(45svh + 2em + var(--top));
     }
 
+    /* Text that goes below the pictures fades over more than a line. */
+    :is(.views, .stage[part='picture'])::after {
+      position: absolute;
+      inset: 100% -0.5em auto;
+      height: 1.8em;
+      background: linear-gradient(var(--paper) 20%, transparent);
+      pointer-events: none;
+    }
+
+    /* Handles at the sides of controls stick out. */
     @container (width >= 30em) {
       .views {
         position: sticky;
         top: var(--top);
         z-index: 1;
         background: var(--paper);
+        box-shadow: -0.5em 0 var(--paper), 0.5em 0 var(--paper);
+        container-type: scroll-state;
+      }
+
+      @container scroll-state(stuck: top) {
+        .views::after {
+          content: '';
+        }
       }
     }
 
@@ -310,10 +327,8 @@ const layout = css`
         top: var(--top);
         z-index: 1;
         background: var(--paper);
-        box-shadow:
-          -0.5em 0 var(--paper),
-          0.5em 0 var(--paper),
-          0 0.5em 0.5em var(--paper);
+        box-shadow: -0.5em 0 var(--paper), 0.5em 0 var(--paper);
+        container-type: scroll-state;
       }
 
       .views,
@@ -321,10 +336,10 @@ const layout = css`
         display: contents;
       }
 
-      /* Clear of the shadow. */
-      .stage[part='picture'] + *,
-      .panel:has([part='picture']) + * {
-        margin-top: 0.7em;
+      @container scroll-state(stuck: top) {
+        .stage[part='picture']::after {
+          content: '';
+        }
       }
     }
   }

@@ -41,7 +41,8 @@ fn the_last_turn_explains_the_low_probability() {
 
 #[test]
 fn the_printed_table_loses_p_for_centres_to_the_right() {
-    let [v]: [Number; 1] = page().numbers("and v̂ comes out as # m/s in a right turn.");
+    let [v]: [Number; 1] =
+        page().numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
     for name in ["right", "reverse"] {
         let printed = Settings { printed: true, ..preset(name) };
         let Stats { factors, share, inverted, .. } = stats(printed);

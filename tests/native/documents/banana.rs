@@ -74,8 +74,8 @@ fn figures_are_those_told() {
         [&banana, &gentle, &hard].map(|exact| exact.likelihood_gain.pose);
     page().assert(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
-         densely as where the outline alone does. Both sides are alike, so the cross-track skew is #. The Gaussian in ξ \
-         gains # nats a robot: more than on the gentle arc, #, and on the hard one, #.",
+         densely as where the outline alone does. Both sides are alike, so the cross-track skew, the lopsidedness across the path, is #. The Gaussian in ξ \
+         gains a log-likelihood of # nats (natural units) a robot: more than on the gentle arc, #, and on the hard one, #.",
         [banana.area_ratio, banana.cross_track_skew, banana_gain, gentle_gain, hard_gain],
     );
     let opened = machine(Settings::default());

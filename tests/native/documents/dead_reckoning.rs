@@ -38,7 +38,7 @@ fn the_lateral_miss_is_worse_than_the_six_per_cent() {
     let compared = opening.compared(Compounding::Chapter);
     told.assert_percent(-compared.misses[0].end, 0.0);
     told.assert_percent(1.0 - exact(&opening, Compounding::Chapter, 0)[19], 0.0);
-    page().says("the Gaussian that the chapter predicts is a line, for its R has no lateral noise");
+    page().says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(compared.ratios[0].y, 0.0);
     assert!(opening.measured()[0].cov[(1, 1)] > 0.0);
     let [second, fifth]: [Number; 2] =
@@ -50,7 +50,7 @@ fn the_lateral_miss_is_worse_than_the_six_per_cent() {
         fifth.assert(ratios[4], 0.0);
     }
     page().says(
-        "With Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
+        "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
         for ratio in &opening.compared(order).ratios {

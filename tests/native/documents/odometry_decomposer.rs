@@ -43,7 +43,7 @@ fn the_lever_grows_faster_than_the_drive() {
 #[test]
 fn only_the_table_charges_two_half_turns_for_backing_up() {
     let [table, deployed] =
-        page().numbers("the table adds ± # rad and more; AMCL of Nav2 and Beluga add ± # for either.");
+        page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
     let of = |rule| figures(of_preset("reverse"), rule).deviations;
     let [first, _, second, _] = of(Table);
     table.assert(first, 0.0);

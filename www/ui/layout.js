@@ -294,30 +294,18 @@ const layout = css`
       scroll-margin-top: calc(45svh + 2em + var(--top));
     }
 
-    /* Text that goes below the pictures fades over more than a line. */
-    :is(.views, .stage[part='picture'])::after {
-      position: absolute;
-      inset: 100% -0.5em auto;
-      height: 1.8em;
-      background: linear-gradient(var(--paper) 20%, transparent);
-      pointer-events: none;
+    /* Covers handles that stick out at the sides, and fades text that goes below. */
+    .machine {
+      --fade: -0.5em 0 var(--paper), 0.5em 0 var(--paper), 0 0.4em 0.4em var(--paper);
     }
 
-    /* Handles at the sides of controls stick out. */
     @container (width >= 30em) {
       .views {
         position: sticky;
         top: var(--top);
         z-index: 1;
         background: var(--paper);
-        box-shadow: -0.5em 0 var(--paper), 0.5em 0 var(--paper);
-        container-type: scroll-state;
-      }
-
-      @container scroll-state(stuck: top) {
-        .views::after {
-          content: '';
-        }
+        box-shadow: var(--fade);
       }
     }
 
@@ -327,8 +315,7 @@ const layout = css`
         top: var(--top);
         z-index: 1;
         background: var(--paper);
-        box-shadow: -0.5em 0 var(--paper), 0.5em 0 var(--paper);
-        container-type: scroll-state;
+        box-shadow: var(--fade);
       }
 
       .views,
@@ -336,10 +323,10 @@ const layout = css`
         display: contents;
       }
 
-      @container scroll-state(stuck: top) {
-        .stage[part='picture']::after {
-          content: '';
-        }
+      /* Clear of the fade. */
+      .stage[part='picture'] + *,
+      .panel:has([part='picture']) + * {
+        margin-top: 0.7em;
       }
     }
   }

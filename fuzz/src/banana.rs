@@ -123,11 +123,12 @@ fn numbers(machine: &BananaMachine) -> Vec<f64> {
         inside_exponential,
         gain,
         area_ratio,
+        area_ratio_error,
     } = machine.figures();
     numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
     numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
     numbers.extend([cross_track.skew, cross_track.skew_error, cross_track.rho_heading, *gaussian_skew]);
-    numbers.extend([*inside_ellipse, *inside_exponential, *area_ratio]);
+    numbers.extend([*inside_ellipse, *inside_exponential, *area_ratio, *area_ratio_error]);
     numbers.extend([gain.value.pose, gain.value.floor, gain.error.pose, gain.error.floor]);
     numbers
 }

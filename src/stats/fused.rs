@@ -238,6 +238,8 @@ pub struct CloudFigures {
     pub inside_ellipse: f64,
     pub inside_exponential: f64,
     pub gain: MeasuredGain,
+    /// Standard error of the logarithm of the ratio of the two areas.
+    pub log_area_error: f64,
 }
 
 impl Shape {
@@ -367,6 +369,7 @@ impl Shape {
             inside_ellipse: share(&self.ellipse, inside),
             inside_exponential: share(&self.twist_ellipse, inside_twist),
             gain: differences.finish(count),
+            log_area_error: differences.log_area_error(count),
         }
     }
 }

@@ -2,7 +2,7 @@
 //! banana that also sees the ones which bend to neither side.
 
 use super::cross_track::NO_SPREAD;
-use super::moments::{mean_and_cov, mean_heading};
+use super::moments::{mean_and_cov, mean_heading, no_less_than_none};
 use crate::geom::arc::arc_near;
 use crate::geom::lanes::{LANES, lanes, log};
 use crate::geom::se2::{SE2, wrap_angle};
@@ -104,6 +104,8 @@ pub(super) struct Charts {
     twist: Normal,
     arc: Normal,
     gain: LikelihoodGain,
+    /// Geometric mean of dx dy over ds dφ.
+    jacobian: f64,
 }
 
 /// Mean and covariance.
@@ -120,7 +122,7 @@ impl Charts {
             if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
         let gain = LikelihoodGain { pose: gain(3, &twist), floor: gain(2, &arc) };
-        Self { plain, twist, arc, gain }
+        Self { plain, twist, arc, gain, jacobian: libm::exp(log_jacobians[1]) }
     }
 
     pub fn gain(&self) -> LikelihoodGain {
@@ -136,17 +138,25 @@ pub(super) struct Differences {
     /// Squares of the difference at a robot from the gain, for pose and floor. The mean difference is the gain, that of
     /// all robots, so that their sum is not needed.
     squares: [f64x4; 2],
+    /// Sums for [`Differences::log_area_error`]: u, u², h·u and h², with u the Jacobian over its geometric mean less 1, and h half the
+    /// difference of the squared distances on the floor and in the arc's coordinates.
+    areas: [f64x4; 4],
 }
 
 impl Differences {
     pub fn new(charts: Charts) -> Self {
-        Self { charts, weights: f64x4::splat(0.0), squares: [f64x4::splat(0.0); 2] }
+        Self {
+            charts,
+            weights: f64x4::splat(0.0),
+            squares: [f64x4::splat(0.0); 2],
+            areas: [f64x4::splat(0.0); 4],
+        }
     }
 
     /// Adds four robots, each of which stands for `weights` of them: for none, if it is not there.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
-        let Charts { plain, twist, arc, gain } = &self.charts;
+        let Charts { plain, twist, arc, gain, jacobian } = &self.charts;
         let there = weights.simd_gt(f64x4::splat(0.0));
         let of_plain = plain.squared_distances(&robots.plain);
         let of_twist = twist.squared_distances(&robots.twist)[2];
@@ -159,6 +169,10 @@ impl Differences {
             let differences = (distances[i] * 0.5 - log(robots.jacobians[i]) + volumes) & there;
             self.squares[i] += differences * differences * weights;
         }
+        let (u, h) = (robots.jacobians[1] / *jacobian - 1.0, distances[1] * 0.5);
+        for (sum, term) in self.areas.iter_mut().zip([u, u * u, h * u, h * h]) {
+            *sum += (term & there) * weights;
+        }
         self.weights += weights;
     }
 
@@ -168,6 +182,20 @@ impl Differences {
         let [pose, floor] =
             self.squares.map(|squares| (squares.reduce_add() / degrees / count as f64).sqrt());
         MeasuredGain { value: self.charts.gain, error: LikelihoodGain { pose, floor } }
+    }
+
+    /// Standard error of ln(area of the 2σ ellipse in (x, y) / area on the floor of that in the arc's coordinates), by the delta method.
+    ///
+    /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
+    /// Gaussian's own covariance, so that to third order this mean is that of the robots. The influence of a robot is then
+    /// ½(z² − w²) − J/mean J, up to a constant, with z and w its two Mahalanobis distances. Also the error for the outline in ξ, which
+    /// is that of the arcs to first order.
+    pub fn log_area_error(&self, count: usize) -> f64 {
+        let total = self.weights.reduce_add();
+        let [u, uu, hu, hh] = self.areas.map(|sum| sum.reduce_add() / total);
+        let mean = 1.0 + u;
+        let variance = hh - 2.0 * hu / mean + (uu - u * u) / (mean * mean);
+        (no_less_than_none(variance) / (total - 1.0) * total / count as f64).sqrt()
     }
 }
 

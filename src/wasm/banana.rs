@@ -72,6 +72,8 @@ export interface Stats {
   likelihoodGainError: LikelihoodGain;
   /** Area of the 2σ ellipse in (x, y) over that of the 2σ outline of exponential coordinates on the floor, as drawn. */
   areaRatio: number;
+  /** Its standard error. */
+  areaRatioError: number;
 }
 
 /** Outlines on the floor as x, y pairs in m, the first point repeated at the end; empty where undefined. */

@@ -24,7 +24,7 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await pauseEarly(page, 'banana-machine');
   const widget = await open(page);
-  const play = widget.locator('.cloud').getByRole('button', { name: 'Play' });
+  const play = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
   await expect(play).toBeVisible();
   const [paused, first] = [await state(widget), await posesOf(widget)];
   expect(paused.shown).toBeGreaterThan(0);
@@ -56,7 +56,9 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   const [gain, gainError] = (await shown('log-likelihood gain')).split(' ± ').map(numberIn);
   expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
-  expect(numberIn((await shown('area covered')).replace(' ×', ''))).toBeCloseTo(stats.areaRatio, 2);
+  const [ratio, ratioError] = (await shown('area covered')).replace(' ×', '').split(' ± ').map(numberIn);
+  expect(ratio).toBeCloseTo(stats.areaRatio, 2);
+  expect(ratioError).toBeCloseTo(stats.areaRatioError, 2);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
   await expect(detail(widget, 'area covered')).toHaveText(`inside: ${shares.join(' and ')}`);
   await expect(detail(widget, 'log-likelihood gain')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}`);

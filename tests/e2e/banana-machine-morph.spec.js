@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, open, pictureOf, played, property, readout, ready, show, state, stateOf, test } from './support.js';
+import { FRESH, STILL, centreOf, open, pictureOf, played, property, readout, ready, show, state, stateOf, test } from './support.js';
 
 test.use(STILL);
 
@@ -62,6 +62,28 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   await pin.click();
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(pin).toHaveAttribute('aria-pressed', 'false');
+});
+
+test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
+  const widget = await open(page);
+  const title = widget.locator('.panel-title').first();
+  for (const [preset, fit, gaps] of /** @type {const} */ ([['banana', 'no ellipse fits', 2], ['gentle', 'the ellipse nearly fits', 0], ['pivot', 'the ellipse has the size, not the shape', 0]])) {
+    await widget.evaluate((element, preset) => void Reflect.set(element, 'preset', preset), preset);
+    await expect(title).toHaveText(`On the floor: ${fit}`);
+    expect(await widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length)).toBe(gaps);
+  }
+});
+
+test('callouts are hidden while the cloud is dragged under them', async ({ page }) => {
+  const widget = await open(page);
+  const callouts = () => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
+  const { x, y } = await centreOf(widget.locator('.handle'));
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 10, y);
+  await expect.poll(callouts).toBe(0);
+  await page.mouse.up();
+  await expect.poll(callouts).toBeGreaterThan(0);
 });
 
 test('a narrow figure has one picture, which shows both ends', async ({ page }) => {

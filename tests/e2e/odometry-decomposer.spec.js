@@ -167,11 +167,11 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   expect(label).toBe('Pause');
   expect(rest[0]).toBeGreaterThan(2.8);
   expect(rest.at(-1)).toBe(3);
-  await expect(play).toHaveText('Play');
+  await expect(play).toHaveText('Drive the legs');
   const { values: beginning } = await played(other, 'phase', 3);
   expect(beginning[0]).toBe(0);
   expect(beginning[2]).toBeGreaterThan(beginning[1]);
-  await expect(play).toHaveText('Play');
+  await expect(play).toHaveText('Drive the legs');
   const { config: { phase } } = await told(other);
   expect(phase).toBe(beginning[2]);
   await frames(page);

@@ -79,7 +79,7 @@ test('examples of the reference start when they are opened, and are what their c
     if ('samples' in given) expect(settings.samples).toBe(Number(given.samples));
     if ('isolate' in given) expect(settings.isolate).toBe(Number(given.isolate));
     if ('sampler' in given) expect(settings.sampler).toBe(given.sampler);
-    if (given.lang === 'de') await expect(element.getByRole('button', { name: 'Abspielen' })).toBeVisible();
+    if (given.lang === 'de') await expect(element.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
     await example.locator('summary').first().click();
   }
 });

@@ -96,20 +96,20 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   const play = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
   const skew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
-  await play('Abspielen');
+  await play('Stichproben ziehen');
   const schiefe = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
   expect(schiefe).toBe(skew.replaceAll('.', ','));
   expect(schiefe).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
   expect(numberIn(schiefe.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await state(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
-  await play('Play');
+  await play('Draw samples');
   await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
   await widget.evaluate((element) => {
     element.removeAttribute('lang');
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';
   });
-  await play('Abspielen');
+  await play('Stichproben ziehen');
 });
 
 test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
@@ -117,7 +117,7 @@ test('a page may replace words and add languages; a message of another shape is 
   await unfold(widget);
   const complaints = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
-    setMessages('fr', { play: 'Jouer', banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
+    setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
     const given = /** @type {[string, object][]} */ ([
       ['fr', { banana: { robots: 'x' } }],
@@ -139,7 +139,7 @@ test('a page may replace words and add languages; a message of another shape is 
     'TypeError: messages: fr.banana.settings.alphas.effects is a string; allowed is a group.',
     'RangeError: messages: lang is "de_AT"; allowed is a BCP 47 tag, as "de" or "pt-BR".',
   ]);
-  await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
+  await expect(widget.getByRole('button', { name: 'Draw samples' })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await expect(widget.getByRole('button', { name: 'Jouer' })).toBeVisible();
   await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();

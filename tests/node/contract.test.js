@@ -61,7 +61,7 @@ test('a page finds every name of the contract', async () => {
   const banana = new motion.BananaMachine({ samples: 100 });
   const keys = [
     'n', 'cartesian', 'exponential', 'crossTrackSkew', 'crossTrackSkewError', 'gaussianSkew', 'rhoCrossHeading', 'coverage',
-    'likelihoodGain', 'likelihoodGainError', 'areaRatio',
+    'likelihoodGain', 'likelihoodGainError', 'areaRatio', 'areaRatioError',
   ];
   assert.deepEqual(Object.keys(banana.stats), keys);
   assert.deepEqual(Object.keys(banana.stats.cartesian), ['mean', 'cov']);

@@ -226,7 +226,7 @@ export class Cloud extends Part {
   buttons() {
     const say = words.cloud;
     return html`<div class="buttons">
-      ${button(this.playing ? words.pause : words.play, () => this.play(), { title: say.play })}
+      ${button(this.playing ? words.pause : say.play, () => this.play(), { title: say.playTitle })}
       ${button(words.step, () => this.step(), { title: say.step(counted(this.#batch)), disabled: this.complete })}
       ${button(words.clear, () => this.clear(), { title: say.clear })}
       ${this.#seedField()} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}

@@ -5,7 +5,8 @@ export const de = {
   failure: (reason) => `Diese interaktive Abbildung läuft hier nicht. ${reason}`,
   presets: 'Voreinstellungen',
   cloud: {
-    play: 'Zieht die Stichproben, immer ein paar',
+    play: 'Stichproben ziehen',
+    playTitle: 'Immer ein paar',
     step: (batch) => `Zieht ${batch} weitere`,
     clear: 'Leert die Wolke; derselbe Startwert zieht dieselben Stichproben',
     reseed: 'Neuer zufälliger Startwert',

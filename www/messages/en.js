@@ -14,7 +14,8 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
   failure: (reason) => `This interactive figure cannot run here. ${reason}`,
   presets: 'Presets',
   cloud: {
-    play: 'Draw the samples, a few at a time',
+    play: 'Draw samples',
+    playTitle: 'A few at a time',
     step: (batch) => `Draw ${batch} more`,
     clear: 'Clear the samples; the same seed draws the same ones',
     reseed: 'New random seed',

@@ -27,6 +27,8 @@ pub struct Figures {
     pub gain: MeasuredGain,
     /// How many times the 2σ outline in exponential coordinates fits into the 2σ ellipse in (x, y), on the floor.
     pub area_ratio: f64,
+    /// Standard error of `area_ratio`.
+    pub area_ratio_error: f64,
 }
 
 /// Which coordinates reach as far as the robots of a cloud turn.
@@ -54,13 +56,21 @@ impl Figures {
             inside_exponential: f64::NAN,
             gain: MeasuredGain { value: LikelihoodGain::NONE, error: LikelihoodGain::NONE },
             area_ratio: f64::NAN,
+            area_ratio_error: f64::NAN,
         }
     };
 
     /// The figures of a cloud; where coordinates do not reach, nothing is said in them.
     pub fn of(cloud: &CloudFigures, charted: Charted) -> Self {
-        let CloudFigures { cartesian, exponential, cross_track, inside_ellipse, inside_exponential, gain } =
-            *cloud;
+        let CloudFigures {
+            cartesian,
+            exponential,
+            cross_track,
+            inside_ellipse,
+            inside_exponential,
+            gain,
+            log_area_error,
+        } = *cloud;
         let ellipse = Ellipse::from_moments(&cartesian);
         let mut figures = Self { cartesian, cross_track, inside_ellipse, gain, ..Self::NONE };
         if charted.pose {
@@ -72,6 +82,7 @@ impl Figures {
             }
             let contour = ExponentialContour::new(&exponential, &START);
             figures.area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
+            figures.area_ratio_error = figures.area_ratio * log_area_error;
         } else {
             (figures.gain.value.pose, figures.gain.error.pose) = (f64::NAN, f64::NAN);
         }
@@ -100,7 +111,7 @@ impl serde::Serialize for Stats {
         }
         let Self { n, figures } = self;
         let coverage = Coverage { ellipse: figures.inside_ellipse, exponential: figures.inside_exponential };
-        let mut stats = serializer.serialize_struct("Stats", 11)?;
+        let mut stats = serializer.serialize_struct("Stats", 12)?;
         stats.serialize_field("n", n)?;
         stats.serialize_field("cartesian", &figures.cartesian)?;
         stats.serialize_field("exponential", &figures.exponential)?;
@@ -112,6 +123,7 @@ impl serde::Serialize for Stats {
         stats.serialize_field("likelihoodGain", &figures.gain.value)?;
         stats.serialize_field("likelihoodGainError", &figures.gain.error)?;
         stats.serialize_field("areaRatio", &figures.area_ratio)?;
+        stats.serialize_field("areaRatioError", &figures.area_ratio_error)?;
         stats.end()
     }
 }

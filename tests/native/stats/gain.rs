@@ -217,6 +217,26 @@ fn the_ratio_is_that_of_the_areas_drawn() {
     }
 }
 
+/// The error against the spread of the ratio over independent clouds.
+#[test]
+fn the_error_of_the_ratio_is_its_spread_over_clouds() {
+    const CLOUDS: usize = 2000;
+    for Preset { name, command, alphas } in PRESETS {
+        let of = |seed: usize| {
+            let seed = seed as u64;
+            let settings =
+                Settings { command, velocity_alphas: alphas, samples: 1000, seed, ..Settings::default() };
+            *BananaMachine::new(settings).expect("a valid setting").figures()
+        };
+        let clouds: Vec<Figures> = (0..CLOUDS).map(of).collect();
+        let spread = variance(&clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
+        let claimed = mean(&clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
+        // The spread is known to 1/√(2·CLOUDS) of itself. The delta method leaves out what is of higher order, some 8 % here.
+        let allowed = 4.0 / (2.0 * CLOUDS as f64).sqrt() + 0.04;
+        assert_close(name, claimed / spread, 1.0, allowed);
+    }
+}
+
 // ----------------------------------------------------------------------------------------- without a meaning
 
 /// Without γ̂ the cloud is a surface among the poses, and flat in exponential coordinates.

@@ -56,7 +56,7 @@ export function timeControl({ player, gesture, reading, state }) {
   const { dt } = reading.config.command;
   const shown = words.anatomy.timeOf(fixed((underway / WHOLE) * dt, 2), fixed(dt, 2));
   return group(words.anatomy.time, html`<div class="underway">
-    ${player.button('underway')}
+    ${player.button('underway', words.play)}
     <div class="slider" part="slider" data-role="truth">
       <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
       ${track({ id: 'underway', min: 0, max: WHOLE, step: 1, value: underway, text: shown, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}

@@ -30,7 +30,7 @@ import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
 import { LINES, OVERLAYS, SAMPLE_COUNTS, attributes, declared, looks, own, vocabulary } from './settings.js';
 import { bananaStyles } from './styles.js';
-import { announcementOf, captionOf, planeText, skewText, twistCaption, twistText } from './words.js';
+import { announcementOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.js';
 
 /**
  * @import { BananaMachine as Machine } from '../../types.d.ts'
@@ -124,8 +124,8 @@ export class BananaMachineElement extends FigureElement {
       marked: this.#inspection,
       morph,
       outlinesOf: (/** @type {Reading} */ of) => outlinesAt(motion, of, morph),
-      // A cloud that grows has outlines that wander.
-      callouts: this.cloud.playing ? [] : gapsAt(motion, reading, morph),
+      // Outlines wander while a cloud grows or is dragged, under a view that holds still.
+      callouts: this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.former) ? [] : gapsAt(motion, reading, morph),
       pinned: this.#pinned,
       driving: this.cloud.driving,
       reached: morph > 0 ? carrying(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
@@ -240,7 +240,7 @@ export class BananaMachineElement extends FigureElement {
   /** Title of the picture that the morph carries along. */
   get #title() {
     const { morph } = this.state.own;
-    return morph === 0 ? words.banana.floor : morph === 1 ? words.banana.twist : words.banana.morph.title;
+    return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;
   }
 
   /** What the floor shows, in words. */

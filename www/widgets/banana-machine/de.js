@@ -32,6 +32,7 @@ export const de = {
     samples: { name: 'Roboter', effect: 'Roboter: wenige als Punkte, viele als Dichte.' },
   },
   floor: 'Auf dem Boden',
+  ellipseIs: { large: 'keine Ellipse passt', misshapen: 'die Ellipse hat die Größe, nicht die Form', near: 'die Ellipse passt beinahe' },
   overlays: {
     command: 'befohlener Bogen',
     ellipse: 'Gauß in (x, y), 2σ',
@@ -108,7 +109,7 @@ export const de = {
   axisHeading: 'ξ Richtung (rad)',
   morph: {
     name: 'Vom Boden zu Exponentialkoordinaten',
-    play: 'Trägt die Roboter zu Exponentialkoordinaten',
+    play: 'Morph abspielen',
     title: 'Auf dem Weg zu Exponentialkoordinaten',
     floor: 'Boden',
     twist: 'Exponentialkoordinaten',
@@ -120,6 +121,7 @@ export const de = {
   handleTitle: 'Zieh am Ende des Bogens',
   handleHint: 'zieh mich',
   pin: 'Festhalten',
+  pinned: 'festgehalten',
   pinTitle: 'Behält diese Umrisse und Zahlen zum Vergleich',
   slidersEnd: 'Hier enden die Regler',
   chart: 'Exakte Schiefe quer zur Fahrt über dem befohlenen ω, beim jetzigen Rauschen',
@@ -133,7 +135,6 @@ export const de = {
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     exactly: (value) => `genau ${value}`,
-    pinned: (value) => `festgehalten: ${value}`,
     gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter)',
     gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter)',
     withoutLimit: 'in *ξ* ohne Grenze, da ohne *γ̂*',

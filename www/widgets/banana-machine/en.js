@@ -34,6 +34,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     samples: { name: 'robots', effect: 'Robots sent: few are dots, many a density.' },
   },
   floor: 'On the floor',
+  ellipseIs: { large: 'no ellipse fits', misshapen: 'the ellipse has the size, not the shape', near: 'the ellipse nearly fits' },
   overlays: {
     command: 'commanded arc',
     ellipse: 'Gaussian in (x, y), 2σ',
@@ -112,7 +113,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   axisHeading: 'ξ heading (rad)',
   morph: {
     name: 'From the floor to exponential coordinates',
-    play: 'Carry the robots to exponential coordinates',
+    play: 'Play the morph',
     title: 'On the way to exponential coordinates',
     floor: 'floor',
     twist: 'exponential coordinates',
@@ -125,6 +126,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   handleTitle: 'Drag the end of the arc',
   handleHint: 'drag me',
   pin: 'Pin',
+  pinned: 'pinned',
   pinTitle: 'Keep these outlines and numbers to compare with',
   slidersEnd: 'The sliders end here',
   chart: 'Exact cross-track skew against commanded ω, for the present noise',
@@ -138,7 +140,6 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   readouts: {
     skew: 'cross-track skew',
     exactly: (value) => `exactly ${value}`,
-    pinned: (value) => `pinned: ${value}`,
     gain: 'log-likelihood gain in *ξ* (nats per robot)',
     gainOnFloor: 'log-likelihood gain on the floor (nats per robot)',
     withoutLimit: 'in *ξ* without limit, as there is no *γ̂*',

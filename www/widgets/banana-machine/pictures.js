@@ -1,5 +1,6 @@
 /** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
+import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
 import { drawCallout } from '../../scene/callout.js';
@@ -217,6 +218,7 @@ export class PlanePicture extends CloudPicture {
       const lines = (/** @type {Outlines} */ of) => PAINTED.filter(drawn).map((name) => ({ points: of[name], ...styles[name] }));
       for (const before of [brush.former, scene.pinned]) if (before) drawGhosts(brush, lines(scene.outlinesOf(before)));
       drawOutlines(brush, lines(outlines));
+      if (scene.pinned) drawPinned(brush, lines(scene.outlinesOf(scene.pinned)), placeOf(scene.stats.exponential.mean, morph));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
       if (heaped && machine.shown > 0) drawHeap(brush, heapOf(machine));
       const [endX, endY] = outlines.command.slice(-2);
@@ -255,6 +257,21 @@ function drawDriving(brush, machine, { robots, share }) {
     const heading = at === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
     drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
   }
+}
+
+/**
+ * Names the pinned outlines, where they are furthest from the present cloud.
+ *
+ * @param {Brush} brush
+ * @param {{ points: Float64Array }[]} lines
+ * @param {[number, number]} from middle of the cloud
+ */
+function drawPinned(brush, lines, from) {
+  const { view, palette } = brush;
+  const [x, y] = [view.toPixelX(from[0]), view.toPixelY(from[1])];
+  const places = lines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i) => [view.toPixelX(points[2 * i]), view.toPixelY(points[2 * i + 1])]));
+  const place = greatest(places, ([atX, atY]) => Math.hypot(atX - x, atY - y));
+  if (place) drawLabel(brush, { x: place[0], y: place[1], towards: Math.sign(place[0] - x), text: words.banana.pinned, colour: palette.muted });
 }
 
 /** Radius of the arcs that show a turn, CSS pixels, and how far beyond the end the second one's line goes on. */

@@ -26,7 +26,7 @@ export function readouts(reading, pinned) {
   const say = words.banana.readouts;
   const { stats: { coverage }, exactSkew, gain } = reading;
   const values = valuesOf(reading);
-  const before = pinned && valuesOf(pinned).map(say.pinned);
+  const before = pinned && valuesOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const shares = [coverage.ellipse, coverage.exponential];
   return readoutList([
     [say.area, values[0], shares.every(Number.isNaN) ? NOTHING : say.areaDetail(percent(shares[0]), percent(shares[1])), before?.[0]],
@@ -38,7 +38,7 @@ export function readouts(reading, pinned) {
 /** Returns the area ratio, the gain and the skew as they are printed. @param {Reading} reading */
 function valuesOf({ stats, gain }) {
   return [
-    Number.isNaN(stats.areaRatio) ? NOTHING : `${fixed(stats.areaRatio, 2)} ×`,
+    Number.isNaN(stats.areaRatio) ? NOTHING : `${withError(stats.areaRatio, stats.areaRatioError, 2)} ×`,
     withError(gain.value, gain.error, 3),
     withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
   ];

@@ -64,6 +64,21 @@ const BENT = 0.02;
 /** From this area ratio on, the ellipse is seen to be too large. */
 const TOO_LARGE = 1.1;
 
+/** From this gain on the floor on, nats a robot, ten robots tell the two Gaussians apart: by a factor of e and more. */
+const MISSHAPEN = 0.1;
+
+/**
+ * Title of the view of the floor: how the ellipse fits, by the exact figures.
+ *
+ * @param {Pick<Reading, 'stats' | 'table'>} reading
+ */
+export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain } } }) {
+  const { floor, ellipseIs } = words.banana;
+  if (stats.n < 2 || Number.isNaN(areaRatio + stats.areaRatio)) return floor;
+  const fit = areaRatio > TOO_LARGE ? 'large' : likelihoodGain.floor > MISSHAPEN ? 'misshapen' : 'near';
+  return `${floor}: ${ellipseIs[fit]}`;
+}
+
 /**
  * What the cloud looks like: to which side it leans is the model's to decide, and the robots' to show. Figures are those of
  * the readouts beside it.

@@ -37,10 +37,10 @@ export function rulesTable(figure) {
  */
 export function playable(figure, key, legend) {
   const { player } = figure;
-  const { playTitles } = words.decomposer;
+  const { plays } = words.decomposer;
   return html`<fieldset class="playable ${key}">
     <legend class="visually-hidden">${legend}</legend>
-    ${slider(figure, key, { input: (value) => player.put(key, value) })} ${player.button(key, playTitles[key])}
+    ${slider(figure, key, { input: (value) => player.put(key, value) })} ${player.button(key, plays[key])}
   </fieldset>`;
 }
 

@@ -36,7 +36,7 @@ export const de = {
   noises: { normal: 'normalverteilt', triangular: 'dreiecksverteilt' },
   path: 'Weg',
   drift: 'Drift',
-  playTitles: { phase: 'Fährt die drei Teile', drift: 'Lässt den Rahmen driften' },
+  plays: { phase: 'Teile abfahren', drift: 'Driften lassen' },
   handles: {
     from: { robot: 'Odometrie davor', robotTitle: 'Pose davor ziehen', heading: 'Richtung davor', headingTitle: 'Pose davor drehen' },
     to: { robot: 'Odometrie danach', robotTitle: 'Pose danach ziehen', heading: 'Richtung danach', headingTitle: 'Pose danach drehen' },

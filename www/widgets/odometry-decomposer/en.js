@@ -35,7 +35,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   noises: { normal: 'normal', triangular: 'triangular' },
   path: 'Path',
   drift: 'Drift',
-  playTitles: { phase: 'Drive the three legs', drift: 'Let the frame drift' },
+  plays: { phase: 'Drive the legs', drift: 'Let it drift' },
   handles: {
     from: { robot: 'Odometry before', robotTitle: 'Drag the pose before', heading: 'Heading before', headingTitle: 'Turn the pose before' },
     to: { robot: 'Odometry after', robotTitle: 'Drag the pose after', heading: 'Heading after', headingTitle: 'Turn the pose after' },

@@ -83,9 +83,9 @@ export class Player extends Part {
    * Plays and pauses. Nothing for who wants less motion: the slider is there to be moved.
    *
    * @param {Key} key
-   * @param {string} [title]
+   * @param {string} label of the button, which names what is played
    */
-  button(key, title) {
-    return isCalm() ? nothing : button(this.#key === key ? words.pause : words.play, () => this.#toggle(key), { title });
+  button(key, label) {
+    return isCalm() ? nothing : button(this.#key === key ? words.pause : label, () => this.#toggle(key));
   }
 }

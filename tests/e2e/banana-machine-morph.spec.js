@@ -74,6 +74,21 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
   }
 });
 
+test('an outline that the morph cannot carry is named in the legend', async ({ page }) => {
+  const widget = await open(page, 'preset="pivot"');
+  const legend = widget.locator('.legend').first();
+  await expect(legend).not.toContainText('on the floor alone');
+  await widget.getByRole('slider', { name: 'From the floor' }).fill('0.5');
+  await expect(legend.getByRole('checkbox', { name: 'Gaussian in (x, y), 2σ: around the start, on the floor alone' })).toBeVisible();
+});
+
+test('the buttons that play have the names of what they play', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  const widget = await open(page, 'samples="100"');
+  await expect(widget.getByRole('button', { name: 'Play the morph' })).toHaveCount(1);
+  await expect(widget.getByRole('button', { name: 'Draw samples' })).toHaveCount(1);
+});
+
 test('callouts are hidden while the cloud is dragged under them', async ({ page }) => {
   const widget = await open(page);
   const callouts = () => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);

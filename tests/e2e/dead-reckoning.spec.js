@@ -110,7 +110,7 @@ test('a step beyond the last is refused where it is typed', async ({ page }) => 
 
 test('with J_r, and to fourth order, every component is right', async ({ page }) => {
   const widget = await openReckoning(page);
-  for (const [i, name] of ['right Jacobian Jᵣ', 'fourth order'].entries()) {
+  for (const [i, name] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
     await widget.getByRole('radio', { name }).check();
     await frames(page);
     expect(await missed(widget, i + 1)).toEqual(['never', 'never', 'never']);

@@ -402,6 +402,24 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect((await squeezed(widget)).walls).toEqual(before.walls);
 });
 
+test.describe('a finger', () => {
+  test.use({ hasTouch: true });
+
+  test('drags the edge of a doorway', async ({ page }) => {
+    const widget = await openSqueeze(page);
+    const { walls } = await squeezed(widget);
+    const from = await centreOf(widget.locator('.handle.to-4'));
+    const client = await page.context().newCDPSession(page);
+    const touch = (/** @type {string} */ type, /** @type {{ x: number, y: number }[]} */ touchPoints) => client.send('Input.dispatchTouchEvent', /** @type {any} */ ({ type, touchPoints }));
+    await touch('touchStart', [from]);
+    for (const step of [5, 10, 20]) await touch('touchMove', [{ x: from.x - step, y: from.y + 2 * step }]);
+    await touch('touchEnd', []);
+    const moved = await squeezed(widget);
+    expect(moved.walls[18]).toBeLessThan(walls[18] - 0.05);
+    expect([...moved.walls.slice(16, 18), moved.walls[19]]).toEqual([0, 3.8, 3.8]);
+  });
+});
+
 test('walls are moved by keyboard from one stop of Tab', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { walls } = await squeezed(widget);

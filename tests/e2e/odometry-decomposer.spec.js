@@ -34,6 +34,22 @@ async function told(widget) {
 
 const slider = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
 
+test('the views have room for the arcs of the turns and for every outcome', async ({ page }) => {
+  await page.setViewportSize({ width: 656, height: 900 });
+  const widget = await open(page);
+  await frames(page);
+  const outside = await widget.evaluate((element) => {
+    const { pictures, scene } = /** @type {any} */ (element);
+    const lost = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
+      .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
+    // Half a turn below the end of the drive, whose radius is some 64 pixels.
+    const { view } = pictures[0];
+    return { lost, below: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
+  });
+  expect(outside.lost).toEqual([0, 0]);
+  expect(outside.below).toBeGreaterThan(64);
+});
+
 test('opens on Reverse, and presets set the reading', async ({ page }) => {
   const widget = await open(page);
   const { config, shown } = await told(widget);

@@ -1,7 +1,7 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL, NAMES } from './figures.js';
-import { STILL, boxOf, frames, pictureOf, property, ready, test, unfold } from './support.js';
+import { STILL, boxOf, frames, pictureOf, property, ready, show, test, unfold } from './support.js';
 
 test.use(STILL);
 
@@ -116,6 +116,15 @@ for (const name of ALL) {
     for (const [i, button] of [...buttons.entries()].reverse()) expect(await press(button)).toEqual(first[i]);
   });
 }
+
+test('an entry of the legend highlights its curve in the chart', async ({ page }) => {
+  await show(page, '<dead-reckoning></dead-reckoning>');
+  const widget = page.locator('dead-reckoning');
+  await ready(widget);
+  await widget.getByRole('checkbox', { name: 'lateral' }).hover();
+  await expect(widget.locator('.plot .lit')).toHaveAttribute('stroke', 'var(--prediction)');
+  await expect(widget.locator('.plot .unlit')).toHaveCount(3);
+});
 
 test('a term and an entry of the legend highlight their line in the picture', async ({ page }) => {
   await page.goto('/');

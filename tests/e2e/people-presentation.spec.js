@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL } from './figures.js';
-import { STILL, boxOf, centreOf, frames, ready, show, test } from './support.js';
+import { STILL, boxOf, centreOf, frames, ready, show, stateOf, test } from './support.js';
 
 test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 
@@ -78,6 +78,38 @@ test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a 
   // No preset has this key.
   await page.keyboard.press('9');
   await expect(widget).toHaveAttribute('preset', words[0]);
+});
+
+test('the key 0 brings back the state in which the presentation began', async ({ page }) => {
+  await show(page, '<banana-machine></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await widget.evaluate((element) => void Object.assign(element, { preset: 'hard', omega: 0.7 }));
+  const prepared = await stateOf(widget);
+  await widget.getByRole('button', { name: 'Present' }).click();
+  await page.keyboard.press('1');
+  expect(await stateOf(widget)).not.toEqual(prepared);
+  await page.keyboard.press('0');
+  expect(await stateOf(widget)).toEqual(prepared);
+  await expect(widget.getByRole('status')).toContainText('ω = 0.70 rad/s');
+});
+
+test('a figure that opens in the presentation goes back to its opening', async ({ page }) => {
+  await show(page, '<banana-machine preset="pivot" presentation></banana-machine>');
+  const widget = page.locator('banana-machine');
+  await ready(widget);
+  await page.keyboard.press('1');
+  await expect(widget).toHaveAttribute('preset', 'straight');
+  await page.keyboard.press('0');
+  await expect(widget).toHaveAttribute('preset', 'pivot');
+});
+
+test('Map Squeeze has its places and samplers before an audience', async ({ page }) => {
+  await show(page, '<map-squeeze presentation></map-squeeze>');
+  const widget = page.locator('map-squeeze');
+  await ready(widget);
+  await expect(widget.getByRole('button', { name: 'Facing a wall' })).toBeInViewport();
+  await expect(widget.getByRole('radio', { name: 'Whole arc' })).toBeInViewport();
 });
 
 test('the browser ends the presentation by a key of its own', async ({ page }) => {

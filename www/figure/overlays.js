@@ -33,8 +33,9 @@ export function overlaysOf(names, opening = names) {
  *
  * @param {import('./figure.js').Figure} figure
  * @param {Record<string, LineStyle>} styles in the order of the entries; what they leave out stays as it is
+ * @param {Record<string, string>} [notes] words after the names of entries
  */
-export function legend(figure, styles) {
+export function legend(figure, styles, notes = {}) {
   const { overlays } = figure.state.own;
   const { overlays: names } = /** @type {any} */ (words)[figure.kind.vocabulary];
   const all = Object.keys(styles);
@@ -45,7 +46,7 @@ export function legend(figure, styles) {
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
     ${all.map((name) => html`<span @pointerenter=${() => light(name)} @pointerleave=${() => light(null)} @focusin=${() => light(name)} @focusout=${() => light(null)}>
       ${toggle({
-        label: html`${swatch(styles[name])}<span>${rich(names[name])}</span>`,
+        label: html`${swatch(styles[name])}<span>${rich(names[name])}${notes[name] ? `: ${notes[name]}` : nothing}</span>`,
         checked: overlays.includes(name),
         change: (shown) => choose(name, shown),
       })}

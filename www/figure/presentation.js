@@ -8,9 +8,14 @@ import { Part } from './part.js';
 /** Key that shows and hides the controls. */
 const KEY = 'c';
 
+/** Key that brings back the state in which the presentation began. */
+const BACK = '0';
+
 export class Presentation extends Part {
   /** Whether the controls are shown. */
   #controls = false;
+  /** Whole state at the beginning; undefined where the figure opened in the presentation. @type {import('./state.js').Values | undefined} */
+  #prepared;
   /** Stops listening to keys; undefined while the figure is not presented. @type {AbortController | undefined} */
   #listening;
 
@@ -34,6 +39,7 @@ export class Presentation extends Part {
 
   async #begin() {
     const { host } = this;
+    this.#prepared = host.machine && host.snapshot();
     this.#listening = new AbortController();
     addEventListener('keydown', this.#key, { signal: this.#listening.signal });
     const keyed = host.renderRoot?.querySelector('.to-present:focus-visible');
@@ -77,6 +83,7 @@ export class Presentation extends Part {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === KEY) this.#toggle();
+    else if (key === BACK) this.#goBack();
     else this.#choose(this.host.kind.attributes.preset?.words?.[Number(key) - 1]);
   };
 
@@ -86,6 +93,10 @@ export class Presentation extends Part {
     Object.assign(this.host, { preset });
     this.host.gesture.step();
     this.host.gesture.commit();
+  }
+
+  #goBack() {
+    if (this.host.machine) this.host.state.goBack(this.#prepared);
   }
 
   #toggle() {
@@ -104,13 +115,14 @@ export class Presentation extends Part {
     return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
   }
 
-  /** Buttons that show the controls and end the presentation, with their keys. */
+  /** Buttons that show the controls, bring back the beginning and end the presentation, with their keys. */
   render() {
     if (!this.#listening) return nothing;
     const say = words.presentation;
     const keyed = (/** @type {string} */ key, /** @type {string} */ label) => html`<kbd>${key}</kbd> ${label}`;
     return html`<div class="presenting" role="group" tabindex="-1" aria-label=${say.begin}>
       ${button(keyed(KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
+      ${button(keyed(BACK, say.back), () => this.#goBack(), { title: say.backTitle })}
       ${button(keyed('Esc', say.end), () => (this.host.presentation = false))}
     </div>`;
   }

@@ -105,10 +105,15 @@ export class State extends Part {
 
   /** Brings back the settings, the seed and everything else as the figure opened. */
   startOver() {
+    this.goBack(this.#opened);
+    this.host.startedOver();
+  }
+
+  /** Brings back a whole state, as a step of the reader. @param {Values} [state] */
+  goBack(state = this.#opened) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
-      this.enter(this.#opened);
-      this.host.startedOver();
+      this.enter(state);
       gesture.step();
       gesture.commit();
     });

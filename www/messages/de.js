@@ -68,7 +68,7 @@ export const de = {
     stopTitle: 'Alles bleibt, wie es war (Escape)',
     stopped: 'Abgebrochen: Alles ist, wie es war.',
   },
-  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', end: 'Beenden' },
+  presentation: { begin: 'Vorführen', title: 'Füllt den Bildschirm, für ein Publikum', controls: 'Bedienung', back: 'Wie vorbereitet', backTitle: 'Die Abbildung, wie sie zu Beginn der Vorführung war', end: 'Beenden' },
   copies: {
     label: 'Abbildung einbetten',
     link: 'Link kopieren',

@@ -78,7 +78,7 @@ export const en = /** @satisfies {import('./registry.js').Message} */ ({
     stopTitle: 'Everything stays as it was (Escape)',
     stopped: 'Stopped: everything is as it was.',
   },
-  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', end: 'Exit' },
+  presentation: { begin: 'Present', title: 'Fills the screen, for an audience', controls: 'Controls', back: 'As prepared', backTitle: 'The figure as it was when the presentation began', end: 'Exit' },
   copies: {
     label: 'Embed the figure',
     link: 'Copy link',

@@ -88,6 +88,12 @@ export class View {
     return (this.frame.bottom - this.frame.top) / (this.extent.yMax - this.extent.yMin);
   }
 
+  /** Returns the pixels a metre at which a part of the world fits. @param {Extent} extent */
+  scaleFor({ xMin, yMin, xMax, yMax }) {
+    const { left, right, top, bottom } = this.frame;
+    return Math.min((right - left) / (xMax - xMin), (bottom - top) / (yMax - yMin));
+  }
+
   /** @param {number} x */
   toPixelX(x) {
     return this.frame.left + (x - this.extent.xMin) * this.scaleX;

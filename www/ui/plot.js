@@ -90,6 +90,22 @@ export const plotStyles = css`
     stroke-width: 1.9;
   }
 
+  .plot .lit {
+    stroke-width: 3.6;
+  }
+
+  .plot .band.lit {
+    opacity: 0.45;
+  }
+
+  .plot .unlit {
+    opacity: 0.3;
+  }
+
+  .plot .band.unlit {
+    opacity: 0.1;
+  }
+
   .plot-key {
     display: flex;
     flex-wrap: wrap;
@@ -124,6 +140,7 @@ export const plotStyles = css`
  * @property {ArrayLike<number>} y what is no number leaves a gap; nothing is drawn beyond the axes
  * @property {ArrayLike<number>} [error] half the height of a band around it
  * @property {boolean} [area] whether the band is all there is of it
+ * @property {boolean} [lit] true where it is highlighted, false where another one is
  *
  * @typedef {object} Point a measured value, with its standard error either way
  * @property {Role} role
@@ -166,8 +183,8 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
       <text class="name" x=${RIGHT} y=${BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text class="name" x="0" y="12">${y.name}</text>
       <svg x=${LEFT} y=${TOP} width=${RIGHT - LEFT} height=${BOTTOM - TOP} viewBox="${LEFT} ${TOP} ${RIGHT - LEFT} ${BOTTOM - TOP}">
-        ${curves.map((curve) => curve.error && svg`<path class="band" fill="var(--${curve.role})" d=${band(curve, toX, toY)} />`)}
-        ${curves.map((curve) => !curve.area && svg`<path class="curve" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${line(curve, toX, toY)} />`)}
+        ${curves.map((curve) => curve.error && svg`<path class="band ${litOf(curve)}" fill="var(--${curve.role})" d=${band(curve, toX, toY)} />`)}
+        ${curves.map((curve) => !curve.area && svg`<path class="curve ${litOf(curve)}" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${line(curve, toX, toY)} />`)}
         ${marks.map((mark, row) => markOf(mark, row, toX, toY))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: at, y: value, error, ends: [low, high] = [value - error, value + error] }) => svg`<path
@@ -183,6 +200,9 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
     ${legend}
   `;
 }
+
+/** Returns the class of a curve by its highlight. @param {Curve} curve */
+const litOf = ({ lit }) => (lit === undefined ? '' : lit ? 'lit' : 'unlit');
 
 /** Returns the key of a chart. @param {Curve[]} curves */
 function keyOf(curves) {

@@ -100,7 +100,7 @@ export const presentationStyles = css`
   }
 
   :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, .morphing, [part~='legend'], [part~='caption'], [part~='readouts']),
-  :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .told),
+  :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .told, .presets, .judge),
   :host([presentation]) .surface:not(.with-controls) :is(.told, .looked) > :is(fieldset, .choices, button),
   :host([presentation]) .surface > .caption-slot,
   :host([presentation]) .begin {

@@ -22,7 +22,7 @@ export const de = {
     inverted: 'der eine Bogen zum Roboter',
     wedge: 'letzte Drehung, *γ̂Δt*',
     chord: 'Sehne',
-    twist: 'konstanter Twist, *ξ*',
+    twist: 'konstanter Twist *ξ*: stetig längs, quer und drehend',
   },
   maps: { none: 'keine', prob: 'p', density: 'Dichte' },
   presets: { left: 'Linkskurve', right: 'Rechtskurve', reverse: 'Rückwärts', straight: 'Geradeaus' },
@@ -77,7 +77,7 @@ export const de = {
   },
   table: {
     label: 'Tabelle 5.1, Zeile für Zeile',
-    begin: 'Tabelle 5.1, Zeile für Zeile: Jede Zeile hebt ihre Konstruktion im Bild hervor.',
+    begin: 'Tabelle 5.1 aus Probabilistic Robotics, die Dichte des Geschwindigkeitsmodells, Zeile für Zeile: Jede Zeile hebt ihre Konstruktion im Bild hervor.',
     back: 'Vorige Zeile',
     on: 'Nächste Zeile',
     sign: 'Das Vorzeichen von *r\\** ist das der Seite: positiv, wenn der Mittelpunkt links der Richtung liegt. Die Tabelle druckt die Wurzel allein, sodass *v̂* das Vorzeichen von Δ*θ* hat: falsch, wo immer der Mittelpunkt rechts liegt.',

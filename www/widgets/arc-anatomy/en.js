@@ -21,7 +21,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     inverted: 'the one arc to the robot',
     wedge: 'last turn, *γ̂Δt*',
     chord: 'chord',
-    twist: 'constant twist, *ξ*',
+    twist: 'constant twist *ξ*: steady speeds along, sideways and turning',
   },
   maps: { none: 'none', prob: 'p', density: 'density' },
   presets: { left: 'Left turn', right: 'Right turn', reverse: 'Reverse', straight: 'Straight' },
@@ -76,7 +76,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   },
   table: {
     label: 'Table 5.1, line by line',
-    begin: 'Table 5.1, line by line: each line highlights its construction in the picture.',
+    begin: 'Table 5.1 of Probabilistic Robotics, the velocity model’s density, line by line: each line highlights its construction in the picture.',
     back: 'Previous line',
     on: 'Next line',
     sign: 'The sign of *r\\** is that of the side: positive with the centre to the left of the heading. The table prints the root alone, so that *v̂* has the sign of Δ*θ*: wrong wherever the centre is to the right.',

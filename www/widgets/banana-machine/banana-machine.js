@@ -243,6 +243,13 @@ export class BananaMachineElement extends FigureElement {
     return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;
   }
 
+  /** Returns a note on each outline of the floor that is to be drawn and that the morph cannot carry. @param {Reading} reading */
+  #missing(reading) {
+    const { morph, overlays } = this.state.own;
+    const lost = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
+    return Object.fromEntries(lost.map(([name]) => [name, words.banana.notCarried]));
+  }
+
   /** What the floor shows, in words. */
   get #description() {
     const { overlays } = /** @type {{ overlays: (typeof OVERLAYS)[number][] }} */ (this.state.own);
@@ -267,7 +274,7 @@ export class BananaMachineElement extends FigureElement {
           ${morphControl(this)}
           ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
         </div>
-        ${legend(this, LINES)}
+        ${legend(this, LINES, this.#missing(reading))}
         <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
         ${readouts(reading, this.#pinned)} ${presetButtons(this)}
         <div class="controls" part="controls">

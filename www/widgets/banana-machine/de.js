@@ -40,6 +40,7 @@ export const de = {
     additive: 'Rauschen auf der Pose, 2σ',
     exponential: 'Gauß in ξ, 2σ',
   },
+  notCarried: 'um den Start, nur auf dem Boden',
   modelGroup: 'Modell',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   noises: { normal: 'Normalverteilung', triangular: 'Dreiecksverteilung' },
@@ -93,7 +94,7 @@ export const de = {
   robotsHere: (_count, printed) => `hier ${printed} Roboter`,
   exactSkew: (skew) => `exakte Schiefe ${skew}`,
   noExactSkew: 'exakte Schiefe nicht definiert',
-  twist: 'Dieselben Roboter in Exponentialkoordinaten',
+  twist: 'Dieselben Roboter in Exponentialkoordinaten ξ',
   twistIs: {
     odometry:
       'nur ungefähr eine Gauß-Verteilung. Das Rauschen der Odometrie tritt an drei Gelenken ein, nicht einen Bogen entlang, und die vorhergesagte Schiefe trifft nicht.',
@@ -135,8 +136,8 @@ export const de = {
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     exactly: (value) => `genau ${value}`,
-    gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter)',
-    gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter)',
+    gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter; ein Nat ist ein Faktor *e*)',
+    gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter; ein Nat ist ein Faktor *e*)',
     withoutLimit: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     onLine: 'keine Grenze: in *ξ* alle auf einer Linie',
     area: 'bedeckte Fläche: Ellipse / *ξ*-Umriss',
@@ -148,7 +149,7 @@ export const de = {
     nominal: 'von jedem Gauß in seiner 2σ-Ellipse',
   },
   gainIs:
-    'Gewinn: um wie viele Nat glaubhafter die Roboter unter dem Gauß in *ξ* sind als unter dem in *(x, y, θ)*; ein Nat ist ein Faktor *e*. ' +
+    'Gewinn: um wie viele Nat glaubhafter die Roboter unter dem Gauß in *ξ* sind als unter dem in *(x, y, θ)*. ' +
     'Gewinn am Boden: ohne *θ*; in Länge und Drehung des Bogens zu jedem Ort, gegen *(x, y)*.',
   nOfAll: (n, all) => `${n} von ${all}`,
   robot: 'Roboter',

@@ -42,6 +42,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     additive: 'noise added to the pose, 2σ',
     exponential: 'Gaussian in ξ, 2σ',
   },
+  notCarried: 'around the start, on the floor alone',
   modelGroup: 'Model',
   models: { velocity: 'velocity', odometry: 'odometry' },
   noises: { normal: 'normal', triangular: 'triangular' },
@@ -97,7 +98,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   robotsHere: (count, printed) => `${printed} ${plural(count, 'robot')} here`,
   exactSkew: (skew) => `exact skew ${skew}`,
   noExactSkew: 'exact skew undefined',
-  twist: 'The same robots in exponential coordinates',
+  twist: 'The same robots in exponential coordinates ξ',
   twistIs: {
     odometry:
       'only roughly a Gaussian. Odometry noise enters at three hinges, not along one arc, and the predicted skew misses.',
@@ -140,8 +141,8 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   readouts: {
     skew: 'cross-track skew',
     exactly: (value) => `exactly ${value}`,
-    gain: 'log-likelihood gain in *ξ* (nats per robot)',
-    gainOnFloor: 'log-likelihood gain on the floor (nats per robot)',
+    gain: 'log-likelihood gain in *ξ* (nats per robot; a nat is a factor of *e*)',
+    gainOnFloor: 'log-likelihood gain on the floor (nats per robot; a nat is a factor of *e*)',
     withoutLimit: 'in *ξ* without limit, as there is no *γ̂*',
     onLine: 'no limit: in *ξ* all on one line',
     area: 'area covered: ellipse / *ξ* outline',
@@ -153,7 +154,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     nominal: 'of any Gaussian inside its 2σ ellipse',
   },
   gainIs:
-    'Gain: how many nats likelier the robots are under the Gaussian in *ξ* than under the one in *(x, y, θ)*; a nat is a factor of *e*. ' +
+    'Gain: how many nats likelier the robots are under the Gaussian in *ξ* than under the one in *(x, y, θ)*. ' +
     'Gain on the floor: without *θ*; in length and turn of the arc to each place, against *(x, y)*.',
   nOfAll: (n, all) => `${n} of ${all}`,
   robot: 'Robot',

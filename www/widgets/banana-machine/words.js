@@ -64,8 +64,8 @@ const BENT = 0.02;
 /** From this area ratio on, the ellipse is seen to be too large. */
 const TOO_LARGE = 1.1;
 
-/** From this gain on the floor on, nats a robot, ten robots tell the two Gaussians apart: by a factor of e and more. */
-const MISSHAPEN = 0.1;
+/** From this gain on the floor on, nats a robot, twenty robots tell the two Gaussians apart: by a factor of e and more. */
+const MISSHAPEN = 0.05;
 
 /**
  * Title of the view of the floor: how the ellipse fits, by the exact figures.

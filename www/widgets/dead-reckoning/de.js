@@ -26,7 +26,7 @@ export const de = {
     samples: { name: 'Roboter', effect: 'Je mehr Roboter, desto schmaler die Bänder.' },
   },
   walked: (gone, whole) => `t = ${gone} s von ${whole} s`,
-  recursions: { chapter: 'Kapitel', 'first-order': 'Rechts-Jacobi Jᵣ', 'fourth-order': '4. Ordnung' },
+  recursions: { chapter: 'Kapitel', 'first-order': 'mit Jᵣ, der Drehung im Schritt', 'fourth-order': '4. Ordnung' },
   per: { step: 'jeden Schritt', path: 'den ganzen Weg' },
   chart: 'Vorhergesagter Anteil der Varianz, je Schritt',
   floor: 'Auf dem Boden, Umrisse bei 2σ',

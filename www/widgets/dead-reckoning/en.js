@@ -27,7 +27,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
   },
   walked: (gone, whole) => `t = ${gone} s of ${whole} s`,
-  recursions: { chapter: 'the chapter’s', 'first-order': 'right Jacobian Jᵣ', 'fourth-order': 'fourth order' },
+  recursions: { chapter: 'the chapter’s', 'first-order': 'with Jᵣ, the turn during a step', 'fourth-order': 'fourth order' },
   per: { step: 'step', path: 'whole path' },
   chart: 'Predicted share of the robots’ variance, by step',
   floor: 'On the floor, outlines at 2σ',

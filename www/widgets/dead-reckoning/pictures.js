@@ -161,10 +161,14 @@ export class StepPicture extends Picture {
 /** Stretch of one axis against the other that is not seen. */
 const UNSEEN = 1.05;
 
+/** Returns the factors by which x and y are stretched against each other, as they are printed; empty where it is not seen. @param {Pick<View, 'scaleX' | 'scaleY'>} view */
+export function stretchesOf({ scaleX, scaleY }) {
+  return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > UNSEEN ? significant(by, by < 10 ? 2 : 1) : ''));
+}
+
 /** Returns the names of the axes, with the factor by which one is stretched against the other. @param {View} view */
-function axesOf({ scaleX, scaleY }) {
+function axesOf(view) {
   const { axisAlong, axisLateral, stretched } = words.reckoning;
-  const factor = scaleY / scaleX;
-  const named = (/** @type {string} */ name, /** @type {number} */ by) => (by > UNSEEN ? stretched(name, significant(by, by < 10 ? 2 : 1)) : name);
-  return { x: named(axisAlong, 1 / factor), y: named(axisLateral, factor) };
+  const [x, y] = [axisAlong, axisLateral].map((name, i) => [name, stretchesOf(view)[i]]).map(([name, by]) => (by ? stretched(name, by) : name));
+  return { x, y };
 }

@@ -36,8 +36,8 @@ export function ratioPlot(figure, reading) {
   const say = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highest = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
-  const shown = COMPONENTS.map((name, axis) => ({ ...lookOf(name), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
-  const band = { name: say.overlays.tolerance, ...lookOf('tolerance'), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
+  const shown = COMPONENTS.map((name, axis) => ({ ...lookOf(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
+  const band = { name: say.overlays.tolerance, ...lookOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
   return plot({
     label: ratioText(reading, overlays),
     x: { name: say.stepAxis, from: 0, to: steps },
@@ -61,10 +61,11 @@ export function ratioPlot(figure, reading) {
   });
 }
 
-/** Returns the colour and the dash of a curve. @param {keyof typeof CURVES} name @returns {{ role: Role, dash?: string }} */
-function lookOf(name) {
+/** Returns the look of a curve. @param {keyof typeof CURVES} name @param {string | null} highlight */
+function lookOf(name, highlight) {
   const { role, dash } = /** @type {import('../../figure/overlays.js').LineStyle & { role: Role }} */ (CURVES[name]);
-  return { role, dash: dash?.join(' ') };
+  const lit = highlight !== null && highlight in CURVES ? name === highlight : undefined;
+  return { role, dash: dash?.join(' '), lit };
 }
 
 /** Returns the ratio at the selected step that is furthest from 1, as the message of the figure. @param {Reading} reading @param {string[]} overlays */

@@ -118,7 +118,7 @@ const own = css`
       min-height: 2lh;
     }
 
-    .overview {
+    :host(:not([presentation])) .overview {
       display: block;
       width: 11em;
       max-height: 8.5em;

@@ -61,7 +61,7 @@ export const de = {
     independent: (exact, independent) => `genau ${exact}; unabhängig wären es ${independent}`,
   },
   table: {
-    caption: 'Standardabweichungen mit denselben *α*. Fett auf Farbe: anders als in Tabelle 5.6.',
+    caption: 'Standardabweichungen mit denselben *α*. Fett auf Farbe: anders als in Tabelle 5.6, dem Odometriemodell aus *Probabilistic Robotics*.',
     columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'Gleiten (m)', 'quer (m)', '*θ* (rad)'],
   },
   caption: {

@@ -60,7 +60,7 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
     independent: (exact, independent) => `exactly ${exact}; if independent ${independent}`,
   },
   table: {
-    caption: 'Standard deviations with the same *α*. Bold on a tint: not as in Table 5.6.',
+    caption: 'Standard deviations with the same *α*. Bold on a tint: not as in Table 5.6, the odometry model of *Probabilistic Robotics*.',
     columns: ['*δ*_{rot1} (rad)', '*δ*_{trans} (m)', '*δ*_{rot2} (rad)', 'slide (m)', 'across (m)', '*θ* (rad)'],
   },
   caption: {

@@ -14,12 +14,12 @@ const STEP = 0.1;
 /**
  * Points of an arc about a place of the world.
  *
- * @param {Brush} brush
+ * @param {Pick<Brush, 'view'>} brush
  * @param {Pose} centre from whose heading it begins
  * @param {number} turn radians
  * @param {number} radius pixels
  */
-function arcOf({ view }, { x, y, theta }, turn, radius) {
+export function arcOf({ view }, { x, y, theta }, turn, radius) {
   const count = Math.max(1, Math.ceil(Math.abs(turn) / STEP));
   return Array.from({ length: count + 1 }, (_, i) => {
     const ahead = view.direction(theta + (turn * i) / count);

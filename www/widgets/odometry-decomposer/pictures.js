@@ -9,7 +9,7 @@ import { View, extentOf } from '../../scene/view.js';
 import { fixed } from '../../ui/format.js';
 import { lineKey } from '../shared/line-key.js';
 import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.js';
-import { drawBar, drawFan, drawTurn } from './marks.js';
+import { arcOf, drawBar, drawFan, drawTurn } from './marks.js';
 import { poseIn } from './reading.js';
 import { LINES } from './settings.js';
 
@@ -27,13 +27,16 @@ import { LINES } from './settings.js';
 export const RADIUS = 0.11;
 
 /** Room around the robots, and around a standard deviation of the outcomes. */
-const ROOM = { metres: 0.3, deviations: 1.5 };
+const ROOM = { metres: 0.3, deviations: 3 };
 
 /** With more outcomes their headings would be one blot. */
 const MAX_TICKS = 1000;
 
 /** Between the handle that turns a robot and the arc of a turn about it, and between the two arcs, CSS pixels. */
 const GAP = { handle: 14, arcs: 16 };
+
+/** Rounds in which a view finds the scale at which it has room for arcs, whose size is in pixels. */
+const ROUNDS = 4;
 
 /** A shorter drive is not seen as one, CSS pixels: there is no label for it. */
 const SEEN = 24;
@@ -106,6 +109,9 @@ class OutcomesPicture extends SamplesPicture {
   }
 }
 
+/** Returns the radii of the arcs of both turns, pixels. @param {Pick<View, 'scaleX'>} view */
+const reachesAt = (view) => [0, 1].map((arc) => turnDistance(view, RADIUS) + GAP.handle + arc * GAP.arcs);
+
 /** The frame of the odometry: the legs as a linkage, and what noise makes of it. */
 export class LegsPicture extends OutcomesPicture {
   constructor() {
@@ -114,7 +120,21 @@ export class LegsPicture extends OutcomesPicture {
 
   /** @param {Scene} scene */
   fit(scene) {
-    this.view.fit(extentOf(surroundings(scene), 1.2));
+    const { view } = this;
+    const { linkage, legs, overlays } = scene;
+    const room = surroundings(scene);
+    let box = extentOf(room, 1.2);
+    for (let round = 0; overlays.includes('legs') && round < ROUNDS; round++) {
+      const scale = view.scaleFor(box);
+      const reaches = reachesAt({ scaleX: scale });
+      const arcs = [legs.rot1, legs.rot2].flatMap((by, i) => {
+        const centre = poseIn(linkage, 2 * i);
+        const [x, y] = [view.toPixelX(centre.x), view.toPixelY(centre.y)];
+        return arcOf({ view }, centre, by, reaches[i]).flatMap(([atX, atY]) => [centre.x + (atX - x) / scale, centre.y - (atY - y) / scale]);
+      });
+      box = extentOf([...room, ...arcs], 1.2);
+    }
+    view.fit(box);
   }
 
   /** @type {SamplesPicture<Scene>['paint']} */
@@ -123,7 +143,7 @@ export class LegsPicture extends OutcomesPicture {
     const { linkage, legs, deviations, config, overlays } = scene;
     const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
     drawAxes(brush, AXES, keyOf(brush, scene, ['legs', 'deviation', 'outcomes']));
-    const [first, second] = [0, 1].map((arc) => turnDistance(this.view, RADIUS) + GAP.handle + arc * GAP.arcs);
+    const [first, second] = reachesAt(this.view);
     const styles = lineStyles(brush, LINES);
     const spread = overlays.includes('deviation');
     const { colour } = styles.deviation;

@@ -17,7 +17,7 @@ const TURN = 5.5;
 /**
  * How far ahead of the robot's centre the handle is that turns it.
  *
- * @param {View} view
+ * @param {Pick<View, 'scaleX'>} view
  * @param {number} radius metres
  * @returns {number} CSS pixels
  */

@@ -138,8 +138,8 @@ pub(super) struct Differences {
     /// Squares of the difference at a robot from the gain, for pose and floor. The mean difference is the gain, that of
     /// all robots, so that their sum is not needed.
     squares: [f64x4; 2],
-    /// Sums for [`Differences::log_area_error`]: u, u², h·u and h², with u the Jacobian over its geometric mean less 1, and h half the
-    /// difference of the squared distances on the floor and in the arc's coordinates.
+    /// Sums of u, u², h·u and h² for [`Differences::log_area_error`]. u is the Jacobian over its geometric mean, less 1. h is half
+    /// the difference of the squared distances on the floor and in the arc's coordinates.
     areas: [f64x4; 4],
 }
 

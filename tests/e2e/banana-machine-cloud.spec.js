@@ -61,7 +61,7 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(ratioError).toBeCloseTo(stats.areaRatioError, 2);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
   await expect(detail(widget, 'area covered')).toHaveText(`inside: ${shares.join(' and ')}`);
-  await expect(detail(widget, 'log-likelihood gain')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}`);
+  await expect(detail(widget, 'log-likelihood gain')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
   for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) expect(cells[i] / column.cov[0][0]).toBeCloseTo(1, 2);

@@ -122,8 +122,8 @@ test('an entry of the legend highlights its curve in the chart', async ({ page }
   const widget = page.locator('dead-reckoning');
   await ready(widget);
   await widget.getByRole('checkbox', { name: 'lateral' }).hover();
-  await expect(widget.locator('.plot .lit')).toHaveAttribute('stroke', 'var(--prediction)');
-  await expect(widget.locator('.plot .unlit')).toHaveCount(3);
+  await expect(widget.locator('.plot .curve.lit')).toHaveAttribute('stroke', 'var(--prediction)');
+  await expect(widget.locator('.plot .curve.unlit')).toHaveCount(2);
 });
 
 test('a term and an entry of the legend highlight their line in the picture', async ({ page }) => {

@@ -136,8 +136,9 @@ export const de = {
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     exactly: (value) => `genau ${value}`,
-    gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter; ein Nat ist ein Faktor *e*)',
-    gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter; ein Nat ist ein Faktor *e*)',
+    gain: 'Log-Likelihood-Gewinn in *ξ* (Nat je Roboter)',
+    gainOnFloor: 'Log-Likelihood-Gewinn am Boden (Nat je Roboter)',
+    nat: '1 Nat: ein Faktor *e*',
     withoutLimit: 'in *ξ* ohne Grenze, da ohne *γ̂*',
     onLine: 'keine Grenze: in *ξ* alle auf einer Linie',
     area: 'bedeckte Fläche: Ellipse / *ξ*-Umriss',

@@ -141,8 +141,9 @@ export const en = /** @satisfies {import('../../messages/registry.js').Message} 
   readouts: {
     skew: 'cross-track skew',
     exactly: (value) => `exactly ${value}`,
-    gain: 'log-likelihood gain in *ξ* (nats per robot; a nat is a factor of *e*)',
-    gainOnFloor: 'log-likelihood gain on the floor (nats per robot; a nat is a factor of *e*)',
+    gain: 'log-likelihood gain in *ξ* (nats per robot)',
+    gainOnFloor: 'log-likelihood gain on the floor (nats per robot)',
+    nat: '1 nat: a factor of *e*',
     withoutLimit: 'in *ξ* without limit, as there is no *γ̂*',
     onLine: 'no limit: in *ξ* all on one line',
     area: 'area covered: ellipse / *ξ* outline',

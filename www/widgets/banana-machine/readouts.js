@@ -46,10 +46,10 @@ function valuesOf({ stats, gain }) {
 
 /** Returns the exact gain, or the reason why it has no limit. @param {Reading['gain']} gain */
 function gainText({ unbounded, value, exact }) {
-  const { withoutLimit, onLine, exactly } = words.banana.readouts;
+  const { withoutLimit, onLine, exactly, nat } = words.banana.readouts;
   if (Number.isNaN(value)) return NOTHING;
   if (value === Infinity) return onLine;
-  return unbounded ? withoutLimit : exactly(fixed(exact, 3));
+  return unbounded ? withoutLimit : `${exactly(fixed(exact, 3))}; ${nat}`;
 }
 
 /** The others. @param {Reading} reading */

@@ -78,7 +78,7 @@ async function expectTabStops(page, name) {
     const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((each) => {
       const { type, name, checked } = /** @type {HTMLInputElement} */ (each);
       // The field of a slider's value is reached from the slider, the others of a group from the one that is chosen.
-      if (each.matches(':disabled, .typed') || !each.checkVisibility()) return false;
+      if (each.matches(':disabled, .typed, [tabindex="-1"]') || !each.checkVisibility({ visibilityProperty: true })) return false;
       return type !== 'radio' || checked || !root.querySelector(`input[name="${name}"]:checked`);
     });
     Object.assign(window, { stops });

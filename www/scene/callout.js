@@ -1,47 +1,105 @@
 /** Sentences in a picture, each with a line to what it is about. */
 
+import { least } from 'd3-array';
 import { clamp } from '../ui/clamp.js';
 import { drawLeader } from './labels.js';
 
 /** @import { Brush } from './canvas.js' */
 
-/** Length of the line, distance of two lines of text, and room around them: pixels. */
+/** Length of the shortest line, distance of two lines of text, and room around them: pixels. */
 const LINE = 22;
 const LEADING = 15;
 const ROOM = 4;
 
+/** Distance that a sentence keeps from lines and other sentences, pixels. */
+const CLEAR = 9;
+
+/** Turns of a sentence out of the direction away from the middle, rad, and lengths of its line, in shortest ones. */
+const TURNS = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
+const LENGTHS = [1, 2, 3];
+
+/** Cost of a turn of 1 rad and of the length of a line, in pixels of a sentence that cover something. */
+const TURN_COST = 2;
+const LENGTH_COST = 0.2;
+
+/** @typedef {{ x: number, y: number, across: number, down: number }} Box middle and half of its sides, pixels */
+
 /**
- * Draws a sentence outside of something round, with a line to a point of it. Where point and middle move smoothly, so does the sentence.
+ * Draws sentences about points of something round, outside of it, where they cover least of the picture. The cost of a place is continuous
+ * in all points, so that a sentence seldom jumps.
  *
  * @param {Brush} brush
- * @param {object} callout
- * @param {string} callout.text with line breaks
- * @param {[number, number]} callout.at point that it is about, in the view's world
- * @param {[number, number]} callout.from middle that it keeps away from
- * @param {number} [callout.aside] turn out of the direction away from the middle, rad clockwise
+ * @param {{ text: string, at: [number, number] }[]} callouts texts with line breaks, and the points that they are about, in the view's world
+ * @param {object} around
+ * @param {[number, number]} around.from middle that the sentences keep away from
+ * @param {Float64Array[]} around.lines that they do not cover: x, y pairs
  */
-export function drawCallout({ context, view, palette, font }, { text, at, from, aside = 0 }) {
-  const lines = text.split('\n');
+export function drawCallouts({ context, view, palette, font }, callouts, { from, lines }) {
   context.font = font;
-  const width = Math.max(...lines.map((line) => context.measureText(line).width)) + 2 * ROOM;
-  const height = LEADING * lines.length + 2 * ROOM;
-  const [x, y] = [view.toPixelX(at[0]), view.toPixelY(at[1])];
-  const away = Math.atan2(y - view.toPixelY(from[1]), x - view.toPixelX(from[0])) + aside;
-  const [across, along] = [LINE + width / 2, LINE + height / 2];
+  const pixels = (/** @type {ArrayLike<number>} */ { 0: x, 1: y }) => [view.toPixelX(x), view.toPixelY(y)];
+  const [fromX, fromY] = pixels(from);
+  const kept = callouts.map(({ at }) => pixels(at));
+  for (const line of lines) {
+    for (let i = 0; i + 3 < line.length; i += 2) kept.push(...pointsBetween(pixels(line.subarray(i)), pixels(line.subarray(i + 2))));
+  }
+  /** @type {Box[]} */
+  const others = [];
   const { left, right, top, bottom } = view.frame;
-  // Its middle is on an ellipse around the point. Where the frame stops it, it goes on along that ellipse.
-  const middleX = clamp(x + across * Math.cos(away), left + width / 2, Math.max(left, right - width / 2));
-  const down = along * Math.sqrt(Math.max(0, 1 - ((middleX - x) / across) ** 2));
-  const middleY = clamp(y + (Math.sin(away) < 0 ? -down : down), top + height / 2, Math.max(top, bottom - height / 2));
+  for (const { text, at } of callouts) {
+    const rows = text.split('\n');
+    const across = Math.max(...rows.map((row) => context.measureText(row).width)) / 2 + ROOM;
+    const down = (LEADING * rows.length) / 2 + ROOM;
+    const [x, y] = pixels(at);
+    const away = Math.atan2(y - fromY, x - fromX);
+    const places = LENGTHS.flatMap((length) => TURNS.map((turn) => {
+      const [wantedX, wantedY] = [x + (length * LINE + across) * Math.cos(away + turn), y + (length * LINE + down) * Math.sin(away + turn)];
+      const box = {
+        x: clamp(wantedX, left + across, Math.max(left + across, right - across)),
+        y: clamp(wantedY, top + down, Math.max(top + down, bottom - down)),
+        across, down,
+      };
+      return { ...box, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length * LINE + coveredBy(box, kept, others) };
+    }));
+    const place = /** @type {Box} */ (least(places, ({ cost }) => cost));
+    const begin = [clamp(x, place.x - across, place.x + across), clamp(y, place.y - down, place.y + down)];
+    others.push(place);
+    kept.push(...pointsBetween(begin, [x, y]));
 
-  const begin = [clamp(x, middleX - width / 2, middleX + width / 2), clamp(y, middleY - height / 2, middleY + height / 2)];
-  drawLeader(context, [begin, [x, y]], palette.ink);
-  context.fillStyle = palette.paper;
-  context.globalAlpha = 0.85;
-  context.fillRect(middleX - width / 2, middleY - height / 2, width, height);
-  context.globalAlpha = 1;
-  context.fillStyle = palette.ink;
-  context.textAlign = 'center';
-  context.textBaseline = 'middle';
-  lines.forEach((line, i) => context.fillText(line, middleX, middleY + (i - (lines.length - 1) / 2) * LEADING));
+    drawLeader(context, [begin, [x, y]], palette.ink);
+    context.fillStyle = palette.paper;
+    context.globalAlpha = 0.85;
+    context.fillRect(place.x - across, place.y - down, 2 * across, 2 * down);
+    context.globalAlpha = 1;
+    context.fillStyle = palette.ink;
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    rows.forEach((row, i) => context.fillText(row, place.x, place.y + (i - (rows.length - 1) / 2) * LEADING));
+  }
+}
+
+/**
+ * Returns the first of two points, and points between them that no sentence passes through, pixels.
+ *
+ * @param {number[]} one
+ * @param {number[]} other
+ */
+function pointsBetween([x, y], [toX, toY]) {
+  const count = Math.ceil(Math.hypot(toX - x, toY - y) / (2 * CLEAR)) || 1;
+  return Array.from({ length: count }, (_, i) => [x + (i / count) * (toX - x), y + (i / count) * (toY - y)]);
+}
+
+/**
+ * Returns how deep points and other boxes are inside of a box, pixels.
+ *
+ * @param {Box} box
+ * @param {number[][]} points
+ * @param {Box[]} others
+ */
+function coveredBy({ x, y, across, down }, points, others) {
+  const depth = (/** @type {number} */ toX, /** @type {number} */ toY, roomX = 0, roomY = 0) =>
+    Math.min(across + roomX + CLEAR - Math.abs(toX - x), down + roomY + CLEAR - Math.abs(toY - y));
+  let deepest = 0;
+  for (const [toX, toY] of points) deepest = Math.max(deepest, depth(toX, toY));
+  for (const other of others) deepest = Math.max(deepest, 2 * depth(other.x, other.y, other.across, other.down));
+  return deepest;
 }

@@ -24,7 +24,7 @@ import { alphaControls, commandControls, modelControls } from './controls.js';
 import { presetButtons } from '../shared/presets.js';
 import { ArcHandle } from './handle.js';
 import { IntroducedCloud } from './introduction.js';
-import { DURATION, carrying, gapsAt, morphControl, outlinesAt, placeOf } from './morph.js';
+import { DURATION, carrying, gapsAt, ringsAt, morphControl, outlinesAt, placeOf } from './morph.js';
 import { PlanePicture, TwistPicture } from './pictures.js';
 import { CurveMemo, readingOf } from './reading.js';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.js';
@@ -117,6 +117,9 @@ export class BananaMachineElement extends FigureElement {
     const { motion } = this;
     const { overlays, morph } = this.state.own;
     const shown = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
+    // Outlines wander while a cloud grows or is dragged, under a view that holds still.
+    const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.former);
+    const callouts = isMoving ? [] : gapsAt(motion, reading, morph);
     return {
       ...reading,
       machine: this.machine,
@@ -124,8 +127,8 @@ export class BananaMachineElement extends FigureElement {
       marked: this.#inspection,
       morph,
       outlinesOf: (/** @type {Reading} */ of) => outlinesAt(motion, of, morph),
-      // Outlines wander while a cloud grows or is dragged, under a view that holds still.
-      callouts: this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.former) ? [] : gapsAt(motion, reading, morph),
+      callouts,
+      rings: callouts.length > 0 ? ringsAt(motion, reading, morph) : [],
       pinned: this.#pinned,
       driving: this.cloud.driving,
       reached: morph > 0 ? carrying(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,

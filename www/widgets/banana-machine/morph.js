@@ -67,6 +67,20 @@ export function outlinesAt(motion, reading, morph) {
   };
 }
 
+/** Sizes of the rings, in outlines of two standard deviations. */
+const RINGS = [0.5, 1, 1.5];
+
+/**
+ * Returns outlines of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest, carried to a morph.
+ *
+ * @param {Motion} motion
+ * @param {Reading} reading
+ * @param {number} morph
+ */
+export function ringsAt(motion, { stats: { exponential: { mean, cov } } }, morph) {
+  return RINGS.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), morph));
+}
+
 /**
  * Returns the commanded arc at a morph.
  *

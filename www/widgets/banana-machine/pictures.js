@@ -3,7 +3,7 @@
 import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.js';
 import { clipped, drawAxes } from '../../scene/axes.js';
-import { drawCallout } from '../../scene/callout.js';
+import { drawCallouts } from '../../scene/callout.js';
 import {
   densityRamp,
   drawDensity,
@@ -43,8 +43,9 @@ import { LINES } from './settings.js';
  *   driving: { robots: number, share: number } | undefined,
  *   outlinesOf: (reading: import('./reading.js').Reading) => Outlines,
  *   callouts: [number, number][],
+ *   rings: Float64Array[],
  *   reached: Float64Array,
- * }} Scene what both pictures are of; outlines, and places of callouts, are those at the morph, and the ellipse is `reached` at its end
+ * }} Scene what both pictures are of; outlines, places of callouts, and rings around the cloud that these keep clear of are those at the morph, and the ellipse is `reached` at its end
  */
 
 /** A larger cloud is drawn as a density: dots would be one blot, and cost more than a frame. */
@@ -135,9 +136,6 @@ function cellSize(area, count) {
 /** @typedef {import('./settings.js').LineName} OutlineName in the order that they are painted in, and that the key names them in */
 const PAINTED = /** @type {const} @satisfies {OutlineName[]} */ (['additive', 'linearized', 'ellipse', 'exponential', 'command']);
 const NAMED = /** @type {const} @satisfies {OutlineName[]} */ (['ellipse', 'exponential', 'linearized', 'additive', 'command']);
-
-/** Turns of the callouts out of the direction away from the middle, rad: the first keeps clear of the commanded arc. */
-const ASIDE = [0.7, 0];
 
 /** Insets of the views, CSS pixels. */
 const INSET = { left: 46, right: 10 };
@@ -231,8 +229,9 @@ export class PlanePicture extends CloudPicture {
       }
     });
     if (!overlays.ellipse || !overlays.exponential) return;
-    const from = placeOf(scene.stats.exponential.mean, morph);
-    scene.callouts.forEach((at, i) => drawCallout(brush, { text: words.banana.callouts[i], at, from, aside: ASIDE[i] }));
+    const callouts = scene.callouts.map((at, i) => ({ text: words.banana.callouts[i], at }));
+    const lines = [outlines.command, outlines.ellipse, ...scene.rings];
+    drawCallouts(brush, callouts, { from: placeOf(scene.stats.exponential.mean, morph), lines });
   };
 }
 

@@ -23,12 +23,11 @@ const own = css`
   }
 
   .handle.side {
-    height: 1em;
     transform-origin: 0 0;
   }
 
   .handle.side::after {
-    inset: 0.25em 0.2em;
+    inset: 0.625em 0.2em;
     border: 1.5px solid var(--truth);
     border-radius: 0.25em;
   }

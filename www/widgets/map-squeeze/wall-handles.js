@@ -20,6 +20,10 @@ const KEY_STEP = 0.05;
 /** Largest number of walls with handles. */
 const MOST_WALLS = 50;
 
+/** Distance of the grip of an end from that end, pixels, and the largest share of the wall: grips in a narrow doorway stay apart. */
+const INWARD = 12;
+const MOST_INWARD = 1 / 6;
+
 /** Keys that go to another wall. @type {Record<string, number>} */
 const TURNS = { '[': -1, ']': 1 };
 
@@ -86,7 +90,7 @@ export class WallHandles extends Part {
     const root = this.host.renderRoot;
     const shown = this.#present.filter((grip) => grip !== undefined).map((grip) => {
       const element = /** @type {HTMLElement | null} */ (root.querySelector(`.handle.${nameOf(grip)}`));
-      const middle = grip.part === 'side' ? this.#middleIn(grip, view) : this.#pointOf(grip);
+      const middle = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
       const at = middle && [view.toPixelX(middle[0]), view.toPixelY(middle[1])];
       const { left, right, top, bottom } = view.frame;
       const isShown = at !== undefined && at[0] > left && at[0] < right && at[1] > top && at[1] < bottom;
@@ -108,6 +112,7 @@ export class WallHandles extends Part {
     const present = () => /** @type {Grip} */ (this.#present.find((each) => each && nameOf(each) === name));
     const handle = this.#handles.get(name) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${name}`, {
       view: () => this.host.picture.view,
+      at: () => this.#pointOf(present()),
       drag: (x, y) => this.#move(present(), (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1]),
       key: (event) => this.#key(event, present()),
       commit: () => this.host.restWalls(),
@@ -168,15 +173,42 @@ export class WallHandles extends Part {
   }
 
   /**
-   * Returns the middle of the visible part of a wall; undefined where none is visible.
+   * Returns the place of the grip of an end, on the wall.
    *
    * @param {Grip} grip
    * @param {View} view
    */
-  #middleIn({ wall }, { extent: { xMin, yMin, xMax, yMax } }) {
+  #gripOf(grip, view) {
+    const [x, y] = this.#pointOf(grip);
+    const [ux, uy] = grip.axis;
+    const inward = this.#lengthOf(grip) * this.#inward(grip, view);
+    return [x - inward * ux, y - inward * uy];
+  }
+
+  /** @param {Grip} grip */
+  #lengthOf({ wall }) {
+    const [x, y, x1, y1] = /** @type {Plan} */ (this.#plan).walls.subarray(wall, wall + 4);
+    return Math.hypot(x1 - x, y1 - y);
+  }
+
+  /** Returns the share of a wall between an end and its grip. @param {Grip} grip @param {View} view */
+  #inward(grip, view) {
+    return Math.min(MOST_INWARD, INWARD / (this.#lengthOf(grip) * view.scaleX));
+  }
+
+  /**
+   * Returns the middle of the visible part of a wall between the grips of its ends; undefined where none is visible.
+   *
+   * @param {Grip} grip
+   * @param {View} view
+   */
+  #middleIn(grip, view) {
+    const { wall } = grip;
+    const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = /** @type {Plan} */ (this.#plan).walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    let [from, to] = [0, 1];
+    const taken = (/** @type {Grip['part']} */ part) => (this.#present.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
+    let [from, to] = [taken('from'), 1 - taken('to')];
     for (const [at, delta, least, most] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;
       const shares = [(least - at) / delta, (most - at) / delta];

@@ -16,7 +16,7 @@ const HEIGHTS = {
   'banana-machine': [82.5, 64, 58, 51.5],
   'map-squeeze': [76, 76.5, 43, 44.5],
   'arc-anatomy': [73, 68, 49.5, 46],
-  'odometry-decomposer': [96, 90, 45, 44],
+  'odometry-decomposer': [104, 92, 45, 44],
   'dead-reckoning': [101, 52, 46, 38.5],
   'alpha-calibrator': [89, 89, 44.5, 39],
 };

@@ -27,7 +27,7 @@ import { LINES } from './settings.js';
 export const RADIUS = 0.11;
 
 /** Room around the robots, and around a standard deviation of the outcomes. */
-const ROOM = { metres: 0.3, deviations: 3 };
+const ROOM = { metres: 0.3, deviations: 2.4 };
 
 /** With more outcomes their headings would be one blot. */
 const MAX_TICKS = 1000;
@@ -97,7 +97,7 @@ function drawOutcomes(brush, { poses, overlays }) {
 class OutcomesPicture extends SamplesPicture {
   /** @param {string} name */
   constructor(name) {
-    super(name, new View({ top: LABELS_ABOVE }));
+    super(name, new View({ top: LABELS_ABOVE, snug: true }));
   }
 
   /**

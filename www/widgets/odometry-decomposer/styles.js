@@ -10,12 +10,17 @@ const own = css`
     aspect-ratio: 5 / 4;
   }
 
+  /* On a phone, handles of two robots need room beside each other. */
+  .legs canvas {
+    aspect-ratio: 1;
+  }
+
   .said .readouts {
     margin: 0;
   }
 
   @container (30em <= width < 38em) {
-    canvas {
+    .stage canvas {
       aspect-ratio: 8 / 5;
     }
   }
@@ -39,7 +44,7 @@ const own = css`
       grid-area: world;
     }
 
-    canvas {
+    .legs canvas {
       aspect-ratio: 1 / var(--high);
     }
 
